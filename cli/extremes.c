@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate extremes [PART...]: where does it break, and does it say so? */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -95,34 +94,15 @@ static enum br_status choose_parts(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status read_seed(const char *text, uint64_t *seed, struct br_error *err)
-{
-    char *end = NULL;
-    const bool hexadecimal = text && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
-    const char *digits = text + (hexadecimal ? 2 : 0);
-    if (!text)
-        return BR_OK;
-    errno = 0;
-    const bool signless = *digits && strspn(digits, "0123456789abcdefABCDEF") == strlen(digits);
-    const unsigned long long value = strtoull(text, &end, hexadecimal ? 16 : 10);
-    if (!signless || *end || errno || value == 0)
-        return br_fail(err, BR_BAD_INPUT,
-                       "--seed: found '%s', expected a whole number from 1 to 2^64 - 1, decimal or "
-                       "0x and hexadecimal",
-                       text);
-    *seed = value;
-    return BR_OK;
-}
-
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    struct br_extremes_job *job = &r->job;
     if (br_ranks_size() > 1)
         return br_fail(err, BR_BAD_INPUT,
                        "found %d ranks, expected one: its threads share the work", br_ranks_size());
-    *job = (struct br_extremes_job){
+    r->job = (struct br_extremes_job){
         .cases = (size_t)br_option_number(o, BR_OPT_CASES, 0),
+        .seed = (uint64_t)br_option_number(o, BR_OPT_SEED, 0),
         .threads = r->session.threads,
         .n = o->whole[BR_OPT_N],
         .k = o->number[BR_OPT_K],
@@ -130,9 +110,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         .k_count = o->count[BR_OPT_K],
         .rounding = br_rounding_mode((size_t)br_option_number(o, BR_OPT_ROUNDING, 0)),
     };
-    if (choose_parts(r, err) || read_seed(br_option_text(o, BR_OPT_SEED), &job->seed, err))
-        return err->status;
-    return check_heeded(r, err);
+    return choose_parts(r, err) ? err->status : check_heeded(r, err);
 }
 
 /* ---- computing and writing ---- */

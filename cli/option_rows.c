@@ -280,9 +280,8 @@ static const struct br_option rows[] = {
     /* extremes */
     {BR_OPT_CASES, "cases", 0, "COUNT", "cases of a map that is drawn at random", NULL,
      BR_TAKES_NUMBER, WHOLE(1, 1e9), .commands = BR_FOR_EXTREMES},
-    {BR_OPT_SEED, "seed", 0, "SEED",
-     "of what is drawn: a whole number, or 0x and hexadecimal digits", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
+    {BR_OPT_SEED, "seed", 0, "SEED", "of what is drawn: a whole number", NULL, BR_TAKES_NUMBER,
+     WHOLE(1, 9e15), .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
     {BR_OPT_ROUNDING, "rounding", 0, "MODE",
      "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
      .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,

@@ -205,7 +205,7 @@ struct br_figure br_extreme_map_draw(const struct br_extreme_map *map)
     struct br_figure picture = {.stem = "map", .kinds = BR_EXTREME_CLASSES}, *figure = &picture;
     BR_SAY(figure->title, "The map of extremes: what most of the cases in a cell are");
     for (int i = 0; i < BR_EXTREME_CLASSES; i++)
-        BR_SAY(figure->kind[i], "%s", br_extreme_title((enum br_extreme_class)i));
+        BR_SAY(figure->kind[i], "%s", br_extreme_names[i].title);
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
         struct br_panel *p = br_panel_add(figure, plane->x.title, plane->y.title);

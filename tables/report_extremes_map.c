@@ -5,17 +5,6 @@
 #include "study/extremes/map.h"
 #include "tables/reports.h"
 
-/* By class; a key is the class's word. */
-static const char *const class_headings[BR_EXTREME_CLASSES] = {
-    [BR_EXTREME_RIGHT] = "right",
-    [BR_EXTREME_WARNED] = "inaccurate, said",
-    [BR_EXTREME_UNKNOWN] = "inaccurate, error not known",
-    [BR_EXTREME_UNSTABLE] = "unstable as predicted",
-    [BR_EXTREME_REFUSED] = "refused",
-    [BR_EXTREME_UNJUDGED] = "given up by the map",
-    [BR_EXTREME_WRONG] = "silently wrong",
-};
-
 static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
 {
     br_put_table(d, "tally", "What was tried, and what came of it", 0);
@@ -26,8 +15,8 @@ static void put_tallies(struct br_document *d, const struct br_extreme_counts *c
         BR_PUT(d, br_text(*t->label ? t->label : NULL), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
-            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
-                   .heading = class_headings[c]);
+            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_names[c].word,
+                   .heading = br_extreme_names[c].heading);
     }
 }
 
@@ -39,8 +28,8 @@ static void put_reasons(struct br_document *d, const struct br_extreme_counts *c
     for (size_t i = 0; i < counts->reasons; i++) {
         const struct br_extreme_reason *r = &counts->reason[i];
         br_put_row(d);
-        br_put(d, "kind", br_text(br_extreme_word(r->which)));
-        br_put_shown(d, "%s", class_headings[r->which]);
+        br_put(d, "kind", br_text(br_extreme_names[r->which].word));
+        br_put_shown(d, "%s", br_extreme_names[r->which].heading);
         br_put(d, "cases", br_count(r->cases));
         br_put(d, "first", br_count(r->first));
         br_put(d, "reason", br_text(r->text));
@@ -80,7 +69,7 @@ static void put_case(struct br_document *d, const struct br_extreme_case *c, siz
 {
     br_put_row(d);
     BR_PUT(d, br_count(index), .key = "case");
-    BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
+    BR_PUT(d, br_text(br_extreme_names[v->which].word), .key = "verdict");
     BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)), .key = "judge");
     BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
     BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",

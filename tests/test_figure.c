@@ -13,9 +13,9 @@
 #include "made_report.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
-#include "study/extremes/map.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
+#include "study/extremes/map.h"
 #include "study/run/history.h"
 
 /* ---- any figure ---- */
@@ -398,7 +398,7 @@ static void test_map(void **state)
     MUST(br_figure_check(&f, &err));
     assert_int_equal(f.kinds, BR_EXTREME_CLASSES);
     for (size_t i = 0; i < f.kinds; i++)
-        assert_string_equal(f.kind[i], br_extreme_title((enum br_extreme_class)i));
+        assert_string_equal(f.kind[i], br_extreme_names[i].title);
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
         const struct br_cells *c = &f.panel[i].cells;

@@ -34,25 +34,16 @@ struct trial {
 
 static const double no_digit = 0.05; /* predicted round-off that leaves none */
 
-const char *br_extreme_word(enum br_extreme_class which)
-{
-    static const char *const words[] = {
-#define X(name, word, title) [name] = word,
-        BR_EXTREME_LIST(X)
-#undef X
-    };
-    return words[which];
-}
-
-const char *br_extreme_title(enum br_extreme_class which)
-{
-    static const char *const titles[] = {
-#define X(name, word, title) [name] = title,
-        BR_EXTREME_LIST(X)
-#undef X
-    };
-    return titles[which];
-}
+const struct br_extreme_names br_extreme_names[] = {
+    {"right", "right", "right"},
+    {"inaccurate", "stable but inaccurate, and says so", "inaccurate, said"},
+    {"not-known", "inaccurate, and says that its error is not known",
+     "inaccurate, error not known"},
+    {"unstable", "unstable as predicted", "unstable as predicted"},
+    {"refused", "refused", "refused"},
+    {"unjudged", "given up by the map", "given up by the map"},
+    {"wrong", "silently wrong", "silently wrong"},
+};
 
 const char *br_extreme_by_name(enum br_extreme_by by)
 {
@@ -144,14 +135,6 @@ static enum br_status ask_exact(struct trial *t, struct br_error *err)
     return BR_OK;
 }
 
-static const struct br_contact_rule *implicit_contact(void)
-{
-    const struct br_contact_rule *const *rule = br_contact_rules;
-    while (!(*rule)->at_new_step)
-        rule++;
-    return *rule;
-}
-
 /* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
  * scheme that takes little energy from a vibration, but is not the one that errors are predicted
  * by. */
@@ -162,7 +145,7 @@ static enum br_status march_finer(struct trial *t, size_t finer, double times,
     struct br_method fine = t->method;
     const bool chosen = fine.scheme->adaptive;
     fine.solver = br_linear_solvers[0];
-    fine.contact = implicit_contact();
+    fine.contact = br_contact_rule_find("implicit");
     if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
         fine.friction = br_friction_rules[0];
     const bool at_once = br_follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));

@@ -40,4 +40,9 @@ void br_foreseen_add_trial(struct br_foreseen *work, const struct br_trial *tria
 double br_foreseen_seconds(const struct br_foreseen *work, int threads);
 double br_foreseen_bytes(const struct br_foreseen *work);
 
+/* Refuses (BR_NO_MEMORY) studies whose marches, cells and fine references, do not fit into a memory
+ * of so many bytes: br_study_run has them all at once. They need not be prepared. */
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err);
+
 #endif

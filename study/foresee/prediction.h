@@ -60,8 +60,8 @@ double br_predicted_most(const struct br_prediction *prediction, enum br_field_k
 double br_predicted_tip(const struct br_prediction *prediction, enum br_field_kind kind,
                         double length);
 
-/* Whether a beam follows its load at once, whose viscosity is gone within a step k, s: friction then
- * keeps what the load's peaks and jumps have left. Stages of a higher order go beyond these;
+/* Whether a beam follows its load at once, whose viscosity is gone within a step k, s: friction
+ * then keeps what the load's peaks and jumps have left. Stages of a higher order go beyond these;
  * Euler's steps do not, and are what others are compared with. */
 bool br_follows_at_once(const struct br_scene *scene, double k);
 

@@ -4,7 +4,6 @@
 #define BR_STUDY_FORESEE_RESOURCES_H
 
 #include "study/foresee/warnings.h"
-#include "study/grid/study.h"
 
 /* Bytes that a march needs at most, from what elements were measured to take. */
 double br_march_bytes(const struct br_planned_march *planned);
@@ -21,10 +20,5 @@ double br_memory_available(void);
  * figures. */
 enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
                               struct br_error *err);
-
-/* The same for all marches of studies, cells and fine references: br_study_run has them all at
- * once. The studies need not have been prepared. */
-enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
-                               struct br_error *err);
 
 #endif

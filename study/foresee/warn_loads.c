@@ -266,25 +266,11 @@ static enum br_status look_at_times(const struct br_planned_march *o, struct br_
     return status;
 }
 
-const struct br_warning_source br_warn_load = {
-    .title = "loads between the time levels",
-    .look = look_at_times,
-};
-
 /* ---- loads inside of the elements ---- */
-
-/* Warns of loads whose jumps and peaks in x the elements' quadrature misses: the load vector of hat
- * functions by the rule that is marched with is compared with their integrals on a mesh on which
- * the load is proved to be resolved. */
 
 enum { TIMES = 5 }; /* at which a load with t is looked at, beside that of its peak */
 
 static const double large_in_space = 0.02; /* of the load's size */
-
-struct unseen {
-    double force, size; /* that the rule does not see, and of the load; summed over times, N */
-    double worst, place;
-};
 
 static struct br_field hats(const struct br_scene *scene, size_t n)
 {
@@ -328,9 +314,10 @@ static void subtract_exact(const struct br_function *f, struct br_box box,
 struct sight {
     const struct br_scene *scene;
     struct br_field field;
-    double *vector; /* n + 1 */
-    struct unseen missed;
-    bool known; /* all could be resolved */
+    double *vector;      /* n + 1 */
+    double missed, size; /* that the rule does not see, and of the load; summed over times, N */
+    double worst, place; /* the node that misses most, m */
+    bool known;          /* all could be resolved */
 };
 
 /* weight * f at one time */
@@ -349,13 +336,13 @@ static enum br_status compare(struct sight *s, const struct br_function *f, doub
         subtract_exact(f, box, &mesh, n, s->vector);
     for (size_t i = 0; i <= n && !status; i++) {
         const double missed = weight * fabs(s->vector[i]);
-        s->missed.force += missed;
-        if (missed > s->missed.worst) {
-            s->missed.worst = missed;
-            s->missed.place = s->scene->length * (double)i / (double)n;
+        s->missed += missed;
+        if (missed > s->worst) {
+            s->worst = missed;
+            s->place = s->scene->length * (double)i / (double)n;
         }
     }
-    s->missed.size += weight * size;
+    s->size += weight * size;
     br_mesh_free(&mesh);
     return status == BR_NO_MEMORY ? status : BR_OK; /* what is not finite, the march tells */
 }
@@ -385,9 +372,8 @@ static enum br_status measure_shape(struct sight *s, const struct br_product *p,
 
 static void report_elements(const char *name, const struct sight *s, struct br_warnings *w)
 {
-    const struct unseen *m = &s->missed;
-    const double missed = s->known ? m->force : INFINITY;
-    const char *share = br_unseen(w, BR_WARN_LOAD_SPACE, missed, m->size, large_in_space);
+    const double missed = s->known ? s->missed : INFINITY;
+    const char *share = br_unseen(w, BR_WARN_LOAD_SPACE, missed, s->size, large_in_space);
     if (!s->known)
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s changes so often in x that it is not known how much of it the elements' "
@@ -397,7 +383,7 @@ static void report_elements(const char *name, const struct sight *s, struct br_w
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s does inside of elements what their quadrature does not see: with n = %zu %s "
                 "of it, most of it near x = %.4g m",
-                name, s->field.n, share, m->place);
+                name, s->field.n, share, s->place);
 }
 
 static enum br_status look_at_shape(const struct br_load *load, const char *name,
@@ -421,8 +407,8 @@ static enum br_status look_at_shape(const struct br_load *load, const char *name
     return status;
 }
 
-static enum br_status look_at_elements(const struct br_planned_march *o, struct br_warnings *w,
-                                       struct br_error *err)
+enum br_status br_look_at_elements(const struct br_planned_march *o, struct br_warnings *w,
+                                   struct br_error *err)
 {
     const struct br_scene *s = o->scene;
     enum br_status status = BR_OK;
@@ -432,11 +418,6 @@ static enum br_status look_at_elements(const struct br_planned_march *o, struct 
         status = look_at_shape(&s->bending.load, "the bending load", o, w, err);
     return status;
 }
-
-const struct br_warning_source br_warn_load_space = {
-    .title = "loads inside of the elements",
-    .look = look_at_elements,
-};
 
 /* ---- initial data between the nodes ---- */
 
@@ -583,7 +564,10 @@ static enum br_status look_at_initial(const struct br_planned_march *o, struct b
     return status;
 }
 
-const struct br_warning_source br_warn_initial = {
-    .title = "initial data between the nodes",
-    .look = look_at_initial,
-};
+enum br_status br_look_at_loads(const struct br_planned_march *o, struct br_warnings *w,
+                                struct br_error *err)
+{
+    const bool refused =
+        look_at_times(o, w, err) || br_look_at_elements(o, w, err) || look_at_initial(o, w, err);
+    return refused ? err->status : BR_OK;
+}

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a person should know before a march begins, with what to do about it; and what is refused
- * then. Each source looks at what is to be marched and predicts; it marches little or nothing. */
+ * then: what is to be marched is looked at, and little or nothing is marched. */
 #ifndef BR_STUDY_FORESEE_WARNINGS_H
 #define BR_STUDY_FORESEE_WARNINGS_H
 
@@ -69,41 +69,37 @@ struct br_planned_march {
     double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
 };
 
-/* A source of warnings: a row of the registry. */
-struct br_warning_source {
-    const char *title; /* what it looks at, for a person */
-    bool every;        /* so cheap that each march of a study is looked at */
-    /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
-     * BR_NO_MEMORY where the march is refused, the message with the figures. */
-    enum br_status (*look)(const struct br_planned_march *planned, struct br_warnings *warnings,
-                           struct br_error *err);
-};
-
-/* NULL-terminated: refusals first, then in the order in which warnings are told. To add one: a
- * const record and a row in warnings.c. */
-extern const struct br_warning_source *const br_warning_sources[];
-
-/* Asks all sources about one march; adds to *warnings. Fails as they do. */
+/* Looks at a march before it begins, and adds what it has to say. What it cannot tell is no
+ * failure. Fails with BR_BAD_INPUT or BR_NO_MEMORY where the march is refused, the message with the
+ * figures. To add a source of warnings: a function, and a call in warnings.c. */
 enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
                              struct br_error *err);
 
-/* Asks those that are cheap alone: for marches that are many. */
+/* The same by the sources that are cheap alone: for marches that are many. */
 enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
                                      struct br_warnings *warnings, struct br_error *err);
 
-/* Asks about the loads and initial data alone: what of them the time levels and the elements do
- * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
- * thousands of jumps.
- */
+/* At the loads and initial data alone: what of them the time levels and the elements do not see.
+ * For the finest of many marches; that takes milliseconds, or a second for loads with thousands of
+ * jumps. */
 enum br_status br_look_at_loads(const struct br_planned_march *planned,
                                 struct br_warnings *warnings, struct br_error *err);
 
-/* The warning of a lagged contact that will be unstable (solver/laws.h). */
-extern const struct br_warning_source br_warn_contact;
+/* ---- parts of these ---- */
 
-/* Of the other files of this room. */
-extern const struct br_warning_source br_warn_initial, br_warn_load, br_warn_load_space,
-    br_warn_resources;
+/* At memory and time. */
+enum br_status br_look_at_resources(const struct br_planned_march *planned,
+                                    struct br_warnings *warnings, struct br_error *err);
+
+/* Warns of a lagged contact beyond its stability limit (solver/laws.h), with what would be within
+ * it. */
+void br_look_at_contact(const struct br_planned_march *planned, struct br_warnings *warnings);
+
+/* At loads whose jumps and peaks in x the elements' quadrature misses: the load vector of hat
+ * functions by the rule that is marched with is compared with their integrals on a mesh on which
+ * the load is proved to be resolved. */
+enum br_status br_look_at_elements(const struct br_planned_march *planned,
+                                   struct br_warnings *warnings, struct br_error *err);
 
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */

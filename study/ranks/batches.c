@@ -4,6 +4,9 @@
 
 #include <stdint.h>
 
+#include "study/scene/method_fields.h"
+#include "study/scene/schema.h"
+
 /* ---- costs ---- */
 
 /* ns, measured on one core, both fields, n = 1600 and 3200, 1e4 time levels, and taken to the 3 GHz
@@ -103,14 +106,10 @@ struct cutting {
  * is cheap beside the cells, or where ranks would have nothing to do, and its last slice ends
  * clearly sooner. That leaves the cells of a much finer run with it: it is the work.
  *
- * The reference could also be worked out by one rank and broadcast. Compared with slices on ranks
- * that are idle otherwise, this saves the owner of the reference its share of the cells, and costs
- * it the sending, each time level after the other: 48 bytes an element of every mesh. Measured for
- * the exact reference of the tables' grid on 4 ranks of one machine, per element of its mesh and
- * time level: 107 ns for the reference; 34 ns for a quarter of the cells; and for 94 bytes at 4.5
- * GB/s (MPI_Bcast, 9.6 MB; 2.7 GB/s by TCP on the same machine) 21 ns (35 ns). So it would save a
- * tenth at most, by the fastest of networks, and lose with more ranks, where the share is less and
- * the bytes are not: slices it is. */
+ * The reference could also be worked out by one rank and broadcast. Measured on 4 ranks of one
+ * machine, that saves a tenth at most, by the fastest of networks, and loses with more ranks: its
+ * owner is spared its share of the cells, but sends 48 bytes an element of every mesh and time
+ * level. */
 static bool cut_once_more(struct cutting *c, size_t s)
 {
     struct cut *cut = &c->cut[s];
@@ -229,4 +228,97 @@ void br_batches_clear(struct br_batches *b)
     free(b->cost);
     free(b->of);
     *b = (struct br_batches){0};
+}
+
+/* ---- whether ranks have read the same ---- */
+
+/* FNV-1a, 64 bits. */
+static void add(unsigned long long *hash, const char *text)
+{
+    for (; *text; text++)
+        *hash = (*hash ^ (unsigned char)*text) * 0x100000001b3ull;
+    *hash = (*hash ^ 0xff) * 0x100000001b3ull;
+}
+
+/* Nine digits: the last bits may be another processor's. */
+static void add_number(unsigned long long *hash, double value)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.9g", value);
+    add(hash, text);
+}
+
+static void add_counts(unsigned long long *hash, const size_t *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        add_number(hash, (double)list[i]);
+    add(hash, "");
+}
+
+static void add_function(unsigned long long *hash, const struct br_function *f,
+                         const struct br_scene *s)
+{
+    static const double place[] = {0, 0.137, 0.5, 0.823, 1};
+    enum { PLACES = sizeof place / sizeof *place };
+    double x[PLACES], value[PLACES];
+    for (size_t i = 0; i < PLACES; i++)
+        x[i] = place[i] * s->length;
+    for (size_t j = 0; j < PLACES; j++) {
+        br_function_evaluate(f, PLACES, x, place[j] * s->duration, value);
+        for (size_t i = 0; i < PLACES; i++)
+            add_number(hash, value[i]);
+    }
+}
+
+static void add_scene(unsigned long long *hash, const struct br_scene *s)
+{
+    struct br_scene borrowed = *s;
+    const struct br_function *f;
+    add_counts(hash,
+               (const size_t[]){s->axial.modelled, s->bending.modelled, s->contact.modelled,
+                                s->friction.law},
+               4);
+    for (const struct br_scene_key *key = br_scene_keys; key->name; key++)
+        if ((key->kind == BR_KEY_POSITIVE || key->kind == BR_KEY_NOT_NEGATIVE) &&
+            key->need != BR_MAKES)
+            add_number(hash, *(const double *)((const char *)s + key->offset));
+    for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
+        add_function(hash, f, s);
+}
+
+/* All but what is the machine's own: its instruction set. */
+static void add_method(unsigned long long *hash, const struct br_method *m)
+{
+    char text[BR_METHOD_VALUE];
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        if (!f->unsaid && br_method_field_heeded(f, m))
+            add(hash, br_method_field_text(f, m, text));
+    }
+}
+
+static void add_study(unsigned long long *hash, const struct br_study *s)
+{
+    add_counts(hash, s->n, s->n_count);
+    add_counts(hash, s->steps, s->k_count);
+    add_counts(hash, (const size_t[]){s->path, s->reference.n, s->reference.steps}, 3);
+    for (size_t cell = 0; cell < (s->cell_method ? br_study_cells(s) : 1); cell++)
+        add_method(hash, br_study_method(s, cell));
+    add_method(hash, &s->reference_method);
+    add(hash, s->judge->name);
+    add(hash, s->auditor ? s->auditor->name : "");
+    for (; s; s = s->next_norm)
+        add(hash, s->norm->name);
+}
+
+unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count)
+{
+    unsigned long long hash = 0xcbf29ce484222325ull;
+    add_counts(&hash, (const size_t[]){count, sizeof(struct br_cell)}, 2);
+    for (size_t i = 0; i < count; i++) {
+        if (i == 0 || studies[i].scene != studies[i - 1].scene)
+            add_scene(&hash, studies[i].scene);
+        add_study(&hash, &studies[i]);
+    }
+    return hash;
 }
