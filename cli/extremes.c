@@ -24,23 +24,27 @@ struct run {
 static const struct {
     const char *option;
     enum br_option_id id;
-    unsigned bit;
-} heeded[] = {{"--n", BR_OPT_N, BR_HEEDS_N},
-              {"--k", BR_OPT_K, BR_HEEDS_K},
-              {"--cases", BR_OPT_CASES, BR_HEEDS_CASES},
-              {"--seed", BR_OPT_SEED, BR_HEEDS_SEED},
-              {"--rounding", BR_OPT_ROUNDING, BR_HEEDS_ROUNDING},
-              {"--resume", BR_OPT_RESUME, BR_HEEDS_RESUME}};
+} heeded[] = {{"--n", BR_OPT_N},
+              {"--k", BR_OPT_K},
+              {"--cases", BR_OPT_CASES},
+              {"--seed", BR_OPT_SEED},
+              {"--rounding", BR_OPT_ROUNDING},
+              {"--resume", BR_OPT_RESUME}};
 enum { HEEDED = sizeof heeded / sizeof *heeded };
 
+static bool heeds(const struct br_extremes_part *part, enum br_option_id option)
+{
+    return part->heeds >> option & 1;
+}
+
 /* Which parts heed an option, as in the help: "map". */
-static const char *heeders(unsigned option)
+static const char *heeders(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
     for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++) {
         const size_t used = strlen(text);
-        if ((*p)->heeds & option)
+        if (heeds(*p, option))
             snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", (*p)->name);
     }
     return *text ? text : "no part";
@@ -53,7 +57,7 @@ static const char *part_title(size_t row)
     const struct br_extremes_part *part = br_extremes_parts[row];
     size_t used = (size_t)snprintf(text, sizeof text, "%.150s.", part->title);
     for (size_t i = 0; i < HEEDED && used < sizeof text; i++)
-        if (part->heeds & heeded[i].bit)
+        if (heeds(part, heeded[i].id))
             used += (size_t)snprintf(text + used, sizeof text - used, " %s", heeded[i].option);
     return text;
 }
@@ -68,13 +72,14 @@ static const struct br_words parts = {part_name, part_title, NULL};
 /* An option that no chosen part heeds would be dropped silently. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
-    unsigned all = 0;
-    for (size_t i = 0; i < r->parts; i++)
-        all |= r->part[i]->heeds;
-    for (size_t i = 0; i < HEEDED; i++)
-        if (br_option_given(r->session.options, heeded[i].id) && !(all & heeded[i].bit))
+    for (size_t i = 0; i < HEEDED; i++) {
+        bool wanted = !br_option_given(r->session.options, heeded[i].id);
+        for (size_t p = 0; p < r->parts; p++)
+            wanted |= heeds(r->part[p], heeded[i].id);
+        if (!wanted)
             return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
-                           heeded[i].option, heeders(heeded[i].bit));
+                           heeded[i].option, heeders(heeded[i].id));
+    }
     return BR_OK;
 }
 
@@ -123,7 +128,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     struct br_kept kept = {0};
     char what[64];
     snprintf(what, sizeof what, "%s (%zu of %zu)", part->name, i + 1, r->parts);
-    if (part->heeds & BR_HEEDS_RESUME) {
+    if (part->heeds & BR_HEEDS(RESUME)) {
         if (br_session_keep(&r->session, part->name, "", &kept, err))
             return err->status;
         job.kept = &kept;

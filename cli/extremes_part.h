@@ -29,20 +29,14 @@ struct br_extremes_job {
     struct br_error *verdict;   /* zeros; BR_VERDICT: what has been found wrong */
 };
 
-/* The options that a part heeds: others are refused. --threads is for all. */
-enum {
-    BR_HEEDS_CASES = 1,
-    BR_HEEDS_SEED = 2,
-    BR_HEEDS_N = 4,
-    BR_HEEDS_K = 8,
-    BR_HEEDS_ROUNDING = 16,
-    BR_HEEDS_RESUME = 32, /* and job->kept, which others find NULL */
-};
+/* An option that a part heeds, as a bit: others are refused. --threads is for all. */
+#define BR_HEEDS(option) (1ull << BR_OPT_##option)
+_Static_assert(BR_OPT_METHOD < 64, "a bit for each option");
 
 struct br_extremes_part {
-    const char *name;  /* one word, as on the command line, and of its files */
-    const char *title; /* one line for a person */
-    unsigned heeds;    /* of the options: BR_HEEDS_... */
+    const char *name;         /* one word, as on the command line, and of its files */
+    const char *title;        /* one line for a person */
+    unsigned long long heeds; /* BR_HEEDS; with RESUME it has job->kept, which others find NULL */
     /* Computes, begins the report (its name is the part's) and puts all into it but provenance,
      * draws, and judges: what is found wrong is a verdict, no failure. Fails with BR_BAD_INPUT,
      * BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */

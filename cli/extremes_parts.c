@@ -44,7 +44,7 @@ static enum br_status run_floors(const struct br_extremes_job *job, struct br_er
 static const struct br_extremes_part floors = {
     .name = "floors",
     .title = "round-off of every linear solver over n and k, measured and predicted",
-    .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .heeds = BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
     .run = run_floors,
 };
 
@@ -56,7 +56,7 @@ static enum br_status run_steps(const struct br_extremes_job *job, struct br_err
 static const struct br_extremes_part steps = {
     .name = "steps",
     .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
-    .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .heeds = BR_HEEDS(K) | BR_HEEDS(ROUNDING),
     .run = run_steps,
 };
 
@@ -86,7 +86,7 @@ static enum br_status run_stability(const struct br_extremes_job *job, struct br
 static const struct br_extremes_part stability = {
     .name = "stability",
     .title = "the contact's stability limit over c_H and k, predicted and measured",
-    .heeds = BR_HEEDS_N | BR_HEEDS_K,
+    .heeds = BR_HEEDS(N) | BR_HEEDS(K),
     .run = run_stability,
 };
 
@@ -163,7 +163,7 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
 static const struct br_extremes_part map = {
     .name = "map",
     .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
-    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_ROUNDING | BR_HEEDS_RESUME,
+    .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(ROUNDING) | BR_HEEDS(RESUME),
     .run = run_map,
 };
 

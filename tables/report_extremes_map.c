@@ -12,7 +12,7 @@ static void put_tallies(struct br_document *d, const struct br_extreme_counts *c
         const struct br_extreme_tally *t = &counts->tally[i];
         br_put_row(d);
         BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
-        BR_PUT(d, br_text(*t->label ? t->label : NULL), .key = "range");
+        BR_PUT(d, br_text(t->label), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
             BR_PUT(d, br_count(t->count[c]), .key = br_extreme_names[c].word,
@@ -60,7 +60,7 @@ static void put_warnings(struct br_document *d, unsigned warned)
     for (int kind = 0; kind < BR_WARNINGS; kind++)
         if (warned & 1u << kind && used < sizeof text)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
-                                     br_warning_word((enum br_warning_kind)kind));
+                                     br_warning_words[kind]);
     BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
 }
 
@@ -130,30 +130,15 @@ static void answer_map(struct br_document *d, const struct br_extreme_map *m)
         r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }
 
-static size_t judged_by(const struct br_extreme_map *m, enum br_extreme_by by)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        count += m->verdict[i].by == by;
-    return count;
-}
-
-static double largest_units(const struct br_extreme_map *m, size_t *compared)
-{
-    double most = 0;
-    *compared = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        if (!isnan(m->verdict[i].units)) {
-            most = fmax(most, m->verdict[i].units);
-            (*compared)++;
-        }
-    return most;
-}
-
 static void note_judging(struct br_document *d, const struct br_extreme_map *m)
 {
-    size_t compared;
-    const double units = largest_units(m, &compared);
+    size_t judged[BR_BY_REFINEMENT + 1] = {0}, compared = 0;
+    double units = 0;
+    for (size_t i = 0; i < m->cases; i++) {
+        judged[m->verdict[i].by]++;
+        compared += isnan(m->verdict[i].units) ? 0 : 1;
+        units = fmax(units, m->verdict[i].units); /* of NaN: the other */
+    }
     br_put_section(d, "How it was judged");
     br_put_note(
         d,
@@ -165,7 +150,7 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         "mean squares at eight times and up to 24 places), judged by the exact solution (%zu cases) "
         "or by another scheme on two to eight times the elements with up to 32 times the steps "
         "(%zu), and once more by a finer one before anything is called wrong.",
-        m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
+        m->seed, judged[BR_BY_EXACT], judged[BR_BY_REFINEMENT]);
     br_put_note(
         d,
         "%zu cases were marched in other units of length, time and mass, too. Their displacements "

@@ -121,14 +121,14 @@ static enum br_status run_slow(const struct br_extremes_job *j, struct br_error 
 static const struct br_extremes_part fast = {
     .name = "fast",
     .title = "says what it was asked for",
-    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
+    .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
     .run = run_fast,
 };
 
 static const struct br_extremes_part slow = {
     .name = "slow",
     .title = "takes long",
-    .heeds = BR_HEEDS_CASES | BR_HEEDS_RESUME,
+    .heeds = BR_HEEDS(CASES) | BR_HEEDS(RESUME),
     .run = run_slow,
 };
 

@@ -122,19 +122,6 @@ static bool exact_knows(const struct trial *t)
                                    t->method.friction->needs_regularisation);
 }
 
-static enum br_status ask_exact(struct trial *t, struct br_error *err)
-{
-    if (!exact_knows(t))
-        return BR_OK;
-    const enum br_status status =
-        br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err);
-    if (status || t->other->failure.status)
-        return status;
-    t->verdict->by = BR_BY_EXACT;
-    compare(t);
-    return BR_OK;
-}
-
 /* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
  * scheme that takes little energy from a vibration, but is not the one that errors are predicted
  * by. */
@@ -166,12 +153,14 @@ static size_t finer_mesh(const struct trial *t)
     return t->one->n < 16 ? 8 : t->one->n < 200 ? 4 : 2;
 }
 
-static enum br_status ask_refinement(struct trial *t, struct br_error *err)
+static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_error *err)
 {
-    const enum br_status status = march_finer(t, finer_mesh(t), 1, t->other, err);
+    const enum br_status status =
+        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err)
+                          : march_finer(t, finer_mesh(t), 1, t->other, err);
     if (status || t->other->failure.status)
         return status;
-    t->verdict->by = BR_BY_REFINEMENT;
+    t->verdict->by = by;
     compare(t);
     return BR_OK;
 }
@@ -223,9 +212,9 @@ static void decide_accuracy(struct trial *t)
 
 static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
 {
-    enum br_status status = ask_exact(t, err);
+    enum br_status status = exact_knows(t) ? ask(t, BR_BY_EXACT, err) : BR_OK;
     if (!status && t->verdict->by == BR_BY_NOBODY)
-        status = ask_refinement(t, err);
+        status = ask(t, BR_BY_REFINEMENT, err);
     if (!status && t->verdict->by == BR_BY_REFINEMENT && !(t->beyond <= 0))
         status = ask_again(t, err);
     if (!status)

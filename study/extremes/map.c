@@ -278,26 +278,17 @@ void br_extreme_map_clear(struct br_extreme_map *map)
     *map = (struct br_extreme_map){0};
 }
 
-/* ---- what cases are counted by ---- */
+/* ---- tallies ---- */
 
-#define OF_CASE(id, expression)                       \
-    static double id(const struct br_extreme_case *c) \
-    {                                                 \
-        return expression;                            \
-    }
-
-/* A row of a registry. */
-#define BY_REGISTRY(id, registry, member)                      \
-    static double id(const struct br_extreme_case *c)          \
-    {                                                          \
-        size_t i = 0;                                          \
-        while (registry[i] && registry[i] != c->method.member) \
-            i++;                                               \
-        return (double)i;                                      \
-    }                                                          \
-    static const char *id##_word(size_t i)                     \
-    {                                                          \
-        return registry[i] ? registry[i]->name : NULL;         \
+/* Which row of a registry a case has, and their names. */
+#define BY_REGISTRY(id, registry, member)                          \
+    static bool is_##id(const struct br_extreme_case *c, size_t i) \
+    {                                                              \
+        return registry[i] == c->method.member;                    \
+    }                                                              \
+    static const char *id##_word(size_t i)                         \
+    {                                                              \
+        return registry[i] ? registry[i]->name : NULL;             \
     }
 
 BY_REGISTRY(scheme, br_time_schemes, scheme)
@@ -305,9 +296,10 @@ BY_REGISTRY(solver, br_linear_solvers, solver)
 BY_REGISTRY(contact, br_contact_rules, contact)
 BY_REGISTRY(friction, br_friction_rules, friction)
 
-OF_CASE(law, (double)c->law)
-OF_CASE(special, (double)c->special)
-OF_CASE(drawn, c->natural ? 0 : 1)
+static bool is_law(const struct br_extreme_case *c, size_t i)
+{
+    return (size_t)c->law == i;
+}
 
 static const char *law_word(size_t i)
 {
@@ -315,9 +307,19 @@ static const char *law_word(size_t i)
     return words[i];
 }
 
+static bool is_special(const struct br_extreme_case *c, size_t i)
+{
+    return (size_t)c->special == i;
+}
+
 static const char *special_word(size_t i)
 {
     return i < BR_SPECIALS ? br_extreme_special_name((enum br_extreme_special)i) : NULL;
+}
+
+static bool is_drawn(const struct br_extreme_case *c, size_t i)
+{
+    return c->natural == (i == 0);
 }
 
 static const char *drawn_word(size_t i)
@@ -326,108 +328,20 @@ static const char *drawn_word(size_t i)
     return words[i];
 }
 
-OF_CASE(elements, (double)c->n)
-OF_CASE(steps, (double)c->steps)
-OF_CASE(density, c->density)
-OF_CASE(stiff_contact, c->contact ? c->contact_stiffness : NAN)
-OF_CASE(bound, c->law == BR_FRICTIONLESS ? NAN : c->friction)
-OF_CASE(gap, c->contact ? c->gap : NAN)
-OF_CASE(beam, c->length)
-OF_CASE(span, c->duration)
-OF_CASE(beam_load, c->field[BR_BENDING].modelled ? c->field[BR_BENDING].load.size : NAN)
-
-/* Of the beam, or of a rod alone. */
-static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
-{
-    return &c->field[c->field[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
-}
-
-static double inertia(const struct br_extreme_case *c)
-{
-    const double power = c->field[BR_BENDING].modelled ? 4 : 2;
-    return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
-}
-
-OF_CASE(relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
-OF_CASE(beam_relaxation, c->field[BR_BENDING].modelled ? relaxation(c) : NAN)
-OF_CASE(contact_ratio,
-        c->contact ? c->contact_stiffness * c->length / c->field[BR_AXIAL].stiffness : NAN)
-OF_CASE(step_ratio, 1 / (double)c->steps)
-OF_CASE(load, fabs(main_part(c)->load.size))
-OF_CASE(stiffness, main_part(c)->stiffness)
-
-/* A word of the case, or a number in ranges that are so many decades apart. */
 static const struct axis {
     const char *title;
-    double (*value)(const struct br_extreme_case *); /* of a word its index; NaN: none */
-    const char *(*word)(size_t i);                   /* NULL from the last one on */
-    double first, decades;
-    size_t ranges;
+    bool (*is)(const struct br_extreme_case *one, size_t i);
+    const char *(*word)(size_t i); /* NULL from the last one on */
 } axes[] = {
-    {"time scheme", scheme, scheme_word, 0, 0, 0},
-    {"linear solver", solver, solver_word, 0, 0, 0},
-    {"contact rule", contact, contact_word, 0, 0, 0},
-    {"friction rule", friction, friction_word, 0, 0, 0},
-    {"friction law", law, law_word, 0, 0, 0},
-    {"on purpose", special, special_word, 0, 0, 0},
-    {"drawn", drawn, drawn_word, 0, 0, 0},
-    {"n", elements, NULL, 0, 1, 6},
-    {"steps", steps, NULL, 0, 1, 6},
-    {"rho, kg/m", density, NULL, -9, 3, 7},
-    {"c_H, N/m", stiff_contact, NULL, -6, 3, 8},
-    {"c_V, N or N/m", bound, NULL, -6, 3, 8},
-    {"gap, m", gap, NULL, -15, 5, 5},
-    {"L, m", beam, NULL, -6, 3, 5},
-    {"T, s", span, NULL, -6, 3, 5},
-    {"bending load, N/m", beam_load, NULL, -12, 6, 5},
-    {"c/(a T) of bending", beam_relaxation, NULL, -6, 3, 5},
+    {"time scheme", is_scheme, scheme_word},
+    {"linear solver", is_solver, solver_word},
+    {"contact rule", is_contact, contact_word},
+    {"friction rule", is_friction, friction_word},
+    {"friction law", is_law, law_word},
+    {"on purpose", is_special, special_word},
+    {"drawn", is_drawn, drawn_word},
 };
 enum { AXES = sizeof axes / sizeof *axes };
-
-const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
-    {"Contact and time step",
-     {"c_H L/a_1", contact_ratio, -6, 18, 24},
-     {"k/T", step_ratio, -6, 0, 12}},
-    {"Mesh and time step", {"n", elements, 0, 6, 12}, {"k/T", step_ratio, -6, 0, 12}},
-    {"Inertia and viscosity",
-     {"ρL^4/(a_2T^2), or ρL^2/(a_1T^2)", inertia, -12, 12, 24},
-     {"c/(a T)", relaxation, -9, 6, 15}},
-    {"Stiffness and load",
-     {"stiffness (N m^2 or N)", stiffness, -6, 12, 18},
-     {"load (N/m)", load, -12, 18, 30}},
-};
-
-/* ---- tallies ---- */
-
-/* Range 0: zero. */
-static double bin_of(const struct axis *a, double value)
-{
-    if (a->word || value == 0)
-        return value;
-    const double place = floor((log10(fabs(value)) - a->first) / a->decades);
-    return isnan(place) ? NAN : 1 + fmax(0, fmin(place, (double)a->ranges - 1));
-}
-
-/* The name of a bin (out); false: there are no more. */
-static bool label_of(const struct axis *a, size_t bin, char label[64])
-{
-    if (a->word) {
-        const char *word = a->word(bin);
-        snprintf(label, 64, "%s", word ? word : "");
-        return word != NULL;
-    }
-    const double low = pow(10, a->first + a->decades * ((double)bin - 1));
-    const double high = low * pow(10, a->decades);
-    if (bin == 0)
-        snprintf(label, 64, "0");
-    else if (bin == 1)
-        snprintf(label, 64, "below %g", high);
-    else if (bin == a->ranges)
-        snprintf(label, 64, "%g and above", low);
-    else
-        snprintf(label, 64, "%g to %g", low, high);
-    return bin <= a->ranges;
-}
 
 /* Fills the list, or counts what there is where it is NULL. */
 static size_t list_tallies(const struct br_extreme_map *m, struct br_extreme_tally *list)
@@ -438,12 +352,10 @@ static size_t list_tallies(const struct br_extreme_map *m, struct br_extreme_tal
     if (list)
         list[0] = t;
     for (const struct axis *a = axes; a < axes + AXES; a++)
-        for (size_t bin = 0;; bin++) {
-            t = (struct br_extreme_tally){.title = a->title};
-            if (!label_of(a, bin, t.label))
-                break;
+        for (size_t word = 0; a->word(word); word++) {
+            t = (struct br_extreme_tally){.title = a->title, .label = a->word(word)};
             for (size_t i = 0; i < m->cases; i++)
-                if (bin_of(a, a->value(&m->one[i])) == (double)bin) {
+                if (a->is(&m->one[i], word)) {
                     t.cases++;
                     t.count[m->verdict[i].which]++;
                 }
@@ -548,6 +460,45 @@ struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *m)
 }
 
 /* ---- planes ---- */
+
+#define OF_CASE(id, expression)                       \
+    static double id(const struct br_extreme_case *c) \
+    {                                                 \
+        return expression;                            \
+    }
+
+/* The beam, or a rod alone. */
+static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
+{
+    return &c->field[c->field[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
+}
+
+static double inertia(const struct br_extreme_case *c)
+{
+    const double power = c->field[BR_BENDING].modelled ? 4 : 2;
+    return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
+}
+
+OF_CASE(relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
+OF_CASE(contact_ratio,
+        c->contact ? c->contact_stiffness * c->length / c->field[BR_AXIAL].stiffness : NAN)
+OF_CASE(step_ratio, 1 / (double)c->steps)
+OF_CASE(elements, (double)c->n)
+OF_CASE(load, fabs(main_part(c)->load.size))
+OF_CASE(stiffness, main_part(c)->stiffness)
+
+const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
+    {"Contact and time step",
+     {"c_H L/a_1", contact_ratio, -6, 18, 24},
+     {"k/T", step_ratio, -6, 0, 12}},
+    {"Mesh and time step", {"n", elements, 0, 6, 12}, {"k/T", step_ratio, -6, 0, 12}},
+    {"Inertia and viscosity",
+     {"ρL^4/(a_2T^2), or ρL^2/(a_1T^2)", inertia, -12, 12, 24},
+     {"c/(a T)", relaxation, -9, 6, 15}},
+    {"Stiffness and load",
+     {"stiffness (N m^2 or N)", stiffness, -6, 12, 18},
+     {"load (N/m)", load, -12, 18, 30}},
+};
 
 /* The cell along one coordinate; -1: not in the plane. */
 static int place(const struct br_extreme_coordinate *c, const struct br_extreme_case *one)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The map of extremes: many cases, drawn from a seed, judged side by side, and counted by method,
- * law and range, by reason, and over planes. What comes out does not depend on the number of
+/* The map of extremes: many cases, drawn from a seed, judged side by side, and counted by method
+ * and law, by reason, and over planes. What comes out does not depend on the number of
  * threads, nor on how often it was interrupted. */
 #ifndef BR_STUDY_EXTREMES_MAP_H
 #define BR_STUDY_EXTREMES_MAP_H
@@ -55,7 +55,7 @@ void br_extreme_map_clear(struct br_extreme_map *map);
 /* The cases of a kind. */
 struct br_extreme_tally {
     const char *title; /* what they are counted by: "time scheme" */
-    char label[64];    /* "euler"; "": all cases */
+    const char *label; /* "euler"; NULL: all cases */
     size_t cases, count[BR_EXTREME_CLASSES];
 };
 

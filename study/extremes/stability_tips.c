@@ -178,17 +178,14 @@ static void compare(struct br_stability_scheme *c, const struct br_scene *scene,
         c->depth = depth;
 }
 
-static enum br_status try_one(const struct br_scene *scene, size_t n, size_t steps,
-                              struct br_stability_scheme *c, struct br_run_report *report,
-                              struct br_error *err)
+static enum br_status try_one(struct br_stability_scheme *c, const struct br_scene *scene,
+                              size_t steps, struct br_run_report *report, struct br_error *err)
 {
-    struct br_run_request request = {
-        .scene = scene,
-        .method = br_method_default(),
-        .n = n,
-        .steps = steps,
-        .check = true,
-    };
+    struct br_run_request request = {.scene = scene,
+                                     .method = br_method_default(),
+                                     .n = elements,
+                                     .steps = steps,
+                                     .check = true};
     struct br_error failure = {0};
     request.method.scheme = c->scheme;
     request.method.contact = br_contact_rule_find("implicit");
@@ -205,42 +202,22 @@ static enum br_status try_one(const struct br_scene *scene, size_t n, size_t ste
     return BR_OK;
 }
 
-static enum br_status try_scheme(struct br_stability_scheme *c, struct br_run_report *report,
-                                 struct br_error *err)
+enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err)
 {
     static const double stiffness[] = {1, 1e3, 1e6, 1e9, 1e12, 1e15};
     static const size_t steps[] = {10, 100, 1000};
-    struct br_scene scene = {
-        .length = 1,
-        .duration = 1,
-        .density = br_stability_rods[0].density,
-        .axial = {.modelled = true,
-                  .stiffness = 1000,
-                  .viscosity = br_stability_rods[0].viscosity,
-                  .load = {{{{.constant = load}, {.constant = 1}}}}},
-        .contact = {.modelled = true},
-    };
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof stiffness / sizeof *stiffness; i++)
-        for (size_t j = 0; j < sizeof steps / sizeof *steps && !status; j++) {
-            scene.contact.stiffness = stiffness[i];
-            status = try_one(&scene, elements, steps[j], c, report, err);
-        }
-    return status;
-}
-
-enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err)
-{
+    const struct br_field rod = br_stability_field(&br_stability_rods[0], 1, 1);
+    struct br_scene scene = scene_of(&rod, 1);
     struct br_run_report *report = br_allocate(1, sizeof *report);
-    if (!report)
-        return br_no_memory(err, "the schemes' stability");
-    enum br_status status = BR_OK;
-    for (const struct br_time_scheme *const *t = br_time_schemes; *t && !status; t++) {
-        if (s->schemes == BR_STABILITY_SCHEMES)
-            break;
+    enum br_status status = report ? BR_OK : br_no_memory(err, "the schemes' stability");
+    scene.axial.load = (struct br_load){{{{.constant = load}, {.constant = 1}}}};
+    for (size_t i = 0; br_time_schemes[i] && i < BR_STABILITY_SCHEMES && !status; i++) {
         struct br_stability_scheme *c = &s->scheme[s->schemes++];
-        *c = (struct br_stability_scheme){.scheme = *t};
-        status = try_scheme(c, report, err);
+        *c = (struct br_stability_scheme){.scheme = br_time_schemes[i]};
+        for (size_t j = 0; j < 18 && !status; j++) {
+            scene.contact.stiffness = stiffness[j / 3];
+            status = try_one(c, &scene, steps[j % 3], report, err);
+        }
     }
     free(report);
     return status;

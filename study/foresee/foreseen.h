@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_FORESEE_FORESEEN_H
 #define BR_STUDY_FORESEE_FORESEEN_H
 
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 #include "study/trade/trial.h"
 
 /* Marches of one kind. Names are borrowed. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,12 +52,8 @@ static double read_bytes(const char *path, const char *word, double unit)
 
 static double group_limit(void)
 {
-    static const char group[] = "/sys/fs/cgroup/";
-    char path[64];
-    snprintf(path, sizeof path, "%smemory.max", group);
-    const double most = read_bytes(path, "", 1);
-    snprintf(path, sizeof path, "%smemory.current", group);
-    const double used = read_bytes(path, "", 1);
+    const double most = read_bytes("/sys/fs/cgroup/memory.max", "", 1);
+    const double used = read_bytes("/sys/fs/cgroup/memory.current", "", 1);
     return isfinite(most) && isfinite(used) ? fmax(most - used, 0) : most;
 }
 

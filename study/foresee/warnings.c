@@ -12,15 +12,10 @@
 #include "study/grid/study.h"
 #include "study/run/run.h"
 
-const char *br_warning_word(enum br_warning_kind kind)
-{
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_WARNING_LIST(X)
-#undef X
-    };
-    return words[kind];
-}
+const char *const br_warning_words[] = {
+    "unstable",     "bounce",        "round-off",    "inaccurate", "error-not-known",
+    "load-in-time", "load-in-space", "initial-data", "long",
+};
 
 const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_warning_kind kind)
 {

@@ -6,25 +6,20 @@
 
 #include "solver/method.h"
 
-/* X(name, word for programs). Of each kind a list keeps the first; others are counted. */
-#define BR_WARNING_LIST(X)                                                             \
-    X(BR_WARN_UNSTABLE, "unstable")        /* lagged contact beyond its limit */       \
-    X(BR_WARN_BOUNCE, "bounce")            /* lagged contact that may gain energy */   \
-    X(BR_WARN_ROUND_OFF, "round-off")      /* above the discretisation error */        \
-    X(BR_WARN_INACCURATE, "inaccurate")    /* the discretisation error is large */     \
-    X(BR_WARN_UNKNOWN, "error-not-known")  /* the discretisation error is not known */ \
-    X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */   \
-    X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */  \
-    X(BR_WARN_INITIAL, "initial-data")     /* initial data between the nodes */        \
-    X(BR_WARN_LONG, "long")                /* the march takes days */
-
+/* Of each kind a list keeps the first; others are counted. */
 enum br_warning_kind {
-#define X(name, word) name,
-    BR_WARNING_LIST(X)
-#undef X
-        BR_WARNINGS
+    BR_WARN_UNSTABLE,   /* lagged contact beyond its limit */
+    BR_WARN_BOUNCE,     /* lagged contact that may gain energy */
+    BR_WARN_ROUND_OFF,  /* above the discretisation error */
+    BR_WARN_INACCURATE, /* the discretisation error is large */
+    BR_WARN_UNKNOWN,    /* the discretisation error is not known */
+    BR_WARN_LOAD_TIME,  /* the time levels miss some of a load */
+    BR_WARN_LOAD_SPACE, /* the elements' quadrature misses some */
+    BR_WARN_INITIAL,    /* initial data between the nodes */
+    BR_WARN_LONG,       /* the march takes days */
+    BR_WARNINGS
 };
-const char *br_warning_word(enum br_warning_kind kind);
+extern const char *const br_warning_words[BR_WARNINGS]; /* for programs */
 
 struct br_warning {
     enum br_warning_kind kind;
@@ -104,5 +99,23 @@ enum br_status br_look_at_elements(const struct br_planned_march *planned,
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);
+
+/* ---- what a march takes, memory and time (resources.c) ---- */
+
+/* Bytes that a march needs at most, from what elements were measured to take. */
+double br_march_bytes(const struct br_planned_march *planned);
+
+/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
+ * 0. */
+double br_march_seconds(const struct br_planned_march *planned);
+
+/* Bytes that may still be had: the least of what the machine has (MemAvailable of /proc/meminfo),
+ * of the limit of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
+double br_memory_available(void);
+
+/* Refuses (BR_NO_MEMORY) a march that does not fit into a memory of so many bytes, with the
+ * figures. */
+enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
+                              struct br_error *err);
 
 #endif
