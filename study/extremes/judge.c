@@ -122,21 +122,17 @@ static bool exact_knows(const struct trial *t)
                                    t->method.friction->needs_regularisation);
 }
 
-/* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
- * scheme that takes little energy from a vibration, but is not the one that errors are predicted
- * by. */
+/* By a scheme that takes little energy from a vibration, but is not the one that errors are
+ * predicted by. */
 static enum br_status march_finer(struct trial *t, size_t finer, double times,
                                   struct br_track *track, struct br_error *err)
 {
     struct br_track_request request = request_of(t);
-    struct br_method fine = t->method;
-    const bool chosen = fine.scheme->adaptive;
-    fine.solver = br_linear_solvers[0];
-    fine.contact = br_contact_rule_find("implicit");
-    if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
-        fine.friction = br_friction_rules[0];
+    const bool chosen = t->method.scheme->adaptive;
     const bool at_once = br_follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));
-    fine.scheme = br_time_scheme_find(chosen ? "adaptive" : at_once ? "euler" : "esdirk3");
+    struct br_method fine = br_accurate_method(&t->method, chosen    ? "adaptive"
+                                                           : at_once ? "euler"
+                                                                     : "esdirk3");
     fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
     fine.most_steps = 4 * MOST_STEPS;
     request.method = &fine;

@@ -280,90 +280,57 @@ void br_extreme_map_clear(struct br_extreme_map *map)
 
 /* ---- tallies ---- */
 
-/* Which row of a registry a case has, and their names. */
-#define BY_REGISTRY(id, registry, member)                          \
-    static bool is_##id(const struct br_extreme_case *c, size_t i) \
-    {                                                              \
-        return registry[i] == c->method.member;                    \
-    }                                                              \
-    static const char *id##_word(size_t i)                         \
-    {                                                              \
-        return registry[i] ? registry[i]->name : NULL;             \
+#define OF_CASE(type, id, expression)               \
+    static type id(const struct br_extreme_case *c) \
+    {                                               \
+        return expression;                          \
     }
 
-BY_REGISTRY(scheme, br_time_schemes, scheme)
-BY_REGISTRY(solver, br_linear_solvers, solver)
-BY_REGISTRY(contact, br_contact_rules, contact)
-BY_REGISTRY(friction, br_friction_rules, friction)
+OF_CASE(const char *, scheme, c->method.scheme->name)
+OF_CASE(const char *, solver, c->method.solver->name)
+OF_CASE(const char *, contact, c->method.contact->name)
+OF_CASE(const char *, friction, c->method.friction->name)
+OF_CASE(const char *, law,
+        c->law == BR_TRESCA    ? "Tresca"
+        : c->law == BR_COULOMB ? "Coulomb"
+                               : "none")
+OF_CASE(const char *, special, br_extreme_special_name(c->special))
+OF_CASE(const char *, drawn, c->natural ? "groups without units" : "every number by itself")
 
-static bool is_law(const struct br_extreme_case *c, size_t i)
-{
-    return (size_t)c->law == i;
-}
-
-static const char *law_word(size_t i)
-{
-    static const char *const words[] = {"none", "Tresca", "Coulomb", NULL};
-    return words[i];
-}
-
-static bool is_special(const struct br_extreme_case *c, size_t i)
-{
-    return (size_t)c->special == i;
-}
-
-static const char *special_word(size_t i)
-{
-    return i < BR_SPECIALS ? br_extreme_special_name((enum br_extreme_special)i) : NULL;
-}
-
-static bool is_drawn(const struct br_extreme_case *c, size_t i)
-{
-    return c->natural == (i == 0);
-}
-
-static const char *drawn_word(size_t i)
-{
-    static const char *const words[] = {"groups without units", "every number by itself", NULL};
-    return words[i];
-}
-
-static const struct axis {
+static const struct kind {
     const char *title;
-    bool (*is)(const struct br_extreme_case *one, size_t i);
-    const char *(*word)(size_t i); /* NULL from the last one on */
-} axes[] = {
-    {"time scheme", is_scheme, scheme_word},
-    {"linear solver", is_solver, solver_word},
-    {"contact rule", is_contact, contact_word},
-    {"friction rule", is_friction, friction_word},
-    {"friction law", is_law, law_word},
-    {"on purpose", is_special, special_word},
-    {"drawn", is_drawn, drawn_word},
+    const char *(*word)(const struct br_extreme_case *one);
+} kinds[] = {
+    {"time scheme", scheme},   {"linear solver", solver},
+    {"contact rule", contact}, {"friction rule", friction},
+    {"friction law", law},     {"on purpose", special},
+    {"drawn", drawn},
 };
-enum { AXES = sizeof axes / sizeof *axes };
+enum { KINDS = sizeof kinds / sizeof *kinds };
 
-/* Fills the list, or counts what there is where it is NULL. */
-static size_t list_tallies(const struct br_extreme_map *m, struct br_extreme_tally *list)
+static int by_label(const void *a, const void *b)
 {
-    struct br_extreme_tally t = {.title = "all", .cases = m->cases};
-    size_t count = 1;
-    memcpy(t.count, m->count, sizeof t.count);
-    if (list)
-        list[0] = t;
-    for (const struct axis *a = axes; a < axes + AXES; a++)
-        for (size_t word = 0; a->word(word); word++) {
-            t = (struct br_extreme_tally){.title = a->title, .label = a->word(word)};
-            for (size_t i = 0; i < m->cases; i++)
-                if (a->is(&m->one[i], word)) {
-                    t.cases++;
-                    t.count[m->verdict[i].which]++;
-                }
-            if (list && t.cases)
-                list[count] = t;
-            count += t.cases > 0;
-        }
-    return count;
+    const struct br_extreme_tally *x = a, *y = b;
+    return strcmp(x->label, y->label);
+}
+
+/* The tallies of one kind, sorted. */
+static void add_tallies(struct br_extreme_counts *counts, const struct br_extreme_map *m,
+                        const struct kind *kind)
+{
+    struct br_extreme_tally *first = counts->tally + counts->tallies, *end = first;
+    for (size_t i = 0; i < m->cases; i++) {
+        struct br_extreme_tally *t = first;
+        const char *label = kind->word(&m->one[i]);
+        while (t < end && strcmp(t->label, label) != 0)
+            t++;
+        if (t == end)
+            *end++ = (struct br_extreme_tally){.title = kind->title, .label = label};
+        t->cases++;
+        t->count[m->verdict[i].which]++;
+    }
+    qsort(first, (size_t)(end - first), sizeof *first, by_label);
+    counts->tallies += (size_t)(end - first);
 }
 
 /* ---- reasons ---- */
@@ -420,12 +387,15 @@ static int by_class_and_count(const void *a, const void *b)
 enum br_status br_extreme_count(const struct br_extreme_map *m, struct br_extreme_counts *counts,
                                 struct br_error *err)
 {
-    *counts = (struct br_extreme_counts){.tallies = list_tallies(m, NULL)};
-    counts->tally = br_allocate(counts->tallies, sizeof *counts->tally);
+    *counts = (struct br_extreme_counts){.tallies = 1};
+    counts->tally = br_allocate(1 + KINDS * m->cases, sizeof *counts->tally);
     counts->reason = br_allocate(m->cases, sizeof *counts->reason);
     if (!counts->tally || !counts->reason)
         return br_no_memory(err, "the map's counts");
-    list_tallies(m, counts->tally);
+    counts->tally[0] = (struct br_extreme_tally){.title = "all", .cases = m->cases};
+    memcpy(counts->tally[0].count, m->count, sizeof m->count);
+    for (size_t i = 0; i < KINDS; i++)
+        add_tallies(counts, m, &kinds[i]);
     for (size_t i = 0; i < m->cases; i++)
         if (*m->verdict[i].why)
             add_reason(counts, &m->verdict[i], i);
@@ -461,12 +431,6 @@ struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *m)
 
 /* ---- planes ---- */
 
-#define OF_CASE(id, expression)                       \
-    static double id(const struct br_extreme_case *c) \
-    {                                                 \
-        return expression;                            \
-    }
-
 /* The beam, or a rod alone. */
 static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
 {
@@ -479,13 +443,13 @@ static double inertia(const struct br_extreme_case *c)
     return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
 }
 
-OF_CASE(relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
-OF_CASE(contact_ratio,
+OF_CASE(double, relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
+OF_CASE(double, contact_ratio,
         c->contact ? c->contact_stiffness * c->length / c->field[BR_AXIAL].stiffness : NAN)
-OF_CASE(step_ratio, 1 / (double)c->steps)
-OF_CASE(elements, (double)c->n)
-OF_CASE(load, fabs(main_part(c)->load.size))
-OF_CASE(stiffness, main_part(c)->stiffness)
+OF_CASE(double, step_ratio, 1 / (double)c->steps)
+OF_CASE(double, elements, (double)c->n)
+OF_CASE(double, load, fabs(main_part(c)->load.size))
+OF_CASE(double, stiffness, main_part(c)->stiffness)
 
 const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
     {"Contact and time step",

@@ -88,11 +88,7 @@ static bool follows_at_once(const struct br_planned_march *o)
     return br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
 }
 
-/* What solves the same equations more accurately on the same steps: a scheme that takes next to no
- * energy from a vibration, contact at the new time level, friction that does not iterate, and the
- * solver of the least round-off. A reference of the run's own scheme would not show what that damps
- * away in both. */
-static struct br_method with_scheme(const struct br_method *own, const char *scheme)
+struct br_method br_accurate_method(const struct br_method *own, const char *scheme)
 {
     struct br_method m = *own;
     m.scheme = br_time_scheme_find(scheme);
@@ -107,14 +103,14 @@ static struct br_method with_scheme(const struct br_method *own, const char *sch
 /* By equal steps: of the highest order where that is reached. */
 static struct br_method best_method(const struct br_planned_march *o)
 {
-    return with_scheme(o->method, follows_at_once(o) ? "euler" : "esdirk4");
+    return br_accurate_method(o->method, follows_at_once(o) ? "euler" : "esdirk4");
 }
 
 /* The same by a tolerance, smaller than the run's, or than that of a check. */
 static struct br_method tight_method(const struct br_method *own, double times)
 {
     const double from = own->scheme->adaptive ? own->tolerance : tight * tighter;
-    struct br_method m = with_scheme(own, "adaptive");
+    struct br_method m = br_accurate_method(own, "adaptive");
     m.tolerance = fmax(from / times, tightest);
     return m;
 }
