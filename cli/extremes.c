@@ -42,10 +42,10 @@ static const char *heeders(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++) {
+    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
         const size_t used = strlen(text);
-        if (heeds(*p, option))
-            snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", (*p)->name);
+        if (heeds(p, option))
+            snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", p->name);
     }
     return *text ? text : "no part";
 }
@@ -54,7 +54,7 @@ static const char *heeders(enum br_option_id option)
 static const char *part_title(size_t row)
 {
     static char text[256];
-    const struct br_extremes_part *part = br_extremes_parts[row];
+    const struct br_extremes_part *part = &br_extremes_parts[row];
     size_t used = (size_t)snprintf(text, sizeof text, "%.150s.", part->title);
     for (size_t i = 0; i < HEEDED && used < sizeof text; i++)
         if (heeds(part, heeded[i].id))
@@ -64,7 +64,7 @@ static const char *part_title(size_t row)
 
 static const char *part_name(size_t row)
 {
-    return br_extremes_parts[row] ? br_extremes_parts[row]->name : NULL;
+    return br_extremes_parts[row].name;
 }
 
 static const struct br_words parts = {part_name, part_title, NULL};
@@ -87,14 +87,14 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
 static enum br_status choose_parts(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++) {
+    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
         size_t times = 0;
         for (size_t i = 0; i < o->words; i++)
-            times += strcmp(o->word[i], (*p)->name) == 0;
+            times += strcmp(o->word[i], p->name) == 0;
         if (times > 1)
-            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", (*p)->name);
+            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", p->name);
         if ((times || !o->words) && r->parts < MOST_PARTS)
-            r->part[r->parts++] = *p;
+            r->part[r->parts++] = p;
     }
     return BR_OK;
 }

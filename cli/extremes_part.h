@@ -43,7 +43,7 @@ struct br_extremes_part {
     enum br_status (*run)(const struct br_extremes_job *job, struct br_error *err);
 };
 
-/* NULL-terminated, in the order in which they run (cli/extremes_parts.c). */
-extern const struct br_extremes_part *const br_extremes_parts[];
+/* In the order in which they run; ends with zeros (cli/extremes_parts.c). */
+extern const struct br_extremes_part br_extremes_parts[];
 
 #endif

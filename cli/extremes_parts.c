@@ -41,24 +41,10 @@ static enum br_status run_floors(const struct br_extremes_job *job, struct br_er
     return run_round_off(job, false, err);
 }
 
-static const struct br_extremes_part floors = {
-    .name = "floors",
-    .title = "round-off of every linear solver over n and k, measured and predicted",
-    .heeds = BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
-    .run = run_floors,
-};
-
 static enum br_status run_steps(const struct br_extremes_job *job, struct br_error *err)
 {
     return run_round_off(job, true, err);
 }
-
-static const struct br_extremes_part steps = {
-    .name = "steps",
-    .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
-    .heeds = BR_HEEDS(K) | BR_HEEDS(ROUNDING),
-    .run = run_steps,
-};
 
 /* The lagged contact's limit. */
 static enum br_status run_stability(const struct br_extremes_job *job, struct br_error *err)
@@ -82,13 +68,6 @@ static enum br_status run_stability(const struct br_extremes_job *job, struct br
     br_stability_clear(&s);
     return status;
 }
-
-static const struct br_extremes_part stability = {
-    .name = "stability",
-    .title = "the contact's stability limit over c_H and k, predicted and measured",
-    .heeds = BR_HEEDS(N) | BR_HEEDS(K),
-    .run = run_stability,
-};
 
 static enum br_status judge_energy(const struct br_energy_behaviour *b, struct br_error *err)
 {
@@ -122,12 +101,6 @@ static enum br_status run_energy(const struct br_extremes_job *job, struct br_er
     return status;
 }
 
-static const struct br_extremes_part energy = {
-    .name = "energy",
-    .title = "what every scheme takes from the energy or adds to it, each step's balance",
-    .run = run_energy,
-};
-
 enum { CASES = 2000, SEED = 1 };
 
 /* Thousands of cases at random, and none of them silently wrong. */
@@ -143,29 +116,48 @@ static enum br_status run_map(const struct br_extremes_job *job, struct br_error
         .observer = job->observer,
     };
     struct br_extreme_map map = {0};
-    struct br_extreme_counts counts = {0};
-    enum br_status status = br_extreme_map_run(&request, &map, err);
-    if (!status)
-        status = br_extreme_count(&map, &counts, err);
+    const enum br_status status = br_extreme_map_run(&request, &map, err);
     if (!status) {
-        br_report_map(&map, &counts, job->report);
+        br_report_map(&map, job->report);
         if (map.count[BR_EXTREME_WRONG])
             br_fail(job->verdict, BR_VERDICT,
                     "%zu of %zu cases are silently wrong, the first of them: %s",
                     map.count[BR_EXTREME_WRONG], map.cases, map.shrunk[0].command);
         br_session_draw(job->session, job->report, br_extreme_map_draw(&map), NULL);
     }
-    br_extreme_counts_clear(&counts);
     br_extreme_map_clear(&map);
     return status;
 }
 
-static const struct br_extremes_part map = {
-    .name = "map",
-    .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
-    .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(ROUNDING) | BR_HEEDS(RESUME),
-    .run = run_map,
+const struct br_extremes_part br_extremes_parts[] = {
+    {
+        .name = "floors",
+        .title = "round-off of every linear solver over n and k, measured and predicted",
+        .heeds = BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .run = run_floors,
+    },
+    {
+        .name = "steps",
+        .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
+        .heeds = BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .run = run_steps,
+    },
+    {
+        .name = "stability",
+        .title = "the contact's stability limit over c_H and k, predicted and measured",
+        .heeds = BR_HEEDS(N) | BR_HEEDS(K),
+        .run = run_stability,
+    },
+    {
+        .name = "energy",
+        .title = "what every scheme takes from the energy or adds to it, each step's balance",
+        .run = run_energy,
+    },
+    {
+        .name = "map",
+        .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
+        .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(ROUNDING) | BR_HEEDS(RESUME),
+        .run = run_map,
+    },
+    {0},
 };
-
-const struct br_extremes_part *const br_extremes_parts[] = {&floors, &steps, &stability,
-                                                            &energy, &map,   NULL};

@@ -5,11 +5,11 @@
 #include "study/extremes/map.h"
 #include "tables/reports.h"
 
-static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
+static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
 {
     br_put_table(d, "tally", "What was tried, and what came of it", 0);
-    for (size_t i = 0; i < counts->tallies; i++) {
-        const struct br_extreme_tally *t = &counts->tally[i];
+    for (size_t i = 0; i < m->tallies; i++) {
+        const struct br_extreme_tally *t = &m->tally[i];
         br_put_row(d);
         BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
         BR_PUT(d, br_text(t->label), .key = "range");
@@ -20,13 +20,13 @@ static void put_tallies(struct br_document *d, const struct br_extreme_counts *c
     }
 }
 
-static void put_reasons(struct br_document *d, const struct br_extreme_counts *counts)
+static void put_reasons(struct br_document *d, const struct br_extreme_map *m)
 {
     static const struct br_column columns[] = {
         {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
-    for (size_t i = 0; i < counts->reasons; i++) {
-        const struct br_extreme_reason *r = &counts->reason[i];
+    for (size_t i = 0; i < m->reasons; i++) {
+        const struct br_extreme_reason *r = &m->reason[i];
         br_put_row(d);
         br_put(d, "kind", br_text(br_extreme_names[r->which].word));
         br_put_shown(d, "%s", br_extreme_names[r->which].heading);
@@ -159,15 +159,14 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         compared, units);
 }
 
-void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,
-                   struct br_document *d)
+void br_report_map(const struct br_extreme_map *m, struct br_document *d)
 {
     char again[120];
     br_document_begin(d, "map", "beamrate extremes map", 1,
                       "The map of extremes: right, or refused; never silently wrong");
     answer_map(d, m);
-    put_tallies(d, counts);
-    put_reasons(d, counts);
+    put_tallies(d, m);
+    put_reasons(d, m);
     put_wrong(d, m);
     put_cases(d, m);
     note_judging(d, m);

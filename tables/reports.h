@@ -11,7 +11,6 @@ struct br_check;
 struct br_comparison;
 struct br_energy_behaviour;
 struct br_estimate;
-struct br_extreme_counts;
 struct br_extreme_map;
 struct br_finding;
 struct br_floors;
@@ -126,7 +125,6 @@ void br_report_plan(const struct br_plan *plan, const char *scene_word,
 void br_report_floors(const struct br_floors *floors, struct br_document *d);
 void br_report_stability(const struct br_stability *stability, struct br_document *d);
 void br_report_energy(const struct br_energy_behaviour *behaviour, struct br_document *d);
-void br_report_map(const struct br_extreme_map *map, const struct br_extreme_counts *counts,
-                   struct br_document *d);
+void br_report_map(const struct br_extreme_map *map, struct br_document *d);
 
 #endif

@@ -118,18 +118,18 @@ static enum br_status run_slow(const struct br_extremes_job *j, struct br_error 
     return status;
 }
 
-static const struct br_extremes_part fast = {
-    .name = "fast",
-    .title = "says what it was asked for",
-    .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
-    .run = run_fast,
+const struct br_extremes_part br_extremes_parts[] = {
+    {
+        .name = "fast",
+        .title = "says what it was asked for",
+        .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .run = run_fast,
+    },
+    {
+        .name = "slow",
+        .title = "takes long",
+        .heeds = BR_HEEDS(CASES) | BR_HEEDS(RESUME),
+        .run = run_slow,
+    },
+    {0},
 };
-
-static const struct br_extremes_part slow = {
-    .name = "slow",
-    .title = "takes long",
-    .heeds = BR_HEEDS(CASES) | BR_HEEDS(RESUME),
-    .run = run_slow,
-};
-
-const struct br_extremes_part *const br_extremes_parts[] = {&fast, &slow, NULL};

@@ -60,8 +60,6 @@ enum change {
     HALF_ELEMENTS,
     HALF_DURATION, /* with the step kept */
     HALF_STEPS,    /* with the duration kept */
-    UNIT_LENGTH,
-    UNIT_DURATION,
     CHANGES
 };
 
@@ -116,12 +114,6 @@ static void make(enum change change, struct br_extreme_case *c)
         break;
     case HALF_STEPS:
         c->steps = (c->steps + 1) / 2;
-        break;
-    case UNIT_LENGTH:
-        c->length = 1;
-        break;
-    case UNIT_DURATION:
-        c->duration = 1;
         break;
     case CHANGES:
         break;
@@ -186,7 +178,7 @@ static enum br_status attempt(struct shrinking *s, const struct br_extreme_case 
     return BR_OK;
 }
 
-/* All changes, then each number becomes 0, or has one digit left. */
+/* All changes, then each number becomes 0, or 1, or has one digit left. */
 static enum br_status try_all(struct shrinking *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -199,8 +191,7 @@ static enum br_status try_all(struct shrinking *s, struct br_error *err)
     for (size_t i = 0; i < 2 * NUMBERS && !status; i++) {
         struct br_extreme_case smaller = s->best->one;
         double *number = number_of(&smaller, i / 2);
-        if (i % 2 || i / 2 < NOT_ZERO)
-            *number = i % 2 ? one_digit(*number) : 0;
+        *number = i % 2 ? one_digit(*number) : i / 2 < NOT_ZERO ? 0 : 1;
         status = attempt(s, &smaller, err);
     }
     return status;
@@ -233,49 +224,6 @@ static enum br_status shrink(void *self, size_t i, struct br_error *err)
     while (s.gained && !status && s.asked < MOST_QUESTIONS)
         status = try_all(&s, err);
     return status ? status : write_scene(work->request, s.best, s.text, err);
-}
-
-/* ---- all ---- */
-
-static enum br_status run(struct work *work, struct br_error *err)
-{
-    struct br_extreme_map *m = work->map;
-    struct br_each each = {.count = m->cases,
-                           .threads = work->request->threads,
-                           .observer = work->request->observer,
-                           .turn = do_case,
-                           .self = work};
-    const enum br_status status = br_each(&each, err);
-    if (status)
-        return status;
-    for (size_t i = 0; i < m->cases; i++) {
-        m->count[m->verdict[i].which]++;
-        if (m->verdict[i].which == BR_EXTREME_WRONG && m->shrunks < BR_EXTREME_MOST_SHRUNK)
-            m->shrunk[m->shrunks++] =
-                (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
-    }
-    each = (struct br_each){
-        .count = m->shrunks, .threads = each.threads, .turn = shrink, .self = work};
-    return br_each(&each, err);
-}
-
-enum br_status br_extreme_map_run(const struct br_extreme_request *request,
-                                  struct br_extreme_map *map, struct br_error *err)
-{
-    *map = (struct br_extreme_map){.seed = request->seed, .cases = request->cases};
-    struct work work = {.request = request, .map = map};
-    map->one = br_allocate(request->cases, sizeof *map->one);
-    map->verdict = br_allocate(request->cases, sizeof *map->verdict);
-    map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    return map->one && map->verdict && map->shrunk ? run(&work, err) : br_no_memory(err, "the map");
-}
-
-void br_extreme_map_clear(struct br_extreme_map *map)
-{
-    free(map->one);
-    free(map->verdict);
-    free(map->shrunk);
-    *map = (struct br_extreme_map){0};
 }
 
 /* ---- tallies ---- */
@@ -315,10 +263,9 @@ static int by_label(const void *a, const void *b)
 }
 
 /* The tallies of one kind, sorted. */
-static void add_tallies(struct br_extreme_counts *counts, const struct br_extreme_map *m,
-                        const struct kind *kind)
+static void add_tallies(struct br_extreme_map *m, const struct kind *kind)
 {
-    struct br_extreme_tally *first = counts->tally + counts->tallies, *end = first;
+    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
     for (size_t i = 0; i < m->cases; i++) {
         struct br_extreme_tally *t = first;
         const char *label = kind->word(&m->one[i]);
@@ -330,7 +277,7 @@ static void add_tallies(struct br_extreme_counts *counts, const struct br_extrem
         t->count[m->verdict[i].which]++;
     }
     qsort(first, (size_t)(end - first), sizeof *first, by_label);
-    counts->tallies += (size_t)(end - first);
+    m->tallies += (size_t)(end - first);
 }
 
 /* ---- reasons ---- */
@@ -359,19 +306,19 @@ static void generalise(const char *why, char text[150])
     text[used] = '\0';
 }
 
-static void add_reason(struct br_extreme_counts *counts, const struct br_extreme_verdict *v,
-                       size_t index)
+static void add_reason(struct br_extreme_map *m, size_t index)
 {
+    const struct br_extreme_verdict *v = &m->verdict[index];
     struct br_extreme_reason found = {.which = v->which, .cases = 1, .first = index};
     generalise(v->why, found.text);
-    for (size_t i = 0; i < counts->reasons; i++) {
-        struct br_extreme_reason *r = &counts->reason[i];
+    for (size_t i = 0; i < m->reasons; i++) {
+        struct br_extreme_reason *r = &m->reason[i];
         if (r->which == found.which && strcmp(r->text, found.text) == 0) {
             r->cases++;
             return;
         }
     }
-    counts->reason[counts->reasons++] = found;
+    m->reason[m->reasons++] = found;
 }
 
 static int by_class_and_count(const void *a, const void *b)
@@ -384,30 +331,61 @@ static int by_class_and_count(const void *a, const void *b)
     return (x->first > y->first) - (x->first < y->first);
 }
 
-enum br_status br_extreme_count(const struct br_extreme_map *m, struct br_extreme_counts *counts,
-                                struct br_error *err)
+/* ---- all ---- */
+
+static enum br_status run(struct work *work, struct br_error *err)
 {
-    *counts = (struct br_extreme_counts){.tallies = 1};
-    counts->tally = br_allocate(1 + KINDS * m->cases, sizeof *counts->tally);
-    counts->reason = br_allocate(m->cases, sizeof *counts->reason);
-    if (!counts->tally || !counts->reason)
-        return br_no_memory(err, "the map's counts");
-    counts->tally[0] = (struct br_extreme_tally){.title = "all", .cases = m->cases};
-    memcpy(counts->tally[0].count, m->count, sizeof m->count);
+    struct br_extreme_map *m = work->map;
+    struct br_each each = {.count = m->cases,
+                           .threads = work->request->threads,
+                           .observer = work->request->observer,
+                           .turn = do_case,
+                           .self = work};
+    const enum br_status status = br_each(&each, err);
+    if (status)
+        return status;
+    for (size_t i = 0; i < m->cases; i++) {
+        m->count[m->verdict[i].which]++;
+        if (m->verdict[i].which == BR_EXTREME_WRONG && m->shrunks < BR_EXTREME_MOST_SHRUNK)
+            m->shrunk[m->shrunks++] =
+                (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
+    }
+    m->tallies = 1;
+    m->tally[0] = (struct br_extreme_tally){.title = "all", .cases = m->cases};
+    memcpy(m->tally[0].count, m->count, sizeof m->count);
     for (size_t i = 0; i < KINDS; i++)
-        add_tallies(counts, m, &kinds[i]);
+        add_tallies(m, &kinds[i]);
     for (size_t i = 0; i < m->cases; i++)
         if (*m->verdict[i].why)
-            add_reason(counts, &m->verdict[i], i);
-    qsort(counts->reason, counts->reasons, sizeof *counts->reason, by_class_and_count);
-    return BR_OK;
+            add_reason(m, i);
+    qsort(m->reason, m->reasons, sizeof *m->reason, by_class_and_count);
+    each = (struct br_each){
+        .count = m->shrunks, .threads = each.threads, .turn = shrink, .self = work};
+    return br_each(&each, err);
 }
 
-void br_extreme_counts_clear(struct br_extreme_counts *counts)
+enum br_status br_extreme_map_run(const struct br_extreme_request *request,
+                                  struct br_extreme_map *map, struct br_error *err)
 {
-    free(counts->tally);
-    free(counts->reason);
-    *counts = (struct br_extreme_counts){0};
+    *map = (struct br_extreme_map){.seed = request->seed, .cases = request->cases};
+    struct work work = {.request = request, .map = map};
+    map->one = br_allocate(request->cases, sizeof *map->one);
+    map->verdict = br_allocate(request->cases, sizeof *map->verdict);
+    map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
+    map->tally = br_allocate(1 + KINDS * request->cases, sizeof *map->tally);
+    map->reason = br_allocate(request->cases, sizeof *map->reason);
+    const bool full = map->one && map->verdict && map->shrunk && map->tally && map->reason;
+    return full ? run(&work, err) : br_no_memory(err, "the map");
+}
+
+void br_extreme_map_clear(struct br_extreme_map *map)
+{
+    free(map->one);
+    free(map->verdict);
+    free(map->shrunk);
+    free(map->tally);
+    free(map->reason);
+    *map = (struct br_extreme_map){0};
 }
 
 /* ---- rates ---- */

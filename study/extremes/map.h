@@ -34,24 +34,6 @@ struct br_extreme_shrunk {
     char command[BR_EXTREME_COMMAND]; /* that repeats it */
 };
 
-struct br_extreme_map {
-    uint64_t seed;
-    size_t cases;
-    struct br_extreme_case *one;        /* cases; owned */
-    struct br_extreme_verdict *verdict; /* cases; owned */
-    size_t count[BR_EXTREME_CLASSES];
-    struct br_extreme_shrunk *shrunk; /* owned */
-    size_t shrunks;                   /* of the first ones that are wrong */
-};
-
-/* Fills the map (out; clear it even after a failure). Fails with BR_NO_MEMORY, BR_IO, and with
- * BR_INTERRUPTED. */
-enum br_status br_extreme_map_run(const struct br_extreme_request *request,
-                                  struct br_extreme_map *map, struct br_error *err);
-void br_extreme_map_clear(struct br_extreme_map *map);
-
-/* ---- counts ---- */
-
 /* The cases of a kind. */
 struct br_extreme_tally {
     const char *title; /* what they are counted by: "time scheme" */
@@ -66,17 +48,25 @@ struct br_extreme_reason {
     size_t cases, first; /* an index */
 };
 
-struct br_extreme_counts {
-    struct br_extreme_tally *tally; /* tallies, all cases first; owned */
+struct br_extreme_map {
+    uint64_t seed;
+    size_t cases;
+    struct br_extreme_case *one;        /* cases; owned */
+    struct br_extreme_verdict *verdict; /* cases; owned */
+    size_t count[BR_EXTREME_CLASSES];
+    struct br_extreme_shrunk *shrunk; /* owned */
+    size_t shrunks;                   /* of the first ones that are wrong */
+    struct br_extreme_tally *tally;   /* tallies, all cases first; owned */
     size_t tallies;
     struct br_extreme_reason *reason; /* reasons, by class and then by count; owned */
     size_t reasons;
 };
 
-/* Counts (out; clear them even after a failure). Fails with BR_NO_MEMORY. */
-enum br_status br_extreme_count(const struct br_extreme_map *map, struct br_extreme_counts *counts,
-                                struct br_error *err);
-void br_extreme_counts_clear(struct br_extreme_counts *counts);
+/* Fills the map (out; clear it even after a failure). Fails with BR_NO_MEMORY, BR_IO, and with
+ * BR_INTERRUPTED. */
+enum br_status br_extreme_map_run(const struct br_extreme_request *request,
+                                  struct br_extreme_map *map, struct br_error *err);
+void br_extreme_map_clear(struct br_extreme_map *map);
 
 /* Answers: cases that were marched and judged; and what they state. */
 struct br_extreme_rate {

@@ -51,29 +51,23 @@ enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scen
     const struct br_field f = br_field_of_scene(scene, kind, BR_MODE_ELEMENTS, NAN);
     const size_t size = br_field_unknowns(&f) * f.n;
     *mode = (struct br_beam_mode){.kind = kind, .length = scene->length};
-    gsl_matrix *k = gsl_matrix_calloc(size, size), *m = gsl_matrix_calloc(size, size),
-               *kept = gsl_matrix_calloc(size, size), *vectors = gsl_matrix_calloc(size, size);
-    gsl_vector *values = gsl_vector_calloc(size);
+    double room[4][BR_MODE_UNKNOWNS * BR_MODE_UNKNOWNS] = {{0}}, value[BR_MODE_UNKNOWNS];
+    gsl_matrix_view k = gsl_matrix_view_array(room[0], size, size),
+                    m = gsl_matrix_view_array(room[1], size, size),
+                    kept = gsl_matrix_view_array(room[2], size, size),
+                    vectors = gsl_matrix_view_array(room[3], size, size);
+    gsl_vector_view values = gsl_vector_view_array(value, size);
     gsl_eigen_gensymmv_workspace *w = gsl_eigen_gensymmv_alloc(size);
-    enum br_status status = BR_OK;
-    if (!k || !m || !kept || !vectors || !values || !w) {
-        status = br_no_memory(err, "a mode");
-        goto done;
-    }
-    assemble(&f, k, m);
-    gsl_matrix_memcpy(kept, m);
-    if (gsl_eigen_gensymmv(k, m, values, vectors, w))
-        status = br_fail(err, BR_SINGULAR, "the modes of %zu elements were not found", f.n);
-    else
-        take_lowest(mode, values, vectors, kept);
-done:
+    if (!w)
+        return br_no_memory(err, "a mode");
+    assemble(&f, &k.matrix, &m.matrix);
+    gsl_matrix_memcpy(&kept.matrix, &m.matrix);
+    const int failed = gsl_eigen_gensymmv(&k.matrix, &m.matrix, &values.vector, &vectors.matrix, w);
     gsl_eigen_gensymmv_free(w);
-    gsl_vector_free(values);
-    gsl_matrix_free(vectors);
-    gsl_matrix_free(kept);
-    gsl_matrix_free(m);
-    gsl_matrix_free(k);
-    return status;
+    if (failed)
+        return br_fail(err, BR_SINGULAR, "the modes of %zu elements were not found", f.n);
+    take_lowest(mode, &values.vector, &vectors.matrix, &kept.matrix);
+    return BR_OK;
 }
 
 double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal)
