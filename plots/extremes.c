@@ -156,18 +156,19 @@ static void to_edges(size_t count, double *edge)
     edge[0] /= first;
 }
 
-static void fill_cells(const struct br_stability *s, const struct br_stability_plane *plane,
+static void fill_cells(const struct br_stability *s, const struct br_stability_row *row,
                        struct br_figure *figure)
 {
     struct br_cells *c = br_cells_make(figure, BR_STABILITY_COLUMNS, s->rows);
     if (!c)
         return;
     memcpy(c->x, s->stiffness, BR_STABILITY_COLUMNS * sizeof *c->x);
-    for (size_t i = 0; i < s->rows; i++)
-        c->y[i] = plane->row[i].k;
+    for (size_t i = 0; i < s->rows; i++) {
+        c->y[i] = row[i].k;
+        memcpy(c->value + i * BR_STABILITY_COLUMNS, row[i].radius, sizeof row[i].radius);
+    }
     to_edges(BR_STABILITY_COLUMNS, c->x);
     to_edges(s->rows, c->y);
-    memcpy(c->value, plane->radius, s->rows * BR_STABILITY_COLUMNS * sizeof *c->value);
 }
 
 struct br_figure br_stability_draw(const struct br_stability *s)
@@ -176,17 +177,17 @@ struct br_figure br_stability_draw(const struct br_stability *s)
     BR_SAY(figure->title, "The closed lagged contact: growth of an error in a step, measured");
     BR_SAY(figure->value_label, "largest eigenvalue of a step");
     for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
-        const struct br_stability_plane *plane = &s->plane[i];
+        const struct br_stability_row *row = &s->row[i * s->rows];
         struct br_panel *p = br_panel_add(figure, "c_H (N/m)", "k (s)");
         p->log_x = p->log_y = true;
-        BR_SAY(p->title, "%s", plane->rod->title);
-        fill_cells(s, plane, figure);
+        BR_SAY(p->title, "%s", row->rod->title);
+        fill_cells(s, row, figure);
         struct br_series *limit = br_series_add(figure, BR_PEN_GUIDE, "predicted limit");
         struct br_series *bouncing =
             br_series_add(figure, BR_PEN_GUIDE, "no energy is gained left of this");
         for (size_t j = 0; j < s->rows; j++) {
-            br_point_add(limit, plane->row[j].limit, plane->row[j].k, NULL);
-            br_point_add(bouncing, plane->row[j].bouncing, plane->row[j].k, NULL);
+            br_point_add(limit, row[j].limit, row[j].k, NULL);
+            br_point_add(bouncing, row[j].bouncing, row[j].k, NULL);
         }
     }
     return picture;

@@ -143,12 +143,11 @@ static void put_limits(struct br_document *d, const struct br_stability *s)
 {
     br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY);
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
-        const struct br_stability_plane *p = &s->plane[i / s->rows];
-        const struct br_stability_row *r = &p->row[i % s->rows];
+        const struct br_stability_row *r = &s->row[i];
         br_put_row(d);
-        BR_PUT(d, br_text(p->rod->title), .key = "rod");
-        BR_PUT(d, br_number(p->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
-        BR_PUT(d, br_number(p->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
+        BR_PUT(d, br_text(r->rod->title), .key = "rod");
+        BR_PUT(d, br_number(r->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+        BR_PUT(d, br_number(r->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
         BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.4g");
         BR_PUT(d, br_number(r->limit), .key = "predicted", .unit = "N/m", .format = "%.12g");
         BR_PUT(d, br_number(r->measured), .key = "measured", .unit = "N/m", .format = "%.12g");
@@ -158,21 +157,17 @@ static void put_limits(struct br_document *d, const struct br_stability *s)
 
 static void put_growth(struct br_document *d, const struct br_stability *s)
 {
-    const size_t cells = s->rows * BR_STABILITY_COLUMNS;
     br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY);
-    for (size_t i = 0; i < BR_STABILITY_RODS * cells; i++) {
-        const struct br_stability_plane *p = &s->plane[i / cells];
-        const size_t at = i % cells;
-        const double growth = p->growth[at];
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows * BR_STABILITY_COLUMNS; i++) {
+        const struct br_stability_row *r = &s->row[i / BR_STABILITY_COLUMNS];
+        const size_t j = i % BR_STABILITY_COLUMNS;
         br_put_row(d);
-        BR_PUT(d, br_text(p->rod->name), .key = "rod");
-        BR_PUT(d, br_number(p->row[at / BR_STABILITY_COLUMNS].k), .key = "k", .unit = "s",
-               .format = "%.6g");
-        BR_PUT(d, br_number(s->stiffness[at % BR_STABILITY_COLUMNS]), .key = "c_H", .unit = "N/m",
-               .format = "%.6g");
-        BR_PUT(d, br_number(p->radius[at]), .key = "eigenvalue", .heading = "largest eigenvalue",
+        BR_PUT(d, br_text(r->rod->name), .key = "rod");
+        BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.6g");
+        BR_PUT(d, br_number(s->stiffness[j]), .key = "c_H", .unit = "N/m", .format = "%.6g");
+        BR_PUT(d, br_number(r->radius[j]), .key = "eigenvalue", .heading = "largest eigenvalue",
                .format = "%.15g");
-        BR_PUT(d, br_number(growth > 1 ? growth : NAN), .key = "predicted",
+        BR_PUT(d, br_number(r->growth[j] > 1 ? r->growth[j] : NAN), .key = "predicted",
                .heading = "predicted growth", .format = "%.15g");
     }
 }

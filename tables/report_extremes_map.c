@@ -70,7 +70,7 @@ static void put_case(struct br_document *d, const struct br_extreme_case *c, siz
     br_put_row(d);
     BR_PUT(d, br_count(index), .key = "case");
     BR_PUT(d, br_text(br_extreme_names[v->which].word), .key = "verdict");
-    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)), .key = "judge");
+    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_judges[v->by]), .key = "judge");
     BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
     BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
            .format = "%.2e");

@@ -13,19 +13,15 @@
 #include "study/scene/random.h"
 #include "study/scene/schema.h"
 
-const char *br_extreme_special_name(enum br_extreme_special special)
-{
-    static const char *const names[BR_SPECIALS] = {
-        [BR_SPECIAL_NONE] = "none",
-        [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
-        [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
-        [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
-        [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
-        [BR_SPECIAL_DENORMAL] = "denormal loads",
-        [BR_SPECIAL_ZEROS] = "numbers that are 0",
-    };
-    return names[special];
-}
+const char *const br_extreme_specials[] = {
+    [BR_SPECIAL_NONE] = "none",
+    [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
+    [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
+    [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
+    [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
+    [BR_SPECIAL_DENORMAL] = "denormal loads",
+    [BR_SPECIAL_ZEROS] = "numbers that are 0",
+};
 
 /* ---- forces ---- */
 

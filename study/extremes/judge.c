@@ -45,11 +45,7 @@ const struct br_extreme_names br_extreme_names[] = {
     {"wrong", "silently wrong", "silently wrong"},
 };
 
-const char *br_extreme_by_name(enum br_extreme_by by)
-{
-    static const char *const names[] = {"nobody", "the exact solution", "refinement"};
-    return names[by];
-}
+const char *const br_extreme_judges[] = {"nobody", "the exact solution", "refinement"};
 
 /* Decides a case, once and for all; the format is of what is to be said. */
 __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
@@ -203,7 +199,7 @@ static void decide_accuracy(struct trial *t)
         decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
     else
         decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", t->error,
-               br_extreme_by_name(v->by), v->stated);
+               br_extreme_judges[v->by], v->stated);
 }
 
 static enum br_status judge_accuracy(struct trial *t, struct br_error *err)

@@ -36,7 +36,7 @@ extern const struct br_extreme_names br_extreme_names[BR_EXTREME_CLASSES];
 
 /* Who tells how accurate it is. */
 enum br_extreme_by { BR_BY_NOBODY, BR_BY_EXACT, BR_BY_REFINEMENT };
-const char *br_extreme_by_name(enum br_extreme_by by);
+extern const char *const br_extreme_judges[];
 
 struct br_extreme_verdict {
     enum br_extreme_class which;

@@ -242,7 +242,7 @@ OF_CASE(const char *, law,
         c->law == BR_TRESCA    ? "Tresca"
         : c->law == BR_COULOMB ? "Coulomb"
                                : "none")
-OF_CASE(const char *, special, br_extreme_special_name(c->special))
+OF_CASE(const char *, special, br_extreme_specials[c->special])
 OF_CASE(const char *, drawn, c->natural ? "groups without units" : "every number by itself")
 
 static const struct kind {

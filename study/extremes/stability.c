@@ -63,25 +63,22 @@ static enum br_status find_limit(const struct br_field *field, double low, doubl
     return BR_OK;
 }
 
-static enum br_status measure_row(struct br_stability *s, size_t plane, size_t row,
-                                  struct br_error *err)
+static enum br_status measure_row(void *self, size_t i, struct br_error *err)
 {
-    struct br_stability_plane *p = &s->plane[plane];
-    struct br_stability_row *r = &p->row[row];
-    const struct br_field field = br_stability_field(p->rod, s->n, r->k);
+    const struct br_stability *s = self;
+    struct br_stability_row *r = &s->row[i];
+    const struct br_field field = br_stability_field(r->rod, s->n, r->k);
     r->limit = br_contact_limit_stiffness(&field);
     r->bouncing = br_contact_limit_bouncing(&field);
     r->measured = NAN;
-    double *radius = p->radius + row * BR_STABILITY_COLUMNS,
-           *growth = p->growth + row * BR_STABILITY_COLUMNS;
     for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
-        const enum br_status status = br_step_radius(&field, s->stiffness[j], &radius[j], err);
+        const enum br_status status = br_step_radius(&field, s->stiffness[j], &r->radius[j], err);
         if (status)
             return status;
-        growth[j] = br_contact_growth(&field, s->stiffness[j]);
+        r->growth[j] = br_contact_growth(&field, s->stiffness[j]);
     }
     size_t first = 0;
-    while (first < BR_STABILITY_COLUMNS && !(radius[first] > 1 + outside))
+    while (first < BR_STABILITY_COLUMNS && !(r->radius[first] > 1 + outside))
         first++;
     if (first == 0 || first == BR_STABILITY_COLUMNS)
         return BR_OK; /* no limit within the columns */
@@ -90,12 +87,6 @@ static enum br_status measure_row(struct br_stability *s, size_t plane, size_t r
 
 /* ---- all rows ---- */
 
-static enum br_status take_turn(void *self, size_t i, struct br_error *err)
-{
-    struct br_stability *s = self;
-    return measure_row(s, i / s->rows, i % s->rows, err);
-}
-
 static enum br_status measure_planes(struct br_stability *s,
                                      const struct br_stability_request *request,
                                      struct br_error *err)
@@ -103,7 +94,7 @@ static enum br_status measure_planes(struct br_stability *s,
     const struct br_each each = {.count = BR_STABILITY_RODS * s->rows,
                                  .threads = request->threads,
                                  .observer = request->observer,
-                                 .turn = take_turn,
+                                 .turn = measure_row,
                                  .self = s};
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
     const enum br_status status = br_each(&each, err);
@@ -126,33 +117,24 @@ static enum br_status check_request(const struct br_stability_request *q, struct
     return BR_OK;
 }
 
-static enum br_status make_plane(struct br_stability *s, size_t i, const double *k,
-                                 struct br_error *err)
-{
-    struct br_stability_plane *p = &s->plane[i];
-    p->rod = &br_stability_rods[i];
-    p->row = br_allocate(s->rows, sizeof *p->row);
-    p->radius = br_allocate(s->rows * BR_STABILITY_COLUMNS, sizeof *p->radius);
-    p->growth = br_allocate(s->rows * BR_STABILITY_COLUMNS, sizeof *p->growth);
-    if (!p->row || !p->radius || !p->growth)
-        return br_no_memory(err, "a plane of stability");
-    for (size_t j = 0; j < s->rows; j++)
-        p->row[j].k = k ? k[j] : pow(10, -6 + (double)j / A_DECADE);
-    gsl_sort(&p->row->k, sizeof *p->row / sizeof p->row->k, s->rows);
-    return BR_OK;
-}
-
 static enum br_status prepare(struct br_stability *s, const struct br_stability_request *q,
                               struct br_error *err)
 {
     s->n = q->n ? q->n : 8;
     s->rows = q->k_count ? q->k_count : DECADES_OF_STEPS * A_DECADE + 1;
+    s->row = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *s->row);
+    if (!s->row)
+        return br_no_memory(err, "the planes of stability");
     for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++)
         s->stiffness[j] = pow(10, (double)j / A_DECADE);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_STABILITY_RODS && !status; i++)
-        status = make_plane(s, i, q->k_count ? q->k : NULL, err);
-    return status;
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
+        const size_t j = i % s->rows;
+        s->row[i].rod = &br_stability_rods[i / s->rows];
+        s->row[i].k = q->k_count ? q->k[j] : pow(10, -6 + (double)j / A_DECADE);
+    }
+    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
+        gsl_sort(&s->row[i * s->rows].k, sizeof *s->row / sizeof s->row->k, s->rows);
+    return BR_OK;
 }
 
 /* ---- what has come out ---- */
@@ -164,32 +146,21 @@ static void raise(double *most, double value)
         *most = value;
 }
 
-static void sum_up_row(struct br_stability *s, const struct br_stability_plane *p, size_t row)
+static void sum_up(struct br_stability *s, const struct br_stability_row *r)
 {
-    const struct br_stability_row *r = &p->row[row];
-    const double *radius = p->radius + row * BR_STABILITY_COLUMNS,
-                 *growth = p->growth + row * BR_STABILITY_COLUMNS;
     const bool within =
         r->limit > s->stiffness[0] && r->limit < s->stiffness[BR_STABILITY_COLUMNS - 1];
     if (within || isfinite(r->measured))
         raise(&s->limit_error, fabs(r->measured / r->limit - 1));
     for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
         s->cells++;
-        if (growth[j] > 1) {
+        if (r->growth[j] > 1) {
             s->growing++;
-            raise(&s->growth_error, fabs(radius[j] / growth[j] - 1));
+            raise(&s->growth_error, fabs(r->radius[j] / r->growth[j] - 1));
         } else {
-            raise(&s->excess, fmax(radius[j] - 1, 0));
+            raise(&s->excess, fmax(r->radius[j] - 1, 0));
         }
     }
-}
-
-static void sum_up(struct br_stability *s)
-{
-    s->limit_error = s->growth_error = s->excess = 0;
-    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
-        for (size_t row = 0; row < s->rows; row++)
-            sum_up_row(s, &s->plane[i], row);
 }
 
 enum br_status br_stability_run(const struct br_stability_request *request, struct br_stability *s,
@@ -199,18 +170,14 @@ enum br_status br_stability_run(const struct br_stability_request *request, stru
     const bool failed = check_request(request, err) || prepare(s, request, err) ||
                         measure_planes(s, request, err) || br_stability_schemes(s, err) ||
                         br_stability_tips(s, err) || br_stability_bounces(s, err);
-    if (!failed)
-        sum_up(s);
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows && !failed; i++)
+        sum_up(s, &s->row[i]);
     return failed ? err->status : BR_OK;
 }
 
 void br_stability_clear(struct br_stability *s)
 {
-    for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
-        free(s->plane[i].row);
-        free(s->plane[i].radius);
-        free(s->plane[i].growth);
-    }
+    free(s->row);
     *s = (struct br_stability){0};
 }
 

@@ -28,20 +28,15 @@ struct br_stability_rod {
 };
 extern const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS];
 
-/* One time step of a plane. */
+/* The closed lagged contact of one rod at one time step. */
 struct br_stability_row {
+    const struct br_stability_rod *rod;
     double k;        /* s */
     double limit;    /* predicted: the largest stable c_H, N/m */
     double measured; /* where the largest eigenvalue of marched steps leaves the unit circle */
     double bouncing; /* below it no energy is gained, however the contact opens and closes */
-};
-
-/* The closed lagged contact of one rod. */
-struct br_stability_plane {
-    const struct br_stability_rod *rod;
-    struct br_stability_row *row; /* rows of the table; owned */
-    double *radius; /* measured, by rows of BR_STABILITY_COLUMNS: largest eigenvalue; owned */
-    double *growth; /* predicted: br_contact_growth; owned */
+    double radius[BR_STABILITY_COLUMNS]; /* measured: largest eigenvalue */
+    double growth[BR_STABILITY_COLUMNS]; /* predicted: br_contact_growth */
 };
 
 /* Contact at u_n with one scheme: a rod that is pressed to its rest by a constant load, for all c_H
@@ -75,15 +70,15 @@ struct br_stability_bounce {
 enum { BR_STABILITY_TIPS = 9, BR_STABILITY_BOUNCES = 8, BR_STABILITY_SCHEMES = 12 };
 
 struct br_stability {
-    size_t n, rows;
+    size_t n, rows;                         /* rows: of each rod */
     double stiffness[BR_STABILITY_COLUMNS]; /* c_H, N/m */
-    struct br_stability_plane plane[BR_STABILITY_RODS];
+    struct br_stability_row *row;           /* by rod, k; owned */
     struct br_stability_scheme scheme[BR_STABILITY_SCHEMES];
     size_t schemes;
     double tip_k, bounce_k; /* s */
     struct br_stability_tip tip[BR_STABILITY_TIPS];
     struct br_stability_bounce bounce[BR_STABILITY_BOUNCES];
-    /* In all planes: */
+    /* In all rows: */
     size_t cells, growing; /* growing: predicted */
     double limit_error;    /* largest |measured / predicted - 1| of the limits */
     double growth_error;   /* and of the growth where there is any */
