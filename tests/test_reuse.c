@@ -193,7 +193,7 @@ static void test_not_resumed(void **state)
     cli_run_line(line, NULL, &out);
     assert_int_equal(out.exit_code, 0);
     assert_null(strstr(out.output, "were taken"));
-    cli_expect(line, NULL, 0, "trials taken from n/.kept: 4");
+    cli_expect(line, NULL, 0, "cases taken from n/.kept: 4");
     cli_run_line("study rod.yaml -n 4,8 -k 0.1,0.05 --scheme bdf2 --no-plots --format csv --out n "
                  "--resume",
                  NULL, &out);
