@@ -163,7 +163,8 @@ static void test_stopped_and_resumed(void **state)
     if (!(kept > 0 && kept < all) || out.exit_code == 0)
         fail_msg("%zu of %zu entries were kept: %s", kept, all, out.output);
     assert_false(cli_is_there("two/example2-contact-stiffness.csv"));
-    cli_expect(VARIED "two --resume", NULL, 0, "finished cells, trials and cases taken from two/.kept");
+    cli_expect(VARIED "two --resume", NULL, 0,
+               "finished cells, trials and cases taken from two/.kept");
     assert_string_equal(whole, cli_read("two/example2-contact-stiffness.csv"));
     assert_int_equal(cli_count_files("two/.kept"), all);
 }
