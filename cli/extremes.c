@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate extremes [PART...]: where does it break, and does it say so? */
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/extremes_part.h"
@@ -12,7 +9,7 @@
 #include "cli/session.h"
 #include "study/ranks/ranks.h"
 
-enum { MOST_PARTS = 16, PATH = 1200 };
+enum { MOST_PARTS = 16 };
 
 struct run {
     struct br_session session;
@@ -27,24 +24,28 @@ struct run {
 static const struct {
     const char *option;
     enum br_option_id id;
-    unsigned bit;
-} heeded[] = {{"--n", BR_OPT_N, BR_HEEDS_N},
-              {"--k", BR_OPT_K, BR_HEEDS_K},
-              {"--cases", BR_OPT_CASES, BR_HEEDS_CASES},
-              {"--seed", BR_OPT_SEED, BR_HEEDS_SEED},
-              {"--rounding", BR_OPT_ROUNDING, BR_HEEDS_ROUNDING},
-              {"--resume", BR_OPT_RESUME, BR_HEEDS_RESUME}};
+} heeded[] = {{"--n", BR_OPT_N},
+              {"--k", BR_OPT_K},
+              {"--cases", BR_OPT_CASES},
+              {"--seed", BR_OPT_SEED},
+              {"--rounding", BR_OPT_ROUNDING},
+              {"--resume", BR_OPT_RESUME}};
 enum { HEEDED = sizeof heeded / sizeof *heeded };
 
+static bool heeds(const struct br_extremes_part *part, enum br_option_id option)
+{
+    return part->heeds >> option & 1;
+}
+
 /* Which parts heed an option, as in the help: "map". */
-static const char *heeders(unsigned option)
+static const char *heeders(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++) {
+    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
         const size_t used = strlen(text);
-        if ((*p)->heeds & option)
-            snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", (*p)->name);
+        if (heeds(p, option))
+            snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", p->name);
     }
     return *text ? text : "no part";
 }
@@ -53,17 +54,17 @@ static const char *heeders(unsigned option)
 static const char *part_title(size_t row)
 {
     static char text[256];
-    const struct br_extremes_part *part = br_extremes_parts[row];
+    const struct br_extremes_part *part = &br_extremes_parts[row];
     size_t used = (size_t)snprintf(text, sizeof text, "%.150s.", part->title);
     for (size_t i = 0; i < HEEDED && used < sizeof text; i++)
-        if (part->heeds & heeded[i].bit)
+        if (heeds(part, heeded[i].id))
             used += (size_t)snprintf(text + used, sizeof text - used, " %s", heeded[i].option);
     return text;
 }
 
 static const char *part_name(size_t row)
 {
-    return br_extremes_parts[row] ? br_extremes_parts[row]->name : NULL;
+    return br_extremes_parts[row].name;
 }
 
 static const struct br_words parts = {part_name, part_title, NULL};
@@ -71,13 +72,14 @@ static const struct br_words parts = {part_name, part_title, NULL};
 /* An option that no chosen part heeds would be dropped silently. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
-    unsigned all = 0;
-    for (size_t i = 0; i < r->parts; i++)
-        all |= r->part[i]->heeds;
-    for (size_t i = 0; i < HEEDED; i++)
-        if (br_option_given(r->session.options, heeded[i].id) && !(all & heeded[i].bit))
+    for (size_t i = 0; i < HEEDED; i++) {
+        bool wanted = !br_option_given(r->session.options, heeded[i].id);
+        for (size_t p = 0; p < r->parts; p++)
+            wanted |= heeds(r->part[p], heeded[i].id);
+        if (!wanted)
             return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
-                           heeded[i].option, heeders(heeded[i].bit));
+                           heeded[i].option, heeders(heeded[i].id));
+    }
     return BR_OK;
 }
 
@@ -85,46 +87,27 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
 static enum br_status choose_parts(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    for (const struct br_extremes_part *const *p = br_extremes_parts; *p; p++) {
+    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
         size_t times = 0;
         for (size_t i = 0; i < o->words; i++)
-            times += strcmp(o->word[i], (*p)->name) == 0;
+            times += strcmp(o->word[i], p->name) == 0;
         if (times > 1)
-            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", (*p)->name);
+            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", p->name);
         if ((times || !o->words) && r->parts < MOST_PARTS)
-            r->part[r->parts++] = *p;
+            r->part[r->parts++] = p;
     }
-    return BR_OK;
-}
-
-static enum br_status read_seed(const char *text, uint64_t *seed, struct br_error *err)
-{
-    char *end = NULL;
-    const bool hexadecimal = text && text[0] == '0' && (text[1] == 'x' || text[1] == 'X');
-    const char *digits = text + (hexadecimal ? 2 : 0);
-    if (!text)
-        return BR_OK;
-    errno = 0;
-    const bool signless = *digits && strspn(digits, "0123456789abcdefABCDEF") == strlen(digits);
-    const unsigned long long value = strtoull(text, &end, hexadecimal ? 16 : 10);
-    if (!signless || *end || errno || value == 0)
-        return br_fail(err, BR_BAD_INPUT,
-                       "--seed: found '%s', expected a whole number from 1 to 2^64 - 1, decimal or "
-                       "0x and hexadecimal",
-                       text);
-    *seed = value;
     return BR_OK;
 }
 
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    struct br_extremes_job *job = &r->job;
     if (br_ranks_size() > 1)
         return br_fail(err, BR_BAD_INPUT,
                        "found %d ranks, expected one: its threads share the work", br_ranks_size());
-    *job = (struct br_extremes_job){
+    r->job = (struct br_extremes_job){
         .cases = (size_t)br_option_number(o, BR_OPT_CASES, 0),
+        .seed = (uint64_t)br_option_number(o, BR_OPT_SEED, 0),
         .threads = r->session.threads,
         .n = o->whole[BR_OPT_N],
         .k = o->number[BR_OPT_K],
@@ -132,41 +115,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         .k_count = o->count[BR_OPT_K],
         .rounding = br_rounding_mode((size_t)br_option_number(o, BR_OPT_ROUNDING, 0)),
     };
-    if (choose_parts(r, err) || read_seed(br_option_text(o, BR_OPT_SEED), &job->seed, err))
-        return err->status;
-    return check_heeded(r, err);
-}
-
-/* ---- what an interrupted part has left ---- */
-
-/* Where part i keeps it, or NULL. */
-static const char *kept_path(const struct run *r, size_t i, char path[PATH])
-{
-    snprintf(path, PATH, "%s/%s.cases", r->session.output.folder, r->part[i]->name);
-    return r->part[i]->heeds & BR_HEEDS_RESUME ? path : NULL;
-}
-
-/* Hours of work are not thrown away without a word. */
-static enum br_status check_kept(const struct run *r, struct br_error *err)
-{
-    char path[PATH];
-    struct stat there;
-    for (size_t i = 0; i < r->parts && !br_option_given(r->session.options, BR_OPT_RESUME); i++)
-        if (kept_path(r, i, path) && stat(path, &there) == 0)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s is what an interrupted run has left: --resume goes on with it; "
-                           "remove it to begin anew",
-                           path);
-    return BR_OK;
-}
-
-static enum br_status remove_kept(const struct run *r, struct br_error *err)
-{
-    char path[PATH];
-    for (size_t i = 0; i < r->parts; i++)
-        if (kept_path(r, i, path) && unlink(path) < 0 && errno != ENOENT)
-            return br_fail(err, BR_IO, "%s: %s", path, strerror(errno));
-    return BR_OK;
+    return choose_parts(r, err) ? err->status : check_heeded(r, err);
 }
 
 /* ---- computing and writing ---- */
@@ -176,9 +125,14 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     const struct br_extremes_part *part = r->part[i];
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_extremes_job job = r->job;
-    char kept[PATH], what[64];
+    struct br_kept kept = {0};
+    char what[64];
     snprintf(what, sizeof what, "%s (%zu of %zu)", part->name, i + 1, r->parts);
-    job.kept = kept_path(r, i, kept);
+    if (part->heeds & BR_HEEDS(RESUME)) {
+        if (br_session_keep(&r->session, part->name, "", &kept, err))
+            return err->status;
+        job.kept = &kept;
+    }
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
     job.session = &r->session;
@@ -186,6 +140,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     job.verdict = &r->verdict[i];
     const enum br_status status = part->run(&job, err);
     br_progress_end();
+    br_session_tell_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, part->name);
     br_put_provenance(job.report, &provenance);
@@ -215,9 +170,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     struct run r = {.session = br_session_begin(options)};
     const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        check_kept(&r, err) || run_parts(&r, err) ||
-                        br_session_finish(&r.session, err) || remove_kept(&r, err) ||
-                        judge(&r, err);
+                        run_parts(&r, err) || br_session_finish(&r.session, err) || judge(&r, err);
     br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }

@@ -18,11 +18,10 @@ struct br_extremes_job {
     const size_t *n;
     const double *k; /* s */
     size_t n_count, k_count;
-    int rounding;       /* as fesetround takes it: of the marches, not of their judges */
-    const char *kept;   /* path of a file in which a part that takes long keeps what is done, so
-                           that it can be resumed: what it finds there it need not do again, and
-                           the file is removed when all is written. NULL: nothing is kept */
-    const char *folder; /* for other files of the part (reproducer scenes): the staging folder */
+    int rounding;         /* as fesetround takes it: of the marches, not of their judges */
+    struct br_kept *kept; /* where a part that takes long keeps what is done, and finds what need
+                             not be done again; NULL: nothing is kept */
+    const char *folder;   /* for other files of the part (reproducer scenes): the staging folder */
     const struct br_observer *observer; /* NULL: nobody */
     struct br_session *session; /* for br_session_draw: the stems of pictures are the part's name,
                                    or begin with it and a dash */
@@ -30,27 +29,21 @@ struct br_extremes_job {
     struct br_error *verdict;   /* zeros; BR_VERDICT: what has been found wrong */
 };
 
-/* The options that a part heeds: others are refused. --threads is for all. */
-enum {
-    BR_HEEDS_CASES = 1,
-    BR_HEEDS_SEED = 2,
-    BR_HEEDS_N = 4,
-    BR_HEEDS_K = 8,
-    BR_HEEDS_ROUNDING = 16,
-    BR_HEEDS_RESUME = 32, /* and job->kept, which others find NULL */
-};
+/* An option that a part heeds, as a bit: others are refused. --threads is for all. */
+#define BR_HEEDS(option) (1ull << BR_OPT_##option)
+_Static_assert(BR_OPT_METHOD < 64, "a bit for each option");
 
 struct br_extremes_part {
-    const char *name;  /* one word, as on the command line, and of its files */
-    const char *title; /* one line for a person */
-    unsigned heeds;    /* of the options: BR_HEEDS_... */
+    const char *name;         /* one word, as on the command line, and of its files */
+    const char *title;        /* one line for a person */
+    unsigned long long heeds; /* BR_HEEDS; with RESUME it has job->kept, which others find NULL */
     /* Computes, begins the report (its name is the part's) and puts all into it but provenance,
      * draws, and judges: what is found wrong is a verdict, no failure. Fails with BR_BAD_INPUT,
      * BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
     enum br_status (*run)(const struct br_extremes_job *job, struct br_error *err);
 };
 
-/* NULL-terminated, in the order in which they run (cli/extremes_parts.c). */
-extern const struct br_extremes_part *const br_extremes_parts[];
+/* In the order in which they run; ends with zeros (cli/extremes_parts.c). */
+extern const struct br_extremes_part br_extremes_parts[];
 
 #endif

@@ -3,21 +3,19 @@
  * reports and plots/ draws. */
 #include "cli/extremes_part.h"
 
-#include <stdio.h>
-
-#include "cli/provenance.h"
 #include "plots/pictures.h"
-#include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/extremes/map.h"
 #include "study/extremes/stability.h"
 #include "tables/reports.h"
 
-/* Round-off of the linear solvers; a picture for each k. */
-static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+/* Round-off: a picture for each k of the solvers' floors, or one of what steps gather. */
+static enum br_status run_round_off(const struct br_extremes_job *job, bool gathered,
+                                    struct br_error *err)
 {
     const struct br_floors_plan plan = {
+        .gathered = gathered,
         .n = job->n,
         .k = job->k,
         .n_count = job->n_count,
@@ -25,52 +23,28 @@ static enum br_status run_floors(const struct br_extremes_job *job, struct br_er
         .threads = job->threads,
         .rounding = job->rounding,
     };
-    struct br_floors floors = {0};
-    enum br_status status = br_floors_run(&floors, &plan, job->observer, err);
+    struct br_floors f = {0};
+    enum br_status status = br_floors_run(&f, &plan, job->observer, err);
     if (!status) {
-        br_report_floors(&floors, job->report);
-        br_floors_verdict(&floors, job->verdict);
+        br_report_floors(&f, job->report);
+        br_floors_verdict(&f, job->verdict);
     }
-    for (size_t i = 0; i < floors.k_count && floors.n_count > 1 && !status; i++)
-        br_session_draw(job->session, job->report, br_floors_draw(&floors, i), NULL);
-    br_floors_clear(&floors);
+    const size_t points = gathered ? f.k_count : f.n_count, pictures = gathered ? 1 : f.k_count;
+    for (size_t i = 0; i < pictures && points > 1 && !status; i++)
+        br_session_draw(job->session, job->report, br_floors_draw(&f, i), NULL);
+    br_floors_clear(&f);
     return status;
 }
 
-static const struct br_extremes_part floors = {
-    .name = "floors",
-    .title = "round-off of every linear solver over n and k, measured and predicted",
-    .heeds = BR_HEEDS_N | BR_HEEDS_K | BR_HEEDS_ROUNDING,
-    .run = run_floors,
-};
+static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+{
+    return run_round_off(job, false, err);
+}
 
-/* Round-off that many steps gather. */
 static enum br_status run_steps(const struct br_extremes_job *job, struct br_error *err)
 {
-    const struct br_drifts_plan plan = {
-        .k = job->k,
-        .k_count = job->k_count,
-        .threads = job->threads,
-        .rounding = job->rounding,
-    };
-    struct br_drifts drifts = {0};
-    enum br_status status = br_drifts_run(&drifts, &plan, job->observer, err);
-    if (!status) {
-        br_report_drifts(&drifts, job->report);
-        br_drifts_verdict(&drifts, job->verdict);
-    }
-    if (!status && drifts.k_count > 1)
-        br_session_draw(job->session, job->report, br_drifts_draw(&drifts), NULL);
-    br_drifts_clear(&drifts);
-    return status;
+    return run_round_off(job, true, err);
 }
-
-static const struct br_extremes_part steps = {
-    .name = "steps",
-    .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
-    .heeds = BR_HEEDS_K | BR_HEEDS_ROUNDING,
-    .run = run_steps,
-};
 
 /* The lagged contact's limit. */
 static enum br_status run_stability(const struct br_extremes_job *job, struct br_error *err)
@@ -95,13 +69,6 @@ static enum br_status run_stability(const struct br_extremes_job *job, struct br
     return status;
 }
 
-static const struct br_extremes_part stability = {
-    .name = "stability",
-    .title = "the contact's stability limit over c_H and k, predicted and measured",
-    .heeds = BR_HEEDS_N | BR_HEEDS_K,
-    .run = run_stability,
-};
-
 static enum br_status judge_energy(const struct br_energy_behaviour *b, struct br_error *err)
 {
     for (size_t i = 0; i < b->vibrations; i++)
@@ -115,7 +82,7 @@ static enum br_status judge_energy(const struct br_energy_behaviour *b, struct b
             return br_fail(err, BR_VERDICT,
                            "%s by scheme %s: what is missing in the energy balance of a step is "
                            "%.3g of the terms' sum, expected at most %.3g",
-                           br_balance_scenes[b->balance[i].scene], b->balance[i].scheme->name,
+                           b->balance[i].scene->name, b->balance[i].scheme->name,
                            b->balance[i].worst, b->balance[i].limit);
     return BR_OK;
 }
@@ -134,53 +101,63 @@ static enum br_status run_energy(const struct br_extremes_job *job, struct br_er
     return status;
 }
 
-static const struct br_extremes_part energy = {
-    .name = "energy",
-    .title = "what every scheme takes from the energy or adds to it, each step's balance",
-    .run = run_energy,
-};
-
 enum { CASES = 2000, SEED = 1 };
 
 /* Thousands of cases at random, and none of them silently wrong. */
 static enum br_status run_map(const struct br_extremes_job *job, struct br_error *err)
 {
-    char program[300];
-    snprintf(program, sizeof program, "beamrate %s %s", br_version(), br_commit());
     const struct br_extreme_request request = {
         .seed = job->seed ? job->seed : SEED,
         .cases = job->cases ? job->cases : CASES,
         .threads = job->threads,
         .judging = {.rounding = job->rounding},
         .kept = job->kept,
-        .program = program,
         .folder = job->folder,
         .observer = job->observer,
     };
     struct br_extreme_map map = {0};
-    struct br_extreme_counts counts = {0};
-    enum br_status status = br_extreme_map_run(&request, &map, err);
-    if (!status)
-        status = br_extreme_count(&map, &counts, err);
+    const enum br_status status = br_extreme_map_run(&request, &map, err);
     if (!status) {
-        br_report_map(&map, &counts, job->report);
+        br_report_map(&map, job->report);
         if (map.count[BR_EXTREME_WRONG])
             br_fail(job->verdict, BR_VERDICT,
                     "%zu of %zu cases are silently wrong, the first of them: %s",
                     map.count[BR_EXTREME_WRONG], map.cases, map.shrunk[0].command);
         br_session_draw(job->session, job->report, br_extreme_map_draw(&map), NULL);
     }
-    br_extreme_counts_clear(&counts);
     br_extreme_map_clear(&map);
     return status;
 }
 
-static const struct br_extremes_part map = {
-    .name = "map",
-    .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
-    .heeds = BR_HEEDS_CASES | BR_HEEDS_SEED | BR_HEEDS_ROUNDING | BR_HEEDS_RESUME,
-    .run = run_map,
+const struct br_extremes_part br_extremes_parts[] = {
+    {
+        .name = "floors",
+        .title = "round-off of every linear solver over n and k, measured and predicted",
+        .heeds = BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .run = run_floors,
+    },
+    {
+        .name = "steps",
+        .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
+        .heeds = BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .run = run_steps,
+    },
+    {
+        .name = "stability",
+        .title = "the contact's stability limit over c_H and k, predicted and measured",
+        .heeds = BR_HEEDS(N) | BR_HEEDS(K),
+        .run = run_stability,
+    },
+    {
+        .name = "energy",
+        .title = "what every scheme takes from the energy or adds to it, each step's balance",
+        .run = run_energy,
+    },
+    {
+        .name = "map",
+        .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
+        .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(ROUNDING) | BR_HEEDS(RESUME),
+        .run = run_map,
+    },
+    {0},
 };
-
-const struct br_extremes_part *const br_extremes_parts[] = {&floors, &steps, &stability,
-                                                            &energy, &map,   NULL};

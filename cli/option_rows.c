@@ -280,15 +280,8 @@ static const struct br_option rows[] = {
     /* extremes */
     {BR_OPT_CASES, "cases", 0, "COUNT", "cases of a map that is drawn at random", NULL,
      BR_TAKES_NUMBER, WHOLE(1, 1e9), .commands = BR_FOR_EXTREMES},
-    {BR_OPT_SEED, "seed", 0, "SEED",
-     "of what is drawn: a whole number, or 0x and hexadecimal digits", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
-    {BR_OPT_RESUME, "resume", 0, NULL,
-     "goes on with what an interrupted run has left in the folder", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_EXTREMES,
-     .more =
-         "That is PART.cases, which is removed when all is written. Without --resume such a file "
-         "is refused, not overwritten."},
+    {BR_OPT_SEED, "seed", 0, "SEED", "of what is drawn: a whole number", NULL, BR_TAKES_NUMBER,
+     WHOLE(1, 9e15), .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
     {BR_OPT_ROUNDING, "rounding", 0, "MODE",
      "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
      .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
@@ -310,10 +303,11 @@ static const struct br_option rows[] = {
 
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
-     .more = "After an interruption, or for a larger grid: finished cells and trials are kept in "
-             "DIR/.kept, and only the others are marched. What another version of the program or "
-             "another machine has kept is not taken."},
+     NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .more = "After an interruption, or for a larger grid: finished cells, trials and cases are "
+             "kept in DIR/.kept, and only the others are marched. What another version of the "
+             "program or another machine has kept is not taken."},
 
     /* what varies, and what is foreseen */
     {BR_OPT_DRY_RUN, "dry-run", 0, NULL,

@@ -82,12 +82,13 @@ void br_session_tell_kept(const struct br_session *s, const struct br_kept *k)
     const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
     const size_t lost = atomic_load(&k->lost);
     if (taken && !s->quiet)
-        fprintf(stderr, "beamrate: finished cells and trials taken from %s: %zu\n", k->folder,
-                taken);
+        fprintf(stderr, "beamrate: finished cells, trials and cases taken from %s: %zu\n",
+                k->folder, taken);
     if (lost)
-        fprintf(stderr,
-                "beamrate: warning: finished cells and trials that could not be kept in %s: %zu\n",
-                k->folder, lost);
+        fprintf(
+            stderr,
+            "beamrate: warning: finished cells, trials and cases that could not be kept in %s: %zu\n",
+            k->folder, lost);
     if (bad)
         fprintf(stderr,
                 "beamrate: warning: %zu entries in %s are damaged or not what their names "

@@ -12,7 +12,7 @@
 #include "reference/printed.h"
 #include "solver/clock.h"
 #include "study/fit/report.h"
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"

@@ -5,22 +5,12 @@
 #include <string.h>
 
 #include "plots/pictures.h"
-#include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
+#include "study/extremes/map.h"
 #include "study/extremes/stability.h"
 
-/* ---- floors: deviation over n ---- */
-
-static void add_solver(const struct br_floors *f, size_t solver, size_t k, struct br_figure *figure)
-{
-    struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->solver[solver].name);
-    for (size_t i = 0; i < f->n_count; i++) {
-        const struct br_floor *floor = br_floor_at(f, solver, i, k);
-        const bool marched = !floor->refused.status;
-        br_point_add(s, (double)f->n[i], marched ? br_floor_deviation(floor) : (double)NAN, NULL);
-    }
-}
+/* ---- floors: deviation over n, or over N ---- */
 
 /* 2^-53 n^power: what one rounding becomes; a deviation beyond 10 says nothing. */
 static void add_rounding(const struct br_floors *f, int power, struct br_figure *figure)
@@ -28,57 +18,69 @@ static void add_rounding(const struct br_floors *f, int power, struct br_figure 
     struct br_series *s =
         br_series_add(figure, BR_PEN_GUIDE, power == 1 ? "2^{-53} n" : "2^{-53} n^{%d}", power);
     for (size_t i = 0; i < f->n_count; i++) {
-        const double rounding = DBL_EPSILON / 2 * pow((double)f->n[i], power);
-        br_point_add(s, (double)f->n[i], rounding <= 10 ? rounding : (double)NAN, NULL);
+        const double n = (double)br_floor_at(f, 0, 0, i, 0)->n;
+        const double rounding = DBL_EPSILON / 2 * pow(n, power);
+        br_point_add(s, n, rounding <= 10 ? rounding : (double)NAN, NULL);
+    }
+}
+
+static void add_deviation(struct br_series *s, const struct br_floor *floor, size_t over)
+{
+    const bool marched = floor->steps && !floor->refused.status;
+    br_point_add(s, (double)over, marched ? br_floor_deviation(floor) : (double)NAN, NULL);
+}
+
+static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *figure)
+{
+    const double step = br_floor_at(f, 0, 0, 0, k)->k;
+    BR_SAY(figure->stem, "floors-k%g", step);
+    BR_SAY(figure->title,
+           "Deviation from the exact discrete solution after %d steps of Example 2, k = %g s",
+           BR_FLOOR_STEPS, step);
+    br_panel_add(figure, "elements n", "relative deviation");
+    for (size_t m = 0; m < f->methods; m++) {
+        const char *name = f->method[m].name;
+        if (strstr(name, "scaled")) /* they are where they are without */
+            continue;
+        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", name);
+        for (size_t i = 0; i < f->n_count; i++)
+            add_deviation(s, br_floor_at(f, 0, m, i, k), br_floor_at(f, 0, m, i, k)->n);
+    }
+    add_rounding(f, 1, figure);
+    add_rounding(f, 4, figure);
+}
+
+static void draw_gathered(const struct br_floors *f, size_t scene, struct br_figure *figure)
+{
+    struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
+    BR_SAY(p->title, scene ? "Example 2, slip" : "Example 1, stick");
+    for (size_t m = 0; m < f->methods; m += f->solvers) {
+        const char *name = f->method[m].name, *solver = strrchr(name, '+');
+        const size_t length = solver ? (size_t)(solver - name) : strlen(name);
+        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%.*s", (int)length, name);
+        for (size_t j = 0; j < f->k_count; j++)
+            add_deviation(s, br_floor_at(f, scene, m, 0, j), br_floor_at(f, scene, m, 0, j)->of);
+    }
+    struct br_series *s = br_series_add(figure, BR_PEN_GUIDE, "predicted");
+    for (size_t j = 0; j < f->k_count; j++) {
+        const struct br_floor *floor = br_floor_at(f, scene, 0, 0, j);
+        br_point_add(s, (double)floor->of, floor->predicted, NULL);
     }
 }
 
 struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
 {
-    struct br_figure picture = {0}, *figure = &picture;
-    BR_SAY(figure->stem, "floors-k%g", f->k[k]);
-    BR_SAY(figure->title,
-           "Deviation from the exact discrete solution after %d steps of Example 2, k = %g s",
-           BR_FLOOR_STEPS, f->k[k]);
-    struct br_panel *p = br_panel_add(figure, "elements n", "relative deviation");
-    p->log_x = p->log_y = true;
-    for (size_t s = 0; s < f->solvers; s++) /* scaled ones are where they are without */
-        if (!strstr(f->solver[s].name, "scaled"))
-            add_solver(f, s, k, figure);
-    add_rounding(f, 1, figure);
-    add_rounding(f, 4, figure);
-    return picture;
-}
-
-/* ---- steps: deviation over N ---- */
-
-static void add_method(const struct br_drifts *d, size_t scene, size_t named, struct br_figure *f)
-{
-    const char *name = d->named[named].name, *solver = strrchr(name, '+');
-    struct br_series *s = br_series_add(
-        f, BR_PEN_CURVE, "%.*s", (int)(solver ? (size_t)(solver - name) : strlen(name)), name);
-    for (size_t j = 0; j < d->k_count; j++) {
-        const struct br_floor *drift = br_drift_at(d, scene, named, j);
-        br_point_add(s, (double)d->steps[j], drift->steps ? br_floor_deviation(drift) : (double)NAN,
-                     NULL);
-    }
-}
-
-struct br_figure br_drifts_draw(const struct br_drifts *d)
-{
-    struct br_figure picture = {.stem = "steps", .one_y = true}, *figure = &picture;
-    BR_SAY(figure->title,
-           "Deviation from the exact discrete solution after N steps, n = %d, riccati", BR_DRIFT_N);
-    for (size_t scene = 0; scene < BR_DRIFT_SCENES; scene++) {
-        struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
-        p->log_x = p->log_y = true;
-        BR_SAY(p->title, scene ? "Example 2, slip" : "Example 1, stick");
-        for (size_t c = 0; c < d->methods; c += d->solvers)
-            add_method(d, scene, c, figure);
-        struct br_series *s = br_series_add(figure, BR_PEN_GUIDE, "predicted");
-        for (size_t j = 0; j < d->k_count; j++)
-            br_point_add(s, (double)d->steps[j], br_drift_at(d, scene, 0, j)->predicted, NULL);
-    }
+    struct br_figure picture = {.stem = "steps", .one_y = f->gathered}, *figure = &picture;
+    if (f->gathered)
+        BR_SAY(figure->title,
+               "Deviation from the exact discrete solution after N steps, n = %d, riccati",
+               BR_GATHERED_N);
+    else
+        draw_floors(f, k, figure);
+    for (size_t scene = 0; scene < f->scenes && f->gathered; scene++)
+        draw_gathered(f, scene, figure);
+    for (size_t i = 0; i < figure->panels; i++)
+        figure->panel[i].log_x = figure->panel[i].log_y = true;
     return picture;
 }
 
@@ -154,18 +156,19 @@ static void to_edges(size_t count, double *edge)
     edge[0] /= first;
 }
 
-static void fill_cells(const struct br_stability *s, const struct br_stability_plane *plane,
+static void fill_cells(const struct br_stability *s, const struct br_stability_row *row,
                        struct br_figure *figure)
 {
-    struct br_cells *c = br_cells_make(figure, s->columns, s->rows);
+    struct br_cells *c = br_cells_make(figure, BR_STABILITY_COLUMNS, s->rows);
     if (!c)
         return;
-    memcpy(c->x, s->stiffness, s->columns * sizeof *c->x);
-    for (size_t i = 0; i < s->rows; i++)
-        c->y[i] = plane->row[i].k;
-    to_edges(s->columns, c->x);
+    memcpy(c->x, s->stiffness, BR_STABILITY_COLUMNS * sizeof *c->x);
+    for (size_t i = 0; i < s->rows; i++) {
+        c->y[i] = row[i].k;
+        memcpy(c->value + i * BR_STABILITY_COLUMNS, row[i].radius, sizeof row[i].radius);
+    }
+    to_edges(BR_STABILITY_COLUMNS, c->x);
     to_edges(s->rows, c->y);
-    memcpy(c->value, plane->radius, s->rows * s->columns * sizeof *c->value);
 }
 
 struct br_figure br_stability_draw(const struct br_stability *s)
@@ -174,17 +177,17 @@ struct br_figure br_stability_draw(const struct br_stability *s)
     BR_SAY(figure->title, "The closed lagged contact: growth of an error in a step, measured");
     BR_SAY(figure->value_label, "largest eigenvalue of a step");
     for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
-        const struct br_stability_plane *plane = &s->plane[i];
+        const struct br_stability_row *row = &s->row[i * s->rows];
         struct br_panel *p = br_panel_add(figure, "c_H (N/m)", "k (s)");
         p->log_x = p->log_y = true;
-        BR_SAY(p->title, "%s", plane->rod->title);
-        fill_cells(s, plane, figure);
+        BR_SAY(p->title, "%s", row->rod->title);
+        fill_cells(s, row, figure);
         struct br_series *limit = br_series_add(figure, BR_PEN_GUIDE, "predicted limit");
         struct br_series *bouncing =
             br_series_add(figure, BR_PEN_GUIDE, "no energy is gained left of this");
         for (size_t j = 0; j < s->rows; j++) {
-            br_point_add(limit, plane->row[j].limit, plane->row[j].k, NULL);
-            br_point_add(bouncing, plane->row[j].bouncing, plane->row[j].k, NULL);
+            br_point_add(limit, row[j].limit, row[j].k, NULL);
+            br_point_add(bouncing, row[j].bouncing, row[j].k, NULL);
         }
     }
     return picture;
@@ -203,17 +206,17 @@ struct br_figure br_extreme_map_draw(const struct br_extreme_map *map)
     struct br_figure picture = {.stem = "map", .kinds = BR_EXTREME_CLASSES}, *figure = &picture;
     BR_SAY(figure->title, "The map of extremes: what most of the cases in a cell are");
     for (int i = 0; i < BR_EXTREME_CLASSES; i++)
-        BR_SAY(figure->kind[i], "%s", br_extreme_title((enum br_extreme_class)i));
+        BR_SAY(figure->kind[i], "%s", br_extreme_names[i].title);
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
-        struct br_panel *p = br_panel_add(figure, plane->x->title, plane->y->title);
-        struct br_cells *c = br_cells_make(figure, plane->x->cells, plane->y->cells);
+        struct br_panel *p = br_panel_add(figure, plane->x.title, plane->y.title);
+        struct br_cells *c = br_cells_make(figure, plane->x.cells, plane->y.cells);
         p->log_x = p->log_y = true;
         BR_SAY(p->title, "%s", plane->title);
         if (!c)
             break;
-        fill_edges(plane->x, c->x);
-        fill_edges(plane->y, c->y);
+        fill_edges(&plane->x, c->x);
+        fill_edges(&plane->y, c->y);
         br_extreme_plane_fill(map, plane, c->value);
     }
     return picture;

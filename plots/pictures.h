@@ -9,7 +9,6 @@
 #include "plots/figure.h"
 struct br_named_method;
 struct br_orders;
-struct br_drifts;
 struct br_energy_behaviour;
 struct br_extreme_map;
 struct br_floors;
@@ -76,9 +75,9 @@ struct br_figure br_variation_draw(const struct br_variation *variation);
 
 /* ---- extremes.c ---- */
 
-/* Deviation from the exact discrete solution: over n at time step number k, and over N. */
+/* Deviation from the exact discrete solution: over n at time step number k, or, of what steps
+ * gather, over their number. */
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
-struct br_figure br_drifts_draw(const struct br_drifts *drifts);
 /* Loss of energy a period over steps a period. */
 struct br_figure br_energy_draw(const struct br_energy_behaviour *behaviour);
 /* The lagged contact's growth over c_H and k, and what most cases of the map's cells are. */

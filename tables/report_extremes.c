@@ -5,29 +5,29 @@
 #include "study/extremes/stability.h"
 #include "tables/report_parts.h"
 
-/* ---- floors: the round-off of every linear solver ---- */
+/* ---- floors, and the round-off that steps gather ---- */
 
 /* The worst over the steps that are marched, and how many are refused. */
 static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
                  BR_FOR_PEOPLE);
-    for (size_t cell = 0; cell < f->n_count * f->solvers; cell++) {
-        const size_t row = cell / f->solvers, solver = cell % f->solvers;
+    for (size_t cell = 0; cell < f->n_count * f->methods; cell++) {
+        const size_t row = cell / f->methods, method = cell % f->methods;
         size_t refused = 0;
         double worst = 0;
         for (size_t j = 0; j < f->k_count; j++) {
-            const struct br_floor *floor = br_floor_at(f, solver, row, j);
+            const struct br_floor *floor = br_floor_at(f, 0, method, row, j);
             const double deviation = br_floor_deviation(floor);
             refused += floor->refused.status != BR_OK;
             if (!floor->refused.status && !isnan(worst) && !(deviation <= worst))
                 worst = deviation;
         }
-        if (solver == 0) {
+        if (method == 0) {
             br_put_row(d);
-            BR_PUT(d, br_count(f->n[row]), .key = "n");
+            BR_PUT(d, br_count(br_floor_at(f, 0, 0, row, 0)->n), .key = "n");
         }
-        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->solver[solver].name,
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->method[method].name,
                .format = "%.1e");
         if (refused == f->k_count)
             br_put_shown(d, "refused");
@@ -36,47 +36,99 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
     }
 }
 
+static void put_gathered_grid(struct br_document *d, const struct br_floors *f)
+{
+    br_put_table(d, "gathered", "Deviation from the exact discrete solution after N steps",
+                 BR_FOR_PEOPLE);
+    for (size_t i = 0; i < f->floors; i++) {
+        const struct br_floor *floor = &f->floor[i];
+        char heading[32];
+        if (i % f->k_count == 0) {
+            br_put_row(d);
+            BR_PUT(d, br_text(floor->scene->name), .key = "scene");
+            BR_PUT(d, br_text(floor->by->name), .key = "method");
+        }
+        snprintf(heading, sizeof heading, "N = %.3g", (double)floor->of);
+        BR_PUT(d, br_number(br_floor_deviation(floor)), .heading = heading, .format = "%.1e");
+        if (floor->refused.status)
+            br_put_shown(d, "refused");
+    }
+}
+
+static const char *floor_outcome(const struct br_floor *f)
+{
+    if (f->refused.status || !f->steps)
+        return f->refused.status ? "refused" : "not marched";
+    return br_floor_deviation(f) <= br_floor_limit(f) ? "as predicted" : "ABOVE";
+}
+
+static void put_floor(struct br_document *d, const struct br_floor *f, bool gathered)
+{
+    br_put_row(d);
+    if (gathered)
+        BR_PUT(d, br_text(f->scene->name), .key = "scene");
+    BR_PUT(d, br_text(f->by->name), .key = gathered ? "method" : "solver");
+    if (!gathered) {
+        BR_PUT(d, br_count(f->n), .key = "n");
+        BR_PUT(d, br_number(f->k), .key = "k", .unit = "s");
+    }
+    BR_PUT(d, br_count(gathered ? f->of : f->steps), .key = "steps");
+    BR_PUT(d, br_number(f->deviation[BR_AXIAL]), .key = "axial", .format = "%.2e");
+    BR_PUT(d, br_number(f->deviation[BR_BENDING]), .key = "bending", .format = "%.2e");
+    if (!gathered) {
+        BR_PUT(d, br_number(f->tip[BR_AXIAL]), .key = "axial_tip", .heading = "axial tip",
+               .format = "%.2e");
+        BR_PUT(d, br_number(f->tip[BR_BENDING]), .key = "bending_tip", .heading = "bending tip",
+               .format = "%.2e");
+    }
+    BR_PUT(d, br_number(f->predicted), .key = "predicted", .format = "%.2e");
+    if (gathered)
+        BR_PUT(d, br_number(f->time_error), .key = "time_levels", .heading = "time levels",
+               .format = "%.2e");
+    BR_PUT(d, br_text(floor_outcome(f)), .key = "outcome");
+    BR_PUT(d, br_failure_text(&f->refused), .key = "message", .heading = "why", .flags = BR_WRAP);
+}
+
 static void put_floors(struct br_document *d, const struct br_floors *f)
 {
-    br_put_table(d, "floors", "Every solver, mesh and time step", BR_FILES_ONLY | BR_MAIN);
-    for (size_t i = 0; i < f->solvers * f->n_count * f->k_count; i++) {
-        const struct br_floor *floor = &f->floor[i];
-        const size_t solver = i / (f->n_count * f->k_count);
-        const bool below = br_floor_deviation(floor) <= br_floor_limit(f, solver, floor);
-        br_put_row(d);
-        BR_PUT(d, br_text(f->solver[solver].name), .key = "solver");
-        BR_PUT(d, br_count(floor->n), .key = "n");
-        BR_PUT(d, br_number(floor->k), .key = "k", .unit = "s");
-        BR_PUT(d, br_count(floor->steps), .key = "steps");
-        BR_PUT(d, br_number(floor->deviation[BR_AXIAL]), .key = "axial", .format = "%.2e");
-        BR_PUT(d, br_number(floor->deviation[BR_BENDING]), .key = "bending", .format = "%.2e");
-        BR_PUT(d, br_number(floor->tip[BR_AXIAL]), .key = "axial_tip", .heading = "axial tip",
-               .format = "%.2e");
-        BR_PUT(d, br_number(floor->tip[BR_BENDING]), .key = "bending_tip", .heading = "bending tip",
-               .format = "%.2e");
-        BR_PUT(d, br_number(floor->predicted), .key = "predicted", .format = "%.2e");
-        BR_PUT(d,
-               br_text(floor->refused.status ? "refused"
-                       : below               ? "as predicted"
-                                             : "ABOVE"),
-               .key = "outcome");
-        BR_PUT(d, br_failure_text(&floor->refused), .key = "message", .heading = "why",
-               .flags = BR_WRAP);
+    struct br_error err = {0};
+    if (br_floors_verdict(f, &err))
+        br_put_answer(d, "ABOVE: %s", err.message);
+    else if (f->gathered)
+        br_put_answer(d, "However many steps there are, the round-off that they gather stays below "
+                         "what is predicted, and the time levels are n T/N.");
+    else
+        br_put_answer(d, "Every solver is right to the round-off that it predicts, or refuses.");
+    if (f->gathered) {
+        put_gathered_grid(d, f);
+        br_put_table(d, "steps", "Every scene, method and number of steps",
+                     BR_FILES_ONLY | BR_MAIN);
+    } else {
+        put_floor_grid(d, f);
+        br_put_table(d, "floors", "Every solver, mesh and time step", BR_FILES_ONLY | BR_MAIN);
     }
+    for (size_t i = 0; i < f->floors; i++)
+        put_floor(d, &f->floor[i], f->gathered);
+    br_put_section(d, "What is measured");
 }
 
 void br_report_floors(const struct br_floors *f, struct br_document *d)
 {
-    struct br_error err = {0};
+    if (f->gathered) {
+        br_document_begin(d, "steps", "beamrate extremes steps", 1, "Round-off that steps gather");
+        put_floors(d, f);
+        br_put_note(d,
+                    "Deviation: the largest difference of all nodal displacements from the "
+                    "exact discrete solution at the end of the duration, relative to the "
+                    "largest displacement of the field; the larger of both fields; 10 elements.");
+        br_put_note(d, "Predicted: what a solver loses in a step, and a random walk of "
+                       "64 * 2^-52 * sqrt(N). In Example 1 the tip sticks: friction holds its "
+                       "velocity, and nothing its displacement.");
+        return;
+    }
     br_document_begin(d, "floors", "beamrate extremes floors", 1,
                       "Round-off floors of the linear solvers");
-    if (br_floors_verdict(f, &err))
-        br_put_answer(d, "ABOVE: %s", err.message);
-    else
-        br_put_answer(d, "Every solver is right to the round-off that it predicts, or refuses.");
-    put_floor_grid(d, f);
     put_floors(d, f);
-    br_put_section(d, "What is measured");
     br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
                    "discrete solution (the same equations in long double, in a form that loses "
                    "nothing), relative to the largest displacement of the field, after 20 steps of "
@@ -85,95 +137,17 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
                    "'refined' does up to 2 steps of refinement a solve, 'scaled' scales the rows.");
 }
 
-/* ---- drifts: the round-off that steps gather ---- */
-
-static void put_drift_grid(struct br_document *d, const struct br_drifts *f)
-{
-    br_put_table(d, "gathered", "Deviation from the exact discrete solution after N steps",
-                 BR_FOR_PEOPLE);
-    for (size_t row = 0; row < BR_DRIFT_SCENES * f->methods; row++) {
-        const size_t scene = row / f->methods, method = row % f->methods;
-        br_put_row(d);
-        BR_PUT(d, br_text(f->scene[scene].name), .key = "scene");
-        BR_PUT(d, br_text(f->named[method].name), .key = "method");
-        for (size_t j = 0; j < f->k_count; j++) {
-            const struct br_floor *drift = br_drift_at(f, scene, method, j);
-            char heading[32];
-            snprintf(heading, sizeof heading, "N = %.3g", (double)f->steps[j]);
-            BR_PUT(d, br_number(drift->steps ? br_floor_deviation(drift) : NAN), .heading = heading,
-                   .format = "%.1e");
-            if (drift->refused.status)
-                br_put_shown(d, "refused");
-        }
-    }
-}
-
-static const char *drift_outcome(const struct br_floor *drift)
-{
-    if (drift->refused.status)
-        return "refused";
-    if (!drift->steps)
-        return "not marched";
-    return br_floor_deviation(drift) <= drift->predicted ? "as predicted" : "ABOVE";
-}
-
-static void put_drifts(struct br_document *d, const struct br_drifts *f)
-{
-    br_put_table(d, "steps", "Every scene, method and number of steps", BR_FILES_ONLY | BR_MAIN);
-    for (size_t i = 0; i < BR_DRIFT_SCENES * f->methods * f->k_count; i++) {
-        const struct br_floor *drift = &f->drift[i];
-        const size_t row = i / f->k_count;
-        const bool marched = drift->steps > 0;
-        br_put_row(d);
-        BR_PUT(d, br_text(f->scene[row / f->methods].name), .key = "scene");
-        BR_PUT(d, br_text(f->named[row % f->methods].name), .key = "method");
-        BR_PUT(d, br_count(f->steps[i % f->k_count]), .key = "steps");
-        BR_PUT(d, br_number(marched ? drift->deviation[BR_AXIAL] : NAN), .key = "axial",
-               .format = "%.2e");
-        BR_PUT(d, br_number(marched ? drift->deviation[BR_BENDING] : NAN), .key = "bending",
-               .format = "%.2e");
-        BR_PUT(d, br_number(marched ? drift->predicted : NAN), .key = "predicted",
-               .format = "%.2e");
-        BR_PUT(d, br_number(marched ? drift->time_error : NAN), .key = "time_levels",
-               .heading = "time levels", .format = "%.2e");
-        BR_PUT(d, br_text(drift_outcome(drift)), .key = "outcome");
-        BR_PUT(d, br_failure_text(&drift->refused), .key = "message", .heading = "why",
-               .flags = BR_WRAP);
-    }
-}
-
-void br_report_drifts(const struct br_drifts *f, struct br_document *d)
-{
-    struct br_error err = {0};
-    br_document_begin(d, "steps", "beamrate extremes steps", 1, "Round-off that steps gather");
-    if (br_drifts_verdict(f, &err))
-        br_put_answer(d, "ABOVE: %s", err.message);
-    else
-        br_put_answer(d, "However many steps there are, the round-off that they gather stays below "
-                         "what is predicted, and the time levels are n T/N.");
-    put_drift_grid(d, f);
-    put_drifts(d, f);
-    br_put_section(d, "What is measured");
-    br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
-                   "discrete solution at the end of the duration, relative to the largest "
-                   "displacement of the field; the larger of both fields; 10 elements.");
-    br_put_note(d, "Predicted: what a solver loses in a step, and a random walk of "
-                   "64 * 2^-52 * sqrt(N). In Example 1 the tip sticks: friction holds its "
-                   "velocity, and nothing its displacement.");
-}
-
 /* ---- stability of the contact ---- */
 
 static void put_limits(struct br_document *d, const struct br_stability *s)
 {
     br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY);
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
-        const struct br_stability_plane *p = &s->plane[i / s->rows];
-        const struct br_stability_row *r = &p->row[i % s->rows];
+        const struct br_stability_row *r = &s->row[i];
         br_put_row(d);
-        BR_PUT(d, br_text(p->rod->title), .key = "rod");
-        BR_PUT(d, br_number(p->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
-        BR_PUT(d, br_number(p->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
+        BR_PUT(d, br_text(r->rod->title), .key = "rod");
+        BR_PUT(d, br_number(r->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+        BR_PUT(d, br_number(r->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
         BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.4g");
         BR_PUT(d, br_number(r->limit), .key = "predicted", .unit = "N/m", .format = "%.12g");
         BR_PUT(d, br_number(r->measured), .key = "measured", .unit = "N/m", .format = "%.12g");
@@ -183,20 +157,17 @@ static void put_limits(struct br_document *d, const struct br_stability *s)
 
 static void put_growth(struct br_document *d, const struct br_stability *s)
 {
-    const size_t cells = s->rows * s->columns;
     br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY);
-    for (size_t i = 0; i < BR_STABILITY_RODS * cells; i++) {
-        const struct br_stability_plane *p = &s->plane[i / cells];
-        const size_t at = i % cells;
-        const double growth = p->growth[at];
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows * BR_STABILITY_COLUMNS; i++) {
+        const struct br_stability_row *r = &s->row[i / BR_STABILITY_COLUMNS];
+        const size_t j = i % BR_STABILITY_COLUMNS;
         br_put_row(d);
-        BR_PUT(d, br_text(p->rod->name), .key = "rod");
-        BR_PUT(d, br_number(p->row[at / s->columns].k), .key = "k", .unit = "s", .format = "%.6g");
-        BR_PUT(d, br_number(s->stiffness[at % s->columns]), .key = "c_H", .unit = "N/m",
-               .format = "%.6g");
-        BR_PUT(d, br_number(p->radius[at]), .key = "eigenvalue", .heading = "largest eigenvalue",
+        BR_PUT(d, br_text(r->rod->name), .key = "rod");
+        BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.6g");
+        BR_PUT(d, br_number(s->stiffness[j]), .key = "c_H", .unit = "N/m", .format = "%.6g");
+        BR_PUT(d, br_number(r->radius[j]), .key = "eigenvalue", .heading = "largest eigenvalue",
                .format = "%.15g");
-        BR_PUT(d, br_number(growth > 1 ? growth : NAN), .key = "predicted",
+        BR_PUT(d, br_number(r->growth[j] > 1 ? r->growth[j] : NAN), .key = "predicted",
                .heading = "predicted growth", .format = "%.15g");
     }
 }

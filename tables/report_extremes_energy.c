@@ -21,14 +21,14 @@ static double worst_of(const struct br_vibration_row *row)
     return row->at[0][SHOWN].end == BR_VIBRATION_DONE ? worst : NAN;
 }
 
-static void put_loss(struct br_document *d, const struct br_vibration *v, size_t rate)
+static void put_loss(struct br_document *d, const struct br_vibration *v)
 {
     char heading[32];
     const bool done = v->end == BR_VIBRATION_DONE;
     if (v->scheme->adaptive)
-        snprintf(heading, sizeof heading, "tol %.0e", br_vibration_tolerance(rate));
+        snprintf(heading, sizeof heading, "tol %.0e", v->tolerance);
     else
-        snprintf(heading, sizeof heading, "k = T/%zu", br_vibration_per_period(rate));
+        snprintf(heading, sizeof heading, "k = T/%zu", v->per_period);
     BR_PUT(d, br_if(done, br_number(v->measured)), .heading = heading, .format = "%.3e");
     if (!done)
         br_put_shown(d, v->end == BR_VIBRATION_REFUSED ? "refused" : "failed");
@@ -52,7 +52,7 @@ static void put_loss_grid(struct br_document *d, const struct br_energy_behaviou
         BR_PUT(d, br_text(field_name(row->kind)), .key = "field");
         BR_PUT(d, br_number(row->damping), .key = "damping", .format = "%g");
         for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-            put_loss(d, &row->at[r][SHOWN], r);
+            put_loss(d, &row->at[r][SHOWN]);
         if (!adaptive)
             BR_PUT(d, br_number(br_vibration_difference(row)), .key = "off",
                    .heading = "off theory", .format = "%.1e");
@@ -138,7 +138,7 @@ static void put_balances(struct br_document *d, const struct br_energy_behaviour
         const struct br_work *w = &row->work;
         const double in = put_in(row), gaining = (double)(w->gaining[0] + w->gaining[1]);
         br_put_row(d);
-        BR_PUT(d, br_text(br_balance_scenes[row->scene]), .key = "scene");
+        BR_PUT(d, br_text(row->scene->name), .key = "scene");
         BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
         put_outcome(d, row);
         br_put_blank(d, row->end == BR_VIBRATION_REFUSED);
@@ -192,7 +192,7 @@ static void note_added(struct br_document *d, const struct br_energy_behaviour *
         if (!(part > 1e-3))
             continue;
         br_put_note(d, "%s by %s: the scheme added %.3g J, %.3g %% of what was put in%s.",
-                    br_balance_scenes[row->scene], row->scheme->name, added(row), 100 * part,
+                    row->scene->name, row->scheme->name, added(row), 100 * part,
                     row->work.scheme_contact < 0 && row->scheme->may_lag
                         ? "; it is the lagged contact's force, implicit contact adds nothing"
                         : "");

@@ -2,46 +2,34 @@
 #include <inttypes.h>
 #include <math.h>
 
-#include "study/extremes/count.h"
+#include "study/extremes/map.h"
 #include "tables/reports.h"
 
-/* By class; a key is the class's word. */
-static const char *const class_headings[BR_EXTREME_CLASSES] = {
-    [BR_EXTREME_RIGHT] = "right",
-    [BR_EXTREME_WARNED] = "inaccurate, said",
-    [BR_EXTREME_UNKNOWN] = "inaccurate, error not known",
-    [BR_EXTREME_UNSTABLE] = "unstable as predicted",
-    [BR_EXTREME_REFUSED] = "refused",
-    [BR_EXTREME_UNJUDGED] = "given up by the map",
-    [BR_EXTREME_WRONG] = "silently wrong",
-};
-
-static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
+static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
 {
     br_put_table(d, "tally", "What was tried, and what came of it", 0);
-    for (size_t i = 0; i < counts->tallies; i++) {
-        const struct br_extreme_tally *t = &counts->tally[i];
+    for (size_t i = 0; i < m->tallies; i++) {
+        const struct br_extreme_tally *t = &m->tally[i];
         br_put_row(d);
-        BR_PUT(d, br_text(t->axis ? t->axis->title : "all"), .key = "tried",
-               .heading = "what was tried");
-        BR_PUT(d, br_text(t->axis ? t->label : NULL), .key = "range");
+        BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
+        BR_PUT(d, br_text(t->label), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
-            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
-                   .heading = class_headings[c]);
+            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_names[c].word,
+                   .heading = br_extreme_names[c].heading);
     }
 }
 
-static void put_reasons(struct br_document *d, const struct br_extreme_counts *counts)
+static void put_reasons(struct br_document *d, const struct br_extreme_map *m)
 {
     static const struct br_column columns[] = {
         {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
-    for (size_t i = 0; i < counts->reasons; i++) {
-        const struct br_extreme_reason *r = &counts->reason[i];
+    for (size_t i = 0; i < m->reasons; i++) {
+        const struct br_extreme_reason *r = &m->reason[i];
         br_put_row(d);
-        br_put(d, "kind", br_text(br_extreme_word(r->which)));
-        br_put_shown(d, "%s", class_headings[r->which]);
+        br_put(d, "kind", br_text(br_extreme_names[r->which].word));
+        br_put_shown(d, "%s", br_extreme_names[r->which].heading);
         br_put(d, "cases", br_count(r->cases));
         br_put(d, "first", br_count(r->first));
         br_put(d, "reason", br_text(r->text));
@@ -72,7 +60,7 @@ static void put_warnings(struct br_document *d, unsigned warned)
     for (int kind = 0; kind < BR_WARNINGS; kind++)
         if (warned & 1u << kind && used < sizeof text)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
-                                     br_warning_word((enum br_warning_kind)kind));
+                                     br_warning_words[kind]);
     BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
 }
 
@@ -81,8 +69,8 @@ static void put_case(struct br_document *d, const struct br_extreme_case *c, siz
 {
     br_put_row(d);
     BR_PUT(d, br_count(index), .key = "case");
-    BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
-    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)), .key = "judge");
+    BR_PUT(d, br_text(br_extreme_names[v->which].word), .key = "verdict");
+    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_judges[v->by]), .key = "judge");
     BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
     BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
            .format = "%.2e");
@@ -142,30 +130,15 @@ static void answer_map(struct br_document *d, const struct br_extreme_map *m)
         r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }
 
-static size_t judged_by(const struct br_extreme_map *m, enum br_extreme_by by)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        count += m->verdict[i].by == by;
-    return count;
-}
-
-static double largest_units(const struct br_extreme_map *m, size_t *compared)
-{
-    double most = 0;
-    *compared = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        if (!isnan(m->verdict[i].units)) {
-            most = fmax(most, m->verdict[i].units);
-            (*compared)++;
-        }
-    return most;
-}
-
 static void note_judging(struct br_document *d, const struct br_extreme_map *m)
 {
-    size_t compared;
-    const double units = largest_units(m, &compared);
+    size_t judged[BR_BY_REFINEMENT + 1] = {0}, compared = 0;
+    double units = 0;
+    for (size_t i = 0; i < m->cases; i++) {
+        judged[m->verdict[i].by]++;
+        compared += isnan(m->verdict[i].units) ? 0 : 1;
+        units = fmax(units, m->verdict[i].units); /* of NaN: the other */
+    }
     br_put_section(d, "How it was judged");
     br_put_note(
         d,
@@ -177,7 +150,7 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         "mean squares at eight times and up to 24 places), judged by the exact solution (%zu cases) "
         "or by another scheme on two to eight times the elements with up to 32 times the steps "
         "(%zu), and once more by a finer one before anything is called wrong.",
-        m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
+        m->seed, judged[BR_BY_EXACT], judged[BR_BY_REFINEMENT]);
     br_put_note(
         d,
         "%zu cases were marched in other units of length, time and mass, too. Their displacements "
@@ -186,15 +159,14 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         compared, units);
 }
 
-void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,
-                   struct br_document *d)
+void br_report_map(const struct br_extreme_map *m, struct br_document *d)
 {
     char again[120];
     br_document_begin(d, "map", "beamrate extremes map", 1,
                       "The map of extremes: right, or refused; never silently wrong");
     answer_map(d, m);
-    put_tallies(d, counts);
-    put_reasons(d, counts);
+    put_tallies(d, m);
+    put_reasons(d, m);
     put_wrong(d, m);
     put_cases(d, m);
     note_judging(d, m);

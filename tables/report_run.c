@@ -136,7 +136,7 @@ static void answer_warnings(struct br_document *d, const struct br_warnings *w)
         return;
     br_put_answer(d, "%zu warning%s before the march: ", w->count, w->count == 1 ? "" : "s");
     for (size_t i = 0; i < w->count; i++)
-        br_put_more(d, "%s%s", i ? ", " : "", br_warning_word(w->list[i].kind));
+        br_put_more(d, "%s%s", i ? ", " : "", br_warning_words[w->list[i].kind]);
     br_put_more(d, ".");
 }
 
@@ -259,13 +259,13 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
     for (size_t i = 0; i < w->count; i++) {
         const char *remedy = w->list[i].remedy;
         br_put_row(d);
-        BR_PUT(d, br_text(br_warning_word(w->list[i].kind)), .key = "warning");
+        BR_PUT(d, br_text(br_warning_words[w->list[i].kind]), .key = "warning");
         BR_PUT(d, br_text(w->list[i].text), .key = "text");
         BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
     }
     for (size_t i = 0; i < w->count; i++) {
         char key[KEY];
-        snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->list[i].kind));
+        snprintf(key, sizeof key, "remedies.%s", br_warning_words[w->list[i].kind]);
         br_put_note(d, "Warning: %s.", w->list[i].text);
         br_put_command(d, key, "Remedy", w->list[i].remedy);
     }

@@ -9,10 +9,8 @@
 
 struct br_check;
 struct br_comparison;
-struct br_drifts;
 struct br_energy_behaviour;
 struct br_estimate;
-struct br_extreme_counts;
 struct br_extreme_map;
 struct br_finding;
 struct br_floors;
@@ -70,7 +68,7 @@ void br_history_csv_stopped(FILE *out, const char *message);
 
 /* What a command would march, on so many threads. */
 void br_report_foreseen(const struct br_foreseen *work, const char *command, int threads,
-                    struct br_document *d);
+                        struct br_document *d);
 
 /* ---- orders ---- */
 
@@ -125,10 +123,8 @@ void br_report_plan(const struct br_plan *plan, const char *scene_word,
 /* ---- extremes, one a part: without provenance ---- */
 
 void br_report_floors(const struct br_floors *floors, struct br_document *d);
-void br_report_drifts(const struct br_drifts *drifts, struct br_document *d);
 void br_report_stability(const struct br_stability *stability, struct br_document *d);
 void br_report_energy(const struct br_energy_behaviour *behaviour, struct br_document *d);
-void br_report_map(const struct br_extreme_map *map, const struct br_extreme_counts *counts,
-                   struct br_document *d);
+void br_report_map(const struct br_extreme_map *map, struct br_document *d);
 
 #endif

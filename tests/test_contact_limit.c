@@ -188,11 +188,10 @@ static void test_round_steps(void **state)
 static bool warns(const struct br_scene *scene, size_t n, size_t steps,
                   const struct br_method *method, struct br_warning *first)
 {
-    struct br_error err = {0};
     struct br_warnings warnings = {0};
     const struct br_planned_march planned = {
         .scene = scene, .method = method, .n = n, .steps = steps};
-    MUST(br_warn_contact.look(&planned, &warnings, &err));
+    br_look_at_contact(&planned, &warnings);
     if (warnings.count)
         *first = warnings.list[0];
     return warnings.count > 0;

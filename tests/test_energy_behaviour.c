@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/beam_mode.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/grid/observer.h"
 #include "support.h"
@@ -95,7 +94,7 @@ static void test_all(void **state)
     for (size_t i = 0; i < b.balances; i++) {
         const struct br_balance_row *row = &b.balance[i];
         if (!br_balance_row_is_right(row))
-            fail_msg("%s by %s: %g", br_balance_scenes[row->scene], row->scheme->name, row->worst);
+            fail_msg("%s by %s: %g", row->scene->name, row->scheme->name, row->worst);
         done += row->end == BR_VIBRATION_DONE;
         most = fmax(most, br_energy_added(&row->work, BR_AXIAL));
     }

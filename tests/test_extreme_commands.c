@@ -53,7 +53,8 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
                                                          : "The discretisation error is not known");
     if (!same)
         fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
-                 br_extreme_word(verdict->which), verdict->why, command, out.exit_code, out.output);
+                 br_extreme_names[verdict->which].word, verdict->why, command, out.exit_code,
+                 out.output);
 }
 
 static void test_commands(void **state)

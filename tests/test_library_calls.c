@@ -223,7 +223,7 @@ static void forecasts_are_the_programs(void **state)
     assert_true(warnings.count > 0);
     assert_int_equal(forecast.warnings, warnings.count);
     for (size_t i = 0; i < warnings.count; i++) {
-        assert_string_equal(forecast.warning[i].kind, br_warning_word(warnings.list[i].kind));
+        assert_string_equal(forecast.warning[i].kind, br_warning_words[warnings.list[i].kind]);
         assert_string_equal(forecast.warning[i].text, warnings.list[i].text);
         assert_string_equal(forecast.warning[i].remedy, warnings.list[i].remedy);
     }

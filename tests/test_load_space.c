@@ -7,15 +7,13 @@
 #include "study/scene/file.h"
 #include "support.h"
 
-extern const struct br_warning_source br_warn_load_space;
-
 static struct br_warnings warnings_of(const struct br_scene *scene, size_t n)
 {
     const struct br_method method = br_method_default();
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = n, .steps = 10};
     struct br_warnings w = {0};
     struct br_error err;
-    MUST(br_warn_load_space.look(&o, &w, &err));
+    MUST(br_look_at_elements(&o, &w, &err));
     return w;
 }
 

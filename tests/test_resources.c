@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory that a march is said to take against what it has allocated; what does not fit, or
  * would never end, is refused. */
-#include "study/foresee/resources.h"
+#include "study/foresee/foreseen.h"
 
 #include <malloc.h>
 #include <math.h>

@@ -163,7 +163,8 @@ static void test_stopped_and_resumed(void **state)
     if (!(kept > 0 && kept < all) || out.exit_code == 0)
         fail_msg("%zu of %zu entries were kept: %s", kept, all, out.output);
     assert_false(cli_is_there("two/example2-contact-stiffness.csv"));
-    cli_expect(VARIED "two --resume", NULL, 0, "finished cells and trials taken from two/.kept");
+    cli_expect(VARIED "two --resume", NULL, 0,
+               "finished cells, trials and cases taken from two/.kept");
     assert_string_equal(whole, cli_read("two/example2-contact-stiffness.csv"));
     assert_int_equal(cli_count_files("two/.kept"), all);
 }
@@ -179,7 +180,7 @@ static void test_trials_resumed(void **state)
     cli_expect(line, NULL, 0, "");
     snprintf(whole, sizeof whole, "%s", cli_read("tr/example2.csv"));
     snprintf(again, sizeof again, "%s --resume", line);
-    cli_expect(again, NULL, 0, "finished cells and trials taken from tr/.kept: 8");
+    cli_expect(again, NULL, 0, "finished cells, trials and cases taken from tr/.kept: 8");
     assert_string_equal(whole, cli_read("tr/example2.csv"));
 }
 
@@ -193,7 +194,7 @@ static void test_not_resumed(void **state)
     cli_run_line(line, NULL, &out);
     assert_int_equal(out.exit_code, 0);
     assert_null(strstr(out.output, "were taken"));
-    cli_expect(line, NULL, 0, "trials taken from n/.kept: 4");
+    cli_expect(line, NULL, 0, "cases taken from n/.kept: 4");
     cli_run_line("study rod.yaml -n 4,8 -k 0.1,0.05 --scheme bdf2 --no-plots --format csv --out n "
                  "--resume",
                  NULL, &out);

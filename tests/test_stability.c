@@ -9,7 +9,6 @@
 #include "plots/pictures.h"
 #include "solver/laws.h"
 #include "study/extremes/stability.h"
-#include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
 #include "support.h"
 #include "tables/reports.h"
@@ -72,16 +71,16 @@ static void test_found(void **state)
     struct br_error err = {0};
     MUST(br_stability_verdict(&found, &err));
     assert_int_equal(found.rows, 3);
-    assert_int_equal(found.cells, BR_STABILITY_RODS * 3 * found.columns);
+    assert_int_equal(found.cells, BR_STABILITY_RODS * 3 * BR_STABILITY_COLUMNS);
     assert_true(found.growing > found.cells / 4 && found.growing < found.cells * 3 / 4);
     AT_MOST(found.limit_error, 2e-11);
     AT_MOST(found.growth_error, 1e-12);
     AT_MOST(found.excess, 1e-12);
     for (size_t i = 0; i < BR_STABILITY_RODS; i++)
         for (size_t row = 0; row < 3; row++) {
-            const struct br_stability_row *r = &found.plane[i].row[row];
+            const struct br_stability_row *r = &found.row[i * 3 + row];
             CLOSE(r->measured / r->limit, 1, 2e-11);
-            assert_true(row == 0 || r->k > found.plane[i].row[row - 1].k);
+            assert_true(row == 0 || r->k > r[-1].k);
         }
     for (size_t i = 0; i < found.schemes; i++)
         assert_int_equal(found.scheme[i].marches, 18);
@@ -124,7 +123,7 @@ static void test_verdict(void **state)
 static void test_planted_limit(void **state)
 {
     (void)state;
-    const struct br_stability_row *r = &found.plane[0].row[1];
+    const struct br_stability_row *r = &found.row[1];
     assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
     const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
     CLOSE(1 / (br_tip_flexibility(&field, 2 / r->k) * r->measured), 1, 2e-11);
@@ -215,17 +214,16 @@ static void test_figure(void **state)
     assert_int_equal(f.panels, BR_STABILITY_RODS);
     for (size_t i = 0; i < f.panels; i++) {
         const struct br_cells *c = &f.panel[i].cells;
-        const struct br_stability_plane *plane = &found.plane[i];
+        const struct br_stability_row *row = &found.row[i * found.rows];
         figure_axes(&f.panel[i], "c_H (N/m)", "k (s)");
         for (size_t j = 0; j < c->columns; j++)
             assert_true(c->x[j] < found.stiffness[j] && found.stiffness[j] < c->x[j + 1]);
         for (size_t j = 0; j < c->rows; j++) {
-            assert_true(c->y[j] < plane->row[j].k && plane->row[j].k < c->y[j + 1]);
-            figure_point(figure_series(&f.panel[i], "predicted limit"), j, plane->row[j].limit,
-                         plane->row[j].k);
-            figure_point(f.panel[i].series[1], j, plane->row[j].bouncing, plane->row[j].k);
+            assert_true(c->y[j] < row[j].k && row[j].k < c->y[j + 1]);
+            figure_point(figure_series(&f.panel[i], "predicted limit"), j, row[j].limit, row[j].k);
+            figure_point(f.panel[i].series[1], j, row[j].bouncing, row[j].k);
+            assert_memory_equal(c->value + j * c->columns, row[j].radius, sizeof row[j].radius);
         }
-        assert_memory_equal(c->value, plane->radius, c->rows * c->columns * sizeof *c->value);
     }
     figure_check(&f);
     br_figure_clear(&f);

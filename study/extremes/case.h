@@ -63,7 +63,7 @@ enum br_extreme_special {
     BR_SPECIAL_ZEROS,       /* some numbers that may be 0 are */
     BR_SPECIALS
 };
-const char *br_extreme_special_name(enum br_extreme_special special);
+extern const char *const br_extreme_specials[BR_SPECIALS];
 
 struct br_extreme_case {
     uint64_t seed;

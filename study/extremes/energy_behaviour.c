@@ -2,104 +2,65 @@
 #include "study/extremes/energy_behaviour.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "study/grid/each.h"
 #include "study/scene/file.h"
 
-/* ---- the scenes: bundled ones, and what is changed in them ---- */
+/* ---- the scenes ---- */
 
-static void massless(struct br_scene *s)
-{
-    s->density = 0;
-}
+#define PLACE(member) offsetof(struct br_scene, member)
+#define DENSITY                        \
+    {                                  \
+        PLACE(density), PLACE(density) \
+    }
+#define VISCOSITY                                        \
+    {                                                    \
+        PLACE(axial.viscosity), PLACE(bending.viscosity) \
+    }
+#define C_H                                                \
+    {                                                      \
+        PLACE(contact.stiffness), PLACE(contact.stiffness) \
+    }
+#define C_V                                                      \
+    {                                                            \
+        PLACE(friction.coefficient), PLACE(friction.coefficient) \
+    }
 
-static void heavy(struct br_scene *s)
-{
-    s->density = 1e6;
-}
-
-static void elastic(struct br_scene *s)
-{
-    s->axial.viscosity = s->bending.viscosity = 0;
-}
-
-static void tough(struct br_scene *s)
-{
-    s->axial.viscosity = s->bending.viscosity = 1e6;
-}
-
-static void hard(struct br_scene *s)
-{
-    s->contact.stiffness = 1e12;
-}
-
-static void rough(struct br_scene *s)
-{
-    s->friction.coefficient = 1e12;
-}
-
-static const struct {
-    const char *bundled;
-    void (*change)(struct br_scene *scene); /* NULL: as it is */
-    const char *contact;
-} scenes[] = {
-    {"example1", NULL, NULL},           {"example2", NULL, NULL},
-    {"example2", NULL, "lagged"},       {"example2", hard, "lagged"},
-    {"example2", hard, "implicit"},     {"example2", massless, "implicit"},
-    {"example2", heavy, "implicit"},    {"example2", elastic, "implicit"},
-    {"example2", tough, "implicit"},    {"example2", rough, "implicit"},
-    {"example4", NULL, NULL},           {"bouncing", NULL, "implicit"},
-    {"bouncing", NULL, "lagged"},       {"impact", NULL, "implicit"},
-    {"chatter", NULL, "implicit"},      {"vibration", NULL, NULL},
-    {"near_elastic", NULL, "implicit"}, {"heavy_damping", NULL, "implicit"},
+const struct br_balance_scene br_balance_scenes[] = {
+    {"example1", "example1", NULL, {0}, 0},
+    {"example2", "example2", NULL, {0}, 0},
+    {"example2, lagged contact", "example2", "lagged", {0}, 0},
+    {"example2, lagged contact, c_H = 1e12 N/m", "example2", "lagged", C_H, 1e12},
+    {"example2, c_H = 1e12 N/m", "example2", "implicit", C_H, 1e12},
+    {"example2, density 0", "example2", "implicit", DENSITY, 0},
+    {"example2, density 1e6 kg/m", "example2", "implicit", DENSITY, 1e6},
+    {"example2, viscosity 0", "example2", "implicit", VISCOSITY, 0},
+    {"example2, viscosity 1e6", "example2", "implicit", VISCOSITY, 1e6},
+    {"example2, c_V = 1e12 N/m", "example2", "implicit", C_V, 1e12},
+    {"example4", "example4", NULL, {0}, 0},
+    {"bouncing", "bouncing", "implicit", {0}, 0},
+    {"bouncing, lagged contact", "bouncing", "lagged", {0}, 0},
+    {"impact", "impact", "implicit", {0}, 0},
+    {"chatter", "chatter", "implicit", {0}, 0},
+    {"vibration", "vibration", NULL, {0}, 0},
+    {"near_elastic", "near_elastic", "implicit", {0}, 0},
+    {"heavy_damping", "heavy_damping", "implicit", {0}, 0},
 };
+enum { SCENES = sizeof br_balance_scenes / sizeof *br_balance_scenes };
 
-const char *const br_balance_scenes[] = {
-    "example1",
-    "example2",
-    "example2, lagged contact",
-    "example2, lagged contact, c_H = 1e12 N/m",
-    "example2, c_H = 1e12 N/m",
-    "example2, density 0",
-    "example2, density 1e6 kg/m",
-    "example2, viscosity 0",
-    "example2, viscosity 1e6",
-    "example2, c_V = 1e12 N/m",
-    "example4",
-    "bouncing",
-    "bouncing, lagged contact",
-    "impact",
-    "chatter",
-    "vibration",
-    "near_elastic",
-    "heavy_damping",
-};
-const size_t br_balance_scene_count = sizeof scenes / sizeof *scenes;
-_Static_assert(sizeof scenes / sizeof *scenes ==
-                   sizeof br_balance_scenes / sizeof *br_balance_scenes,
-               "a name for each scene");
-
-/* Whether its contact is lagged, which few schemes take. */
-static bool scene_lags(size_t i)
-{
-    return scenes[i].contact && strcmp(scenes[i].contact, "lagged") == 0;
-}
-
-/* Scene i (out) and the contact rule by name, NULL: the scheme's own. The caller clears the scene.
- */
-static enum br_status read_scene(size_t i, struct br_scene *scene, const char **contact,
+/* The caller clears the scene (out). */
+static enum br_status read_scene(const struct br_balance_scene *s, struct br_scene *scene,
                                  struct br_error *err)
 {
     char path[4096];
     *scene = (struct br_scene){0};
-    *contact = scenes[i].contact;
-    enum br_status status = br_scene_find(scenes[i].bundled, path, sizeof path, err);
+    enum br_status status = br_scene_find(s->bundled, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, scene, err);
-    if (!status && scenes[i].change)
-        scenes[i].change(scene);
+    for (size_t i = 0; i < 2 && s->place[i] && !status; i++)
+        *(double *)((char *)scene + s->place[i]) = s->value;
     return status;
 }
 
@@ -113,16 +74,6 @@ static const double dampings[] = {0, 0.01};
 /* Of a balance. */
 enum { ELEMENTS = 20, STEPS = 400 };
 static const double tolerance = 1e-3;
-
-size_t br_vibration_per_period(size_t rate)
-{
-    return rates[rate];
-}
-
-double br_vibration_tolerance(size_t rate)
-{
-    return tolerances[rate];
-}
 
 static void list_vibrations(struct br_energy_behaviour *b)
 {
@@ -152,40 +103,33 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
         schemes++;
     b->vibration =
         br_allocate(schemes * 2 * sizeof dampings / sizeof *dampings, sizeof *b->vibration);
-    b->balance = br_allocate(schemes * br_balance_scene_count, sizeof *b->balance);
+    b->balance = br_allocate(schemes * SCENES, sizeof *b->balance);
     if (!b->vibration || !b->balance)
         return br_no_memory(err, "energies of all schemes");
     list_vibrations(b);
-    for (size_t scene = 0; scene < br_balance_scene_count; scene++)
-        for (size_t s = 0; s < schemes; s++)
-            if (br_time_schemes[s]->may_lag || !scene_lags(scene))
-                b->balance[b->balances++] =
-                    (struct br_balance_row){.scheme = br_time_schemes[s], .scene = scene};
+    for (size_t i = 0; i < SCENES * schemes; i++) {
+        const struct br_balance_scene *scene = &br_balance_scenes[i / schemes];
+        const struct br_time_scheme *scheme = br_time_schemes[i % schemes];
+        if (scheme->may_lag || !scene->contact || strcmp(scene->contact, "lagged") != 0)
+            b->balance[b->balances++] = (struct br_balance_row){.scheme = scheme, .scene = scene};
+    }
     return BR_OK;
 }
 
 /* ---- a balance ---- */
 
-struct balance {
-    struct br_balance_row *row;
-    struct br_scene scene;
-    struct br_method method;
-    struct br_march *march;
-    struct br_energy_meter *meter;
-};
-
 /* A march that ends is a result: what came before it counts. */
-static enum br_status march(struct balance *b, struct br_error *err)
+static enum br_status march(struct br_balance_row *row, struct br_march *march,
+                            struct br_energy_meter *meter, struct br_error *err)
 {
-    struct br_balance_row *row = b->row;
     enum br_status status = BR_OK;
     for (row->marched = 0; row->marched < STEPS && !status; row->marched += !status) {
-        status = br_march_step(b->march, err);
-        const double imbalance = status ? 0 : br_energy_meter_step(b->meter);
+        status = br_march_step(march, err);
+        const double imbalance = status ? 0 : br_energy_meter_step(meter);
         if (isnan(imbalance) || imbalance > row->worst)
             row->worst = imbalance;
     }
-    br_energy_meter_read(b->meter, &row->start, &row->now, &row->work);
+    br_energy_meter_read(meter, &row->start, &row->now, &row->work);
     if (status != BR_NOT_FINITE)
         return status;
     row->end = BR_VIBRATION_FAILED;
@@ -193,10 +137,12 @@ static enum br_status march(struct balance *b, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status measure(struct balance *b, struct br_error *err)
+static enum br_status measure(struct br_balance_row *row, const struct br_scene *scene,
+                              const struct br_method *method, struct br_error *err)
 {
-    struct br_balance_row *row = b->row;
-    enum br_status status = br_march_create(&b->march, &b->scene, ELEMENTS, STEPS, &b->method, err);
+    struct br_march *m;
+    struct br_energy_meter *meter = NULL;
+    enum br_status status = br_march_create(&m, scene, ELEMENTS, STEPS, method, err);
     if (status == BR_BAD_INPUT || status == BR_SINGULAR) {
         row->end = BR_VIBRATION_REFUSED;
         row->failure = *err;
@@ -204,29 +150,30 @@ static enum br_status measure(struct balance *b, struct br_error *err)
     }
     if (status)
         return status;
-    row->limit = br_energy_limit(ELEMENTS, br_march_round_off(b->march));
-    status = br_energy_meter_create(&b->meter, b->march, &b->scene, &b->method, err);
+    row->limit = br_energy_limit(ELEMENTS, br_march_round_off(m));
+    status = br_energy_meter_create(&meter, m, scene, method, err);
     if (!status)
-        status = march(b, err);
-    br_energy_meter_free(b->meter);
-    br_march_free(b->march);
+        status = march(row, m, meter, err);
+    br_energy_meter_free(meter);
+    br_march_free(m);
     return status;
 }
 
 static enum br_status run_balance(struct br_balance_row *row, struct br_error *err)
 {
-    struct balance b = {.row = row, .method = br_method_default()};
-    const char *contact;
-    enum br_status status = read_scene(row->scene, &b.scene, &contact, err);
-    b.method.scheme = row->scheme;
-    b.method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
-    b.method.tolerance = tolerance;
-    if (!status && (br_method_check(&b.method, &row->failure) ||
-                    br_method_check_scene(&b.method, &b.scene, &row->failure)))
+    struct br_scene scene;
+    struct br_method method = br_method_default();
+    const char *contact = row->scene->contact;
+    enum br_status status = read_scene(row->scene, &scene, err);
+    method.scheme = row->scheme;
+    method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
+    method.tolerance = tolerance;
+    if (!status && (br_method_check(&method, &row->failure) ||
+                    br_method_check_scene(&method, &scene, &row->failure)))
         row->end = BR_VIBRATION_REFUSED;
     else if (!status)
-        status = measure(&b, err);
-    br_scene_clear(&b.scene);
+        status = measure(row, &scene, &method, err);
+    br_scene_clear(&scene);
     return status;
 }
 

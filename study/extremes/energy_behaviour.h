@@ -12,6 +12,25 @@
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 
+/* ---- the lowest mode of a field on a mesh, as its elements have it, to start with ---- */
+
+enum { BR_MODE_ELEMENTS = 8, BR_MODE_UNKNOWNS = 2 * BR_MODE_ELEMENTS };
+
+/* Of BR_MODE_ELEMENTS linear (axial) or Hermite (bending) elements: K phi = omega^2 M phi. */
+struct br_beam_mode {
+    enum br_field_kind kind;
+    double length, omega;            /* m, 1/s */
+    double phi[BR_MODE_UNKNOWNS];    /* without the clamped node: 1 at the tip */
+    double weight[BR_MODE_UNKNOWNS]; /* M phi over phi'M phi: the part of the mode in a state */
+};
+
+/* Fails with BR_NO_MEMORY, and with BR_SINGULAR where the eigenvalues are not found. */
+enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scene *scene,
+                                 enum br_field_kind kind, struct br_error *err);
+
+/* How much of the mode is in nodal values of the field (in: clamped node included), m or m/s. */
+double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal);
+
 /* ---- free vibration of a field in its lowest mode: what a time scheme takes from its energy, as
  * measured and as its stability function tells ---- */
 
@@ -66,10 +85,18 @@ struct br_vibration_row {
     struct br_vibration at[BR_VIBRATION_RATES][BR_VIBRATION_DENSITIES];
 };
 
+/* A bundled scene, and what is changed in it. */
+struct br_balance_scene {
+    const char *name, *bundled;
+    const char *contact; /* rule; NULL: the scheme's own */
+    size_t place[2];     /* of numbers in struct br_scene; 0: it is as it is */
+    double value;
+};
+
 /* A scene that is marched by one scheme, with its balance in each step. */
 struct br_balance_row {
     const struct br_time_scheme *scheme;
-    size_t scene; /* of br_balance_scenes */
+    const struct br_balance_scene *scene;
     enum br_vibration_end end;
     struct br_error failure; /* why it was refused, or where its march ended */
     size_t marched;          /* steps until then */
@@ -83,14 +110,6 @@ struct br_energy_behaviour {
     struct br_balance_row *balance;
     size_t vibrations, balances;
 };
-
-/* The scenes, in words. */
-extern const char *const br_balance_scenes[];
-extern const size_t br_balance_scene_count;
-
-/* Of which steps a period, or of an adaptive scheme the tolerances. */
-size_t br_vibration_per_period(size_t rate);
-double br_vibration_tolerance(size_t rate);
 
 /* Computes on `threads` threads (0: all cores); the result does not depend on them. Fails with
  * BR_NO_MEMORY, BR_INTERRUPTED and as scenes do; clear it even then. */

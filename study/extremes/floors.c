@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The round-off floor of every linear solver, over n and k. */
 #include "study/extremes/floors.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "reference/discrete.h"
+#include "study/grid/each.h"
 #include "study/scene/file.h"
 
-static const size_t usual_n[] = {100, 400, 1600, 6400, 12800, 100000, 1000000};
-static const double usual_k[] = {1e-2, 1e-4, 1e-6};
+#define COUNT(list) (sizeof(list) / sizeof *(list))
 
 /* ---- who is measured ---- */
 
-__attribute__((format(printf, 2, 3))) static void add_solver(struct br_floors *f,
+__attribute__((format(printf, 2, 3))) static void add_method(struct br_floors *f,
                                                              const char *format, ...)
 {
     char name[BR_METHOD_NAME_SIZE];
@@ -23,9 +25,9 @@ __attribute__((format(printf, 2, 3))) static void add_solver(struct br_floors *f
     va_start(arguments, format);
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
-    if (f->solvers < BR_FLOOR_SOLVERS &&
-        br_named_method_read(name, &f->solver[f->solvers], &ignored) == BR_OK)
-        f->solvers++;
+    if (f->methods < BR_FLOOR_METHODS &&
+        br_named_method_read(name, &f->method[f->methods], &ignored) == BR_OK)
+        f->methods++;
 }
 
 /* Every linear solver, and each option that changes its digits. */
@@ -34,121 +36,323 @@ static void add_solvers(struct br_floors *f)
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         if (!(*s)->cost) /* a choice of the others */
             continue;
-        add_solver(f, "%s", (*s)->name);
+        add_method(f, "%s", (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling"))
-            add_solver(f, "%s+scaled", (*s)->name);
+            add_method(f, "%s+scaled", (*s)->name);
         if (br_linear_solver_heeds(*s, "--refinement"))
-            add_solver(f, "%s+refined", (*s)->name);
+            add_method(f, "%s+refined", (*s)->name);
     }
+    f->solvers = f->methods;
 }
 
-static enum br_status find_scene(struct br_scene *scene, struct br_error *err)
+/* Every scheme of equal steps; other solvers lose more in one step. */
+static void add_schemes(struct br_floors *f)
 {
-    char path[1024];
-    br_data_path("study/scenes/example2.yaml", path, sizeof path);
-    return br_scene_read(path, scene, err);
+    static const char *const solvers[] = {"riccati", "plain"};
+    f->solvers = COUNT(solvers);
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        for (size_t c = 0; br_contact_rules[c]; c++)
+            for (size_t i = 0; i < f->solvers; i++)
+                if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
+                    add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
+}
+
+static enum br_status read_scenes(struct br_floors *f, struct br_error *err)
+{
+    static const char *const names[] = {"example1", "example2"};
+    enum br_status status = BR_OK;
+    const char *const *name = f->gathered ? names : names + 1;
+    f->scenes = f->gathered ? 2 : 1;
+    for (size_t i = 0; i < f->scenes && !status; i++) {
+        char path[1024];
+        status = br_scene_find(name[i], path, sizeof path, err);
+        if (!status)
+            status = br_scene_read(path, &f->scene[i], err);
+    }
+    return status;
+}
+
+/* ---- what is measured ---- */
+
+static const size_t usual_n[] = {100, 400, 1600, 6400, 12800, 100000, 1000000};
+static const size_t usual_steps[] = {100, 10000, 1000000}; /* of 1 s */
+static const size_t gathered_n[] = {BR_GATHERED_N};
+static const size_t gathered_steps[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
+
+/* Whether a number of steps is gathered by default, so that a minute or two is enough: schemes of
+ * several solves a step, of one, and, in the scene that sticks, implicit Euler with implicit
+ * contact. */
+static bool is_usual(const struct br_method *m, bool sticks, size_t steps)
+{
+    static const size_t most_of_many = 100000, most_of_one = 1000000;
+    if (br_time_scheme_stages(m->scheme) > 1)
+        return steps <= most_of_many;
+    return steps <= most_of_one || (m->scheme->may_lag && m->contact->at_new_step && sticks);
+}
+
+/* All marches of a mesh and a time step. */
+static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps, bool chosen)
+{
+    const size_t most = f->gathered ? SIZE_MAX : BR_FLOOR_STEPS;
+    for (size_t i = 0; i < f->scenes * f->methods; i++) {
+        const struct br_scene *scene = &f->scene[i / f->methods];
+        const struct br_named_method *by = &f->method[i % f->methods];
+        const bool marched =
+            chosen || !f->gathered || is_usual(&by->method, scene == f->scene, steps);
+        f->floor[i * f->n_count * f->k_count + at] = (struct br_floor){
+            .scene = scene,
+            .by = by,
+            .n = n,
+            .of = steps,
+            .steps = !marched       ? 0
+                     : steps < most ? steps
+                                    : most,
+            .k = br_time_step(scene, steps),
+            .deviation = {NAN, NAN},
+            .tip = {NAN, NAN},
+            .predicted = NAN,
+            .time_error = NAN,
+        };
+    }
 }
 
 static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *plan,
                               struct br_error *err)
 {
-    const enum br_status status = find_scene(&f->scene, err);
+    const size_t *n = f->gathered ? gathered_n : plan->n ? plan->n : usual_n;
+    const size_t *usual = f->gathered ? gathered_steps : usual_steps;
+    enum br_status status = read_scenes(f, err);
     if (status)
         return status;
-    add_solvers(f);
-    for (size_t s = 0; s < f->solvers; s++)
-        f->solver[s].method.rounding = plan->rounding;
-    f->n_count = plan->n ? plan->n_count : sizeof usual_n / sizeof *usual_n;
-    f->k_count = plan->k ? plan->k_count : sizeof usual_k / sizeof *usual_k;
-    f->n = br_allocate(f->n_count, sizeof *f->n);
-    f->k = br_allocate(f->k_count, sizeof *f->k);
-    f->floor = br_allocate(f->solvers * f->n_count * f->k_count, sizeof *f->floor);
-    if (!f->n || !f->k || !f->floor)
+    if (f->gathered)
+        add_schemes(f);
+    else
+        add_solvers(f);
+    for (size_t i = 0; i < f->methods; i++)
+        f->method[i].method.rounding = plan->rounding;
+    f->n_count = f->gathered ? COUNT(gathered_n) : plan->n ? plan->n_count : COUNT(usual_n);
+    f->k_count = plan->k ? plan->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
+    f->floors = f->scenes * f->methods * f->n_count * f->k_count;
+    f->floor = br_allocate(f->floors, sizeof *f->floor);
+    if (!f->floor)
         return br_no_memory(err, "the floors");
-    memcpy(f->n, plan->n ? plan->n : usual_n, f->n_count * sizeof *f->n);
-    memcpy(f->k, plan->k ? plan->k : usual_k, f->k_count * sizeof *f->k);
-    return BR_OK;
+    for (size_t i = 0; i < f->n_count * f->k_count && !status; i++) {
+        const size_t j = i % f->k_count;
+        size_t steps = usual[plan->k ? 0 : j];
+        if (plan->k)
+            status = br_steps_of(&f->scene[0], plan->k[j], &steps, err);
+        list_marches(f, i, n[i / f->k_count], steps, plan->k != NULL);
+    }
+    return status;
 }
 
 void br_floors_clear(struct br_floors *f)
 {
-    br_scene_clear(&f->scene);
-    free(f->n);
-    free(f->k);
+    for (size_t i = 0; i < f->scenes; i++)
+        br_scene_clear(&f->scene[i]);
     free(f->floor);
     *f = (struct br_floors){0};
 }
 
-static enum br_status run_tasks(struct br_floors *f, const struct br_floors_plan *plan,
+/* ---- a march against the exact discrete solution ---- */
+
+/* Marches that differ by their solver alone, at work. */
+struct work {
+    struct br_floor *first; /* the others follow, with a stride */
+    const struct br_observer *observer;
+    long double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
+    double *march;         /* workspace, 2 (n + 1); owned */
+};
+
+/* Looked at so often that steps of any mesh take no long time. */
+static bool stopped(const struct work *w, size_t step)
+{
+    const struct br_observer *o = w->observer;
+    return step % (40960 / w->first->n + 1) == 0 && o && o->stop && o->stop(o->self);
+}
+
+static enum br_status find_exact(struct work *w, struct br_error *err)
+{
+    const struct br_floor *f = w->first;
+    struct br_discrete *d;
+    enum br_status status = br_discrete_create(&d, f->scene, f->n, f->of, &f->by->method, err);
+    for (size_t i = 0; i < f->steps && !status; i++)
+        status =
+            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_discrete_step(d, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        w->nodal[kind] = br_allocate((size_t)(kind + 1) * (f->n + 1), sizeof(long double));
+        if (w->nodal[kind])
+            br_discrete_get(d, (enum br_field_kind)kind, w->nodal[kind], NULL);
+        else
+            status = br_no_memory(err, "the exact discrete solution");
+    }
+    br_discrete_free(d);
+    return status;
+}
+
+/* Differences of the nodal displacements; slopes are those of the same functions. */
+static void compare(const struct work *w, const struct br_march *march, enum br_field_kind kind,
+                    struct br_floor *floor)
+{
+    const size_t stride = kind == BR_AXIAL ? 1 : 2, last = stride * floor->n;
+    const long double *exact = w->nodal[kind];
+    long double most = 0, largest = 0;
+    br_march_get(march, kind, w->march, NULL);
+    for (size_t i = 0; i <= last; i += stride) {
+        const long double error = fabsl(exact[i] - w->march[i]);
+        largest = fmaxl(largest, fabsl(exact[i]));
+        most = isnan(most) || error <= most ? most : error;
+    }
+    floor->deviation[kind] = (double)(most / largest);
+    floor->tip[kind] = (double)(fabsl(exact[last] - w->march[last]) / largest);
+}
+
+/* How far the time told is from i T/N, which long double has to 64 bits. */
+static double time_error(const struct br_floor *f, const struct br_march *march, size_t i)
+{
+    const long double exact = (long double)f->scene->duration * (long double)i / (long double)f->of;
+    return (double)fabsl(br_march_time(march) - exact) / f->scene->duration;
+}
+
+/* What the solver refuses, or fails with, is kept. */
+static enum br_status measure(const struct work *w, struct br_floor *floor, struct br_error *err)
+{
+    struct br_march *march;
+    bool stop = false;
+    enum br_status status = br_march_create(&march, floor->scene, floor->n, floor->of,
+                                            &floor->by->method, &floor->refused);
+    floor->time_error = 0;
+    for (size_t i = 0; i < floor->steps && !status && !stop; i++) {
+        stop = stopped(w, i);
+        status = br_march_step(march, &floor->refused);
+        floor->time_error = fmax(floor->time_error, time_error(floor, march, i + 1));
+    }
+    if (march)
+        floor->predicted = br_march_round_off(march);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        compare(w, march, (enum br_field_kind)kind, floor);
+    br_march_free(march);
+    return stop ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
+}
+
+/* ---- all ---- */
+
+struct loop {
+    const struct br_floors *f;
+    const struct br_observer *observer;
+    struct br_floor **first; /* of the solvers of a turn */
+};
+
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
+{
+    const struct loop *l = self;
+    struct work w = {.first = l->first[i], .observer = l->observer};
+    w.march = br_allocate(2 * (w.first->n + 1), sizeof *w.march);
+    enum br_status status = w.march ? find_exact(&w, err) : br_no_memory(err, "the floors");
+    for (size_t s = 0; s < l->f->solvers && !status; s++)
+        status = measure(&w, w.first + s * l->f->n_count * l->f->k_count, err);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        free(w.nodal[kind]);
+    free(w.march);
+    return status;
+}
+
+static double work_of(const struct br_floor *f)
+{
+    return (double)f->n * (double)f->steps;
+}
+
+static double work_of_turn(const void *self, size_t i)
+{
+    const struct loop *l = self;
+    return work_of(l->first[i]);
+}
+
+/* Those of as much work in the order of their results. */
+static int most_work_first(const void *a, const void *b)
+{
+    const struct br_floor *x = *(struct br_floor *const *)a, *y = *(struct br_floor *const *)b;
+    if (work_of(x) != work_of(y))
+        return work_of(x) < work_of(y) ? 1 : -1;
+    return (x > y) - (x < y);
+}
+
+static enum br_status march_all(struct br_floors *f, int threads,
                                 const struct br_observer *observer, struct br_error *err)
 {
-    const size_t count = f->n_count * f->k_count;
-    struct br_floor_task *tasks = br_allocate(count, sizeof *tasks);
-    enum br_status status = tasks ? BR_OK : br_no_memory(err, "the floors");
-    for (size_t i = 0; i < count && !status; i++) {
-        struct br_floor_task *t = &tasks[i];
-        *t = (struct br_floor_task){.scene = &f->scene,
-                                    .n = f->n[i / f->k_count],
-                                    .by = f->solver,
-                                    .solvers = f->solvers,
-                                    .floor = &f->floor[i],
-                                    .stride = count};
-        status = br_steps_of(&f->scene, f->k[i % f->k_count], &t->steps, err);
-        t->taken = t->steps < BR_FLOOR_STEPS ? t->steps : BR_FLOOR_STEPS;
-    }
-    if (!status)
-        status = br_floor_tasks_run(tasks, count, plan->threads, observer, err);
-    free(tasks);
+    struct loop loop = {f, observer, br_allocate(f->floors, sizeof *loop.first)};
+    struct br_each each = {0, threads, observer, take_turn, work_of_turn, &loop};
+    if (!loop.first)
+        return br_no_memory(err, "the floors");
+    for (size_t i = 0; i < f->floors; i++)
+        if (f->floor[i].steps > 0 && (size_t)(f->floor[i].by - f->method) % f->solvers == 0)
+            loop.first[each.count++] = &f->floor[i];
+    qsort(loop.first, each.count, sizeof *loop.first, most_work_first);
+    const enum br_status status = br_each(&each, err);
+    free(loop.first);
     return status;
 }
 
 enum br_status br_floors_run(struct br_floors *f, const struct br_floors_plan *plan,
                              const struct br_observer *observer, struct br_error *err)
 {
-    *f = (struct br_floors){0};
+    *f = (struct br_floors){.gathered = plan->gathered};
     const enum br_status status = prepare(f, plan, err);
-    return status ? status : run_tasks(f, plan, observer, err);
+    if (!status && !br_discrete_judges())
+        return br_fail(err, BR_UNSUPPORTED,
+                       "long double has no more digits than double on this machine: there is "
+                       "nothing to measure round-off by");
+    return status ? status : march_all(f, plan->threads, observer, err);
 }
 
 /* ---- looking ---- */
 
-const struct br_floor *br_floor_at(const struct br_floors *f, size_t solver, size_t n, size_t k)
+const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size_t method, size_t n,
+                                   size_t k)
 {
-    return &f->floor[(solver * f->n_count + n) * f->k_count + k];
+    return &f->floor[((scene * f->methods + method) * f->n_count + n) * f->k_count + k];
 }
 
-double br_floor_limit(const struct br_floors *f, size_t solver, const struct br_floor *floor)
+double br_floor_deviation(const struct br_floor *floor)
 {
-    const double promised = f->solver[solver].method.solver != &br_riccati ? INFINITY
-                            : floor->n <= 12800                            ? 2e-11
-                            : floor->n <= 1000000                          ? 1e-9
-                                                                           : INFINITY;
-    return floor->predicted < promised ? floor->predicted : promised;
+    const double *d = floor->deviation;
+    return isnan(d[0]) || d[0] > d[1] ? d[0] : d[1];
 }
 
-static enum br_status check(const struct br_floors *f, size_t solver, const struct br_floor *floor,
-                            struct br_error *err)
+double br_floor_limit(const struct br_floor *f)
 {
-    const struct br_named_method *c = &f->solver[solver];
-    const bool assembled = c->method.solver->bending->round_off != NULL;
-    if (floor->refused.status && assembled)
+    const bool promised = f->by->method.solver == &br_riccati && f->steps <= BR_FLOOR_STEPS;
+    const double most = !promised         ? INFINITY
+                        : f->n <= 12800   ? 2e-11
+                        : f->n <= 1000000 ? 1e-9
+                                          : INFINITY;
+    return f->predicted < most ? f->predicted : most;
+}
+
+static enum br_status check(const struct br_floor *f, struct br_error *err)
+{
+    char what[200];
+    const bool assembled = f->by->method.solver->bending->round_off != NULL;
+    if (!f->steps || (f->refused.status && (assembled || f->refused.status == BR_BAD_INPUT)))
         return BR_OK; /* right, or refused */
-    if (floor->refused.status)
-        return br_fail(err, BR_VERDICT, "%s, n = %zu, k = %g s: %.700s", c->name, floor->n,
-                       floor->k, floor->refused.message);
-    const double limit = br_floor_limit(f, solver, floor);
-    if (!(br_floor_deviation(floor) <= limit))
+    snprintf(what, sizeof what, "%s of %s, n = %zu, %zu steps of %g s", f->by->name, f->scene->name,
+             f->n, f->steps, f->k);
+    if (f->refused.status)
+        return br_fail(err, BR_VERDICT, "%s: %.700s", what, f->refused.message);
+    if (!(br_floor_deviation(f) <= br_floor_limit(f)))
+        return br_fail(err, BR_VERDICT, "%s: the round-off is %.2g, expected at most %.2g", what,
+                       br_floor_deviation(f), br_floor_limit(f));
+    if (!(f->time_error <= DBL_EPSILON))
         return br_fail(err, BR_VERDICT,
-                       "%s, n = %zu, k = %g s: the round-off is %.2g, expected at most %.2g",
-                       c->name, floor->n, floor->k, br_floor_deviation(floor), limit);
+                       "%s: a time level is %.2g of the duration off, expected at most %.2g", what,
+                       f->time_error, DBL_EPSILON);
     return BR_OK;
 }
 
 enum br_status br_floors_verdict(const struct br_floors *f, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t s = 0; s < f->solvers; s++)
-        for (size_t i = 0; i < f->n_count * f->k_count && !status; i++)
-            status = check(f, s, &f->floor[s * f->n_count * f->k_count + i], err);
+    for (size_t i = 0; i < f->floors && !status; i++)
+        status = check(&f->floor[i], err);
     return status;
 }

@@ -34,31 +34,18 @@ struct trial {
 
 static const double no_digit = 0.05; /* predicted round-off that leaves none */
 
-const char *br_extreme_word(enum br_extreme_class which)
-{
-    static const char *const words[] = {
-#define X(name, word, title) [name] = word,
-        BR_EXTREME_LIST(X)
-#undef X
-    };
-    return words[which];
-}
+const struct br_extreme_names br_extreme_names[] = {
+    {"right", "right", "right"},
+    {"inaccurate", "stable but inaccurate, and says so", "inaccurate, said"},
+    {"not-known", "inaccurate, and says that its error is not known",
+     "inaccurate, error not known"},
+    {"unstable", "unstable as predicted", "unstable as predicted"},
+    {"refused", "refused", "refused"},
+    {"unjudged", "given up by the map", "given up by the map"},
+    {"wrong", "silently wrong", "silently wrong"},
+};
 
-const char *br_extreme_title(enum br_extreme_class which)
-{
-    static const char *const titles[] = {
-#define X(name, word, title) [name] = title,
-        BR_EXTREME_LIST(X)
-#undef X
-    };
-    return titles[which];
-}
-
-const char *br_extreme_by_name(enum br_extreme_by by)
-{
-    static const char *const names[] = {"nobody", "the exact solution", "refinement"};
-    return names[by];
-}
+const char *const br_extreme_judges[] = {"nobody", "the exact solution", "refinement"};
 
 /* Decides a case, once and for all; the format is of what is to be said. */
 __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
@@ -131,42 +118,17 @@ static bool exact_knows(const struct trial *t)
                                    t->method.friction->needs_regularisation);
 }
 
-static enum br_status ask_exact(struct trial *t, struct br_error *err)
-{
-    if (!exact_knows(t))
-        return BR_OK;
-    const enum br_status status =
-        br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err);
-    if (status || t->other->failure.status)
-        return status;
-    t->verdict->by = BR_BY_EXACT;
-    compare(t);
-    return BR_OK;
-}
-
-static const struct br_contact_rule *implicit_contact(void)
-{
-    const struct br_contact_rule *const *rule = br_contact_rules;
-    while (!(*rule)->at_new_step)
-        rule++;
-    return *rule;
-}
-
-/* By riccati, whose round-off is least, with contact at the new level, which has no limit, and a
- * scheme that takes little energy from a vibration, but is not the one that errors are predicted
- * by. */
+/* By a scheme that takes little energy from a vibration, but is not the one that errors are
+ * predicted by. */
 static enum br_status march_finer(struct trial *t, size_t finer, double times,
                                   struct br_track *track, struct br_error *err)
 {
     struct br_track_request request = request_of(t);
-    struct br_method fine = t->method;
-    const bool chosen = fine.scheme->adaptive;
-    fine.solver = br_linear_solvers[0];
-    fine.contact = implicit_contact();
-    if (fine.friction->iterates) /* what an iteration leaves adds up over many steps */
-        fine.friction = br_friction_rules[0];
+    const bool chosen = t->method.scheme->adaptive;
     const bool at_once = br_follows_at_once(&t->marched, br_time_step(&t->marched, t->one->steps));
-    fine.scheme = br_time_scheme_find(chosen ? "adaptive" : at_once ? "euler" : "esdirk3");
+    struct br_method fine = br_accurate_method(&t->method, chosen    ? "adaptive"
+                                                           : at_once ? "euler"
+                                                                     : "esdirk3");
     fine.tolerance = fmax(1e-11, fine.tolerance / (100 * times));
     fine.most_steps = 4 * MOST_STEPS;
     request.method = &fine;
@@ -183,12 +145,14 @@ static size_t finer_mesh(const struct trial *t)
     return t->one->n < 16 ? 8 : t->one->n < 200 ? 4 : 2;
 }
 
-static enum br_status ask_refinement(struct trial *t, struct br_error *err)
+static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_error *err)
 {
-    const enum br_status status = march_finer(t, finer_mesh(t), 1, t->other, err);
+    const enum br_status status =
+        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err)
+                          : march_finer(t, finer_mesh(t), 1, t->other, err);
     if (status || t->other->failure.status)
         return status;
-    t->verdict->by = BR_BY_REFINEMENT;
+    t->verdict->by = by;
     compare(t);
     return BR_OK;
 }
@@ -235,14 +199,14 @@ static void decide_accuracy(struct trial *t)
         decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
     else
         decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", t->error,
-               br_extreme_by_name(v->by), v->stated);
+               br_extreme_judges[v->by], v->stated);
 }
 
 static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
 {
-    enum br_status status = ask_exact(t, err);
+    enum br_status status = exact_knows(t) ? ask(t, BR_BY_EXACT, err) : BR_OK;
     if (!status && t->verdict->by == BR_BY_NOBODY)
-        status = ask_refinement(t, err);
+        status = ask(t, BR_BY_REFINEMENT, err);
     if (!status && t->verdict->by == BR_BY_REFINEMENT && !(t->beyond <= 0))
         status = ask_again(t, err);
     if (!status)

@@ -18,28 +18,25 @@
 #include "study/extremes/case.h"
 #include "study/foresee/warnings.h"
 
-/* X(name, word for programs, title) */
-#define BR_EXTREME_LIST(X)                                                                 \
-    X(BR_EXTREME_RIGHT, "right", "right")                                                  \
-    X(BR_EXTREME_WARNED, "inaccurate", "stable but inaccurate, and says so")               \
-    X(BR_EXTREME_UNKNOWN, "not-known", "inaccurate, and says that its error is not known") \
-    X(BR_EXTREME_UNSTABLE, "unstable", "unstable as predicted")                            \
-    X(BR_EXTREME_REFUSED, "refused", "refused")                                            \
-    X(BR_EXTREME_UNJUDGED, "unjudged", "given up by the map")                              \
-    X(BR_EXTREME_WRONG, "wrong", "silently wrong")
-
 enum br_extreme_class {
-#define X(name, word, title) name,
-    BR_EXTREME_LIST(X)
-#undef X
-        BR_EXTREME_CLASSES
+    BR_EXTREME_RIGHT,
+    BR_EXTREME_WARNED,   /* inaccurate, and says so */
+    BR_EXTREME_UNKNOWN,  /* inaccurate, and says that its error is not known */
+    BR_EXTREME_UNSTABLE, /* as predicted */
+    BR_EXTREME_REFUSED,
+    BR_EXTREME_UNJUDGED, /* given up by the map */
+    BR_EXTREME_WRONG,
+    BR_EXTREME_CLASSES
 };
-const char *br_extreme_word(enum br_extreme_class which);
-const char *br_extreme_title(enum br_extreme_class which);
+struct br_extreme_names {
+    const char *word;            /* for programs */
+    const char *title, *heading; /* for people: of a picture's key, and short */
+};
+extern const struct br_extreme_names br_extreme_names[BR_EXTREME_CLASSES];
 
 /* Who tells how accurate it is. */
 enum br_extreme_by { BR_BY_NOBODY, BR_BY_EXACT, BR_BY_REFINEMENT };
-const char *br_extreme_by_name(enum br_extreme_by by);
+extern const char *const br_extreme_judges[];
 
 struct br_extreme_verdict {
     enum br_extreme_class which;

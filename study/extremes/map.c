@@ -1,194 +1,211 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/extremes/map.h"
 
+#include <ctype.h>
 #include <errno.h>
+#include <gsl/gsl_cdf.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "study/grid/each.h"
-
-/* ---- the file in which verdicts are kept as they come, a line each, so that a run that was ended
- * may go on. Its first line tells the program, the seed and the judging options. ---- */
-
-enum { LINE = 512 };
-
-static void head_of(const struct br_extreme_request *w, char head[LINE])
-{
-    snprintf(head, LINE, "beamrate extremes map 2, %.300s, seed %llu, rounding %d%s\n", w->program,
-             (unsigned long long)w->seed, w->judging.rounding, w->judging.quick ? ", quick" : "");
-}
-
-static void print(FILE *file, size_t index, const struct br_extreme_verdict *v)
-{
-    fprintf(file, "%zu %s %d %d %.17g %.17g %.17g %.17g %u;%s\n", index, br_extreme_word(v->which),
-            (int)v->by, (int)v->known, v->error, v->stated, v->units, v->round_off, v->warned,
-            v->why);
-}
-
-static bool find_class(const char *word, enum br_extreme_class *which)
-{
-    for (int i = 0; i < BR_EXTREME_CLASSES; i++)
-        if (strcmp(br_extreme_word((enum br_extreme_class)i), word) == 0) {
-            *which = (enum br_extreme_class)i;
-            return true;
-        }
-    return false;
-}
-
-/* Whether the line is a verdict. */
-static bool scan(const char *line, size_t *index, struct br_extreme_verdict *v)
-{
-    char word[32];
-    int by, known, used = 0;
-    *v = (struct br_extreme_verdict){0};
-    if (sscanf(line, "%zu %31s %d %d %lf %lf %lf %lf %u;%n", index, word, &by, &known, &v->error,
-               &v->stated, &v->units, &v->round_off, &v->warned, &used) != 9 ||
-        used == 0 || by < BR_BY_NOBODY || by > BR_BY_REFINEMENT || !find_class(word, &v->which))
-        return false;
-    v->by = (enum br_extreme_by)by;
-    v->known = known != 0;
-    snprintf(v->why, sizeof v->why, "%.*s", (int)strcspn(line + used, "\n"), line + used);
-    return true;
-}
-
-/* Hours of work of another seed, program or kind of judging are not thrown away. */
-static enum br_status check_head(const struct br_extreme_request *w, const char *found,
-                                 struct br_error *err)
-{
-    char head[LINE];
-    head_of(w, head);
-    if (strcmp(found, head) == 0)
-        return BR_OK;
-    return br_fail(
-        err, BR_BAD_INPUT,
-        "%.300s: found the cases of '%.*s', expected those of '%.*s': repeat its options, "
-        "or remove the file to begin anew",
-        w->kept, (int)strcspn(found, "\n"), found, (int)strcspn(head, "\n"), head);
-}
-
-static enum br_status read_kept(const struct br_extreme_request *w,
-                                struct br_extreme_verdict *verdict, bool *done,
-                                struct br_error *err)
-{
-    char line[LINE];
-    FILE *file = fopen(w->kept, "r");
-    if (!file)
-        return errno == ENOENT ? BR_OK
-                               : br_fail(err, BR_IO, "%.900s: %s", w->kept, strerror(errno));
-    enum br_status status = BR_OK;
-    if (fgets(line, sizeof line, file))
-        status = check_head(w, line, err);
-    while (!status && fgets(line, sizeof line, file)) {
-        struct br_extreme_verdict v;
-        size_t index;
-        if (strchr(line, '\n') && scan(line, &index, &v) && index < w->cases) {
-            verdict[index] = v;
-            done[index] = true;
-        }
-    }
-    fclose(file);
-    return status;
-}
-
-/* Whole at every moment: under another name first. */
-static enum br_status write_kept(const struct br_extreme_request *w,
-                                 const struct br_extreme_verdict *verdict, const bool *done,
-                                 struct br_error *err)
-{
-    char head[LINE], path[4096];
-    if ((size_t)snprintf(path, sizeof path, "%s.new", w->kept) >= sizeof path)
-        return br_fail(err, BR_IO, "%.200s...: the name is too long", w->kept);
-    FILE *file = fopen(path, "w");
-    if (!file)
-        return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
-    head_of(w, head);
-    fputs(head, file);
-    for (size_t i = 0; i < w->cases; i++)
-        if (done[i])
-            print(file, i, &verdict[i]);
-    const bool failed = ferror(file) != 0;
-    if (fclose(file) != 0 || failed || rename(path, w->kept) != 0)
-        return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
-    return BR_OK;
-}
-
-/* Reads what is there of the request's cases: verdict[i] and done[i] (out). A last line without an
- * end counts as nothing; the file is then whole, and open for more lines: *file (out), NULL where
- * the request keeps nothing. Fails with BR_BAD_INPUT where it has the cases of other options, which
- * the message names, and does not touch it; with BR_IO or BR_NO_MEMORY. */
-static enum br_status open_kept(const struct br_extreme_request *w,
-                                struct br_extreme_verdict *verdict, bool *done, FILE **file,
-                                struct br_error *err)
-{
-    *file = NULL;
-    if (!w->kept)
-        return BR_OK;
-    enum br_status status = read_kept(w, verdict, done, err);
-    if (!status)
-        status = write_kept(w, verdict, done, err);
-    if (status)
-        return status;
-    *file = fopen(w->kept, "a");
-    return *file ? BR_OK : br_fail(err, BR_IO, "%.900s: %s", w->kept, strerror(errno));
-}
-
-/* Adds a line; whole in the file when it returns. */
-static enum br_status add_kept(FILE *file, size_t index, const struct br_extreme_verdict *verdict,
-                               struct br_error *err)
-{
-    if (!file)
-        return BR_OK;
-    print(file, index, verdict);
-    return fflush(file) == 0 ? BR_OK : br_fail(err, BR_IO, "the kept cases: %s", strerror(errno));
-}
 
 /* ---- cases ---- */
 
 struct work {
     const struct br_extreme_request *request;
     struct br_extreme_map *map;
-    bool *done;
-    FILE *kept;
 };
 
-bool br_extreme_stopped(const struct br_extreme_request *w)
-{
-    return w->observer && w->observer->stop && w->observer->stop(w->observer->self);
-}
-
-enum br_status br_extreme_ask(const struct br_extreme_request *w, const struct br_extreme_case *one,
-                              struct br_extreme_verdict *verdict, struct br_error *err)
+static enum br_status ask(const struct br_extreme_request *w, const struct br_extreme_case *one,
+                          struct br_extreme_verdict *verdict, struct br_error *err)
 {
     return (w->judge ? w->judge : br_extreme_judge)(one, &w->judging, verdict, err);
 }
 
 static enum br_status do_case(void *self, size_t i, struct br_error *err)
 {
-    struct work *work = self;
-    struct br_extreme_map *m = work->map;
-    br_extreme_draw(m->seed, i, &m->one[i]);
-    if (work->done[i])
+    const struct work *work = self;
+    const struct br_extreme_request *w = work->request;
+    struct br_extreme_verdict *verdict = &work->map->verdict[i];
+    char what[120], key[BR_SHA256_TEXT];
+    br_extreme_draw(w->seed, i, &work->map->one[i]);
+    if (!w->kept)
+        return ask(w, &work->map->one[i], verdict, err);
+    snprintf(what, sizeof what, "case %zu of seed %llu, rounding %d, quick %d, boast %g", i,
+             (unsigned long long)w->seed, w->judging.rounding, w->judging.quick, w->judging.boast);
+    br_kept_key(&w->kept->base, what, key);
+    if (br_kept_read_into(w->kept, key, verdict, sizeof *verdict)) {
+        atomic_fetch_add(&w->kept->taken, 1);
         return BR_OK;
-    enum br_status status = br_extreme_ask(work->request, &m->one[i], &m->verdict[i], err);
-    if (!status) {
-#pragma omp critical(extreme_map)
-        status = add_kept(work->kept, i, &m->verdict[i], err);
+    }
+    const enum br_status status = ask(w, &work->map->one[i], verdict, err);
+    if (!status)
+        br_kept_write(w->kept, key, verdict, sizeof *verdict);
+    return status;
+}
+
+/* ---- a case that is wrong, made small while it stays wrong, so that a person can read it ---- */
+
+enum change {
+    DROP_AXIAL,
+    DROP_BENDING,
+    DROP_CONTACT,
+    DROP_FRICTION,
+    USUAL_SCHEME,
+    USUAL_SOLVER,
+    USUAL_LAWS,
+    USUAL_REST,
+    PLAIN_FORCES,
+    HALF_ELEMENTS,
+    HALF_DURATION, /* with the step kept */
+    HALF_STEPS,    /* with the duration kept */
+    CHANGES
+};
+
+static void plain_forces(struct br_extreme_field *p)
+{
+    p->load.shape = BR_SHAPE_FLAT;
+    p->load.history = p->tip_force.history = p->tip_moment.history = BR_HISTORY_SUDDEN;
+    p->displacement.waved = p->velocity.waved = false;
+}
+
+static void make(enum change change, struct br_extreme_case *c)
+{
+    switch (change) {
+    case DROP_AXIAL:
+        c->field[BR_AXIAL] = (struct br_extreme_field){0};
+        c->contact = false;
+        break;
+    case DROP_BENDING:
+        c->field[BR_BENDING] = (struct br_extreme_field){0};
+        c->law = BR_FRICTIONLESS;
+        break;
+    case DROP_CONTACT:
+        c->contact = false;
+        break;
+    case DROP_FRICTION:
+        c->law = BR_FRICTIONLESS;
+        break;
+    case USUAL_SCHEME:
+        c->method.scheme = br_time_schemes[0];
+        break;
+    case USUAL_SOLVER:
+        c->method.solver = br_linear_solvers[0];
+        break;
+    case USUAL_LAWS:
+        c->method.friction = br_friction_rules[0];
+        c->method.contact = br_contact_rule_of(c->method.scheme);
+        break;
+    case USUAL_REST:
+        c->method.axial_degree = 1;
+        c->method.linear = br_linear_defaults;
+        break;
+    case PLAIN_FORCES:
+        plain_forces(&c->field[BR_AXIAL]);
+        plain_forces(&c->field[BR_BENDING]);
+        break;
+    case HALF_ELEMENTS:
+        c->n = (c->n + 1) / 2;
+        break;
+    case HALF_DURATION:
+        c->duration *= (double)((c->steps + 1) / 2) / (double)c->steps;
+        c->steps = (c->steps + 1) / 2;
+        break;
+    case HALF_STEPS:
+        c->steps = (c->steps + 1) / 2;
+        break;
+    case CHANGES:
+        break;
+    }
+    if (c->law == BR_COULOMB && !c->contact)
+        c->law = BR_FRICTIONLESS;
+    if (c->law == BR_FRICTIONLESS || !c->field[BR_AXIAL].modelled)
+        c->wanted = 0;
+}
+
+enum { FIELD_NUMBERS = 10, NUMBERS = 27, NOT_ZERO = 25 }; /* from this one on none may be 0 */
+
+static double *number_of(struct br_extreme_case *c, size_t i)
+{
+    struct br_extreme_field *p = &c->field[i < FIELD_NUMBERS ? BR_AXIAL : BR_BENDING];
+    double *const numbers[] = {
+        &p->stiffness,         &p->viscosity,         &p->load.size,      &p->tip_force.size,
+        &p->tip_moment.size,   &p->displacement.size, &p->velocity.size,  &p->load.rate,
+        &p->tip_force.rate,    &p->tip_moment.rate,   &c->density,        &c->gap,
+        &c->contact_stiffness, &c->friction,          &c->regularisation, &c->length,
+        &c->duration,
+    };
+    return numbers[i < FIELD_NUMBERS ? i : i - FIELD_NUMBERS];
+}
+
+static double one_digit(double x)
+{
+    const double power = pow(10, floor(log10(fabs(x))));
+    const double rounded = round(x / power) * power;
+    return isfinite(rounded) && rounded != 0 ? rounded : x;
+}
+
+enum { MOST_QUESTIONS = 300 };
+
+struct shrinking {
+    const struct br_extreme_request *request;
+    struct br_extreme_shrunk *best;
+    char text[BR_EXTREME_TEXT]; /* of the best: what does not change it is not tried */
+    size_t asked;
+    bool gained;
+};
+
+static enum br_status attempt(struct shrinking *s, const struct br_extreme_case *smaller,
+                              struct br_error *err)
+{
+    const struct br_observer *o = s->request->observer;
+    struct br_extreme_verdict verdict;
+    char text[BR_EXTREME_TEXT];
+    br_extreme_scene(smaller, text);
+    if (strcmp(text, s->text) == 0 || s->asked >= MOST_QUESTIONS)
+        return BR_OK;
+    s->asked++;
+    if (o && o->stop && o->stop(o->self))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    const enum br_status status = ask(s->request, smaller, &verdict, err);
+    if (status || verdict.which != BR_EXTREME_WRONG)
+        return status;
+    s->best->one = *smaller;
+    s->best->verdict = verdict;
+    strcpy(s->text, text);
+    s->gained = true;
+    return BR_OK;
+}
+
+/* All changes, then each number becomes 0, or 1, or has one digit left. */
+static enum br_status try_all(struct shrinking *s, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    s->gained = false;
+    for (int change = 0; change < CHANGES && !status; change++) {
+        struct br_extreme_case smaller = s->best->one;
+        make((enum change)change, &smaller);
+        status = attempt(s, &smaller, err);
+    }
+    for (size_t i = 0; i < 2 * NUMBERS && !status; i++) {
+        struct br_extreme_case smaller = s->best->one;
+        double *number = number_of(&smaller, i / 2);
+        *number = i % 2 ? one_digit(*number) : i / 2 < NOT_ZERO ? 0 : 1;
+        status = attempt(s, &smaller, err);
     }
     return status;
 }
 
-/* ---- those that are wrong ---- */
-
 static enum br_status write_scene(const struct br_extreme_request *w, struct br_extreme_shrunk *s,
-                                  struct br_error *err)
+                                  const char *text, struct br_error *err)
 {
-    char text[BR_EXTREME_TEXT], path[4096];
+    char path[4096];
     snprintf(s->file, sizeof s->file, "wrong-%zu.yaml", s->one.index);
     br_extreme_command(&s->one, s->file, s->command);
     if (!w->folder)
         return BR_OK;
     snprintf(path, sizeof path, "%s/%s", w->folder, s->file);
-    br_extreme_scene(&s->one, text);
     FILE *file = fopen(path, "w");
     if (!file)
         return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
@@ -201,23 +218,117 @@ static enum br_status write_scene(const struct br_extreme_request *w, struct br_
 static enum br_status shrink(void *self, size_t i, struct br_error *err)
 {
     const struct work *work = self;
-    struct br_extreme_shrunk *s = &work->map->shrunk[i];
-    enum br_status status = br_extreme_shrink(work->request, &s->one, err);
-    if (!status)
-        status = br_extreme_ask(work->request, &s->one, &s->verdict, err);
-    return status ? status : write_scene(work->request, s, err);
+    struct shrinking s = {.request = work->request, .best = &work->map->shrunk[i], .gained = true};
+    enum br_status status = BR_OK;
+    br_extreme_scene(&s.best->one, s.text);
+    while (s.gained && !status && s.asked < MOST_QUESTIONS)
+        status = try_all(&s, err);
+    return status ? status : write_scene(work->request, s.best, s.text, err);
 }
 
-static enum br_status shrink_all(struct work *work, struct br_error *err)
+/* ---- tallies ---- */
+
+#define OF_CASE(type, id, expression)               \
+    static type id(const struct br_extreme_case *c) \
+    {                                               \
+        return expression;                          \
+    }
+
+OF_CASE(const char *, scheme, c->method.scheme->name)
+OF_CASE(const char *, solver, c->method.solver->name)
+OF_CASE(const char *, contact, c->method.contact->name)
+OF_CASE(const char *, friction, c->method.friction->name)
+OF_CASE(const char *, law,
+        c->law == BR_TRESCA    ? "Tresca"
+        : c->law == BR_COULOMB ? "Coulomb"
+                               : "none")
+OF_CASE(const char *, special, br_extreme_specials[c->special])
+OF_CASE(const char *, drawn, c->natural ? "groups without units" : "every number by itself")
+
+static const struct kind {
+    const char *title;
+    const char *(*word)(const struct br_extreme_case *one);
+} kinds[] = {
+    {"time scheme", scheme},   {"linear solver", solver},
+    {"contact rule", contact}, {"friction rule", friction},
+    {"friction law", law},     {"on purpose", special},
+    {"drawn", drawn},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static int by_label(const void *a, const void *b)
 {
-    struct br_extreme_map *m = work->map;
-    for (size_t i = 0; i < m->cases && m->shrunks < BR_EXTREME_MOST_SHRUNK; i++)
-        if (m->verdict[i].which == BR_EXTREME_WRONG)
-            m->shrunk[m->shrunks++] =
-                (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
-    const struct br_each each = {
-        .count = m->shrunks, .threads = work->request->threads, .turn = shrink, .self = work};
-    return br_each(&each, err);
+    const struct br_extreme_tally *x = a, *y = b;
+    return strcmp(x->label, y->label);
+}
+
+/* The tallies of one kind, sorted. */
+static void add_tallies(struct br_extreme_map *m, const struct kind *kind)
+{
+    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
+    for (size_t i = 0; i < m->cases; i++) {
+        struct br_extreme_tally *t = first;
+        const char *label = kind->word(&m->one[i]);
+        while (t < end && strcmp(t->label, label) != 0)
+            t++;
+        if (t == end)
+            *end++ = (struct br_extreme_tally){.title = kind->title, .label = label};
+        t->cases++;
+        t->count[m->verdict[i].which]++;
+    }
+    qsort(first, (size_t)(end - first), sizeof *first, by_label);
+    m->tallies += (size_t)(end - first);
+}
+
+/* ---- reasons ---- */
+
+static bool starts_number(const char *c, const char *text)
+{
+    const bool inside = c > text && (isalnum((unsigned char)c[-1]) || c[-1] == '_');
+    return !inside && isdigit((unsigned char)c[*c == '-' || *c == '+']);
+}
+
+/* Numbers become #, so that reasons of different cases are alike; what follows a colon of a place
+ * in a scene stays. */
+static void generalise(const char *why, char text[150])
+{
+    size_t used = 0;
+    for (const char *c = why; *c && used < 149;) {
+        if (starts_number(c, why)) {
+            text[used++] = '#';
+            char *end;
+            strtod(c, &end);
+            c = end > c ? end : c + 1;
+        } else {
+            text[used++] = *c++;
+        }
+    }
+    text[used] = '\0';
+}
+
+static void add_reason(struct br_extreme_map *m, size_t index)
+{
+    const struct br_extreme_verdict *v = &m->verdict[index];
+    struct br_extreme_reason found = {.which = v->which, .cases = 1, .first = index};
+    generalise(v->why, found.text);
+    for (size_t i = 0; i < m->reasons; i++) {
+        struct br_extreme_reason *r = &m->reason[i];
+        if (r->which == found.which && strcmp(r->text, found.text) == 0) {
+            r->cases++;
+            return;
+        }
+    }
+    m->reason[m->reasons++] = found;
+}
+
+static int by_class_and_count(const void *a, const void *b)
+{
+    const struct br_extreme_reason *x = a, *y = b;
+    if (x->which != y->which)
+        return x->which > y->which ? -1 : 1;
+    if (x->cases != y->cases)
+        return x->cases < y->cases ? 1 : -1;
+    return (x->first > y->first) - (x->first < y->first);
 }
 
 /* ---- all ---- */
@@ -225,23 +336,32 @@ static enum br_status shrink_all(struct work *work, struct br_error *err)
 static enum br_status run(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
-    enum br_status status = open_kept(work->request, m->verdict, work->done, &work->kept, err);
-    for (size_t i = 0; i < m->cases; i++)
-        m->resumed += work->done[i];
-    const struct br_each each = {.count = m->cases,
-                                 .threads = work->request->threads,
-                                 .observer = work->request->observer,
-                                 .turn = do_case,
-                                 .self = work};
-    if (!status)
-        status = br_each(&each, err);
-    if (work->kept)
-        fclose(work->kept);
+    struct br_each each = {.count = m->cases,
+                           .threads = work->request->threads,
+                           .observer = work->request->observer,
+                           .turn = do_case,
+                           .self = work};
+    const enum br_status status = br_each(&each, err);
     if (status)
         return status;
-    for (size_t i = 0; i < m->cases; i++)
+    for (size_t i = 0; i < m->cases; i++) {
         m->count[m->verdict[i].which]++;
-    return shrink_all(work, err);
+        if (m->verdict[i].which == BR_EXTREME_WRONG && m->shrunks < BR_EXTREME_MOST_SHRUNK)
+            m->shrunk[m->shrunks++] =
+                (struct br_extreme_shrunk){.one = m->one[i], .verdict = m->verdict[i]};
+    }
+    m->tallies = 1;
+    m->tally[0] = (struct br_extreme_tally){.title = "all", .cases = m->cases};
+    memcpy(m->tally[0].count, m->count, sizeof m->count);
+    for (size_t i = 0; i < KINDS; i++)
+        add_tallies(m, &kinds[i]);
+    for (size_t i = 0; i < m->cases; i++)
+        if (*m->verdict[i].why)
+            add_reason(m, i);
+    qsort(m->reason, m->reasons, sizeof *m->reason, by_class_and_count);
+    each = (struct br_each){
+        .count = m->shrunks, .threads = each.threads, .turn = shrink, .self = work};
+    return br_each(&each, err);
 }
 
 enum br_status br_extreme_map_run(const struct br_extreme_request *request,
@@ -252,14 +372,10 @@ enum br_status br_extreme_map_run(const struct br_extreme_request *request,
     map->one = br_allocate(request->cases, sizeof *map->one);
     map->verdict = br_allocate(request->cases, sizeof *map->verdict);
     map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    work.done = br_allocate(request->cases, sizeof *work.done);
-    enum br_status status = BR_OK;
-    if (!map->one || !map->verdict || !map->shrunk || !work.done)
-        status = br_no_memory(err, "the map");
-    else
-        status = run(&work, err);
-    free(work.done);
-    return status;
+    map->tally = br_allocate(1 + KINDS * request->cases, sizeof *map->tally);
+    map->reason = br_allocate(request->cases, sizeof *map->reason);
+    const bool full = map->one && map->verdict && map->shrunk && map->tally && map->reason;
+    return full ? run(&work, err) : br_no_memory(err, "the map");
 }
 
 void br_extreme_map_clear(struct br_extreme_map *map)
@@ -267,5 +383,93 @@ void br_extreme_map_clear(struct br_extreme_map *map)
     free(map->one);
     free(map->verdict);
     free(map->shrunk);
+    free(map->tally);
+    free(map->reason);
     *map = (struct br_extreme_map){0};
+}
+
+/* ---- rates ---- */
+
+struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *m)
+{
+    struct br_extreme_rate r = {.wrong = m->count[BR_EXTREME_WRONG]};
+    for (size_t i = 0; i < m->cases; i++) {
+        const enum br_extreme_class which = m->verdict[i].which;
+        if (which == BR_EXTREME_REFUSED || which == BR_EXTREME_UNJUDGED)
+            continue;
+        r.answers++;
+        r.unstated += !m->verdict[i].known;
+        r.unstated_unstable += !m->verdict[i].known && which == BR_EXTREME_UNSTABLE;
+    }
+    const double x = (double)r.wrong, rest = (double)(r.answers - r.wrong);
+    r.low = x > 0 ? gsl_cdf_beta_Pinv(0.025, x, rest + 1) : 0;
+    r.high = rest > 0 ? gsl_cdf_beta_Pinv(0.975, x + 1, rest) : 1;
+    return r;
+}
+
+/* ---- planes ---- */
+
+/* The beam, or a rod alone. */
+static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
+{
+    return &c->field[c->field[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
+}
+
+static double inertia(const struct br_extreme_case *c)
+{
+    const double power = c->field[BR_BENDING].modelled ? 4 : 2;
+    return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
+}
+
+OF_CASE(double, relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
+OF_CASE(double, contact_ratio,
+        c->contact ? c->contact_stiffness * c->length / c->field[BR_AXIAL].stiffness : NAN)
+OF_CASE(double, step_ratio, 1 / (double)c->steps)
+OF_CASE(double, elements, (double)c->n)
+OF_CASE(double, load, fabs(main_part(c)->load.size))
+OF_CASE(double, stiffness, main_part(c)->stiffness)
+
+const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
+    {"Contact and time step",
+     {"c_H L/a_1", contact_ratio, -6, 18, 24},
+     {"k/T", step_ratio, -6, 0, 12}},
+    {"Mesh and time step", {"n", elements, 0, 6, 12}, {"k/T", step_ratio, -6, 0, 12}},
+    {"Inertia and viscosity",
+     {"ρL^4/(a_2T^2), or ρL^2/(a_1T^2)", inertia, -12, 12, 24},
+     {"c/(a T)", relaxation, -9, 6, 15}},
+    {"Stiffness and load",
+     {"stiffness (N m^2 or N)", stiffness, -6, 12, 18},
+     {"load (N/m)", load, -12, 18, 30}},
+};
+
+/* The cell along one coordinate; -1: not in the plane. */
+static int place(const struct br_extreme_coordinate *c, const struct br_extreme_case *one)
+{
+    const double decade = log10(c->value(one));
+    if (!isfinite(decade))
+        return -1;
+    const double cell = floor((decade - c->low) / (c->high - c->low) * (double)c->cells);
+    return (int)fmax(0, fmin(cell, (double)c->cells - 1));
+}
+
+static double cell_class(const struct br_extreme_map *m, const struct br_extreme_plane *p, int x,
+                         int y)
+{
+    size_t count[BR_EXTREME_CLASSES] = {0};
+    double most = NAN;
+    for (size_t i = 0; i < m->cases; i++)
+        if (place(&p->x, &m->one[i]) == x && place(&p->y, &m->one[i]) == y)
+            count[m->verdict[i].which]++;
+    for (int which = 0; which < BR_EXTREME_CLASSES; which++)
+        if (count[which] && (isnan(most) || count[which] > count[(int)most]))
+            most = which;
+    return count[BR_EXTREME_WRONG] ? BR_EXTREME_WRONG : most;
+}
+
+void br_extreme_plane_fill(const struct br_extreme_map *m, const struct br_extreme_plane *p,
+                           double *cell)
+{
+    for (size_t y = 0; y < p->y.cells; y++)
+        for (size_t x = 0; x < p->x.cells; x++)
+            cell[y * p->x.cells + x] = cell_class(m, p, (int)x, (int)y);
 }

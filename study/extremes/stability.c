@@ -8,7 +8,6 @@
 #include <string.h>
 
 #include "solver/laws.h"
-#include "study/extremes/step_matrix.h"
 #include "study/grid/each.h"
 
 const double br_stability_tolerance = 1e-9;
@@ -16,7 +15,7 @@ const double br_stability_tolerance = 1e-9;
 /* How far outside of the unit circle an eigenvalue is found to be there. */
 static const double outside = 1e-11;
 
-enum { A_DECADE = 4, DECADES_OF_STIFFNESS = 15, DECADES_OF_STEPS = 5 };
+enum { A_DECADE = 4, DECADES_OF_STEPS = 5 };
 
 const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS] = {
     {"example", "the paper's Examples", 1e-4, 1, 1},
@@ -64,37 +63,29 @@ static enum br_status find_limit(const struct br_field *field, double low, doubl
     return BR_OK;
 }
 
-static enum br_status measure_row(struct br_stability *s, size_t plane, size_t row,
-                                  struct br_error *err)
+static enum br_status measure_row(void *self, size_t i, struct br_error *err)
 {
-    struct br_stability_plane *p = &s->plane[plane];
-    struct br_stability_row *r = &p->row[row];
-    const struct br_field field = br_stability_field(p->rod, s->n, r->k);
+    const struct br_stability *s = self;
+    struct br_stability_row *r = &s->row[i];
+    const struct br_field field = br_stability_field(r->rod, s->n, r->k);
     r->limit = br_contact_limit_stiffness(&field);
     r->bouncing = br_contact_limit_bouncing(&field);
     r->measured = NAN;
-    double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
-    for (size_t j = 0; j < s->columns; j++) {
-        const enum br_status status = br_step_radius(&field, s->stiffness[j], &radius[j], err);
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
+        const enum br_status status = br_step_radius(&field, s->stiffness[j], &r->radius[j], err);
         if (status)
             return status;
-        growth[j] = br_contact_growth(&field, s->stiffness[j]);
+        r->growth[j] = br_contact_growth(&field, s->stiffness[j]);
     }
     size_t first = 0;
-    while (first < s->columns && !(radius[first] > 1 + outside))
+    while (first < BR_STABILITY_COLUMNS && !(r->radius[first] > 1 + outside))
         first++;
-    if (first == 0 || first == s->columns)
+    if (first == 0 || first == BR_STABILITY_COLUMNS)
         return BR_OK; /* no limit within the columns */
     return find_limit(&field, s->stiffness[first - 1], s->stiffness[first], &r->measured, err);
 }
 
 /* ---- all rows ---- */
-
-static enum br_status take_turn(void *self, size_t i, struct br_error *err)
-{
-    struct br_stability *s = self;
-    return measure_row(s, i / s->rows, i % s->rows, err);
-}
 
 static enum br_status measure_planes(struct br_stability *s,
                                      const struct br_stability_request *request,
@@ -103,7 +94,7 @@ static enum br_status measure_planes(struct br_stability *s,
     const struct br_each each = {.count = BR_STABILITY_RODS * s->rows,
                                  .threads = request->threads,
                                  .observer = request->observer,
-                                 .turn = take_turn,
+                                 .turn = measure_row,
                                  .self = s};
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
     const enum br_status status = br_each(&each, err);
@@ -126,42 +117,24 @@ static enum br_status check_request(const struct br_stability_request *q, struct
     return BR_OK;
 }
 
-static enum br_status make_plane(struct br_stability *s, size_t i, const double *k,
-                                 struct br_error *err)
-{
-    struct br_stability_plane *p = &s->plane[i];
-    p->rod = &br_stability_rods[i];
-    p->row = br_allocate(s->rows, sizeof *p->row);
-    p->radius = br_allocate(s->rows * s->columns, sizeof *p->radius);
-    p->growth = br_allocate(s->rows * s->columns, sizeof *p->growth);
-    if (!p->row || !p->radius || !p->growth)
-        return br_no_memory(err, "a plane of stability");
-    for (size_t j = 0; j < s->rows; j++)
-        p->row[j].k = k ? k[j] : pow(10, -6 + (double)j / A_DECADE);
-    for (size_t j = 1; j < s->rows; j++) /* ascending */
-        for (size_t m = j; m > 0 && p->row[m].k < p->row[m - 1].k; m--) {
-            const double smaller = p->row[m].k;
-            p->row[m].k = p->row[m - 1].k;
-            p->row[m - 1].k = smaller;
-        }
-    return BR_OK;
-}
-
 static enum br_status prepare(struct br_stability *s, const struct br_stability_request *q,
                               struct br_error *err)
 {
     s->n = q->n ? q->n : 8;
     s->rows = q->k_count ? q->k_count : DECADES_OF_STEPS * A_DECADE + 1;
-    s->columns = DECADES_OF_STIFFNESS * A_DECADE + 1;
-    s->stiffness = br_allocate(s->columns, sizeof *s->stiffness);
-    if (!s->stiffness)
+    s->row = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *s->row);
+    if (!s->row)
         return br_no_memory(err, "the planes of stability");
-    for (size_t j = 0; j < s->columns; j++)
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++)
         s->stiffness[j] = pow(10, (double)j / A_DECADE);
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_STABILITY_RODS && !status; i++)
-        status = make_plane(s, i, q->k_count ? q->k : NULL, err);
-    return status;
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
+        const size_t j = i % s->rows;
+        s->row[i].rod = &br_stability_rods[i / s->rows];
+        s->row[i].k = q->k_count ? q->k[j] : pow(10, -6 + (double)j / A_DECADE);
+    }
+    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
+        gsl_sort(&s->row[i * s->rows].k, sizeof *s->row / sizeof s->row->k, s->rows);
+    return BR_OK;
 }
 
 /* ---- what has come out ---- */
@@ -173,60 +146,38 @@ static void raise(double *most, double value)
         *most = value;
 }
 
-static void sum_up_row(struct br_stability *s, const struct br_stability_plane *p, size_t row)
+static void sum_up(struct br_stability *s, const struct br_stability_row *r)
 {
-    const struct br_stability_row *r = &p->row[row];
-    const double *radius = p->radius + row * s->columns, *growth = p->growth + row * s->columns;
-    const bool within = r->limit > s->stiffness[0] && r->limit < s->stiffness[s->columns - 1];
+    const bool within =
+        r->limit > s->stiffness[0] && r->limit < s->stiffness[BR_STABILITY_COLUMNS - 1];
     if (within || isfinite(r->measured))
         raise(&s->limit_error, fabs(r->measured / r->limit - 1));
-    for (size_t j = 0; j < s->columns; j++) {
+    for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
         s->cells++;
-        if (growth[j] > 1) {
+        if (r->growth[j] > 1) {
             s->growing++;
-            raise(&s->growth_error, fabs(radius[j] / growth[j] - 1));
+            raise(&s->growth_error, fabs(r->radius[j] / r->growth[j] - 1));
         } else {
-            raise(&s->excess, fmax(radius[j] - 1, 0));
+            raise(&s->excess, fmax(r->radius[j] - 1, 0));
         }
     }
-}
-
-static void sum_up(struct br_stability *s)
-{
-    s->limit_error = s->growth_error = s->excess = 0;
-    for (size_t i = 0; i < BR_STABILITY_RODS; i++)
-        for (size_t row = 0; row < s->rows; row++)
-            sum_up_row(s, &s->plane[i], row);
 }
 
 enum br_status br_stability_run(const struct br_stability_request *request, struct br_stability *s,
                                 struct br_error *err)
 {
     *s = (struct br_stability){0};
-    enum br_status status = check_request(request, err);
-    if (!status)
-        status = prepare(s, request, err);
-    if (!status)
-        status = measure_planes(s, request, err);
-    if (!status)
-        status = br_stability_schemes(s, err);
-    if (!status)
-        status = br_stability_tips(s, err);
-    if (!status)
-        status = br_stability_bounces(s, err);
-    if (!status)
-        sum_up(s);
-    return status;
+    const bool failed = check_request(request, err) || prepare(s, request, err) ||
+                        measure_planes(s, request, err) || br_stability_schemes(s, err) ||
+                        br_stability_tips(s, err) || br_stability_bounces(s, err);
+    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows && !failed; i++)
+        sum_up(s, &s->row[i]);
+    return failed ? err->status : BR_OK;
 }
 
 void br_stability_clear(struct br_stability *s)
 {
-    for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
-        free(s->plane[i].row);
-        free(s->plane[i].radius);
-        free(s->plane[i].growth);
-    }
-    free(s->stiffness);
+    free(s->row);
     *s = (struct br_stability){0};
 }
 
@@ -234,22 +185,22 @@ void br_stability_clear(struct br_stability *s)
 
 static enum br_status check_planes(const struct br_stability *s, struct br_error *err)
 {
-    const double most = br_stability_tolerance;
-    if (!(s->limit_error <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a measured stability limit is %.3g off the predicted one, relative, "
-                       "expected at most %g",
-                       s->limit_error, most);
-    if (!(s->growth_error <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a measured growth is %.3g off the predicted one, relative, expected at "
-                       "most %g",
-                       s->growth_error, most);
-    if (!(s->excess <= most))
-        return br_fail(err, BR_VERDICT,
-                       "a step within the limit has an eigenvalue that is %.3g outside the unit "
-                       "circle, expected at most %g",
-                       s->excess, most);
+    const struct {
+        double found;
+        const char *text;
+    } rows[] = {
+        {s->limit_error, "a measured stability limit is %.3g off the predicted one, relative"},
+        {s->growth_error, "a measured growth is %.3g off the predicted one, relative"},
+        {s->excess, "a step within the limit has an eigenvalue that is %.3g outside the unit "
+                    "circle"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (!(rows[i].found <= br_stability_tolerance)) {
+            char what[120];
+            snprintf(what, sizeof what, rows[i].text, rows[i].found);
+            return br_fail(err, BR_VERDICT, "%s, expected at most %g", what,
+                           br_stability_tolerance);
+        }
     return BR_OK;
 }
 

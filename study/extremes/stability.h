@@ -18,7 +18,7 @@ struct br_stability_request {
     const struct br_observer *observer; /* NULL: nobody */
 };
 
-enum { BR_STABILITY_MOST_ELEMENTS = 20, BR_STABILITY_RODS = 6 };
+enum { BR_STABILITY_MOST_ELEMENTS = 20, BR_STABILITY_RODS = 6, BR_STABILITY_COLUMNS = 61 };
 
 /* A rod of 1 m and 1000 N. */
 struct br_stability_rod {
@@ -28,20 +28,15 @@ struct br_stability_rod {
 };
 extern const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS];
 
-/* One time step of a plane. */
+/* The closed lagged contact of one rod at one time step. */
 struct br_stability_row {
+    const struct br_stability_rod *rod;
     double k;        /* s */
     double limit;    /* predicted: the largest stable c_H, N/m */
     double measured; /* where the largest eigenvalue of marched steps leaves the unit circle */
     double bouncing; /* below it no energy is gained, however the contact opens and closes */
-};
-
-/* The closed lagged contact of one rod. */
-struct br_stability_plane {
-    const struct br_stability_rod *rod;
-    struct br_stability_row *row; /* rows of the table; owned */
-    double *radius;               /* measured, rows * columns, by rows: largest eigenvalue; owned */
-    double *growth;               /* predicted: br_contact_growth; owned */
+    double radius[BR_STABILITY_COLUMNS]; /* measured: largest eigenvalue */
+    double growth[BR_STABILITY_COLUMNS]; /* predicted: br_contact_growth */
 };
 
 /* Contact at u_n with one scheme: a rod that is pressed to its rest by a constant load, for all c_H
@@ -75,15 +70,15 @@ struct br_stability_bounce {
 enum { BR_STABILITY_TIPS = 9, BR_STABILITY_BOUNCES = 8, BR_STABILITY_SCHEMES = 12 };
 
 struct br_stability {
-    size_t n, rows, columns;
-    double *stiffness; /* c_H of the columns, N/m; owned */
-    struct br_stability_plane plane[BR_STABILITY_RODS];
+    size_t n, rows;                         /* rows: of each rod */
+    double stiffness[BR_STABILITY_COLUMNS]; /* c_H, N/m */
+    struct br_stability_row *row;           /* by rod, k; owned */
     struct br_stability_scheme scheme[BR_STABILITY_SCHEMES];
     size_t schemes;
     double tip_k, bounce_k; /* s */
     struct br_stability_tip tip[BR_STABILITY_TIPS];
     struct br_stability_bounce bounce[BR_STABILITY_BOUNCES];
-    /* In all planes: */
+    /* In all rows: */
     size_t cells, growing; /* growing: predicted */
     double limit_error;    /* largest |measured / predicted - 1| of the limits */
     double growth_error;   /* and of the growth where there is any */
@@ -114,5 +109,23 @@ struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n,
 enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err);
 enum br_status br_stability_tips(struct br_stability *s, struct br_error *err);
 enum br_status br_stability_bounces(struct br_stability *s, struct br_error *err);
+
+/* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, as marches of
+ * one step tell it: nothing is known there of the equations ---- */
+
+/* A state is the displacements of the nodes, and then k times their velocities, m; the clamped node
+ * is left out. */
+size_t br_step_states(const struct br_field *rod);
+
+/* Column by column a state of one unit, whose tip is not away from the obstacle, is marched by one
+ * step. rod: an axial field; stiffness: c_H, N/m; matrix (out): br_step_states squared values, by
+ * rows. Fails with BR_NO_MEMORY and as marches do. */
+enum br_status br_step_matrix(const struct br_field *rod, double stiffness, double *matrix,
+                              struct br_error *err);
+
+/* The size of the largest eigenvalue of that step (out). Fails as br_step_matrix, and with
+ * BR_NOT_FINITE where the eigenvalues are not found. */
+enum br_status br_step_radius(const struct br_field *rod, double stiffness, double *radius,
+                              struct br_error *err);
 
 #endif

@@ -27,6 +27,28 @@ static struct br_scene scene_of(const struct br_field *field, double duration)
     };
 }
 
+/* Marches, and looks at the beginning and after each step. A march that fails is a result: *done
+ * (out) is false then. */
+static enum br_status follow(const struct br_scene *scene, size_t n, size_t steps,
+                             void (*look)(void *self, const struct br_march *march, size_t step),
+                             void *self, bool *done, struct br_error *err)
+{
+    const struct br_method method = br_method_default();
+    struct br_error failure = {0};
+    struct br_march *march;
+    enum br_status status = br_march_create(&march, scene, n, steps, &method, &failure);
+    if (!status)
+        look(self, march, 0);
+    for (size_t i = 1; i <= steps && !status; i++) {
+        status = br_march_step(march, &failure);
+        if (!status)
+            look(self, march, i);
+    }
+    br_march_free(march);
+    *done = !status;
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
 /* ---- pressed ---- */
 
 struct watch {
@@ -35,13 +57,14 @@ struct watch {
     bool closed;
 };
 
-static void look(struct watch *w, const struct br_march *march, bool late)
+static void look(void *self, const struct br_march *march, size_t step)
 {
+    struct watch *w = self;
     const struct br_tip *tip = br_march_tip(march);
     const bool closed = tip->contact_force > 0;
     if (!(fabs(tip->displacement) <= w->tip->farthest))
         w->tip->farthest = fabs(tip->displacement);
-    if (late) {
+    if (step > TIP_STEPS * 3 / 4) {
         w->low = fmin(w->low, tip->displacement);
         w->high = fmax(w->high, tip->displacement);
         w->tip->opened += w->closed && !closed;
@@ -49,82 +72,60 @@ static void look(struct watch *w, const struct br_march *march, bool late)
     w->closed = closed;
 }
 
-static enum br_status press(struct br_stability_tip *tip, const struct br_scene *scene, size_t n,
-                            struct br_error *err)
-{
-    const struct br_method method = br_method_default();
-    struct watch w = {.tip = tip, .low = INFINITY, .high = -INFINITY};
-    struct br_error failure = {0};
-    struct br_march *march;
-    enum br_status status = br_march_create(&march, scene, n, TIP_STEPS, &method, &failure);
-    for (size_t i = 1; i <= TIP_STEPS && !status; i++) {
-        status = br_march_step(march, &failure);
-        if (!status)
-            look(&w, march, i > TIP_STEPS * 3 / 4);
-    }
-    br_march_free(march);
-    const double free_tip = scene->axial.load.term[0].space.constant * scene->length *
-                            scene->length / 2 / scene->axial.stiffness;
-    tip->swing = status ? NAN : (w.high - w.low) / free_tip;
-    tip->farthest = status ? NAN : tip->farthest / free_tip;
-    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
-}
-
 enum br_status br_stability_tips(struct br_stability *s, struct br_error *err)
 {
     s->tip_k = 1e-3;
     const struct br_field field = br_stability_field(&br_stability_rods[0], s->n, s->tip_k);
     struct br_scene scene = scene_of(&field, s->tip_k * TIP_STEPS);
-    scene.axial.load = (struct br_load){{{{.constant = field.stiffness}, {.constant = 1}}}};
+    const double force = field.stiffness; /* N/m */
+    const double free_tip = force * scene.length * scene.length / 2 / field.stiffness;
+    scene.axial.load = (struct br_load){{{{.constant = force}, {.constant = 1}}}};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < BR_STABILITY_TIPS && !status; i++) {
         struct br_stability_tip *tip = &s->tip[i];
+        struct watch w = {.tip = tip, .low = INFINITY, .high = -INFINITY};
+        bool done;
         tip->share = tip_shares[i];
         tip->stiffness = tip->share * br_contact_limit_stiffness(&field);
         scene.contact.stiffness = tip->stiffness;
-        status = press(tip, &scene, s->n, err);
+        status = follow(&scene, s->n, TIP_STEPS, look, &w, &done, err);
+        tip->swing = done ? (w.high - w.low) / free_tip : NAN;
+        tip->farthest = done ? tip->farthest / free_tip : NAN;
     }
     return status;
 }
 
 /* ---- bouncing ---- */
 
-static double energy_of(const struct br_march *march, const struct br_scene *scene, double *nodal)
+struct flight {
+    struct br_stability_bounce *bounce;
+    const struct br_contact *contact;
+    double start; /* energy */
+    bool closed;
+};
+
+static double energy_of(const struct br_march *march, const struct br_contact *contact)
 {
     const struct br_field *field = br_march_field(march, BR_AXIAL);
     const size_t size = br_field_size(field);
+    double nodal[2 * (BOUNCE_ELEMENTS + 1)];
     br_march_get(march, BR_AXIAL, nodal, nodal + size);
-    const double depth = br_penetration(&scene->contact, nodal[size - 1]);
+    const double depth = br_penetration(contact, nodal[size - 1]);
     return br_energy_stored(field, nodal) + br_energy_kinetic(field, nodal + size) +
-           scene->contact.stiffness / 2 * depth * depth;
+           contact->stiffness / 2 * depth * depth;
 }
 
-static enum br_status throw_rod(struct br_stability_bounce *b, const struct br_scene *scene,
-                                struct br_error *err)
+static void look_at_flight(void *self, const struct br_march *march, size_t step)
 {
-    const struct br_method method = br_method_default();
-    double nodal[2 * (BOUNCE_ELEMENTS + 1)];
-    struct br_error failure = {0};
-    struct br_march *march;
-    enum br_status status =
-        br_march_create(&march, scene, BOUNCE_ELEMENTS, BOUNCE_STEPS, &method, &failure);
-    const double start = status ? NAN : energy_of(march, scene, nodal);
-    bool closed = false;
-    for (size_t i = 0; i < BOUNCE_STEPS && !status; i++) {
-        status = br_march_step(march, &failure);
-        if (status)
-            break;
-        const double energy = energy_of(march, scene, nodal) / start;
-        if (!(energy <= b->energy))
-            b->energy = energy;
-        const bool was_closed = closed;
-        closed = br_march_tip(march)->contact_force > 0;
-        b->impacts += closed && !was_closed;
-    }
-    br_march_free(march);
-    if (status)
-        b->energy = NAN;
-    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+    struct flight *f = self;
+    const double energy = energy_of(march, f->contact);
+    const bool closed = br_march_tip(march)->contact_force > 0;
+    if (step == 0)
+        f->start = energy;
+    else if (!(energy / f->start <= f->bounce->energy))
+        f->bounce->energy = energy / f->start;
+    f->bounce->impacts += closed && !f->closed;
+    f->closed = closed;
 }
 
 /* Every point of the rod is thrown alike. */
@@ -145,7 +146,11 @@ enum br_status br_stability_bounces(struct br_stability *s, struct br_error *err
         b->bouncing = b->stiffness / bouncing;
         b->limit = b->stiffness / limit;
         scene.contact.stiffness = b->stiffness;
-        status = throw_rod(b, &scene, err);
+        struct flight flight = {.bounce = b, .contact = &scene.contact};
+        bool done;
+        status = follow(&scene, BOUNCE_ELEMENTS, BOUNCE_STEPS, look_at_flight, &flight, &done, err);
+        if (!done)
+            b->energy = NAN;
     }
     return status;
 }
@@ -173,17 +178,14 @@ static void compare(struct br_stability_scheme *c, const struct br_scene *scene,
         c->depth = depth;
 }
 
-static enum br_status try_one(const struct br_scene *scene, size_t n, size_t steps,
-                              struct br_stability_scheme *c, struct br_run_report *report,
-                              struct br_error *err)
+static enum br_status try_one(struct br_stability_scheme *c, const struct br_scene *scene,
+                              size_t steps, struct br_run_report *report, struct br_error *err)
 {
-    struct br_run_request request = {
-        .scene = scene,
-        .method = br_method_default(),
-        .n = n,
-        .steps = steps,
-        .check = true,
-    };
+    struct br_run_request request = {.scene = scene,
+                                     .method = br_method_default(),
+                                     .n = elements,
+                                     .steps = steps,
+                                     .check = true};
     struct br_error failure = {0};
     request.method.scheme = c->scheme;
     request.method.contact = br_contact_rule_find("implicit");
@@ -200,42 +202,22 @@ static enum br_status try_one(const struct br_scene *scene, size_t n, size_t ste
     return BR_OK;
 }
 
-static enum br_status try_scheme(struct br_stability_scheme *c, struct br_run_report *report,
-                                 struct br_error *err)
+enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err)
 {
     static const double stiffness[] = {1, 1e3, 1e6, 1e9, 1e12, 1e15};
     static const size_t steps[] = {10, 100, 1000};
-    struct br_scene scene = {
-        .length = 1,
-        .duration = 1,
-        .density = br_stability_rods[0].density,
-        .axial = {.modelled = true,
-                  .stiffness = 1000,
-                  .viscosity = br_stability_rods[0].viscosity,
-                  .load = {{{{.constant = load}, {.constant = 1}}}}},
-        .contact = {.modelled = true},
-    };
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof stiffness / sizeof *stiffness; i++)
-        for (size_t j = 0; j < sizeof steps / sizeof *steps && !status; j++) {
-            scene.contact.stiffness = stiffness[i];
-            status = try_one(&scene, elements, steps[j], c, report, err);
-        }
-    return status;
-}
-
-enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err)
-{
+    const struct br_field rod = br_stability_field(&br_stability_rods[0], 1, 1);
+    struct br_scene scene = scene_of(&rod, 1);
     struct br_run_report *report = br_allocate(1, sizeof *report);
-    if (!report)
-        return br_no_memory(err, "the schemes' stability");
-    enum br_status status = BR_OK;
-    for (const struct br_time_scheme *const *t = br_time_schemes; *t && !status; t++) {
-        if (s->schemes == BR_STABILITY_SCHEMES)
-            break;
+    enum br_status status = report ? BR_OK : br_no_memory(err, "the schemes' stability");
+    scene.axial.load = (struct br_load){{{{.constant = load}, {.constant = 1}}}};
+    for (size_t i = 0; br_time_schemes[i] && i < BR_STABILITY_SCHEMES && !status; i++) {
         struct br_stability_scheme *c = &s->scheme[s->schemes++];
-        *c = (struct br_stability_scheme){.scheme = *t};
-        status = try_scheme(c, report, err);
+        *c = (struct br_stability_scheme){.scheme = br_time_schemes[i]};
+        for (size_t j = 0; j < 18 && !status; j++) {
+            scene.contact.stiffness = stiffness[j / 3];
+            status = try_one(c, &scene, steps[j % 3], report, err);
+        }
     }
     free(report);
     return status;

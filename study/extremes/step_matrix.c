@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/step_matrix.h"
+#include "study/extremes/stability.h"
 
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
@@ -109,21 +109,6 @@ enum br_status br_step_matrix(const struct br_field *rod, double stiffness, doub
 
 /* ---- eigenvalues ---- */
 
-static enum br_status largest(gsl_matrix *matrix, gsl_eigen_nonsymm_workspace *work,
-                              gsl_vector_complex *eigenvalues, double *radius, struct br_error *err)
-{
-    gsl_eigen_nonsymm_params(0, 1, work); /* balanced */
-    if (gsl_eigen_nonsymm(matrix, eigenvalues, work))
-        return br_fail(err, BR_NOT_FINITE, "the eigenvalues of a step were not found");
-    *radius = 0;
-    for (size_t i = 0; i < eigenvalues->size; i++) {
-        const double size = gsl_complex_abs(gsl_vector_complex_get(eigenvalues, i));
-        if (!(size <= *radius))
-            *radius = size;
-    }
-    return BR_OK;
-}
-
 static bool all_finite(const double *matrix, size_t count)
 {
     for (size_t i = 0; i < count; i++)
@@ -136,24 +121,28 @@ enum br_status br_step_radius(const struct br_field *rod, double stiffness, doub
                               struct br_error *err)
 {
     const size_t states = br_step_states(rod);
-    double *matrix = br_allocate(states * states, sizeof *matrix);
+    gsl_matrix *matrix = gsl_matrix_alloc(states, states);
     gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(states);
     gsl_vector_complex *eigenvalues = gsl_vector_complex_alloc(states);
     enum br_status status = BR_OK;
+    *radius = 0;
     if (!matrix || !work || !eigenvalues)
         status = br_no_memory(err, "a step's eigenvalues");
     if (!status)
-        status = br_step_matrix(rod, stiffness, matrix, err);
-    if (!status && !all_finite(matrix, states * states))
+        status = br_step_matrix(rod, stiffness, matrix->data, err);
+    if (!status && !all_finite(matrix->data, states * states))
         status = br_fail(err, BR_NOT_FINITE, "a step's matrix has entries that are not finite");
-    if (!status) {
-        gsl_matrix_view view = gsl_matrix_view_array(matrix, states, states);
-        status = largest(&view.matrix, work, eigenvalues, radius, err);
+    if (!status)
+        gsl_eigen_nonsymm_params(0, 1, work); /* balanced */
+    if (!status && gsl_eigen_nonsymm(matrix, eigenvalues, work))
+        status = br_fail(err, BR_NOT_FINITE, "the eigenvalues of a step were not found");
+    for (size_t i = 0; i < states && !status; i++) {
+        const double size = gsl_complex_abs(gsl_vector_complex_get(eigenvalues, i));
+        if (!(size <= *radius))
+            *radius = size;
     }
-    free(matrix);
-    if (work)
-        gsl_eigen_nonsymm_free(work);
-    if (eigenvalues)
-        gsl_vector_complex_free(eigenvalues);
+    gsl_matrix_free(matrix); /* these accept NULL */
+    gsl_eigen_nonsymm_free(work);
+    gsl_vector_complex_free(eigenvalues);
     return status;
 }

@@ -70,10 +70,10 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
     br_march_get(march, kind, l->nodal, l->nodal + size);
     for (size_t i = 0; i < 2 * size; i++)
         t->finite = t->finite && isfinite(l->nodal[i]);
-    for (size_t i = 0; i < size; i += unknowns)
+    for (size_t i = 0; i < size; i += unknowns) {
         t->speed[kind] = fmax(t->speed[kind], fabs(velocity[i]));
-    for (size_t i = 0; i < size; i += unknowns)
         t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
+    }
     for (size_t p = 0; p < t->places.points; p++) {
         const size_t part = l->request->finer * t->places.place[p], parts = t->places.parts;
         const size_t element = (part - 1) / parts; /* that the place ends, or is in */
@@ -110,14 +110,13 @@ static enum br_status watch_size(void *self, const struct br_march *march,
     (void)err;
     const double force[2] = {row->contact_force, row->friction_force};
     const double k = t->report.k;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && row->step > 0; kind++)
-        t->held[kind] +=
-            k * fabs(force[kind]) * br_march_compliance(march, (enum br_field_kind)kind);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
+        const enum br_field_kind kind = (enum br_field_kind)i;
+        if (row->step > 0)
+            t->held[kind] += k * fabs(force[kind]) * br_march_compliance(march, kind);
         t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        t->largest[kind] = fmax(t->largest[kind],
-                                fabs(br_march_tip_displacement(march, (enum br_field_kind)kind)));
+        t->largest[kind] = fmax(t->largest[kind], fabs(br_march_tip_displacement(march, kind)));
+    }
     return BR_OK;
 }
 

@@ -2,10 +2,114 @@
 #include "study/extremes/energy_behaviour.h"
 
 #include <float.h>
+#include <gsl/gsl_eigen.h>
 #include <math.h>
+#include <stdint.h>
 
-#include "reference/energy/energy.h"
-#include "study/extremes/beam_mode.h"
+/* ---- the lowest mode ---- */
+
+static void assemble(const struct br_field *f, gsl_matrix *k, gsl_matrix *m)
+{
+    const size_t d = br_field_unknowns(f);
+    const bool axial = f->kind == BR_AXIAL;
+    const double bend = f->stiffness / (axial ? f->h : f->h * f->h * f->h);
+    for (size_t e = 0; e < f->n; e++)
+        for (size_t i = 0; i < 2 * d; i++)
+            for (size_t j = 0; j < 2 * d; j++) {
+                const size_t row = e * d + i, column = e * d + j;
+                if (row < d || column < d)
+                    continue; /* clamped */
+                const double mass = axial ? br_rod_mass[i][j] / 6.0 : br_beam_mass[i][j] / 420.0;
+                *gsl_matrix_ptr(k, row - d, column - d) +=
+                    bend * (axial ? br_rod_stiffness[i][j] : br_beam_stiffness[i][j]);
+                *gsl_matrix_ptr(m, row - d, column - d) += f->density * f->h * mass;
+            }
+}
+
+static void take_lowest(struct br_beam_mode *mode, const gsl_vector *values,
+                        const gsl_matrix *vectors, const gsl_matrix *m)
+{
+    const size_t size = values->size, tip = mode->kind == BR_AXIAL ? size - 1 : size - 2;
+    const size_t lowest = gsl_vector_min_index(values);
+    double square = 0;
+    mode->omega = sqrt(gsl_vector_get(values, lowest));
+    for (size_t i = 0; i < size; i++)
+        mode->phi[i] = gsl_matrix_get(vectors, i, lowest) / gsl_matrix_get(vectors, tip, lowest);
+    for (size_t i = 0; i < size; i++) {
+        mode->weight[i] = 0;
+        for (size_t j = 0; j < size; j++)
+            mode->weight[i] += gsl_matrix_get(m, i, j) * mode->phi[j];
+        square += mode->weight[i] * mode->phi[i];
+    }
+    for (size_t i = 0; i < size; i++)
+        mode->weight[i] /= square;
+}
+
+enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scene *scene,
+                                 enum br_field_kind kind, struct br_error *err)
+{
+    const struct br_field f = br_field_of_scene(scene, kind, BR_MODE_ELEMENTS, NAN);
+    const size_t size = br_field_unknowns(&f) * f.n;
+    *mode = (struct br_beam_mode){.kind = kind, .length = scene->length};
+    double room[4][BR_MODE_UNKNOWNS * BR_MODE_UNKNOWNS] = {{0}}, value[BR_MODE_UNKNOWNS];
+    gsl_matrix_view k = gsl_matrix_view_array(room[0], size, size),
+                    m = gsl_matrix_view_array(room[1], size, size),
+                    kept = gsl_matrix_view_array(room[2], size, size),
+                    vectors = gsl_matrix_view_array(room[3], size, size);
+    gsl_vector_view values = gsl_vector_view_array(value, size);
+    gsl_eigen_gensymmv_workspace *w = gsl_eigen_gensymmv_alloc(size);
+    if (!w)
+        return br_no_memory(err, "a mode");
+    assemble(&f, &k.matrix, &m.matrix);
+    gsl_matrix_memcpy(&kept.matrix, &m.matrix);
+    const int failed = gsl_eigen_gensymmv(&k.matrix, &m.matrix, &values.vector, &vectors.matrix, w);
+    gsl_eigen_gensymmv_free(w);
+    if (failed)
+        return br_fail(err, BR_SINGULAR, "the modes of %zu elements were not found", f.n);
+    take_lowest(mode, &values.vector, &vectors.matrix, &kept.matrix);
+    return BR_OK;
+}
+
+double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal)
+{
+    const size_t d = mode->kind == BR_AXIAL ? 1 : 2;
+    double part = 0;
+    for (size_t i = 0; i < d * BR_MODE_ELEMENTS; i++)
+        part += mode->weight[i] * nodal[d + i];
+    return part;
+}
+
+/* The mode, m, or the slope of w, as initial data. Borrowed, also by clones. */
+struct shape {
+    const struct br_beam_mode *mode;
+    bool slope;
+};
+
+/* Nodal values are all that is asked for: Lagrange or Hermite interpolation. */
+static void evaluate(void *self, size_t count, const double *x, double t, double *value)
+{
+    const struct shape *s = self;
+    const size_t d = s->mode->kind == BR_AXIAL ? 1 : 2;
+    const double h = s->mode->length / BR_MODE_ELEMENTS;
+    (void)t;
+    for (size_t i = 0; i < count; i++) {
+        const size_t node = (size_t)lround(x[i] / h);
+        value[i] = node == 0 ? 0 : s->mode->phi[(node - 1) * d + s->slope] / (s->slope ? h : 1);
+    }
+}
+
+static void *same(const void *self)
+{
+    return (void *)(uintptr_t)self;
+}
+
+static void nothing(void *self)
+{
+    (void)self;
+}
+
+static const struct br_function_ops shape_ops = {
+    .evaluate = evaluate, .clone = same, .free = nothing};
 
 /* ---- what a time scheme makes of y' = lambda y in a step, by its textbook ---- */
 
@@ -56,6 +160,7 @@ struct trial {
     struct br_scene scene;
     struct br_method method;
     struct br_beam_mode mode;
+    struct shape shape[2]; /* values, slopes */
     struct br_march *march;
     struct br_energy_meter *meter;
     double k;
@@ -78,9 +183,13 @@ static void set_scene(struct trial *t)
     const double k = t->k = 2 * M_PI / t->mode.omega / (double)t->v->per_period;
     t->scene.duration = k * (double)steps_of(t->v);
     t->scene.axial.viscosity = t->scene.bending.viscosity = viscosity;
-    t->scene.axial.displacement = br_beam_mode_function(&t->mode, false);
+    for (int slope = 0; slope < 2; slope++)
+        t->shape[slope] = (struct shape){&t->mode, slope};
+    t->scene.axial.displacement =
+        (struct br_function){.ops = &shape_ops, .self = &t->shape[0], .uses_x = true};
     t->scene.bending.displacement = t->scene.axial.displacement;
-    t->scene.bending.displacement_slope = br_beam_mode_function(&t->mode, true);
+    t->scene.bending.displacement_slope = t->scene.axial.displacement;
+    t->scene.bending.displacement_slope.self = &t->shape[1];
 }
 
 /* |alpha|^2 of the two eigenvectors of q'' + 2 zeta omega q' + omega^2 q = 0, which neither
@@ -162,11 +271,6 @@ static double predicted_round_off(const struct br_vibration *v)
     return 64 * DBL_EPSILON * (PERIODS * (double)v->per_period + condition);
 }
 
-static enum br_status refuse(const struct trial *t, struct br_error *err)
-{
-    return br_method_check_scene(&t->method, &t->scene, err);
-}
-
 enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
 {
     struct trial t = {.v = v, .scene = bare(v), .method = br_method_default()};
@@ -180,7 +284,7 @@ enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
         t.method.tolerance = v->tolerance;
     v->end = BR_VIBRATION_DONE;
     v->worst = 0;
-    if (refuse(&t, &v->failure)) {
+    if (br_method_check_scene(&t.method, &t.scene, &v->failure)) {
         v->end = BR_VIBRATION_REFUSED;
         return BR_OK;
     }

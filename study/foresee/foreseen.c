@@ -112,3 +112,25 @@ double br_foreseen_bytes(const struct br_foreseen *w)
     }
     return w->together ? all : most;
 }
+
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err)
+{
+    struct br_foreseen w = {.together = true};
+    size_t marches = 0;
+    for (size_t i = 0; i < count; i++)
+        br_foreseen_add_study(&w, &studies[i]);
+    for (size_t i = 0; i < w.rows; i++)
+        marches += isnan(w.row[i].bytes) ? 0 : 1;
+    const double bytes = br_foreseen_bytes(&w);
+    const bool lost = w.lost;
+    br_foreseen_clear(&w);
+    if (lost)
+        return br_no_memory(err, "what is foreseen");
+    if (bytes <= available)
+        return BR_OK;
+    return br_fail(err, BR_NO_MEMORY,
+                   "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
+                   "of them, or fewer elements",
+                   marches, bytes / 1e9, available / 1e9);
+}

@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_FORESEE_FORESEEN_H
 #define BR_STUDY_FORESEE_FORESEEN_H
 
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 #include "study/trade/trial.h"
 
 /* Marches of one kind. Names are borrowed. */
@@ -39,5 +39,10 @@ void br_foreseen_add_trial(struct br_foreseen *work, const struct br_trial *tria
 /* All rows together, on so many threads: s, about, as far as it is known, and bytes at once. */
 double br_foreseen_seconds(const struct br_foreseen *work, int threads);
 double br_foreseen_bytes(const struct br_foreseen *work);
+
+/* Refuses (BR_NO_MEMORY) studies whose marches, cells and fine references, do not fit into a memory
+ * of so many bytes: br_study_run has them all at once. They need not be prepared. */
+enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
+                               struct br_error *err);
 
 #endif

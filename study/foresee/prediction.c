@@ -106,14 +106,12 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 /* How deep what happens at an end reaches into a field by t = T, by waves and by diffusion, m. */
 static double layer(const struct br_scene *s, int kind)
 {
-    const bool axial = kind == BR_AXIAL;
+    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, s->duration);
     if (s->density == 0)
         return INFINITY;
-    const double stiffness = axial ? s->axial.stiffness : s->bending.stiffness;
-    const double viscosity = axial ? s->axial.viscosity : s->bending.viscosity;
-    const double waves = sqrt(stiffness / s->density) * s->duration;
-    const double spread = viscosity * s->duration / s->density;
-    return axial ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
+    const double waves = sqrt(f.stiffness / s->density) * s->duration;
+    const double spread = f.viscosity * s->duration / s->density;
+    return kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
 }
 
 /* What a force at the tip moves on elements of h far wider than the layer weighs as much as an
@@ -341,12 +339,10 @@ static bool start_is_seen(const struct br_probe_set *s)
  * steps of k, s, and more than one swing. */
 static bool swings_within(const struct br_scene *s, int kind, double k)
 {
-    const bool axial = kind == BR_AXIAL;
-    const double wave = (axial ? 1.5708 : 1.8751) / s->length;
-    const double stiffness = axial ? s->axial.stiffness : s->bending.stiffness;
-    const double viscosity = axial ? s->axial.viscosity : s->bending.viscosity;
-    const double angular = sqrt(stiffness / s->density) * (axial ? wave : wave * wave);
-    return s->density > 0 && angular * k > 1 && viscosity * angular < 2 * stiffness;
+    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, k);
+    const double wave = (kind == BR_AXIAL ? 1.5708 : 1.8751) / s->length;
+    const double angular = sqrt(f.stiffness / s->density) * (kind == BR_AXIAL ? wave : wave * wave);
+    return s->density > 0 && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness;
 }
 
 static double finest_step(const struct br_probe_set *s)

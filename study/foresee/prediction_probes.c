@@ -40,14 +40,9 @@ static const double loosest = 1e-4, tighter = 25, tightest = 1e-12;
 /* That of a reference for equal steps; its check's is larger by the same. */
 static const double tight = 1e-6;
 
-static bool by_tolerance(const struct br_method *m)
-{
-    return m->scheme->adaptive;
-}
-
 static double stages(const struct br_method *m)
 {
-    return by_tolerance(m) ? chosen_stages : br_time_scheme_stages(m->scheme);
+    return m->scheme->adaptive ? chosen_stages : br_time_scheme_stages(m->scheme);
 }
 
 static bool is_evaluated(const struct br_load *load)
@@ -71,8 +66,8 @@ static double budget(const struct br_planned_march *o)
     const double own = solve(o, (double)o->n) * (double)o->steps * stages(o->method);
     if (o->budget > 0)
         return o->budget;
-    return by_tolerance(o->method) ? chosen_work
-                                   : fmin(fmax(most_share * own, least_work), most_work);
+    return o->method->scheme->adaptive ? chosen_work
+                                       : fmin(fmax(most_share * own, least_work), most_work);
 }
 
 static size_t least(size_t a, size_t b)
@@ -81,14 +76,6 @@ static size_t least(size_t a, size_t b)
 }
 
 /* ---- methods ---- */
-
-static const struct br_contact_rule *contact_without_lag(void)
-{
-    const struct br_contact_rule *const *rule = br_contact_rules;
-    while (!(*rule)->at_new_step)
-        rule++;
-    return *rule;
-}
 
 bool br_follows_at_once(const struct br_scene *s, double k)
 {
@@ -101,16 +88,12 @@ static bool follows_at_once(const struct br_planned_march *o)
     return br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
 }
 
-/* What solves the same equations more accurately on the same steps: a scheme that takes next to no
- * energy from a vibration, contact at the new time level, friction that does not iterate, and the
- * solver of the least round-off. A reference of the run's own scheme would not show what that damps
- * away in both. */
-static struct br_method with_scheme(const struct br_method *own, const char *scheme)
+struct br_method br_accurate_method(const struct br_method *own, const char *scheme)
 {
     struct br_method m = *own;
     m.scheme = br_time_scheme_find(scheme);
     m.solver = br_linear_solvers[0];
-    m.contact = contact_without_lag();
+    m.contact = br_contact_rule_find("implicit");
     if (m.friction->iterates)
         m.friction = br_friction_rules[0];
     m.most_steps = 0;
@@ -120,14 +103,14 @@ static struct br_method with_scheme(const struct br_method *own, const char *sch
 /* By equal steps: of the highest order where that is reached. */
 static struct br_method best_method(const struct br_planned_march *o)
 {
-    return with_scheme(o->method, follows_at_once(o) ? "euler" : "esdirk4");
+    return br_accurate_method(o->method, follows_at_once(o) ? "euler" : "esdirk4");
 }
 
 /* The same by a tolerance, smaller than the run's, or than that of a check. */
 static struct br_method tight_method(const struct br_method *own, double times)
 {
-    const double from = by_tolerance(own) ? own->tolerance : tight * tighter;
-    struct br_method m = with_scheme(own, "adaptive");
+    const double from = own->scheme->adaptive ? own->tolerance : tight * tighter;
+    struct br_method m = br_accurate_method(own, "adaptive");
     m.tolerance = fmax(from / times, tightest);
     return m;
 }
@@ -180,14 +163,14 @@ static void set_whole_cells(struct br_probe *p, const struct br_planned_march *o
     const struct br_method method[] = {*o->method, *check, own_steps, *check, *check};
     for (int i = 0; i < BR_WHOLE_CELLS; i++) {
         p->n[i] = n[i];
-        p->steps[i] = by_tolerance(check) ? steps : times[i];
+        p->steps[i] = check->scheme->adaptive ? steps : times[i];
         p->method[i] = method[i];
     }
     p->method[BR_WHOLE_RUN].most_steps = check->most_steps;
     p->scene = *o->scene;
     p->measured = true;
     set_study(p, o->method, reference,
-              (struct br_resolution){fine, by_tolerance(check) ? steps : steps * shorter});
+              (struct br_resolution){fine, check->scheme->adaptive ? steps : steps * shorter});
     p->study.path = true;
     p->study.n_count = p->study.k_count = BR_WHOLE_CELLS;
     p->study.cell_method = p->method;
@@ -210,13 +193,6 @@ static bool is_affordable(const struct br_planned_march *o, struct finer by)
     return whole_work(o, &best, by) <= budget(o);
 }
 
-static void set_whole(struct br_probe *p, const struct br_planned_march *o, struct finer by)
-{
-    const struct br_method best = best_method(o);
-    p->steps[BR_WHOLE_RUN] = o->steps;
-    set_whole_cells(p, o, &best, &best, by);
-}
-
 /* Steps that a scheme may choose within a share of the budget. */
 static size_t most_steps(const struct br_planned_march *o, double n)
 {
@@ -230,22 +206,25 @@ static void set_tight(struct br_probe *p, const struct br_planned_march *o)
     struct br_method check = tight_method(o->method, sqrt(tighter));
     struct br_method reference = tight_method(o->method, tighter);
     check.most_steps = reference.most_steps = most;
-    p->steps[BR_WHOLE_RUN] = by_tolerance(o->method) ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
-    if (!by_tolerance(o->method) && follows_at_once(o))
+    p->steps[BR_WHOLE_RUN] =
+        o->method->scheme->adaptive ? least(o->steps, TOLERANCE_LEVELS) : o->steps;
+    if (!o->method->scheme->adaptive && follows_at_once(o))
         return;
     if (p->steps[BR_WHOLE_RUN] + LEAST_CHOSEN <= most)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
 
-/* Where no step is small enough for a smaller tolerance, or steps are too many: equal ones. */
-static void set_whole_by_equal_steps(struct br_probe *p, const struct br_planned_march *o)
+/* Against equal steps; where the run chooses its own, against as many as there is room for. */
+static void set_whole(struct br_probe *p, const struct br_planned_march *o, struct finer by)
 {
     struct br_method best = best_method(o);
-    best.most_steps = most_steps(o, (double)(o->n * refinement(o->n)));
-    p->steps[BR_WHOLE_RUN] = least(o->steps, TOLERANCE_LEVELS);
-    const double many = (double)best.most_steps / (double)p->steps[BR_WHOLE_RUN];
-    set_whole_cells(p, o, &best, &best,
-                    (struct finer){refinement(o->n), 2 * (size_t)fmax(2, many)});
+    p->steps[BR_WHOLE_RUN] = o->steps;
+    if (o->method->scheme->adaptive) {
+        best.most_steps = most_steps(o, (double)(o->n * by.elements));
+        p->steps[BR_WHOLE_RUN] = least(o->steps, TOLERANCE_LEVELS);
+        by.steps = 2 * (size_t)fmax(2, (double)best.most_steps / (double)p->steps[BR_WHOLE_RUN]);
+    }
+    set_whole_cells(p, o, &best, &best, by);
 }
 
 /* ---- time ---- */
@@ -310,7 +289,7 @@ static void set_time(struct br_probe *p, const struct br_planned_march *o)
     p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = time_share * budget(o) / solve(o, (double)p->n[0]);
-    if (by_tolerance(o->method))
+    if (o->method->scheme->adaptive)
         compare_tolerances(p, o);
     else if ((double)o->steps * (stages(o->method) + 3 * stages(&best)) <= most)
         measure_time(p, o, most);
@@ -381,7 +360,7 @@ static void set_space(struct br_probe *p, const struct br_planned_march *o)
         (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
         stages(&best);
     /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
-    p->steps[0] = least(by_tolerance(o->method) ? SIZE_MAX : o->steps,
+    p->steps[0] = least(o->method->scheme->adaptive ? SIZE_MAX : o->steps,
                         (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
     p->study.n_count = 2;
@@ -515,11 +494,12 @@ static enum br_status march_itself(struct br_probe_set *set, struct br_error *er
     enum br_status status = try_probe(set, BR_PROBE_TIGHT, err);
     if (status || is_sure(&probe[BR_PROBE_TIGHT]))
         return status;
-    if (!by_tolerance(set->planned->method))
+    if (!set->planned->method->scheme->adaptive)
         return march_whole(set, err);
     if (probe[BR_PROBE_TIGHT].held)
         return BR_OK;
-    set_whole_by_equal_steps(&probe[BR_PROBE_WHOLE], set->planned);
+    set_whole(&probe[BR_PROBE_WHOLE], set->planned,
+              (struct finer){.elements = refinement(set->planned->n)});
     return try_probe(set, BR_PROBE_WHOLE, err);
 }
 
@@ -554,7 +534,7 @@ enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_
         set_space(&probe[BR_PROBE_SPACE], planned);
         status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
     }
-    if (status || by_tolerance(planned->method))
+    if (status || planned->method->scheme->adaptive)
         return status;
     return march_start(set, err);
 }

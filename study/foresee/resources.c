@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -52,12 +52,8 @@ static double read_bytes(const char *path, const char *word, double unit)
 
 static double group_limit(void)
 {
-    static const char group[] = "/sys/fs/cgroup/";
-    char path[64];
-    snprintf(path, sizeof path, "%smemory.max", group);
-    const double most = read_bytes(path, "", 1);
-    snprintf(path, sizeof path, "%smemory.current", group);
-    const double used = read_bytes(path, "", 1);
+    const double most = read_bytes("/sys/fs/cgroup/memory.max", "", 1);
+    const double used = read_bytes("/sys/fs/cgroup/memory.current", "", 1);
     return isfinite(most) && isfinite(used) ? fmax(most - used, 0) : most;
 }
 
@@ -90,38 +86,6 @@ enum br_status br_fits_memory(const struct br_planned_march *o, double available
                    o->n, bytes / 1e9, bytes / (double)o->n, available / 1e9, fit);
 }
 
-static double study_bytes(const struct br_study *s, size_t *marches)
-{
-    double bytes = 0;
-    for (size_t i = 0; i < s->n_count; i++)
-        for (size_t j = 0; j < (s->path ? 1 : s->k_count); j++, ++*marches) {
-            const struct br_planned_march cell = {
-                .scene = s->scene, .method = &s->method, .n = s->n[i]};
-            bytes += br_march_bytes(&cell);
-        }
-    const struct br_planned_march fine = {
-        .scene = s->scene, .method = &s->reference_method, .n = s->reference.n};
-    if (!s->judge || !s->judge->nests)
-        return bytes;
-    ++*marches;
-    return bytes + br_march_bytes(&fine);
-}
-
-enum br_status br_fit_together(const struct br_study *studies, size_t count, double available,
-                               struct br_error *err)
-{
-    double bytes = 0;
-    size_t marches = 0;
-    for (size_t i = 0; i < count; i++)
-        bytes += study_bytes(&studies[i], &marches);
-    if (bytes <= available)
-        return BR_OK;
-    return br_fail(err, BR_NO_MEMORY,
-                   "%zu marches at once take about %.3g GB, %.3g GB are available: expected fewer "
-                   "of them, or fewer elements",
-                   marches, bytes / 1e9, available / 1e9);
-}
-
 static enum br_status check_time(const struct br_planned_march *o, struct br_warnings *w,
                                  struct br_error *err)
 {
@@ -137,15 +101,9 @@ static enum br_status check_time(const struct br_planned_march *o, struct br_war
     return BR_OK;
 }
 
-static enum br_status look(const struct br_planned_march *o, struct br_warnings *w,
-                           struct br_error *err)
+enum br_status br_look_at_resources(const struct br_planned_march *o, struct br_warnings *w,
+                                    struct br_error *err)
 {
     const enum br_status status = br_fits_memory(o, br_memory_available(), err);
     return status ? status : check_time(o, w, err);
 }
-
-const struct br_warning_source br_warn_resources = {
-    .title = "memory and time",
-    .every = true,
-    .look = look,
-};

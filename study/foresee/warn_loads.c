@@ -74,6 +74,23 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
     return status ? status : br_fail(err, BR_BAD_INPUT, "it cannot be resolved");
 }
 
+/* Hands on the parts of the mesh's cells in x, each within one of n elements. */
+static void for_each_piece(const struct br_mesh *mesh, double length, size_t n,
+                           void (*take)(void *self, size_t e, struct br_interval piece), void *self)
+{
+    const double h = length / (double)n;
+    size_t e = 0;
+    for (size_t i = 0; i < mesh->count; i++)
+        for (double from = mesh->at[i]; from < mesh->at[i + 1];) {
+            const double end = e + 1 < n ? (double)(e + 1) * h : length,
+                         to = fmin(end, mesh->at[i + 1]);
+            if (to > from)
+                take(self, e, (struct br_interval){from, to});
+            e += to >= end && e + 1 < n;
+            from = to;
+        }
+}
+
 /* ---- loads between the time levels ---- */
 
 /* Warns of loads that do something between the time levels.
@@ -266,25 +283,11 @@ static enum br_status look_at_times(const struct br_planned_march *o, struct br_
     return status;
 }
 
-const struct br_warning_source br_warn_load = {
-    .title = "loads between the time levels",
-    .look = look_at_times,
-};
-
 /* ---- loads inside of the elements ---- */
-
-/* Warns of loads whose jumps and peaks in x the elements' quadrature misses: the load vector of hat
- * functions by the rule that is marched with is compared with their integrals on a mesh on which
- * the load is proved to be resolved. */
 
 enum { TIMES = 5 }; /* at which a load with t is looked at, beside that of its peak */
 
 static const double large_in_space = 0.02; /* of the load's size */
-
-struct unseen {
-    double force, size; /* that the rule does not see, and of the load; summed over times, N */
-    double worst, place;
-};
 
 static struct br_field hats(const struct br_scene *scene, size_t n)
 {
@@ -293,44 +296,37 @@ static struct br_field hats(const struct br_scene *scene, size_t n)
     return br_field_of_scene(&axial, BR_AXIAL, n, scene->duration);
 }
 
-/* Subtracts weight times the hats' integrals over one piece of element e from their vector. */
-static void subtract_piece(const struct br_function *f, struct br_box box, struct br_interval piece,
-                           double h, size_t e, double *vector)
+/* A load whose exact vector is subtracted from that of the rule. */
+struct exact {
+    const struct br_function *f;
+    struct br_box box;
+    double h;
+    double *vector;
+};
+
+/* Subtracts the hats' integrals over one piece of element e. */
+static void subtract_piece(void *self, size_t e, struct br_interval piece)
 {
+    const struct exact *exact = self;
     double value[PLACES];
-    load_values(f, BR_X, box, piece, value);
+    load_values(exact->f, BR_X, exact->box, piece, value);
     for (int i = 0; i < PLACES; i++) {
         const double x = piece.low + (piece.high - piece.low) * load_place[i],
                      part = (piece.high - piece.low) * load_weight[i] * value[i],
-                     right = x / h - (double)e;
-        vector[e] -= (1 - right) * part;
-        vector[e + 1] -= right * part;
+                     right = x / exact->h - (double)e;
+        exact->vector[e] -= (1 - right) * part;
+        exact->vector[e + 1] -= right * part;
     }
-}
-
-static void subtract_exact(const struct br_function *f, struct br_box box,
-                           const struct br_mesh *mesh, size_t n, double *vector)
-{
-    const double h = box.x.high / (double)n;
-    size_t e = 0;
-    for (size_t i = 0; i < mesh->count; i++)
-        for (double from = mesh->at[i]; from < mesh->at[i + 1];) {
-            const double end = e + 1 < n ? (double)(e + 1) * h : box.x.high,
-                         to = fmin(end, mesh->at[i + 1]);
-            if (to > from)
-                subtract_piece(f, box, (struct br_interval){from, to}, h, e, vector);
-            e += to >= end && e + 1 < n;
-            from = to;
-        }
 }
 
 /* A load that is looked at on its elements. */
 struct sight {
     const struct br_scene *scene;
     struct br_field field;
-    double *vector; /* n + 1 */
-    struct unseen missed;
-    bool known; /* all could be resolved */
+    double *vector;      /* n + 1 */
+    double missed, size; /* that the rule does not see, and of the load; summed over times, N */
+    double worst, place; /* the node that misses most, m */
+    bool known;          /* all could be resolved */
 };
 
 /* weight * f at one time */
@@ -346,16 +342,17 @@ static enum br_status compare(struct sight *s, const struct br_function *f, doub
         status = load_mesh(f, BR_X, box, &mesh, &size, err);
     s->known &= status != BR_BAD_INPUT;
     if (!status)
-        subtract_exact(f, box, &mesh, n, s->vector);
+        for_each_piece(&mesh, box.x.high, n, subtract_piece,
+                       &(struct exact){f, box, box.x.high / (double)n, s->vector});
     for (size_t i = 0; i <= n && !status; i++) {
         const double missed = weight * fabs(s->vector[i]);
-        s->missed.force += missed;
-        if (missed > s->missed.worst) {
-            s->missed.worst = missed;
-            s->missed.place = s->scene->length * (double)i / (double)n;
+        s->missed += missed;
+        if (missed > s->worst) {
+            s->worst = missed;
+            s->place = s->scene->length * (double)i / (double)n;
         }
     }
-    s->missed.size += weight * size;
+    s->size += weight * size;
     br_mesh_free(&mesh);
     return status == BR_NO_MEMORY ? status : BR_OK; /* what is not finite, the march tells */
 }
@@ -385,9 +382,8 @@ static enum br_status measure_shape(struct sight *s, const struct br_product *p,
 
 static void report_elements(const char *name, const struct sight *s, struct br_warnings *w)
 {
-    const struct unseen *m = &s->missed;
-    const double missed = s->known ? m->force : INFINITY;
-    const char *share = br_unseen(w, BR_WARN_LOAD_SPACE, missed, m->size, large_in_space);
+    const double missed = s->known ? s->missed : INFINITY;
+    const char *share = br_unseen(w, BR_WARN_LOAD_SPACE, missed, s->size, large_in_space);
     if (!s->known)
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s changes so often in x that it is not known how much of it the elements' "
@@ -397,7 +393,7 @@ static void report_elements(const char *name, const struct sight *s, struct br_w
         br_warn(w, BR_WARN_LOAD_SPACE, "more elements, as short as what happens there",
                 "%s does inside of elements what their quadrature does not see: with n = %zu %s "
                 "of it, most of it near x = %.4g m",
-                name, s->field.n, share, m->place);
+                name, s->field.n, share, s->place);
 }
 
 static enum br_status look_at_shape(const struct br_load *load, const char *name,
@@ -421,8 +417,8 @@ static enum br_status look_at_shape(const struct br_load *load, const char *name
     return status;
 }
 
-static enum br_status look_at_elements(const struct br_planned_march *o, struct br_warnings *w,
-                                       struct br_error *err)
+enum br_status br_look_at_elements(const struct br_planned_march *o, struct br_warnings *w,
+                                   struct br_error *err)
 {
     const struct br_scene *s = o->scene;
     enum br_status status = BR_OK;
@@ -432,11 +428,6 @@ static enum br_status look_at_elements(const struct br_planned_march *o, struct 
         status = look_at_shape(&s->bending.load, "the bending load", o, w, err);
     return status;
 }
-
-const struct br_warning_source br_warn_load_space = {
-    .title = "loads inside of the elements",
-    .look = look_at_elements,
-};
 
 /* ---- initial data between the nodes ---- */
 
@@ -451,6 +442,7 @@ struct data {
     const char *name;
     double length;
     size_t n;
+    double square[2]; /* integrals: of what is missed, and of the data */
 };
 
 static double at(const struct br_function *f, double x)
@@ -482,9 +474,10 @@ static double interpolated(const struct data *d, const double value[2], const do
            r * s * (r * slope[0] - s * slope[1]);
 }
 
-/* Adds the squares over one piece of element e: of what is missed, and of the data. */
-static void add_piece(const struct data *d, size_t e, struct br_interval piece, double square[2])
+/* Adds the squares over one piece of element e. */
+static void add_piece(void *self, size_t e, struct br_interval piece)
 {
+    struct data *d = self;
     const struct br_box box = {{0, d->length}, {0, 0}};
     const double width = piece.high - piece.low;
     double f[PLACES], value[2], slope[2];
@@ -494,28 +487,13 @@ static void add_piece(const struct data *d, size_t e, struct br_interval piece, 
         const double x = piece.low + width * load_place[i],
                      s = x * (double)d->n / d->length - (double)e,
                      off = f[i] - interpolated(d, value, slope, s);
-        square[0] += width * load_weight[i] * off * off;
-        square[1] += width * load_weight[i] * f[i] * f[i];
+        d->square[0] += width * load_weight[i] * off * off;
+        d->square[1] += width * load_weight[i] * f[i] * f[i];
     }
 }
 
-static void add_mesh(const struct data *d, const struct br_mesh *mesh, double square[2])
-{
-    size_t e = 0;
-    for (size_t i = 0; i < mesh->count; i++)
-        for (double from = mesh->at[i]; from < mesh->at[i + 1];) {
-            const double end =
-                e + 1 < d->n ? (double)(e + 1) * d->length / (double)d->n : d->length;
-            const double to = fmin(end, mesh->at[i + 1]);
-            if (to > from)
-                add_piece(d, e, (struct br_interval){from, to}, square);
-            e += to >= end && e + 1 < d->n;
-            from = to;
-        }
-}
-
 /* Both squares, on meshes that become finer until what is rough could not add to them. */
-static enum br_status measure_data(const struct data *d, double square[2], struct br_error *err)
+static enum br_status measure_data(struct data *d, struct br_error *err)
 {
     enum { DEGREE = 8, ROUNDS = 10 };
     const double rough = 1e-4; /* of the data's square */
@@ -529,29 +507,27 @@ static enum br_status measure_data(const struct data *d, double square[2], struc
     struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-3 * most};
     for (int i = 0; i < ROUNDS && most > 0; i++) {
         const enum br_status status = br_resolve(d->value, BR_X, box, &aim, &mesh, err);
-        square[0] = square[1] = 0;
+        d->square[0] = d->square[1] = 0;
         if (!status)
-            add_mesh(d, &mesh, square);
+            for_each_piece(&mesh, d->length, d->n, add_piece, d);
         const double missed = mesh.missed;
         br_mesh_free(&mesh);
-        if (status || missed * most <= rough * square[1])
+        if (status || missed * most <= rough * d->square[1])
             return status;
         aim.tolerance /= 16;
     }
     return most > 0 ? br_fail(err, BR_BAD_INPUT, "it cannot be resolved") : BR_OK;
 }
 
-static enum br_status look_at_data(const struct data *d, struct br_warnings *w,
-                                   struct br_error *err)
+static enum br_status look_at_data(struct data *d, struct br_warnings *w, struct br_error *err)
 {
-    double square[2] = {0};
     if (!d->value->uses_x || (d->value->ops && !d->value->ops->bound))
         return BR_OK; /* of a solution that was given: nothing is proved of it */
-    const enum br_status status = measure_data(d, square, err);
+    const enum br_status status = measure_data(d, err);
     if (status == BR_NO_MEMORY)
         return status;
-    const double missed = status ? INFINITY : sqrt(square[0]);
-    const char *share = br_unseen(w, BR_WARN_INITIAL, missed, sqrt(square[1]), large_initial);
+    const double missed = status ? INFINITY : sqrt(d->square[0]);
+    const char *share = br_unseen(w, BR_WARN_INITIAL, missed, sqrt(d->square[1]), large_initial);
     if (status)
         br_warn(w, BR_WARN_INITIAL, "more elements, as short as what happens there",
                 "%s changes so often that it is not known how much of it lies between the nodes, "
@@ -570,11 +546,11 @@ static enum br_status look_at_initial(const struct br_planned_march *o, struct b
     const struct br_axial *a = &o->scene->axial;
     const struct br_bending *b = &o->scene->bending;
     const double length = o->scene->length;
-    const struct data rows[] = {
-        {&a->displacement, NULL, "the initial axial displacement", length, o->n},
-        {&a->velocity, NULL, "the initial axial velocity", length, o->n},
-        {&b->displacement, &b->displacement_slope, "the initial deflection", length, o->n},
-        {&b->velocity, &b->velocity_slope, "the initial velocity of bending", length, o->n},
+    struct data rows[] = {
+        {&a->displacement, NULL, "the initial axial displacement", length, o->n, {0}},
+        {&a->velocity, NULL, "the initial axial velocity", length, o->n, {0}},
+        {&b->displacement, &b->displacement_slope, "the initial deflection", length, o->n, {0}},
+        {&b->velocity, &b->velocity_slope, "the initial velocity of bending", length, o->n, {0}},
     };
     enum br_status status = BR_OK;
     for (size_t i = 0; i < sizeof rows / sizeof *rows && !status; i++)
@@ -583,7 +559,10 @@ static enum br_status look_at_initial(const struct br_planned_march *o, struct b
     return status;
 }
 
-const struct br_warning_source br_warn_initial = {
-    .title = "initial data between the nodes",
-    .look = look_at_initial,
-};
+enum br_status br_look_at_loads(const struct br_planned_march *o, struct br_warnings *w,
+                                struct br_error *err)
+{
+    const bool refused =
+        look_at_times(o, w, err) || br_look_at_elements(o, w, err) || look_at_initial(o, w, err);
+    return refused ? err->status : BR_OK;
+}

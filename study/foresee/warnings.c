@@ -12,15 +12,10 @@
 #include "study/grid/study.h"
 #include "study/run/run.h"
 
-const char *br_warning_word(enum br_warning_kind kind)
-{
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_WARNING_LIST(X)
-#undef X
-    };
-    return words[kind];
-}
+const char *const br_warning_words[] = {
+    "unstable",     "bounce",        "round-off",    "inaccurate", "error-not-known",
+    "load-in-time", "load-in-space", "initial-data", "long",
+};
 
 const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_warning_kind kind)
 {
@@ -62,8 +57,6 @@ void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remed
 
 /* ---- lagged contact beyond its limit ---- */
 
-/* Warns of a lagged contact beyond its stability limit, with what would be within it. */
-
 double br_round_steps(double least)
 {
     static const double round_ones[] = {1, 1.25, 1.6, 2, 2.5, 4, 5, 8};
@@ -96,17 +89,15 @@ static void contact_remedy(const struct br_planned_march *o, const struct br_fie
              cut(br_contact_limit_stiffness(field)));
 }
 
-static enum br_status look_at_contact(const struct br_planned_march *o,
-                                      struct br_warnings *warnings, struct br_error *err)
+void br_look_at_contact(const struct br_planned_march *o, struct br_warnings *warnings)
 {
-    (void)err;
     const struct br_scene *scene = o->scene;
     const double k = scene->duration / (double)o->steps;
     struct br_field field = br_field_of_scene(scene, BR_AXIAL, o->n, k);
     field.degree = o->method->axial_degree;
     if (!scene->contact.modelled || o->method->contact->at_new_step ||
         !br_contact_grows(&field, scene->contact.stiffness))
-        return BR_OK;
+        return;
     char text[400];
     contact_remedy(o, &field, text);
     br_warn(
@@ -116,14 +107,7 @@ static enum br_status look_at_contact(const struct br_planned_march *o,
         "its error by -%.4g, and the tip chatters",
         k, br_contact_limit_stiffness(&field), scene->contact.stiffness,
         br_contact_growth(&field, scene->contact.stiffness));
-    return BR_OK;
 }
-
-const struct br_warning_source br_warn_contact = {
-    .title = "the stability limit of the lagged contact",
-    .every = true,
-    .look = look_at_contact,
-};
 
 /* ---- lagged contact that may gain energy ---- */
 
@@ -140,15 +124,15 @@ static const double little = 0.01; /* of what was put in */
 static enum br_status march_coarsely(const struct br_scene *scene, const struct br_method *method,
                                      size_t n, size_t steps, double *share, struct br_error *err)
 {
-    struct br_march *march_coarsely = NULL;
+    struct br_march *march;
     struct br_energy_meter *meter = NULL;
     struct br_energy start, now;
     struct br_work work;
-    enum br_status status = br_march_create(&march_coarsely, scene, n, steps, method, err);
+    enum br_status status = br_march_create(&march, scene, n, steps, method, err);
     if (!status)
-        status = br_energy_meter_create(&meter, march_coarsely, scene, method, err);
+        status = br_energy_meter_create(&meter, march, scene, method, err);
     for (size_t i = 0; i < steps && !status; i++) {
-        status = br_march_step(march_coarsely, err);
+        status = br_march_step(march, err);
         if (status)
             break;
         br_energy_meter_step(meter);
@@ -158,7 +142,7 @@ static enum br_status march_coarsely(const struct br_scene *scene, const struct 
             *share = fmax(*share, br_energy_added(&work, BR_AXIAL) / put_in);
     }
     br_energy_meter_free(meter);
-    br_march_free(march_coarsely);
+    br_march_free(march);
     return status;
 }
 
@@ -185,17 +169,15 @@ static bool may_bounce(const struct br_planned_march *o, struct br_field *field)
            !br_contact_grows(field, s->contact.stiffness);
 }
 
-static enum br_status look_at_bounces(const struct br_planned_march *o, struct br_warnings *w,
-                                      struct br_error *err)
+static void look_at_bounces(const struct br_planned_march *o, struct br_warnings *w)
 {
-    (void)err;
     struct br_field field;
     if (!may_bounce(o, &field))
-        return BR_OK;
+        return;
     const double share = gain(o);
     char found[120] = "";
     if (share <= little)
-        return BR_OK;
+        return;
     if (share > little)
         snprintf(found, sizeof found,
                  "; on a coarse mesh it gains %.2g %% of what is put into the axial field",
@@ -204,14 +186,7 @@ static enum br_status look_at_bounces(const struct br_planned_march *o, struct b
             "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
             "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
             field.k, br_contact_limit_bouncing(&field), o->scene->contact.stiffness, found);
-    return BR_OK;
 }
-
-static const struct br_warning_source warn_bounce = {
-    .title = "energy that a lagged contact gains",
-    .every = true,
-    .look = look_at_bounces,
-};
 
 /* ---- predicted errors ---- */
 
@@ -225,11 +200,6 @@ static const double negligible = 1e-12; /* round-off that nobody minds */
 
 /* ---- round-off ---- */
 
-static bool heeds_refinement(const struct br_method *m)
-{
-    return br_linear_solver_heeds(m->solver, "--refinement");
-}
-
 static void round_off_remedy(const struct br_planned_march *o, double floor, char remedy[400])
 {
     struct br_method other = *o->method;
@@ -242,7 +212,7 @@ static void round_off_remedy(const struct br_planned_march *o, double floor, cha
     int used = 0;
     if (least < floor / 2)
         used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
-    if (heeds_refinement(&other) && o->method->linear.refinement < 2 &&
+    if (br_linear_solver_heeds(other.solver, "--refinement") && o->method->linear.refinement < 2 &&
         br_predict_round_off(&alternative) < floor / 2)
         used += snprintf(remedy + used, 400 - (size_t)used, "--refinement 2  # %.1e\n",
                          br_predict_round_off(&alternative));
@@ -365,47 +335,23 @@ static enum br_status look_at_prediction(const struct br_planned_march *o, struc
     return BR_OK;
 }
 
-static const struct br_warning_source warn_prediction = {
-    .title = "errors of discretisation and of round-off, as predicted",
-    .look = look_at_prediction,
-};
-
 /* ---- all sources ---- */
 
-const struct br_warning_source *const br_warning_sources[] = {
-    &br_warn_resources,  &br_warn_contact, &warn_bounce,     &br_warn_load,
-    &br_warn_load_space, &br_warn_initial, &warn_prediction, NULL,
-};
-
-/* Asks those that are cheap, or those that are not. */
-static enum br_status ask(const struct br_planned_march *planned, bool every, struct br_warnings *w,
-                          struct br_error *err)
+enum br_status br_look_ahead_cheaply(const struct br_planned_march *o, struct br_warnings *w,
+                                     struct br_error *err)
 {
-    for (const struct br_warning_source *const *s = br_warning_sources; *s; s++) {
-        const enum br_status status = (*s)->every == every ? (*s)->look(planned, w, err) : BR_OK;
-        if (status)
-            return status;
-    }
+    const enum br_status status = br_look_at_resources(o, w, err);
+    if (status)
+        return status;
+    br_look_at_contact(o, w);
+    look_at_bounces(o, w);
     return BR_OK;
 }
 
-enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *w,
+enum br_status br_look_ahead(const struct br_planned_march *o, struct br_warnings *w,
                              struct br_error *err)
 {
-    const enum br_status status = ask(planned, true, w, err);
-    return status ? status : ask(planned, false, w, err);
-}
-
-enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned, struct br_warnings *w,
-                                     struct br_error *err)
-{
-    return ask(planned, true, w, err);
-}
-
-enum br_status br_look_at_loads(const struct br_planned_march *planned, struct br_warnings *w,
-                                struct br_error *err)
-{
-    enum br_status status = br_warn_load.look(planned, w, err);
-    status = status ? status : br_warn_load_space.look(planned, w, err);
-    return status ? status : br_warn_initial.look(planned, w, err);
+    const bool refused = br_look_ahead_cheaply(o, w, err) || br_look_at_loads(o, w, err) ||
+                         look_at_prediction(o, w, err);
+    return refused ? err->status : BR_OK;
 }

@@ -1,30 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a person should know before a march begins, with what to do about it; and what is refused
- * then. Each source looks at what is to be marched and predicts; it marches little or nothing. */
+ * then: what is to be marched is looked at, and little or nothing is marched. */
 #ifndef BR_STUDY_FORESEE_WARNINGS_H
 #define BR_STUDY_FORESEE_WARNINGS_H
 
 #include "solver/method.h"
 
-/* X(name, word for programs). Of each kind a list keeps the first; others are counted. */
-#define BR_WARNING_LIST(X)                                                             \
-    X(BR_WARN_UNSTABLE, "unstable")        /* lagged contact beyond its limit */       \
-    X(BR_WARN_BOUNCE, "bounce")            /* lagged contact that may gain energy */   \
-    X(BR_WARN_ROUND_OFF, "round-off")      /* above the discretisation error */        \
-    X(BR_WARN_INACCURATE, "inaccurate")    /* the discretisation error is large */     \
-    X(BR_WARN_UNKNOWN, "error-not-known")  /* the discretisation error is not known */ \
-    X(BR_WARN_LOAD_TIME, "load-in-time")   /* the time levels miss some of a load */   \
-    X(BR_WARN_LOAD_SPACE, "load-in-space") /* the elements' quadrature misses some */  \
-    X(BR_WARN_INITIAL, "initial-data")     /* initial data between the nodes */        \
-    X(BR_WARN_LONG, "long")                /* the march takes days */
-
+/* Of each kind a list keeps the first; others are counted. */
 enum br_warning_kind {
-#define X(name, word) name,
-    BR_WARNING_LIST(X)
-#undef X
-        BR_WARNINGS
+    BR_WARN_UNSTABLE,   /* lagged contact beyond its limit */
+    BR_WARN_BOUNCE,     /* lagged contact that may gain energy */
+    BR_WARN_ROUND_OFF,  /* above the discretisation error */
+    BR_WARN_INACCURATE, /* the discretisation error is large */
+    BR_WARN_UNKNOWN,    /* the discretisation error is not known */
+    BR_WARN_LOAD_TIME,  /* the time levels miss some of a load */
+    BR_WARN_LOAD_SPACE, /* the elements' quadrature misses some */
+    BR_WARN_INITIAL,    /* initial data between the nodes */
+    BR_WARN_LONG,       /* the march takes days */
+    BR_WARNINGS
 };
-const char *br_warning_word(enum br_warning_kind kind);
+extern const char *const br_warning_words[BR_WARNINGS]; /* for programs */
 
 struct br_warning {
     enum br_warning_kind kind;
@@ -69,44 +64,58 @@ struct br_planned_march {
     double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
 };
 
-/* A source of warnings: a row of the registry. */
-struct br_warning_source {
-    const char *title; /* what it looks at, for a person */
-    bool every;        /* so cheap that each march of a study is looked at */
-    /* Adds what it has to say. What it cannot tell is no failure. Fails with BR_BAD_INPUT or
-     * BR_NO_MEMORY where the march is refused, the message with the figures. */
-    enum br_status (*look)(const struct br_planned_march *planned, struct br_warnings *warnings,
-                           struct br_error *err);
-};
-
-/* NULL-terminated: refusals first, then in the order in which warnings are told. To add one: a
- * const record and a row in warnings.c. */
-extern const struct br_warning_source *const br_warning_sources[];
-
-/* Asks all sources about one march; adds to *warnings. Fails as they do. */
+/* Looks at a march before it begins, and adds what it has to say. What it cannot tell is no
+ * failure. Fails with BR_BAD_INPUT or BR_NO_MEMORY where the march is refused, the message with the
+ * figures. To add a source of warnings: a function, and a call in warnings.c. */
 enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
                              struct br_error *err);
 
-/* Asks those that are cheap alone: for marches that are many. */
+/* The same by the sources that are cheap alone: for marches that are many. */
 enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
                                      struct br_warnings *warnings, struct br_error *err);
 
-/* Asks about the loads and initial data alone: what of them the time levels and the elements do
- * not see. For the finest of many marches; that takes milliseconds, or a second for loads with
- * thousands of jumps.
- */
+/* At the loads and initial data alone: what of them the time levels and the elements do not see.
+ * For the finest of many marches; that takes milliseconds, or a second for loads with thousands of
+ * jumps. */
 enum br_status br_look_at_loads(const struct br_planned_march *planned,
                                 struct br_warnings *warnings, struct br_error *err);
 
-/* The warning of a lagged contact that will be unstable (solver/laws.h). */
-extern const struct br_warning_source br_warn_contact;
+/* ---- parts of these ---- */
 
-/* Of the other files of this room. */
-extern const struct br_warning_source br_warn_initial, br_warn_load, br_warn_load_space,
-    br_warn_resources;
+/* At memory and time. */
+enum br_status br_look_at_resources(const struct br_planned_march *planned,
+                                    struct br_warnings *warnings, struct br_error *err);
+
+/* Warns of a lagged contact beyond its stability limit (solver/laws.h), with what would be within
+ * it. */
+void br_look_at_contact(const struct br_planned_march *planned, struct br_warnings *warnings);
+
+/* At loads whose jumps and peaks in x the elements' quadrature misses: the load vector of hat
+ * functions by the rule that is marched with is compared with their integrals on a mesh on which
+ * the load is proved to be resolved. */
+enum br_status br_look_at_elements(const struct br_planned_march *planned,
+                                   struct br_warnings *warnings, struct br_error *err);
 
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);
+
+/* ---- what a march takes, memory and time (resources.c) ---- */
+
+/* Bytes that a march needs at most, from what elements were measured to take. */
+double br_march_bytes(const struct br_planned_march *planned);
+
+/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
+ * 0. */
+double br_march_seconds(const struct br_planned_march *planned);
+
+/* Bytes that may still be had: the least of what the machine has (MemAvailable of /proc/meminfo),
+ * of the limit of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
+double br_memory_available(void);
+
+/* Refuses (BR_NO_MEMORY) a march that does not fit into a memory of so many bytes, with the
+ * figures. */
+enum br_status br_fits_memory(const struct br_planned_march *planned, double available,
+                              struct br_error *err);
 
 #endif

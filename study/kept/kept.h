@@ -21,7 +21,7 @@ struct br_kept {
     double slice;          /* s of work that a study does between two times of keeping, */
     double most_reference; /* the part of it that may be the reference, marched again in each */
     struct br_sha256 base; /* executable, machine and scene */
-    atomic_size_t taken;   /* cells and trials */
+    atomic_size_t taken;   /* cells, trials, cases */
     atomic_size_t bad;     /* entries that were not what they should be, */
     atomic_size_t lost;    /* or could not be written */
 };

@@ -99,7 +99,7 @@ static void copy_warnings(const struct br_warnings *warnings, struct beamrate_fo
     f->warnings = warnings->count;
     for (size_t i = 0; i < warnings->count; i++) {
         const struct br_warning *w = &warnings->list[i];
-        snprintf(f->warning[i].kind, sizeof f->warning[i].kind, "%s", br_warning_word(w->kind));
+        snprintf(f->warning[i].kind, sizeof f->warning[i].kind, "%s", br_warning_words[w->kind]);
         snprintf(f->warning[i].text, sizeof f->warning[i].text, "%s", w->text);
         snprintf(f->warning[i].remedy, sizeof f->warning[i].remedy, "%s", w->remedy);
     }

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/foresee/resources.h"
+#include "study/foresee/foreseen.h"
 #include "study/grid/sweep.h"
 #include "study/library/library.h"
 #include "study/orders/orders.h"

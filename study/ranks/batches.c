@@ -2,7 +2,11 @@
 /* Studies are cut into slices, some cells each; slices are dealt into batches. */
 #include "study/ranks/batches.h"
 
+#include <math.h>
 #include <stdint.h>
+
+#include "study/scene/method_fields.h"
+#include "study/scene/schema.h"
 
 /* ---- costs ---- */
 
@@ -82,146 +86,111 @@ double br_slice_cells(const struct br_study *s, size_t slices, size_t *slice)
 
 /* ---- how many slices ---- */
 
-/* A study as it is cut so far. */
+/* A study, cut. */
 struct cut {
     size_t slices; /* 0: it has failed */
-    double cost;   /* of its dearest slice, reference included, ns */
+    double cost;   /* of its dearest slice, reference included, about, ns */
 };
 
-struct cutting {
-    const struct br_study *studies;
-    size_t count, ranks;
-    struct cut *cut; /* of each study */
-    double total;    /* ns */
-    size_t slices;   /* of all studies */
-    size_t *of;      /* workspace: a study's cells */
-};
-
-/* Whether to cut study s into one slice more, and if so, does.
- *
- * A slice marches some of the cells, and the whole reference again. So it pays where the reference
- * is cheap beside the cells, or where ranks would have nothing to do, and its last slice ends
- * clearly sooner. That leaves the cells of a much finer run with it: it is the work.
- *
- * The reference could also be worked out by one rank and broadcast. Compared with slices on ranks
- * that are idle otherwise, this saves the owner of the reference its share of the cells, and costs
- * it the sending, each time level after the other: 48 bytes an element of every mesh. Measured for
- * the exact reference of the tables' grid on 4 ranks of one machine, per element of its mesh and
- * time level: 107 ns for the reference; 34 ns for a quarter of the cells; and for 94 bytes at 4.5
- * GB/s (MPI_Bcast, 9.6 MB; 2.7 GB/s by TCP on the same machine) 21 ns (35 ns). So it would save a
- * tenth at most, by the fastest of networks, and lose with more ranks, where the share is less and
- * the bytes are not: slices it is. */
-static bool cut_once_more(struct cutting *c, size_t s)
+static double whole_cost(const struct br_study *s, double *dearest)
 {
-    struct cut *cut = &c->cut[s];
-    const double reference = br_reference_cost(&c->studies[s]);
-    const double cells = br_slice_cells(&c->studies[s], cut->slices + 1, c->of);
-    const double all_cells = cut->cost - reference; /* of the dearest slice so far */
-    const bool idle = c->slices < c->ranks;
-    if (cut->slices == br_study_cells(&c->studies[s]) || !(cells >= 0) ||
-        reference + cells > 0.9 * cut->cost || !(idle || reference < 0.1 * all_cells))
-        return false;
-    *cut = (struct cut){cut->slices + 1, reference + cells};
-    c->slices++;
-    c->total += reference;
-    return true;
+    double cost = br_reference_cost(s);
+    *dearest = 0;
+    for (size_t i = 0; i < br_study_cells(s); i++) {
+        const double cell = br_cell_cost(s, i);
+        cost += cell;
+        *dearest = fmax(*dearest, cell);
+    }
+    return cost;
 }
 
-/* As long as one slice is so large that the ranks would wait for it. */
-static void cut_all(struct cutting *c)
+/* Cuts a study into ever more slices, as long as one is dearer than `most`, so that ranks would
+ * wait for it. idle: with fewer of them ranks would have nothing to do.
+ *
+ * A slice marches some of the cells, and the whole reference again. So it pays where the reference
+ * is cheap beside the cells, or where ranks would have nothing to do, and a slice ends clearly
+ * sooner. That leaves the cells of a much finer run with it: it is the work.
+ *
+ * The reference could also be worked out by one rank and broadcast. Measured on 4 ranks of one
+ * machine, that saves a tenth at most, by the fastest of networks, and loses with more ranks: its
+ * owner is spared its share of the cells, but sends 48 bytes an element of every mesh and time
+ * level. */
+static struct cut cut(const struct br_study *s, double most, size_t idle)
 {
-    for (size_t s = 0; s < c->count; s++) {
-        if (c->studies[s].failure.status)
-            continue;
-        c->cut[s] = (struct cut){1, br_reference_cost(&c->studies[s])};
-        for (size_t i = 0; i < br_study_cells(&c->studies[s]); i++)
-            c->cut[s].cost += br_cell_cost(&c->studies[s], i);
-        c->total += c->cut[s].cost;
-        c->slices++;
+    const double reference = br_reference_cost(s);
+    double dearest;
+    struct cut cut = {1, whole_cost(s, &dearest)};
+    const double cells = cut.cost - reference;
+    while (cut.slices < br_study_cells(s) && cut.cost > most) {
+        const double next = reference + fmax(cells / (double)(cut.slices + 1), dearest);
+        const bool pays = cut.slices < idle || reference < 0.1 * (cut.cost - reference);
+        if (next > 0.9 * cut.cost || !pays)
+            break;
+        cut = (struct cut){cut.slices + 1, next};
     }
-    for (bool more = c->slices > 0; more;) {
-        size_t dearest = 0;
-        for (size_t s = 1; s < c->count; s++)
-            dearest = c->cut[s].cost > c->cut[dearest].cost ? s : dearest;
-        more =
-            c->cut[dearest].cost > c->total / (2 * (double)c->ranks) && cut_once_more(c, dearest);
-    }
+    return cut;
 }
 
 /* ---- batches ---- */
 
 /* Slices are dealt like cards, the dearest first: in each round every rank gets as many as it has
  * threads, or its share of those that are left. slice: in; batch: of each slice, out. */
-static void deal(struct br_batches *b, const struct cutting *c, const struct priced *slice,
+static void deal(struct br_batches *b, const struct priced *slice, size_t slices, size_t ranks,
                  size_t threads, size_t *batch)
 {
-    for (size_t done = 0; done < c->slices;) {
-        const size_t left = c->slices - done, share = (left + c->ranks - 1) / c->ranks;
+    for (size_t done = 0; done < slices;) {
+        const size_t left = slices - done, share = (left + ranks - 1) / ranks;
         const size_t each = share < threads ? share : threads;
-        const size_t round = each * c->ranks < left ? each * c->ranks : left;
+        const size_t round = each * ranks < left ? each * ranks : left;
         for (size_t i = done; i < done + round; i++) {
-            batch[slice[i].index] = b->count + (i - done) % c->ranks;
+            batch[slice[i].index] = b->count + (i - done) % ranks;
             b->cost[batch[slice[i].index]] += slice[i].cost;
         }
-        b->count += round < c->ranks ? round : c->ranks;
+        b->count += round < ranks ? round : ranks;
         done += round;
     }
-}
-
-/* From the slice of each cell, counted through all studies, to its batch. */
-static enum br_status fill(struct br_batches *b, const struct cutting *c, const size_t *batch,
-                           struct br_error *err)
-{
-    size_t *of = b->of;
-    for (size_t s = 0; s < c->count; s++) {
-        const size_t cells = br_study_cells(&c->studies[s]), slices = c->cut[s].slices;
-        if (slices > 0 && !(br_slice_cells(&c->studies[s], slices, of) >= 0))
-            return br_no_memory(err, "the cells of a slice");
-        for (size_t i = 0; i < cells; i++)
-            of[i] = slices > 0 ? batch[of[i]] : SIZE_MAX;
-        of += cells;
-        batch += slices;
-    }
-    return BR_OK;
-}
-
-static enum br_status create(struct br_batches *b, struct cutting *c, size_t threads,
-                             struct br_error *err)
-{
-    cut_all(c);
-    struct priced *slice = br_allocate(c->slices, sizeof *slice);
-    size_t *batch = br_allocate(c->slices, sizeof *batch), next = 0;
-    b->cost = br_allocate(c->slices, sizeof *b->cost);
-    enum br_status status =
-        slice && batch && b->cost ? BR_OK : br_no_memory(err, "the batches of the ranks");
-    for (size_t s = 0; s < c->count && !status; s++)
-        for (size_t i = 0; i < c->cut[s].slices; i++, next++)
-            slice[next] = (struct priced){c->cut[s].cost, next};
-    if (!status) {
-        qsort(slice, c->slices, sizeof *slice, dearest_first);
-        deal(b, c, slice, threads, batch);
-        status = fill(b, c, batch, err);
-    }
-    free(slice);
-    free(batch);
-    return status;
 }
 
 enum br_status br_batches_create(struct br_batches *b, const struct br_study *studies, size_t count,
                                  int ranks, int threads, struct br_error *err)
 {
-    struct cutting c = {.studies = studies, .count = count, .ranks = (size_t)ranks};
-    size_t cells = 0;
-    for (size_t s = 0; s < count; s++)
+    size_t cells = 0, sound = 0, slices = 0;
+    double total = 0, most = 0; /* no rank is done before the longest slice of one cell */
+    for (size_t s = 0; s < count; s++) {
         cells += br_study_cells(&studies[s]);
-    *b = (struct br_batches){.of = br_allocate(cells, sizeof *b->of)};
-    c.cut = br_allocate(count, sizeof *c.cut);
-    c.of = b->of; /* large enough for each */
-    const enum br_status status = b->of && c.cut
-                                      ? create(b, &c, threads > 0 ? (size_t)threads : 1, err)
-                                      : br_no_memory(err, "the batches of the ranks");
-    free(c.cut);
-    return status;
+        if (studies[s].failure.status)
+            continue;
+        double dearest;
+        total += whole_cost(&studies[s], &dearest);
+        most = fmax(most, br_reference_cost(&studies[s]) + dearest);
+        sound++;
+    }
+    most = fmax(most, total / (2 * ranks));
+    /* A cell is in one slice, so there are no more slices than cells. */
+    struct priced *slice = br_allocate(cells, sizeof *slice);
+    size_t *batch = br_allocate(cells, sizeof *batch), *of;
+    *b = (struct br_batches){.of = of = br_allocate(cells, sizeof *b->of),
+                             .cost = br_allocate(cells, sizeof *b->cost)};
+    bool full = slice && batch && b->of && b->cost;
+    for (size_t s = 0; s < count && full; of += br_study_cells(&studies[s++])) {
+        const bool failed = studies[s].failure.status != BR_OK;
+        const struct cut c =
+            failed ? (struct cut){0} : cut(&studies[s], most, (size_t)ranks / sound);
+        full = failed || br_slice_cells(&studies[s], c.slices, of) >= 0;
+        for (size_t i = 0; i < br_study_cells(&studies[s]); i++)
+            of[i] = failed ? SIZE_MAX : slices + of[i];
+        for (size_t i = 0; i < c.slices; i++, slices++)
+            slice[slices] = (struct priced){c.cost, slices};
+    }
+    if (full) {
+        qsort(slice, slices, sizeof *slice, dearest_first);
+        deal(b, slice, slices, (size_t)ranks, threads > 0 ? (size_t)threads : 1, batch);
+    }
+    for (size_t i = 0; i < cells && full; i++)
+        b->of[i] = b->of[i] == SIZE_MAX ? SIZE_MAX : batch[b->of[i]];
+    free(slice);
+    free(batch);
+    return full ? BR_OK : br_no_memory(err, "the batches of the ranks");
 }
 
 void br_batches_clear(struct br_batches *b)
@@ -229,4 +198,97 @@ void br_batches_clear(struct br_batches *b)
     free(b->cost);
     free(b->of);
     *b = (struct br_batches){0};
+}
+
+/* ---- whether ranks have read the same ---- */
+
+/* FNV-1a, 64 bits. */
+static void add(unsigned long long *hash, const char *text)
+{
+    for (; *text; text++)
+        *hash = (*hash ^ (unsigned char)*text) * 0x100000001b3ull;
+    *hash = (*hash ^ 0xff) * 0x100000001b3ull;
+}
+
+/* Nine digits: the last bits may be another processor's. */
+static void add_number(unsigned long long *hash, double value)
+{
+    char text[40];
+    snprintf(text, sizeof text, "%.9g", value);
+    add(hash, text);
+}
+
+static void add_counts(unsigned long long *hash, const size_t *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        add_number(hash, (double)list[i]);
+    add(hash, "");
+}
+
+static void add_function(unsigned long long *hash, const struct br_function *f,
+                         const struct br_scene *s)
+{
+    static const double place[] = {0, 0.137, 0.5, 0.823, 1};
+    enum { PLACES = sizeof place / sizeof *place };
+    double x[PLACES], value[PLACES];
+    for (size_t i = 0; i < PLACES; i++)
+        x[i] = place[i] * s->length;
+    for (size_t j = 0; j < PLACES; j++) {
+        br_function_evaluate(f, PLACES, x, place[j] * s->duration, value);
+        for (size_t i = 0; i < PLACES; i++)
+            add_number(hash, value[i]);
+    }
+}
+
+static void add_scene(unsigned long long *hash, const struct br_scene *s)
+{
+    struct br_scene borrowed = *s;
+    const struct br_function *f;
+    add_counts(hash,
+               (const size_t[]){s->axial.modelled, s->bending.modelled, s->contact.modelled,
+                                s->friction.law},
+               4);
+    for (const struct br_scene_key *key = br_scene_keys; key->name; key++)
+        if ((key->kind == BR_KEY_POSITIVE || key->kind == BR_KEY_NOT_NEGATIVE) &&
+            key->need != BR_MAKES)
+            add_number(hash, *(const double *)((const char *)s + key->offset));
+    for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
+        add_function(hash, f, s);
+}
+
+/* All but what is the machine's own: its instruction set. */
+static void add_method(unsigned long long *hash, const struct br_method *m)
+{
+    char text[BR_METHOD_VALUE];
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const struct br_method_field *f = &br_method_fields[i];
+        if (!f->unsaid && br_method_field_heeded(f, m))
+            add(hash, br_method_field_text(f, m, text));
+    }
+}
+
+static void add_study(unsigned long long *hash, const struct br_study *s)
+{
+    add_counts(hash, s->n, s->n_count);
+    add_counts(hash, s->steps, s->k_count);
+    add_counts(hash, (const size_t[]){s->path, s->reference.n, s->reference.steps}, 3);
+    for (size_t cell = 0; cell < (s->cell_method ? br_study_cells(s) : 1); cell++)
+        add_method(hash, br_study_method(s, cell));
+    add_method(hash, &s->reference_method);
+    add(hash, s->judge->name);
+    add(hash, s->auditor ? s->auditor->name : "");
+    for (; s; s = s->next_norm)
+        add(hash, s->norm->name);
+}
+
+unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count)
+{
+    unsigned long long hash = 0xcbf29ce484222325ull;
+    add_counts(&hash, (const size_t[]){count, sizeof(struct br_cell)}, 2);
+    for (size_t i = 0; i < count; i++) {
+        if (i == 0 || studies[i].scene != studies[i - 1].scene)
+            add_scene(&hash, studies[i].scene);
+        add_study(&hash, &studies[i]);
+    }
+    return hash;
 }

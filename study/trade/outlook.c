@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "solver/clock.h"
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 #include "study/grid/each.h"
 #include "study/trade/trial.h"
 

@@ -8,7 +8,7 @@
 
 #include "solver/clock.h"
 #include "study/fit/fit.h"
-#include "study/foresee/resources.h"
+#include "study/foresee/warnings.h"
 #include "study/grid/observer.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"

@@ -3,25 +3,25 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "study/run/run.h"
 #include "study/scene/file.h"
+#include "study/scene/method_fields.h"
 #include "study/scene/random.h"
+#include "study/scene/schema.h"
 
-const char *br_extreme_special_name(enum br_extreme_special special)
-{
-    static const char *const names[BR_SPECIALS] = {
-        [BR_SPECIAL_NONE] = "none",
-        [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
-        [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
-        [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
-        [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
-        [BR_SPECIAL_DENORMAL] = "denormal loads",
-        [BR_SPECIAL_ZEROS] = "numbers that are 0",
-    };
-    return names[special];
-}
+const char *const br_extreme_specials[] = {
+    [BR_SPECIAL_NONE] = "none",
+    [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
+    [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
+    [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
+    [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
+    [BR_SPECIAL_DENORMAL] = "denormal loads",
+    [BR_SPECIAL_ZEROS] = "numbers that are 0",
+};
 
 /* ---- forces ---- */
 
@@ -61,6 +61,14 @@ static void draw_start(struct br_random *r, struct br_extreme_field *p, double w
         p->velocity = (struct br_extreme_start){size / time, br_random_once_in(r, 4)};
 }
 
+/* Coulomb's needs the contact. */
+static void draw_law(struct br_random *r, struct br_extreme_case *c)
+{
+    c->law = (enum br_friction_law)br_random_index(r, 3);
+    if (c->law == BR_COULOMB && !c->contact)
+        c->law = BR_TRESCA;
+}
+
 /* ---- numbers that belong together ---- */
 
 /* A field by its relaxation time c/a over T, and the tip's static way over L. */
@@ -93,9 +101,7 @@ static void draw_natural_laws(struct br_random *r, struct br_extreme_case *c)
         c->contact_stiffness *= br_random_decades(r, 4, 12);
     if (!w->modelled)
         return;
-    c->law = (enum br_friction_law)br_random_index(r, 3);
-    if (c->law == BR_COULOMB && !c->contact)
-        c->law = BR_TRESCA;
+    draw_law(r, c);
     c->friction = reaction * br_random_decades(r, -2, 1);
     if (c->law == BR_COULOMB)
         c->friction /= way * br_random_decades(r, -2, 0);
@@ -151,9 +157,7 @@ static void draw_wild(struct br_random *r, struct br_extreme_case *c)
     c->contact_stiffness = wild(r, -6, 15);
     if (!c->field[BR_BENDING].modelled)
         return;
-    c->law = (enum br_friction_law)br_random_index(r, 3);
-    if (c->law == BR_COULOMB && !c->contact)
-        c->law = BR_TRESCA;
+    draw_law(r, c);
     c->friction = wild(r, -6, 15);
 }
 
@@ -245,27 +249,28 @@ static void drop_some(struct br_random *r, struct br_extreme_case *c)
         c->field[kind].velocity.size = 0;
 }
 
+enum { FORCES = 6 };
+
+static struct br_extreme_force *force_of(struct br_extreme_case *c, size_t i)
+{
+    struct br_extreme_field *p = &c->field[i / 3];
+    return i % 3 == 0 ? &p->load : i % 3 == 1 ? &p->tip_force : &p->tip_moment;
+}
+
 static void scale_forces(struct br_extreme_case *c, double to)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_field *p = &c->field[kind];
-        struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
-        for (size_t i = 0; i < sizeof forces / sizeof *forces; i++)
-            if (forces[i]->size != 0)
-                forces[i]->size = to;
-        p->displacement.size = p->velocity.size = 0;
-    }
+    for (size_t i = 0; i < FORCES; i++)
+        if (force_of(c, i)->size != 0)
+            force_of(c, i)->size = to;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        c->field[kind].displacement.size = c->field[kind].velocity.size = 0;
 }
 
 static void oscillate(struct br_random *r, struct br_extreme_case *c)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_extreme_field *p = &c->field[kind];
-        struct br_extreme_force *const forces[] = {&p->load, &p->tip_force, &p->tip_moment};
-        for (size_t i = 0; i < sizeof forces / sizeof *forces; i++) {
-            forces[i]->history = BR_HISTORY_SINE;
-            forces[i]->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
-        }
+    for (size_t i = 0; i < FORCES; i++) {
+        force_of(c, i)->history = BR_HISTORY_SINE;
+        force_of(c, i)->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
     }
 }
 
@@ -363,4 +368,135 @@ void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
     if (br_random_once_in(&r, 3))
         c->special = (enum br_extreme_special)br_random_index(&r, BR_SPECIALS);
     play(&r, c);
+}
+
+struct text {
+    char *at;
+    size_t size;
+};
+
+__attribute__((format(printf, 2, 3))) static void add(struct text *t, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const int length = vsnprintf(t->at, t->size, format, args);
+    va_end(args);
+    const size_t used = length < 0 ? 0 : (size_t)length;
+    const size_t taken = used < t->size ? used : t->size - 1;
+    t->at += taken;
+    t->size -= taken;
+}
+
+/* ---- the text of a case: expressions ---- */
+
+/* Of L. */
+static const char *const shapes[BR_SHAPES] = {
+    [BR_SHAPE_FLAT] = "",
+    [BR_SHAPE_LINEAR] = "*(x/%.17g)",
+    [BR_SHAPE_SINE] = "*sin(pi*x/%.17g)",
+    [BR_SHAPE_WAVES] = "*sin(7*pi*x/%.17g)",
+    [BR_SHAPE_POWER] = "*(1 - (x/%.17g)^3)",
+};
+
+/* Of T and the rate. */
+static const char *const histories[BR_HISTORIES] = {
+    [BR_HISTORY_SUDDEN] = "",
+    [BR_HISTORY_RAMP] = "*(t/%.17g)",
+    [BR_HISTORY_EXP] = "*(exp(t/%.17g) - 1)",
+    [BR_HISTORY_SINE] = "*sin(2*pi*%2$.17g*t/%1$.17g)",
+    [BR_HISTORY_POWER] = "*((t/%1$.17g)^3 - 2*(t/%1$.17g)^2)",
+};
+
+/* Of size and L, by field: plain and waved; of a beam also the slope. */
+static const char *const starts[2][2] = {
+    {"%.17g*(x/%.17g)", "%.17g*sin(5*pi*x/(2*%.17g))"},
+    {"%.17g*(x/%.17g)^2", "%.17g*(1 - cos(5*pi*x/(2*%.17g)))"},
+};
+static const char *const start_slopes[2] = {"2*%1$.17g*(x/%2$.17g)/%2$.17g",
+                                            "%1$.17g*5*pi/(2*%2$.17g)*sin(5*pi*x/(2*%2$.17g))"};
+
+static void add_force(struct text *t, const struct br_extreme_case *c, const char *key,
+                      const struct br_extreme_force *f, const char *unit)
+{
+    if (f->size == 0)
+        return;
+    add(t, "  %s: %.17g", key, f->size);
+    if (strcmp(key, "load") == 0)
+        add(t, shapes[f->shape], c->length);
+    add(t, histories[f->history], c->duration, f->rate);
+    add(t, " [%s]\n", unit);
+}
+
+static void add_start(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind,
+                      const char *key, const struct br_extreme_start *s)
+{
+    const bool rate = strcmp(key, "velocity") == 0;
+    if (s->size == 0)
+        return;
+    add(t, "  %s: ", key);
+    add(t, starts[kind][s->waved], s->size, c->length);
+    add(t, rate ? " [m/s]\n" : " [m]\n");
+    if (kind == BR_AXIAL)
+        return;
+    add(t, "  %s_slope: ", key);
+    add(t, start_slopes[s->waved], s->size, c->length);
+    add(t, rate ? " [1/s]\n" : " [1]\n");
+}
+
+/* ---- the scene ---- */
+
+static void add_field(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind)
+{
+    const struct br_extreme_field *p = &c->field[kind];
+    const bool axial = kind == BR_AXIAL;
+    if (!p->modelled)
+        return;
+    add(t, "\n%s:\n  stiffness: %.17g %s\n  viscosity: %.17g %s\n", axial ? "axial" : "bending",
+        p->stiffness, axial ? "N" : "N m^2", p->viscosity, axial ? "N s" : "N m^2 s");
+    add_force(t, c, "load", &p->load, "N/m");
+    add_force(t, c, "tip_force", &p->tip_force, "N");
+    if (!axial)
+        add_force(t, c, "tip_moment", &p->tip_moment, "N m");
+    add_start(t, c, kind, "displacement", &p->displacement);
+    add_start(t, c, kind, "velocity", &p->velocity);
+}
+
+void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT])
+{
+    struct text t = {text, BR_EXTREME_TEXT};
+    char command[BR_EXTREME_COMMAND], name[64];
+    snprintf(name, sizeof name, "wrong-%zu.yaml", c->index);
+    br_extreme_command(c, name, command);
+    add(&t, "# Case %zu of seed %llu. %s\n", c->index, (unsigned long long)c->seed, command);
+    add(&t, "title: Extreme case %zu\n\n", c->index);
+    add(&t, "length: %.17g m\nduration: %.17g s\ndensity: %.17g kg/m\n", c->length, c->duration,
+        c->density);
+    add_field(&t, c, BR_AXIAL);
+    add_field(&t, c, BR_BENDING);
+    if (c->contact)
+        add(&t, "\ncontact:\n  gap: %.17g m\n  stiffness: %.17g N/m\n", c->gap,
+            c->contact_stiffness);
+    if (c->law == BR_FRICTIONLESS)
+        return;
+    const bool tresca = c->law == BR_TRESCA;
+    add(&t, "\nfriction:\n  law: %s\n  %s: %.17g %s\n", br_friction_law_names[c->law],
+        tresca ? "bound" : "coefficient", c->friction, tresca ? "N" : "N/m");
+    if (c->regularisation > 0)
+        add(&t, "  regularisation: %.17g m/s\n", c->regularisation);
+}
+
+/* What the program takes: no option that the method does not heed, and every number to its last
+ * bit. */
+void br_extreme_command(const struct br_extreme_case *c, const char *name,
+                        char text[BR_EXTREME_COMMAND])
+{
+    struct text t = {text, BR_EXTREME_COMMAND};
+    char options[BR_METHOD_TEXT];
+    const struct br_scene scene = {.axial.modelled = c->field[BR_AXIAL].modelled,
+                                   .contact.modelled = c->contact,
+                                   .friction.law = c->law};
+    add(&t, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n, c->steps,
+        br_method_options(&scene, &c->method, options));
+    if (c->wanted)
+        add(&t, " --fields axial,bending");
 }
