@@ -8,7 +8,7 @@
 #include "cli/session.h"
 #include "cli/warn.h"
 #include "plots/pictures.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 #include "tables/reports.h"
 
 struct run {

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "study/foresee/prediction.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 #include "study/run/run.h"
 #include "study/trade/plan.h"
 #include "study/trade/split.h"

@@ -77,11 +77,11 @@ static enum br_status measure(void *self, const struct br_march *march,
     return BR_OK;
 }
 
-/* How a point is marched. */
-struct way {
-    bool implicit;  /* the contact force at the new step */
-    size_t coarser; /* h and k times this */
-};
+/* How a point is marched: the contact force at the new step or not; h and k times so much. */
+static const struct way {
+    bool implicit;
+    size_t coarser;
+} ways[BR_SWEEP_WAYS] = {{false, 1}, {true, 1}, {true, 2}};
 
 static enum br_status run(const struct br_paper *p, const struct br_scene *scene,
                           const struct way *way, struct size *size, bool *unstable,
@@ -110,7 +110,7 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
     struct br_march *march = NULL;
     struct br_history_end end;
     const enum br_status status = br_history_run(&request, &march, &end, err);
-    if (march && unstable)
+    if (march)
         *unstable = br_march_contact_unstable(march);
     br_march_free(march);
     return status;
@@ -129,23 +129,20 @@ static enum br_status run_sweep_point(struct br_paper *p, size_t sweep, size_t i
     if (!size.nodal)
         return br_no_memory(err, "the sweep");
     enum br_status status = BR_OK;
-    for (int rule = 0; rule < 2 && !status; rule++) {
+    for (int way = 0; way < BR_SWEEP_WAYS && !status; way++) {
+        bool unstable = false;
         size.last = size.most = 0;
-        status = run(p, &scene, &(struct way){rule, 1}, &size, rule ? NULL : &point->unstable, err);
-        point->last[rule] = size.last;
-        point->most[rule] = size.most;
+        status = run(p, &scene, &ways[way], &size, &unstable, err);
+        point->last[way] = size.last;
+        point->most[way] = size.most;
+        point->unstable |= unstable && !ways[way].implicit;
     }
-    size.last = size.most = 0;
-    if (!status)
-        status = run(p, &scene, &(struct way){true, 2}, &size, NULL, err);
-    point->doubled = size.most;
     free(size.nodal);
     return status;
 }
 
 /* ---- exact solutions ---- */
 
-/* The exact solutions of the examples, and two cells of each table judged by them. */
 static struct br_history_row row_at(const struct br_exact *exact, double time,
                                     struct br_exact_state *state)
 {
