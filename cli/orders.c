@@ -9,7 +9,6 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
-#include "study/orders/table.h"
 #include "study/scene/file.h"
 
 struct run {
@@ -157,7 +156,8 @@ static enum br_status read_request(struct run *r, struct br_error *err)
                                 : read_table(word, o, q, err);
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
     if (!status && expect)
-        status = br_orders_request_expect(q, "--expect", expect, 0, err);
+        status =
+            br_expectations_read("--expect", expect, 0, &q->expectation, &q->expectations, err);
     q->jobs = r->session.threads;
     q->kept = br_option_text(o, BR_OPT_KEEP);
     q->anew = !br_option_given(o, BR_OPT_RESUME);

@@ -12,7 +12,7 @@
 #include "cli/provenance.h"
 #include "cli/session.h"
 #include "cli/signals.h"
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"

@@ -52,6 +52,32 @@ bool br_lists(const char *list, const char *name)
     return false;
 }
 
+enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
+                                    struct br_error *err)
+{
+    numbers->quantity = br_allocate(quantities + 1, sizeof *numbers->quantity);
+    numbers->row = br_allocate(rows + 1, sizeof *numbers->row);
+    for (; numbers->row && numbers->rows < rows; numbers->rows++) {
+        struct br_numbers_row *row = &numbers->row[numbers->rows];
+        *row = (struct br_numbers_row){.given = {NAN, NAN},
+                                       .z = {NAN, NAN},
+                                       .number = br_allocate(quantities + 1, sizeof *row->number),
+                                       .seconds = NAN,
+                                       .bytes = NAN};
+        if (!row->number)
+            return br_no_memory(err, "the numbers");
+    }
+    return numbers->row && numbers->quantity ? BR_OK : br_no_memory(err, "the numbers");
+}
+
+enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *name,
+                                       const char *unit, bool is_value, struct br_error *err)
+{
+    struct br_quantity *q = &numbers->quantity[numbers->quantities++];
+    *q = (struct br_quantity){strdup(name), unit ? strdup(unit) : NULL, is_value};
+    return q->name && (!unit || q->unit) ? BR_OK : br_no_memory(err, "the numbers");
+}
+
 void br_numbers_clear(struct br_numbers *numbers)
 {
     for (size_t i = 0; i < numbers->quantities; i++) {
@@ -84,6 +110,11 @@ static int by_resolution(const void *a, const void *b)
             return order;
     }
     return (x->line > y->line) - (x->line < y->line);
+}
+
+void br_numbers_sort(struct br_numbers *numbers)
+{
+    qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
 }
 
 enum { PLACE = 400 };
@@ -200,7 +231,7 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
     }
     if (status)
         return status;
-    qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
+    br_numbers_sort(numbers);
     for (size_t i = 1; i < numbers->rows; i++) {
         const struct br_numbers_row *a = &numbers->row[i - 1], *b = &numbers->row[i];
         bool equal = true;

@@ -54,6 +54,16 @@ struct br_numbers {
 
 void br_numbers_clear(struct br_numbers *numbers); /* accepts zeros */
 
+/* What a source fills zeros by: rows of NaN and so many quantities' numbers, and each quantity.
+ * Fail with BR_NO_MEMORY. */
+enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
+                                    struct br_error *err);
+enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *name,
+                                       const char *unit, bool is_value, struct br_error *err);
+
+/* From coarse to fine, first over space. */
+void br_numbers_sort(struct br_numbers *numbers);
+
 /* z of what a column gives. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
 

@@ -81,9 +81,10 @@ struct br_order_expectation {
     size_t line;    /* in a study file; 0: none */
 };
 
-/* Reads "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2 down to 1e-9"; *expectations (out) is owned
- * by the caller. Fails with BR_BAD_INPUT, beginning with `where`, or BR_NO_MEMORY. */
-enum br_status br_expectations_read(const char *where, const char *text,
+/* Reads "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2 down to 1e-9", on that line, and adds it to
+ * a list, which is owned by the caller. Fails with BR_BAD_INPUT, beginning with `where`, or
+ * BR_NO_MEMORY. */
+enum br_status br_expectations_read(const char *where, const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/orders/program.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,6 +16,7 @@
 
 #include "solver/clock.h"
 #include "study/grid/each.h"
+#include "study/orders/request.h"
 #include "study/scene/quote.h"
 
 enum {
@@ -31,15 +31,12 @@ static const double MOST_COUNTED = 0x1p53; /* all whole numbers below are double
 
 /* One run to be. */
 struct cell {
-    char **words;  /* owned, with a NULL at the end */
-    char *letters; /* of the words; owned */
-    char **file;   /* files: the words that are paths of files; owned */
-    size_t files;
+    char **words;  /* owned, as they are; a NULL at the end */
     char *program; /* absolute path; owned */
 };
 
 struct job {
-    const struct br_program *program;
+    const struct br_orders_request *program;
     struct br_numbers *numbers;
     struct cell *cell;  /* by row; owned */
     char **environment; /* owned; its texts are not */
@@ -61,7 +58,7 @@ static void print_number(const struct br_resolution_column *column, double x, ch
 
 /* A command on its way to words. */
 struct split {
-    const struct br_program *program;
+    const struct br_orders_request *program;
     const struct br_numbers_row *row;
     const char *rest;
     char *to;   /* where the next letter goes */
@@ -123,15 +120,10 @@ static enum br_status put_piece(struct split *s, struct br_error *err)
     return BR_OK;
 }
 
-/* Splits the command and replaces its braces. What replaces them has neither blanks nor quotes. */
-static enum br_status make_words(struct split *s, struct cell *cell, struct br_error *err)
+/* Splits the command and replaces its braces, into word (out), with a NULL at the end, and the
+ * letters at s->to. What replaces braces has neither blanks nor quotes. */
+static enum br_status split_words(struct split *s, char **word, struct br_error *err)
 {
-    const size_t most = strlen(s->rest) + 1;
-    cell->letters = s->to = br_allocate(most, NUMBER);
-    cell->words = br_allocate(most + 1, sizeof *cell->words);
-    if (!cell->letters || !cell->words)
-        return br_no_memory(err, "the words of a command");
-    char **word = cell->words;
     bool within = false;
     while (*s->rest) {
         if (!s->quote && strchr(" \t\n", *s->rest)) {
@@ -149,9 +141,7 @@ static enum br_status make_words(struct split *s, struct cell *cell, struct br_e
     }
     if (s->quote)
         return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", s->quote);
-    return cell->words[0] && *cell->words[0]
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    return BR_OK;
 }
 
 static enum br_status check_used(const struct split *s, struct br_error *err)
@@ -170,7 +160,7 @@ static bool is_program(const char *path)
 }
 
 /* Where relative names are looked up (out). */
-static enum br_status find_folder(const struct br_program *p, char here[PATH_MAX],
+static enum br_status find_folder(const struct br_orders_request *p, char here[PATH_MAX],
                                   struct br_error *err)
 {
     if (p->folder ? realpath(p->folder, here) : getcwd(here, PATH_MAX))
@@ -178,35 +168,25 @@ static enum br_status find_folder(const struct br_program *p, char here[PATH_MAX
     return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
 }
 
-/* Words that name a file get its whole path, since the program runs elsewhere. */
-static enum br_status find_files(const char *here, struct cell *cell, struct br_error *err)
+/* A word of its own; one that names a file is its whole path, since the program runs elsewhere. */
+static enum br_status take_word(const char *here, const char *word, char **to, struct br_error *err)
 {
-    size_t count = 0;
-    while (cell->words[count])
-        count++;
-    cell->file = br_allocate(count + 1, sizeof *cell->file);
-    if (!cell->file)
-        return br_no_memory(err, "the files of a command");
-    for (size_t i = 1; i < count; i++) {
-        struct stat info;
-        char *path = NULL;
-        if (*cell->words[i] == '/' || !*cell->words[i])
-            continue;
-        if (asprintf(&path, "%s/%s", here, cell->words[i]) < 0)
-            return br_no_memory(err, "a file's path");
-        if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) {
-            free(path);
-            continue;
-        }
-        cell->file[cell->files++] = cell->words[i] = path;
+    struct stat info;
+    if (asprintf(to, "%s/%s", here, word) < 0) {
+        *to = NULL;
+        return br_no_memory(err, "a file's path");
     }
+    if (*word && *word != '/' && stat(*to, &info) == 0 && S_ISREG(info.st_mode))
+        return BR_OK;
+    strcpy(*to, word);
     return BR_OK;
 }
 
 /* As a shell finds it. path: in and out of `here` where it is relative. */
-static enum br_status find_program(const char *here, struct cell *cell, struct br_error *err)
+static enum br_status find_program(const char *here, const char *name, struct cell *cell,
+                                   struct br_error *err)
 {
-    const char *name = *cell->words, *folders = getenv("PATH");
+    const char *folders = getenv("PATH");
     char shown[SHOWN];
     const bool direct = strchr(name, '/');
     for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
@@ -230,15 +210,36 @@ static enum br_status find_program(const char *here, struct cell *cell, struct b
 static void clear_cells(struct job *j)
 {
     for (size_t i = 0; i < j->numbers->rows && j->cell; i++) {
+        for (char **word = j->cell[i].words; word && *word; word++)
+            free(*word);
         free(j->cell[i].words);
-        free(j->cell[i].letters);
         free(j->cell[i].program);
-        for (size_t f = 0; f < j->cell[i].files; f++)
-            free(j->cell[i].file[f]);
-        free(j->cell[i].file);
     }
     free(j->cell);
     free(j->environment);
+}
+
+static enum br_status make_cell(const struct br_orders_request *p, const struct br_numbers_row *row,
+                                const char *here, struct cell *cell, struct br_error *err)
+{
+    const size_t most = strlen(p->command) + 1;
+    char *letters = br_allocate(most, NUMBER), **word = br_allocate(most + 1, sizeof *word);
+    struct split s = {p, row, .rest = p->command, .to = letters};
+    cell->words = br_allocate(most + 1, sizeof *cell->words);
+    enum br_status status = letters && word && cell->words
+                                ? split_words(&s, word, err)
+                                : br_no_memory(err, "the words of a command");
+    if (!status && (!*word || !**word))
+        status = br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    if (!status)
+        status = check_used(&s, err);
+    if (!status)
+        status = find_program(here, *word, cell, err);
+    for (size_t i = 0; !status && word[i]; i++)
+        status = take_word(i ? here : "", word[i], &cell->words[i], err);
+    free(letters);
+    free(word);
+    return status;
 }
 
 static enum br_status make_cells(struct job *j, struct br_error *err)
@@ -247,16 +248,8 @@ static enum br_status make_cells(struct job *j, struct br_error *err)
     char here[PATH_MAX];
     enum br_status status =
         j->cell ? find_folder(j->program, here, err) : br_no_memory(err, "the cells of a study");
-    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
-        struct split s = {j->program, &j->numbers->row[i], .rest = j->program->command};
-        status = make_words(&s, &j->cell[i], err);
-        if (!status)
-            status = check_used(&s, err);
-        if (!status)
-            status = find_program(here, &j->cell[i], err);
-        if (!status)
-            status = find_files(here, &j->cell[i], err);
-    }
+    for (size_t i = 0; i < j->numbers->rows && !status; i++)
+        status = make_cell(j->program, &j->numbers->row[i], here, &j->cell[i], err);
     return status;
 }
 
@@ -419,13 +412,13 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-static double limit_of(const struct br_program *p)
+static double limit_of(const struct br_orders_request *p)
 {
     return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
 }
 
 /* Why it must end before it does. */
-static enum end end_of(const struct br_program *p, const struct run *r, double late)
+static enum end end_of(const struct br_orders_request *p, const struct run *r, double late)
 {
     if (p->observer && p->observer->stop && p->observer->stop(p->observer->self))
         return STOPPED;
@@ -434,7 +427,7 @@ static enum end end_of(const struct br_program *p, const struct run *r, double l
     return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
-static void watch(const struct br_program *p, struct run *r)
+static void watch(const struct br_orders_request *p, struct run *r)
 {
     const double start = br_seconds();
     struct timespec pause = {.tv_nsec = 1000000};
@@ -485,8 +478,9 @@ static void last_lines(int file, char shown[TAIL])
 }
 
 /* why: what was wrong with its numbers. */
-static enum br_status tell_failure(const struct br_program *p, const struct run *r, const char *why,
-                                   struct br_numbers_row *row, struct br_error *err)
+static enum br_status tell_failure(const struct br_orders_request *p, const struct run *r,
+                                   const char *why, struct br_numbers_row *row,
+                                   struct br_error *err)
 {
     char what[sizeof err->message], tail[TAIL];
     if (r->end == TOO_LONG)
@@ -510,7 +504,7 @@ static enum br_status tell_failure(const struct br_program *p, const struct run 
     return br_no_memory(err, "why a run failed");
 }
 
-static enum br_status read_numbers(const struct br_program *p, const struct run *r,
+static enum br_status read_numbers(const struct br_orders_request *p, const struct run *r,
                                    struct br_numbers_row *row, struct br_error *why)
 {
     const size_t size = size_of(r->printed[0]);
@@ -528,7 +522,7 @@ static enum br_status read_numbers(const struct br_program *p, const struct run 
     return status;
 }
 
-static enum br_status finish(const struct br_program *p, const struct run *r,
+static enum br_status finish(const struct br_orders_request *p, const struct run *r,
                              struct br_numbers_row *row, struct br_error *err)
 {
     struct br_error why = {0};
@@ -570,23 +564,22 @@ static enum br_status run_cell(const struct job *j, const struct cell *cell,
 static enum br_status take_cell(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    const struct br_program *p = j->program;
+    const struct br_orders_request *p = j->program;
     const struct cell *cell = &j->cell[i];
     struct br_numbers_row *row = &j->numbers->row[i];
     char key[BR_CELL_KEY], now[BR_CELL_KEY];
     if (!p->kept)
         return run_cell(j, cell, row, err);
-    enum br_status status =
-        br_cell_key(cell->program, cell->words, p->reading, p->readings, key, err);
-    if (status || (!p->anew && br_cell_find(p->kept, key, p->readings, row)))
+    enum br_status status = br_cell_key(p, cell->program, cell->words, key, err);
+    if (status || (!p->anew && br_cell_find(p, key, row)))
         return status;
     status = run_cell(j, cell, row, err);
     if (status || row->failure)
         return status;
-    status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
+    status = br_cell_key(p, cell->program, cell->words, now, err);
     if (status || strcmp(key, now) != 0)
         return status;
-    return br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
+    return br_cell_keep(p, key, cell->words, row, err);
 }
 
 /* ---- the grid ---- */
@@ -612,67 +605,45 @@ static enum br_status check_list(const struct br_program_axis *axis, struct br_e
     return axis->count ? BR_OK : br_fail(err, BR_BAD_INPUT, "%s: the list is empty", column->name);
 }
 
-/* First over space. */
-static int from_coarse(const void *a, const void *b)
-{
-    const double *first = ((const struct br_numbers_row *)a)->z;
-    const double *second = ((const struct br_numbers_row *)b)->z;
-    int order = 0;
-    for (int i = 0; i < BR_AXES && order == 0; i++) /* NaN: both have no such axis */
-        order = (first[i] < second[i]) - (first[i] > second[i]);
-    return order;
-}
-
-static enum br_status make_rows(const struct br_program *p, struct br_numbers *numbers,
+static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
                                 struct br_error *err)
 {
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
-    numbers->row = br_allocate(rows, sizeof *numbers->row);
-    for (; numbers->row && numbers->rows < rows; numbers->rows++) {
-        struct br_numbers_row *row = &numbers->row[numbers->rows];
-        const size_t at[BR_AXES] = {
-            [BR_AXIS_SPACE] = numbers->rows / inner, [BR_AXIS_TIME] = numbers->rows % inner};
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    for (size_t r = 0; r < rows && !status; r++) {
+        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / inner, [BR_AXIS_TIME] = r % inner};
+        struct br_numbers_row *row = &numbers->row[r];
         for (int i = 0; i < BR_AXES; i++) {
-            const struct br_resolution_column *column = p->axis[i].column;
-            numbers->column[i] = column;
-            row->given[i] = column ? p->axis[i].given[at[i]] : (double)NAN;
-            row->z[i] = column ? br_numbers_z(column, row->given[i], p->dimension) : (double)NAN;
+            const struct br_resolution_column *column = numbers->column[i] = p->axis[i].column;
+            if (!column)
+                continue;
+            row->given[i] = p->axis[i].given[at[i]];
+            row->z[i] = br_numbers_z(column, row->given[i], p->dimension);
         }
-        row->seconds = row->bytes = (double)NAN;
-        row->number = br_allocate(p->readings, sizeof *row->number);
-        if (!row->number)
-            break;
     }
-    if (!numbers->row || numbers->rows < rows)
-        return br_no_memory(err, "the numbers of a study");
-    qsort(numbers->row, rows, sizeof *numbers->row, from_coarse);
-    return BR_OK;
-}
-
-static enum br_status make_quantities(const struct br_program *p, struct br_numbers *numbers,
-                                      struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    numbers->quantity = br_allocate(p->readings, sizeof *numbers->quantity);
-    if (!numbers->quantity)
-        return br_no_memory(err, "the quantities of a study");
-    for (size_t i = 0; i < p->readings && !status; i++) {
-        status = br_reading_check(&p->reading[i], err);
-        for (size_t k = 0; k < i && !status; k++)
-            if (strcmp(p->reading[k].name, p->reading[i].name) == 0)
-                status = br_fail(err, BR_BAD_INPUT, "the reading '%s' is there twice",
-                                 p->reading[i].name);
-        numbers->quantity[i].is_value = p->reading[i].is_value;
-        numbers->quantity[i].name = strdup(p->reading[i].name);
-        numbers->quantities = i + 1;
-        if (!numbers->quantity[i].name && !status)
-            status = br_no_memory(err, "the quantities of a study");
-    }
+    if (!status)
+        br_numbers_sort(numbers);
     return status;
 }
 
-static enum br_status check(const struct br_program *p, struct br_error *err)
+static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
+                                      struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < p->readings && !status; i++) {
+        const char *name = p->reading[i].name;
+        status = br_reading_check(&p->reading[i], err);
+        for (size_t k = 0; k < i && !status; k++)
+            if (strcmp(p->reading[k].name, name) == 0)
+                status = br_fail(err, BR_BAD_INPUT, "the reading '%s' is there twice", name);
+        if (!status)
+            status = br_numbers_add_quantity(numbers, name, NULL, br_lists(p->values, name), err);
+    }
+    return status ? status : br_orders_check_lists(p, numbers, err);
+}
+
+static enum br_status check(const struct br_orders_request *p, struct br_error *err)
 {
     enum br_status status = BR_OK;
     if (!p->axis[BR_AXIS_SPACE].column && !p->axis[BR_AXIS_TIME].column)
@@ -685,16 +656,16 @@ static enum br_status check(const struct br_program *p, struct br_error *err)
     return status;
 }
 
-enum br_status br_program_run(const struct br_program *program, struct br_numbers *numbers,
+enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
                               struct br_error *err)
 {
     struct job j = {.program = program, .numbers = numbers};
     *numbers = (struct br_numbers){.rows = 0};
     enum br_status status = check(program, err);
     if (!status)
-        status = make_quantities(program, numbers, err);
-    if (!status)
         status = make_rows(program, numbers, err);
+    if (!status)
+        status = make_quantities(program, numbers, err);
     if (!status)
         status = make_cells(&j, err);
     if (!status)

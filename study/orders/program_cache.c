@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 #include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
@@ -50,9 +50,8 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
     return BR_OK;
 }
 
-enum br_status br_cell_key(const char *program, char *const *words,
-                           const struct br_reading *reading, size_t readings, char key[BR_CELL_KEY],
-                           struct br_error *err)
+enum br_status br_cell_key(const struct br_orders_request *request, const char *program,
+                           char *const *words, char key[BR_CELL_KEY], struct br_error *err)
 {
     struct br_sha256 sum;
     br_sha256_start(&sum);
@@ -66,9 +65,9 @@ enum br_status br_cell_key(const char *program, char *const *words,
         if (behind && !status)
             status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
     }
-    for (size_t i = 0; i < readings; i++) {
-        add_text(&sum, 'n', reading[i].name);
-        add_text(&sum, "rjc"[reading[i].kind], reading[i].what);
+    for (size_t i = 0; i < request->readings; i++) {
+        add_text(&sum, 'n', request->reading[i].name);
+        add_text(&sum, "rjc"[request->reading[i].kind], request -> reading[i].what);
     }
     br_sha256_end(&sum, key);
     return status;
@@ -79,10 +78,12 @@ static double number_or_nan(const json_t *value)
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-bool br_cell_find(const char *folder, const char *key, size_t readings, struct br_numbers_row *row)
+bool br_cell_find(const struct br_orders_request *request, const char *key,
+                  struct br_numbers_row *row)
 {
     char path[PATH_MAX];
-    if ((size_t)snprintf(path, sizeof path, "%s/%s.json", folder, key) >= sizeof path)
+    const size_t readings = request->readings;
+    if ((size_t)snprintf(path, sizeof path, "%s/%s.json", request->kept, key) >= sizeof path)
         return false;
     json_t *cell = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
     const char *tag = json_string_value(json_object_get(cell, "format"));
@@ -106,8 +107,8 @@ static json_t *json_number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-/* The row's text, owned by the caller; NULL: out of memory. The command is there for people. */
-static char *cell_text(char *const *words, size_t readings, const struct br_numbers_row *row)
+/* NULL: out of memory. The command is there for people. */
+static json_t *cell_of(char *const *words, size_t readings, const struct br_numbers_row *row)
 {
     json_t *command = json_array(), *numbers = json_array();
     bool whole = command && numbers;
@@ -122,56 +123,43 @@ static char *cell_text(char *const *words, size_t readings, const struct br_numb
                                      command, "numbers", numbers, "seconds",
                                      json_number(row->seconds), "bytes", json_number(row->bytes))
                          : NULL;
-    char *text = cell ? json_dumps(cell, JSON_INDENT(1)) : NULL;
-    json_decref(cell);
     json_decref(command);
     json_decref(numbers);
-    return text;
-}
-
-static bool write_all(int file, const char *text)
-{
-    for (size_t left = strlen(text); left;) {
-        const ssize_t put = write(file, text, left);
-        if (put < 0 && errno != EINTR)
-            return false;
-        text += put > 0 ? put : 0;
-        left -= put > 0 ? (size_t)put : 0;
-    }
-    return fsync(file) == 0;
+    return cell;
 }
 
 /* By rename: another study finds it whole, or not at all. */
-static bool write_cell(char *unfinished, const char *finished, const char *text)
+static bool write_cell(char *unfinished, const char *finished, const json_t *cell)
 {
     const int file = mkostemp(unfinished, O_CLOEXEC);
     if (file < 0)
         return false;
-    const bool written = write_all(file, text);
-    const int reason = errno;
+    const bool written = json_dumpfd(cell, file, JSON_INDENT(1)) == 0 && fsync(file) == 0;
+    int reason = errno;
     close(file);
     if (written && rename(unfinished, finished) == 0)
         return true;
-    const int last = written ? errno : reason;
+    reason = written ? errno : reason;
     unlink(unfinished);
-    errno = last;
+    errno = reason;
     return false;
 }
 
-enum br_status br_cell_keep(const char *folder, const char *key, char *const *words,
-                            size_t readings, const struct br_numbers_row *row, struct br_error *err)
+enum br_status br_cell_keep(const struct br_orders_request *request, const char *key,
+                            char *const *words, const struct br_numbers_row *row,
+                            struct br_error *err)
 {
     char unfinished[PATH_MAX], finished[PATH_MAX];
-    char *text = cell_text(words, readings, row);
-    if (!text)
+    json_t *cell = cell_of(words, request->readings, row);
+    if (!cell)
         return br_no_memory(err, "a finished cell");
-    snprintf(unfinished, sizeof unfinished, "%s/.unfinished-XXXXXX", folder);
-    const int length = snprintf(finished, sizeof finished, "%s/%s.json", folder, key);
+    snprintf(unfinished, sizeof unfinished, "%s/.unfinished-XXXXXX", request->kept);
+    const int length = snprintf(finished, sizeof finished, "%s/%s.json", request->kept, key);
     errno = ENAMETOOLONG;
-    const bool kept = (size_t)length < sizeof finished && write_cell(unfinished, finished, text);
+    const bool kept = (size_t)length < sizeof finished && write_cell(unfinished, finished, cell);
     const int reason = errno;
-    free(text);
+    json_decref(cell);
     return kept ? BR_OK
-                : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s", folder,
-                          strerror(reason));
+                : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                          request->kept, strerror(reason));
 }
