@@ -118,7 +118,7 @@ static void put_answer(struct br_document *d, const struct br_plan *p, const cha
 static const char *remark_on(const struct br_plan *p, size_t i)
 {
     if (p->trial[i].end != BR_TRIAL_DONE)
-        return br_trial_end_name(p->trial[i].end);
+        return br_trial_end_names[p->trial[i].end];
     if (i == p->chosen)
         return i == p->first ? "first, chosen" : "chosen";
     return i == p->first ? "first" : NULL;
@@ -142,7 +142,7 @@ static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
     BR_PUT(d, br_count(c->steps), .key = "steps");
     br_hide(d, "solves", NULL, br_count(c->stages));
     br_hide(d, "set_ups", NULL, br_count(c->set_ups));
-    br_hide(d, "end", NULL, br_text(br_trial_end_name(t->end)));
+    br_hide(d, "end", NULL, br_text(br_trial_end_names[t->end]));
     br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
     br_hide(d, "failure", NULL, br_failure_text(&t->failure));
     BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
@@ -227,7 +227,7 @@ static void put_facts(struct br_document *d, const struct br_plan *p)
     br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
     br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
     br_hide_fact(d, br_text(p->norm[0]->name), NULL, "norm");
-    br_hide_fact(d, br_text(br_plan_end_name(p->end)), NULL, "end");
+    br_hide_fact(d, br_text(br_plan_end_names[p->end]), NULL, "end");
     br_hide_fact(d, br_number(p->own), NULL, "own_error");
     br_hide_fact(d, br_count(p->rounds), NULL, "rounds");
     br_hide_fact(d, br_if(p->first < p->count, br_count(p->first)), NULL, "first");

@@ -98,7 +98,7 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
         const enum br_trial_end end = (enum br_trial_end)i;
         if (!br_trade_tally(t, end))
             continue;
-        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_name(end));
+        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_names[end]);
         between = ", ";
     }
     br_put_more(d, ".");
@@ -139,7 +139,7 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
     br_hide(d, "set_ups", NULL, br_count(c->set_ups));
     BR_PUT(d, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
            .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
-    br_hide(d, "end", NULL, br_text(br_trial_end_name(trial->end)));
+    br_hide(d, "end", NULL, br_text(br_trial_end_names[trial->end]));
     br_hide(d, "front", NULL, br_truth(t->front[i]));
     br_hide(d, "printed", NULL, br_truth(trial->printed));
     br_hide(d, "failure", NULL, br_failure_text(&trial->failure));
@@ -205,7 +205,7 @@ static void put_failures(struct br_document *d, const struct br_trade *t)
             continue;
         br_put_row(d);
         br_put_trial(d, t->request.scene, trial);
-        BR_PUT(d, br_text(br_trial_end_name(trial->end)), .key = "end");
+        BR_PUT(d, br_text(br_trial_end_names[trial->end]), .key = "end");
         BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
     }
 }

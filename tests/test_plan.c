@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 #include "support.h"
 
 /* ---- models, on made-up data ---- */
@@ -170,7 +170,7 @@ static double exhaustive(const struct br_plan *plan, double most)
                     continue;
                 trial[count++] = adaptive
                                      ? (struct br_trial){.named = one,
-                                                         .at = {n[i], BR_PLAN_LEVELS},
+                                                         .at = {n[i], BR_TRIAL_LEVELS},
                                                          .tolerance = pow(0.1, 0.5 + (double)j)}
                                      : (struct br_trial){.named = one, .at = {n[i], k[j]}};
             }
@@ -208,7 +208,7 @@ static void test_promise(void **state)
             if (!(achieved <= errors[e] && achieved >= errors[e] / br_plan_band) ||
                 plan->end != BR_PLAN_MET)
                 fail_msg("%s to %g: achieved %g, %s", scenes[s], errors[e], achieved,
-                         br_plan_end_name(plan->end));
+                         br_plan_end_names[plan->end]);
             if (!(cost <= 2 * best))
                 fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
                          t->named->name, t->at.n, cost, best);

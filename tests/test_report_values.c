@@ -130,10 +130,10 @@ static struct br_split made_split(struct br_scene *scene)
     s.method.tolerance = 0.0009765625;
     s.method.linear.refinement = 3;
     s.method.iteration = (struct br_iteration){0.25, 0.0001220703125, 77};
-    for (; br_sources[s.shares]; s.shares++) {
+    for (; br_sources[s.shares].name; s.shares++) {
         const double times = (double)(s.shares + 1);
         s.share[s.shares] = (struct br_share){
-            .source = br_sources[s.shares],
+            .source = &br_sources[s.shares],
             .error = {{times, 2 * times, 3 * times}},
             .floor = {{0.125 * times, 0.25 * times, 0.375 * times}},
             .tip = {5 * times, -7 * times},

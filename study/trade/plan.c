@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -26,12 +26,8 @@ static double rounded(double tolerance)
 
 struct br_trial br_plan_trial(const struct br_plan_candidate *c)
 {
-    struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
-    if (c->named->method.scheme->adaptive)
-        t.tolerance = rounded(exp(-c->y));
-    else
-        t.at.steps = (size_t)(exp(c->y) + 0.5);
-    return t;
+    return br_trial_at(c->named, (size_t)(c->n + 0.5), (size_t)(exp(c->y) + 0.5),
+                       rounded(exp(-c->y)));
 }
 
 bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
@@ -53,78 +49,54 @@ static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_
     p->forecast[p->count++] = forecast;
 }
 
-/* ---- cheap trials ---- */
+/* ---- cheap trials: the first models are made from them ---- */
 
-/* The cheap trials that the first models of a plan are made from. */
-
-static const size_t probe_meshes[] = {2, 4, 12, 36, 108, 324, 972, 2916};
+enum { MESHES = 8 };
+static const size_t probe_meshes[MESHES] = {2, 4, 12, 36, 108, 324, 972, 2916};
 
 /* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
  * solution switches are better than their neighbours. Many time levels in common spare the judge
  * work. */
-static const size_t probe_steps[] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
+enum { PROBES = 10 };
+static const size_t probe_steps[PROBES] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
 static const size_t mesh_of_all_steps = 108;
 
-static const double probe_tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
-                                          1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+static const double probe_tolerances[PROBES] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
+                                                1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
 /* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
  * at most; solves of an adaptive scheme where they are not known yet. */
 static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
-
-enum {
-    MESHES = sizeof probe_meshes / sizeof *probe_meshes,
-    STEPS = sizeof probe_steps / sizeof *probe_steps,
-    TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances
-};
 
 /* Those of one method on one mesh. */
 static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
 {
     const bool adaptive = named->method.scheme->adaptive;
     const double stages = br_time_scheme_stages(named->method.scheme);
-    const size_t count = adaptive ? TOLERANCES : STEPS;
     const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
-    for (size_t j = 0; j < count; j += next) {
-        struct br_trial trial = {.named = named, .at = {n, BR_PLAN_LEVELS}};
-        if (adaptive)
-            trial.tolerance = probe_tolerances[j];
-        else
-            trial.at.steps = probe_steps[j];
+    for (size_t j = 0; j < PROBES; j += next) {
+        const struct br_trial trial = br_trial_at(named, n, probe_steps[j], probe_tolerances[j]);
         const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
         if (((double)n + overhead) * solves <= most_work)
             add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
     }
 }
 
-static void add_probes(struct br_plan *plan)
-{
-    for (size_t c = 0; c < plan->methods.count; c++)
-        for (size_t i = 0; i < MESHES; i++)
-            add_column(plan, &plan->methods.list[c], probe_meshes[i]);
-}
-
-/* Room for all cheap trials, and for as many rounds as there may be. */
-static enum br_status make_room(struct br_plan *p, struct br_error *err)
-{
-    const size_t probes = MESHES * (STEPS > TOLERANCES ? STEPS : TOLERANCES);
-    const size_t most = p->methods.count * probes + p->most_rounds * BR_PLAN_BATCH;
-    p->trial = br_allocate(most, sizeof *p->trial);
-    p->forecast = br_allocate(most, sizeof *p->forecast);
-    return p->trial && p->forecast ? BR_OK : br_no_memory(err, "the trials");
-}
-
+/* With room for as many rounds as there may be. */
 enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
 {
-    const enum br_status status = make_room(p, err);
-    if (!status)
-        add_probes(p);
-    return status;
+    const size_t most = p->methods.count * MESHES * PROBES + p->most_rounds * BR_PLAN_BATCH;
+    p->trial = br_allocate(most, sizeof *p->trial);
+    p->forecast = br_allocate(most, sizeof *p->forecast);
+    if (!p->trial || !p->forecast)
+        return br_no_memory(err, "the trials");
+    for (size_t c = 0; c < p->methods.count; c++)
+        for (size_t i = 0; i < MESHES; i++)
+            add_column(p, &p->methods.list[c], probe_meshes[i]);
+    return BR_OK;
 }
 
 /* ---- models ---- */
-
-/* The models of a plan's named methods, from their trials. */
 
 static void forget(struct br_plan *p)
 {
@@ -199,15 +171,10 @@ static const double worth_the_band = 1.25;
 /* After so many rounds without anything better there is none more. */
 static const size_t most_idle_rounds = 3;
 
-const char *br_plan_end_name(enum br_plan_end end)
-{
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_PLAN_LIST(X)
-#undef X
-    };
-    return words[end];
-}
+const char *const br_plan_end_names[] = {[BR_PLAN_MET] = "met",
+                                         [BR_PLAN_COARSEST] = "coarsest",
+                                         [BR_PLAN_BETTER] = "better",
+                                         [BR_PLAN_MISSED] = "missed"};
 
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 {
@@ -309,7 +276,6 @@ static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *
 static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
 {
     const size_t repeats = p->request.repeats;
-    add_probes(p);
     p->request.repeats = 1;
     const enum br_status status = hold_new(p, 0, err);
     p->request.repeats = repeats;
@@ -392,7 +358,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     p->first = SIZE_MAX;
     enum br_status status = check_goal(p, err);
     if (!status)
-        status = make_room(p, err);
+        status = br_plan_lay_out(p, err);
     if (!status)
         status = br_trials_keep_judge(&p->request, &kept, err);
     if (!status)

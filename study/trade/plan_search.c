@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search for what might do, by the models, in all resolutions of all named methods. */
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -216,8 +216,6 @@ static void search_all(const struct br_plan *plan, size_t best, struct table *ta
 }
 
 /* ---- the next round ---- */
-
-/* The candidates of a plan's next round. */
 
 /* Something new has to be cheaper than what is there by this, a gamble by that. */
 static const double worth_trying = 0.9, worth_a_gamble = 0.6, least_score = 0.1;

@@ -91,17 +91,15 @@ static const char *space(const struct br_scene *scene, const struct br_refinemen
     return NULL;
 }
 
-static const struct br_source all[] = {
+const struct br_source br_sources[] = {
     {"round-off", "round-off of the linear solver", round_off, false},
     {"iteration", "tolerance of the friction's iteration", iteration, false},
     {"mu", "friction smoothed over |v| <= mu", smoothing, false},
     {"lag", "contact force from the step before", lag, false},
     {"time", "time steps", time_steps, true},
     {"space", "elements", space, true},
+    {NULL},
 };
-
-const struct br_source *const br_sources[] = {&all[0], &all[1], &all[2], &all[3],
-                                              &all[4], &all[5], NULL};
 
 /* ---- refinements ---- */
 
@@ -238,9 +236,9 @@ static struct br_stand without_time_error(const struct br_split *split,
                                           const struct br_refinement *refined)
 {
     struct br_stand stand = start(split);
-    for (const struct br_source *const *s = br_sources; *s; s++) {
+    for (const struct br_source *s = br_sources; s->name; s++) {
         struct br_stand next = stand;
-        if ((*s)->remove(split->scene, refined, &next) == NULL && !next.continuous)
+        if (s->remove(split->scene, refined, &next) == NULL && !next.continuous)
             stand = next;
     }
     return stand;
@@ -350,16 +348,16 @@ static void add_links(struct br_split *split, struct chain *c)
     bool audited = false;
     c->whole = add_distance(&c->d, &stand, &solution);
     c->audit[0] = add_audit(c, &stand);
-    for (const struct br_source *const *s = br_sources; *s; s++) {
+    for (const struct br_source *s = br_sources; s->name; s++) {
         struct br_share *share = &split->share[split->shares++];
         struct br_stand next = stand;
-        *share = (struct br_share){.source = *s};
-        share->none = (*s)->remove(split->scene, &split->refined, &next);
+        *share = (struct br_share){.source = s};
+        share->none = s->remove(split->scene, &split->refined, &next);
         if (share->none)
             continue;
-        if ((*s)->in_time && !audited)
+        if (s->in_time && !audited)
             c->audit[1] = add_audit(c, &stand);
-        audited |= (*s)->in_time;
+        audited |= s->in_time;
         c->link[split->shares - 1] = add_distance(&c->d, &stand, &next);
         stand = next;
     }

@@ -127,15 +127,10 @@ void br_trade_clear(struct br_trade *t)
 
 /* ---- the grid ---- */
 
-/* The trials of a trade: which resolutions each named method is tried at. */
-
 /* Roots of ten apart in time and factors of four in space, which nest. */
 static const size_t default_n[] = {25, 100, 400, 1600, 6400};
 static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
 static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
-
-/* An adaptive scheme is looked at so many times: each of these is the end of a step. */
-enum { LEVELS = 20 };
 
 /* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
  * which are some 20 times slower; steps of an adaptive scheme where they are not known yet, and of
@@ -193,21 +188,11 @@ static void add(struct br_trade *t, const struct br_trial *trial)
 }
 
 /* Whether a default grid has it. */
-static bool is_light(const struct lists *l, const struct br_named_method *c, size_t n, double steps)
+static bool is_light(const struct br_named_method *c, size_t n, double steps)
 {
     const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
     const bool quick = c->method.solver == br_linear_solvers[0];
-    return !(l->capped_n || l->capped_steps) || work <= (quick ? most_work : most_slow_work);
-}
-
-static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
-{
-    for (size_t i = 0; i < l->grid.n_count; i++)
-        for (size_t j = 0; j < l->grid.tolerances; j++)
-            if (!l->capped_n || is_light(l, c, l->grid.n[i], guessed_steps))
-                add(t, &(struct br_trial){.named = c,
-                                          .at = {l->grid.n[i], LEVELS},
-                                          .tolerance = l->grid.tolerance[j]});
+    return work <= (quick ? most_work : most_slow_work);
 }
 
 static bool is_listed(const struct lists *l, const struct br_named_method *c, size_t n,
@@ -218,7 +203,7 @@ static bool is_listed(const struct lists *l, const struct br_named_method *c, si
         has_n |= l->grid.n[i] == n;
     for (size_t j = 0; j < l->grid.step_count; j++)
         has_steps |= l->grid.steps[j] == steps;
-    return has_n && has_steps && is_light(l, c, n, (double)steps);
+    return has_n && has_steps && is_light(c, n, (double)steps);
 }
 
 /* Where neither list is given, the paper's method has all that the paper prints. */
@@ -234,18 +219,20 @@ static void add_printed(struct br_trade *t, const struct lists *l, const struct 
     }
 }
 
-static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+static void add_named(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
 {
-    const bool paper = br_trade_is_printed_method(c);
-    for (size_t i = 0; i < l->grid.n_count; i++)
-        for (size_t j = 0; j < l->grid.step_count; j++) {
-            const size_t n = l->grid.n[i], steps = l->grid.steps[j];
-            if (is_light(l, c, n, (double)steps))
-                add(t,
-                    &(struct br_trial){.named = c,
-                                       .at = {n, steps},
-                                       .printed = paper && is_printed(t->request.scene,
-                                                                      l->grid.printed, n, steps)});
+    const bool paper = br_trade_is_printed_method(c), adaptive = c->method.scheme->adaptive;
+    const bool capped = l->capped_n || (l->capped_steps && !adaptive);
+    const struct br_trade_grid *g = &l->grid;
+    for (size_t i = 0; i < g->n_count; i++)
+        for (size_t j = 0; j < (adaptive ? g->tolerances : g->step_count); j++) {
+            struct br_trial trial =
+                br_trial_at(c, g->n[i], adaptive ? 0 : g->steps[j], adaptive ? g->tolerance[j] : 0);
+            trial.printed =
+                paper && is_printed(t->request.scene, g->printed, trial.at.n, trial.at.steps);
+            if (!capped ||
+                is_light(c, trial.at.n, adaptive ? guessed_steps : (double)trial.at.steps))
+                add(t, &trial);
         }
     if (paper && l->capped_n && l->capped_steps)
         add_printed(t, l, c);
@@ -254,13 +241,8 @@ static void add_fixed(struct br_trade *t, const struct lists *l, const struct br
 static void add_all(struct br_trade *t, const struct lists *l)
 {
     t->count = 0;
-    for (size_t i = 0; i < t->methods.count; i++) {
-        const struct br_named_method *c = &t->methods.list[i];
-        if (c->method.scheme->adaptive)
-            add_adaptive(t, l, c);
-        else
-            add_fixed(t, l, c);
-    }
+    for (size_t i = 0; i < t->methods.count; i++)
+        add_named(t, l, &t->methods.list[i]);
 }
 
 enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *grid,

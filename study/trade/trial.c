@@ -13,14 +13,18 @@
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 
-const char *br_trial_end_name(enum br_trial_end end)
+const char *const br_trial_end_names[BR_TRIAL_ENDS] = {
+    [BR_TRIAL_DONE] = "done",         [BR_TRIAL_DOUBTFUL] = "doubtful",
+    [BR_TRIAL_UNSTABLE] = "unstable", [BR_TRIAL_OVER] = "over limit",
+    [BR_TRIAL_FAILED] = "failed",     [BR_TRIAL_LEFT] = "left out"};
+
+struct br_trial br_trial_at(const struct br_named_method *named, size_t n, size_t steps,
+                            double tolerance)
 {
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_TRIAL_LIST(X)
-#undef X
-    };
-    return words[end];
+    if (named->method.scheme->adaptive)
+        return (struct br_trial){
+            .named = named, .at = {n, BR_TRIAL_LEVELS}, .tolerance = tolerance};
+    return (struct br_trial){.named = named, .at = {n, steps}};
 }
 
 struct br_trial_request br_trial_request_default(const struct br_scene *scene)
@@ -63,8 +67,6 @@ double br_trial_bound(const struct br_trial *trial, size_t m)
 }
 
 /* ---- seconds ---- */
-
-/* The seconds of trials: each marches alone, in this thread, with nothing else at work. */
 
 /* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
 static const double between_looks = 1e5;
@@ -289,10 +291,8 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
 
 /* ---- errors ---- */
 
-/* The errors of trials, as cells of studies: one study for each mesh and degree, whose cells are
- * marched by as many methods, so that the judge looks at that mesh once. */
-
-/* Trials in groups, each on the same elements: a chain of studies over the norms. */
+/* Trials as cells of studies: one study for each mesh and degree (a chain of them over the norms),
+ * whose cells are marched by as many methods, so that the judge looks at that mesh once. */
 struct groups {
     const struct br_trial_request *request;
     size_t count;

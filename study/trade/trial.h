@@ -11,22 +11,17 @@
 #include "study/grid/study.h"
 #include "study/trade/named_method.h"
 
-/* X(name, word): how a trial ended. */
-#define BR_TRIAL_LIST(X)                                                          \
-    X(BR_TRIAL_DONE, "done")                                                      \
-    X(BR_TRIAL_DOUBTFUL, "doubtful") /* the judge's own error is not far below */ \
-    X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */        \
-    X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */       \
-    X(BR_TRIAL_FAILED, "failed")                                                  \
-    X(BR_TRIAL_LEFT, "left out") /* for time: br_trials_foresee */
-
+/* How a trial ended. */
 enum br_trial_end {
-#define X(name, word) name,
-    BR_TRIAL_LIST(X)
-#undef X
-        BR_TRIAL_ENDS
+    BR_TRIAL_DONE,
+    BR_TRIAL_DOUBTFUL, /* the judge's own error is not far below */
+    BR_TRIAL_UNSTABLE, /* lagged contact beyond its limit */
+    BR_TRIAL_OVER,     /* takes longer than the time limit */
+    BR_TRIAL_FAILED,
+    BR_TRIAL_LEFT, /* for time: br_trials_foresee */
+    BR_TRIAL_ENDS
 };
-const char *br_trial_end_name(enum br_trial_end end);
+extern const char *const br_trial_end_names[BR_TRIAL_ENDS];
 
 /* What a march takes; the least of the repeats. */
 struct br_trial_cost {
@@ -50,6 +45,12 @@ struct br_trial {
     double own[BR_MOST_NORMS];             /* the judge's own error, same unit; NaN: not known */
     struct br_error failure;               /* why it is BR_TRIAL_FAILED or BR_TRIAL_OVER */
 };
+
+/* A trial by a named method: with so many steps or, of an adaptive one, to a tolerance, looked at
+ * so often that each look is the end of a step. */
+enum { BR_TRIAL_LEVELS = 20 };
+struct br_trial br_trial_at(const struct br_named_method *named, size_t n, size_t steps,
+                            double tolerance);
 
 /* How trials are held. All borrowed. */
 struct br_trial_request {
