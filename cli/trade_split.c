@@ -80,40 +80,16 @@ static enum br_status lay_out(struct run *r, struct br_error *err)
 
 /* ---- computing ---- */
 
-/* Progress over all runs. */
-struct overall {
-    const struct br_observer *inner;
-    size_t done, all;
-};
-
-static void progress(void *self, double fraction)
-{
-    const struct overall *o = self;
-    if (o->inner->progress)
-        o->inner->progress(o->inner->self, ((double)o->done + fraction) / (double)o->all);
-}
-
-static void preparing(void *self, double share)
-{
-    const struct overall *o = self;
-    if (o->inner->preparing)
-        o->inner->preparing(o->inner->self, share);
-}
-
-static bool stop(void *self)
-{
-    const struct overall *o = self;
-    return o->inner->stop && o->inner->stop(o->inner->self);
-}
-
 static enum br_status compute(struct run *r, struct br_error *err)
 {
-    struct overall o = {.inner = br_progress_start("splitting", r->session.quiet),
-                        .all = r->splits};
-    const struct br_observer observer = {progress, stop, &o, preparing};
+    struct br_observer_share share = {.whole = br_progress_start("splitting", r->session.quiet),
+                                      .length = 1 / (double)r->splits};
+    const struct br_observer observer = br_observer_of(&share);
     enum br_status status = BR_OK;
-    for (; o.done < o.all && !status; o.done++)
-        status = br_split_run(&r->split[o.done], r->session.threads, &observer, err);
+    for (size_t i = 0; i < r->splits && !status; i++) {
+        share.from = (double)i * share.length;
+        status = br_split_run(&r->split[i], r->session.threads, &observer, err);
+    }
     br_progress_end();
     return br_progress_result(status, err);
 }

@@ -420,7 +420,7 @@ static double limit_of(const struct br_orders_request *p)
 /* Why it must end before it does. */
 static enum end end_of(const struct br_orders_request *p, const struct run *r, double late)
 {
-    if (p->observer && p->observer->stop && p->observer->stop(p->observer->self))
+    if (br_observer_stops(p->observer))
         return STOPPED;
     if (r->end)
         return r->end;

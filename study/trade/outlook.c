@@ -244,9 +244,8 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     enum br_status status =
         pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
-        const struct br_observer *o = r->observer;
-        status = o && o->stop && o->stop(o->self) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                                  : find_pace(r->scene, trial, i, pace, err);
+        status = br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                : find_pace(r->scene, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
         outlook->seconds += trial[i].foreseen;

@@ -85,12 +85,6 @@ struct clocked {
     double start;  /* of its steps, s of this thread */
 };
 
-static bool is_stopped(const struct br_trial_request *request)
-{
-    const struct br_observer *o = request->observer;
-    return o && o->stop && o->stop(o->self);
-}
-
 /* The seconds that the march surely takes to its end if it goes on like this; only those so far
  * where its steps predict nothing. */
 static double foreseen(const struct clocked *c, double spent)
@@ -106,7 +100,7 @@ static enum br_status look_at_clock(const struct clocked *c, struct br_error *er
 {
     const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
     const double spent = c->set_up + steps;
-    if (is_stopped(c->request))
+    if (br_observer_stops(c->request->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
         return BR_OK;
@@ -280,8 +274,8 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
     for (size_t i = 0; i < count && !status; i++) {
         if (trial[i].end == BR_TRIAL_LEFT)
             continue;
-        status = is_stopped(request) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                     : time_one(&trial[i], request, err);
+        status = br_observer_stops(o) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                      : time_one(&trial[i], request, err);
         done += work_of(&trial[i]);
         if (o && o->progress)
             o->progress(o->self, done / whole);
@@ -459,44 +453,18 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
 
 /* ---- both ---- */
 
-/* A share of the whole work, for the observer. */
-struct share {
-    const struct br_observer *whole;
-    double from, length;
-};
-
-static void tell_share(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->progress(share->whole->self, share->from + share->length * fraction);
-}
-
-static void tell_preparing(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->preparing(share->whole->self, fraction);
-}
-
-static bool stop_share(void *self)
-{
-    const struct share *share = self;
-    return share->whole->stop && share->whole->stop(share->whole->self);
-}
-
 /* Seconds take about three quarters of the time. */
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err)
 {
-    struct share share = {.whole = request->observer, .length = 0.75};
-    const struct br_observer part = {
-        .progress = request->observer && request->observer->progress ? tell_share : NULL,
-        .stop = stop_share,
-        .self = &share,
-        .preparing = request->observer && request->observer->preparing ? tell_preparing : NULL,
-    };
+    struct br_observer_share share = {.whole = request->observer, .length = 0.75};
+    struct br_observer part;
     struct br_trial_request own = *request;
-    own.observer = request->observer ? &part : NULL;
+    if (request->observer) {
+        part = br_observer_of(&share);
+        own.observer = &part;
+    }
     enum br_status status = time_all(trial, count, &own, err);
-    share = (struct share){request->observer, 0.75, 0.25};
+    share = (struct br_observer_share){request->observer, 0.75, 0.25};
     return status ? status : judge_all(trial, count, &own, err);
 }
