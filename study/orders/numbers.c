@@ -119,24 +119,6 @@ void br_numbers_sort(struct br_numbers *numbers)
 
 enum { PLACE = 400 };
 
-static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
-                                const char *path, struct br_error *err)
-{
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_resolution_column *column = numbers->column[axis];
-        if (!column)
-            continue;
-        if (!(row->given[axis] > 0 && isfinite(row->given[axis])))
-            return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found %g, expected a number above 0",
-                           path, row->line, column->name, row->given[axis]);
-        if (!(row->z[axis] >= DBL_MIN && isfinite(row->z[axis])))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: found %g, expected a size within the range of numbers",
-                           path, row->line, column->name, row->given[axis]);
-    }
-    return BR_OK;
-}
-
 /* Where a row is from: "file:3", or what was run. */
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      const char *path, char text[PLACE])
@@ -149,23 +131,31 @@ static void name_row(const struct br_numbers *numbers, const struct br_numbers_r
                  row->given[axis]);
 }
 
-static enum br_status check_numbers(const struct br_numbers *numbers,
-                                    const struct br_numbers_row *row, const char *path,
-                                    struct br_error *err)
+static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                                const char *path, struct br_error *err)
 {
     char place[PLACE];
     name_row(numbers, row, path, place);
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_resolution_column *column = numbers->column[axis];
+        const double given = row->given[axis], z = row->z[axis];
+        if (column && !(given > 0 && isfinite(given)))
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", place,
+                           column->name, given);
+        if (column && !(z >= DBL_MIN && isfinite(z)))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: %s: found %g, expected a size within the range of numbers", place,
+                           column->name, given);
+    }
     for (size_t i = 0; i < numbers->quantities; i++) {
         const struct br_quantity *q = &numbers->quantity[i];
         const double number = row->number[i];
-        if (row->failure || isnan(number))
-            continue;
         if (!q->is_value && number < 0)
             return br_fail(err, BR_BAD_INPUT,
                            "%s: %.100s: found %g, expected an error of at least 0; is it a value? "
                            "(--value %.100s)",
                            place, q->name, number, q->name);
-        if (!(fabs(number) <= DBL_MAX / 4)) /* so that differences do not overflow */
+        if (fabs(number) > DBL_MAX / 4) /* so that differences do not overflow */
             return br_fail(err, BR_BAD_INPUT, "%s: %.100s: found %g, expected at most %.2g", place,
                            q->name, number, DBL_MAX / 4);
     }
@@ -201,28 +191,12 @@ static enum br_status unite_sizes(struct br_numbers *numbers, int axis, size_t *
     return BR_OK;
 }
 
-static enum br_status refuse_twice(const struct br_numbers *numbers, const char *path,
-                                   const struct br_numbers_row *a, const struct br_numbers_row *b,
-                                   struct br_error *err)
-{
-    char place[PLACE];
-    name_row(numbers, b, path, place);
-    if (!b->line)
-        return br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s:%zu: the resolution is that of line %zu, expected each once", path, b->line,
-                   a->line);
-}
-
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err)
 {
     enum br_status status = BR_OK;
     size_t most = 0;
-    for (size_t i = 0; i < numbers->rows && !status; i++) {
+    for (size_t i = 0; i < numbers->rows && !status; i++)
         status = check_row(numbers, &numbers->row[i], path, err);
-        if (!status)
-            status = check_numbers(numbers, &numbers->row[i], path, err);
-    }
     for (int axis = 0; axis < BR_AXES && !status; axis++) {
         size_t count = 0;
         if (numbers->column[axis])
@@ -237,8 +211,15 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         bool equal = true;
         for (int axis = 0; axis < BR_AXES; axis++)
             equal &= !numbers->column[axis] || a->z[axis] == b->z[axis];
-        if (equal)
-            return refuse_twice(numbers, path, a, b, err);
+        if (!equal)
+            continue;
+        char place[PLACE];
+        name_row(numbers, b, path, place);
+        return b->line
+                   ? br_fail(err, BR_BAD_INPUT,
+                             "%s: the resolution is that of line %zu, expected each once", place,
+                             a->line)
+                   : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
     }
     if (most < 3)
         return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,

@@ -99,19 +99,6 @@ struct matches {
     char lines[64]; /* their numbers */
 };
 
-/* The first match in a line from `at`, its offsets counted from the line's beginning. As regexec.
- */
-static int match_from(const regex_t *regex, const char *line, size_t at, regmatch_t match[2])
-{
-    const int failure = regexec(regex, line + at, 2, match, at > 0 ? REG_NOTBOL : 0);
-    for (int i = 0; i < 2 && !failure; i++)
-        if (match[i].rm_so >= 0) { /* (a)|b has not always its group */
-            match[i].rm_so += (regoff_t)at;
-            match[i].rm_eo += (regoff_t)at;
-        }
-    return failure;
-}
-
 static enum br_status take_group(struct search *s, const char *line, const regmatch_t match[2],
                                  size_t number)
 {
@@ -133,7 +120,8 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
     enum br_status status = BR_OK;
     int failure = 0;
     for (size_t at = 0; at <= length && !status;) {
-        failure = match_from(regex, line, at, match);
+        match[0] = (regmatch_t){(regoff_t)at, (regoff_t)length};
+        failure = regexec(regex, line, 2, match, REG_STARTEND | (at > 0 ? REG_NOTBOL : 0));
         const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
         if (failure)
             break;
