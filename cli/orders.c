@@ -110,7 +110,8 @@ static enum br_status read_table(const char *path, const struct br_options *o,
     const bool standard = strcmp(path, "-") == 0;
     enum br_status status = copy_text(standard ? "standard input" : path, &q->path, err);
     if (!status)
-        status = br_table_load(standard ? "/dev/stdin" : path, &q->table, err);
+        status =
+            br_text_load(standard ? "/dev/stdin" : path, BR_LONGEST_TABLE, "table", &q->table, err);
     return status ? status : read_options(o, q, err);
 }
 

@@ -93,10 +93,6 @@ enum br_status br_orders_check_lists(const struct br_orders_request *request,
 /* More rows would take long: a grid of so many is fitted in some seconds. */
 enum { BR_LONGEST_TABLE = 64 << 20 /* bytes */, BR_MOST_TABLE_ROWS = 10000 };
 
-/* The text of a file (to be freed by the caller). Fails with BR_BAD_INPUT where it cannot be read,
- * is longer than BR_LONGEST_TABLE or has a zero byte, with BR_IO or BR_NO_MEMORY. */
-enum br_status br_table_load(const char *path, char **text, struct br_error *err);
-
 /* Splits a text, CSV (comma) or TSV (tab), into an array of rows, the heading first; a row is an
  * array of its line and its fields, null where one is empty. Empty lines and those that begin with
  * # are left out. Fails with BR_BAD_INPUT, naming path and line, or BR_NO_MEMORY. */

@@ -51,7 +51,7 @@ static enum br_status take_table(const struct entry *e)
         *path = NULL;
         return br_no_memory(e->r->err, "the study");
     }
-    return br_table_load(*path, &e->request->table, &inner)
+    return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, &inner)
                ? refuse_inner(e, br_yaml_line(e->node), &inner)
                : BR_OK;
 }

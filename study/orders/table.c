@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A source of numbers: a table in a file. */
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -326,32 +325,6 @@ static enum br_status take_columns(const struct source *s, struct br_error *err)
     for (size_t i = 1; i <= s->columns && !status; i++)
         status = take_column(s, i, err);
     return status ? status : br_orders_check_lists(s->request, s->numbers, err);
-}
-
-enum br_status br_table_load(const char *path, char **text, struct br_error *err)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
-    enum br_status status = BR_OK;
-    *text = br_allocate(BR_LONGEST_TABLE + 2, 1); /* what is not read takes no memory */
-    const size_t length = *text ? fread(*text, 1, BR_LONGEST_TABLE + 1, file) : 0;
-    if (!*text)
-        status = br_no_memory(err, "the table");
-    else if (ferror(file))
-        status =
-            br_fail(err, errno == EISDIR ? BR_BAD_INPUT : BR_IO, "%s: %s", path, strerror(errno));
-    else if (length > BR_LONGEST_TABLE)
-        status = br_fail(err, BR_BAD_INPUT, "%s: found more than %d bytes, expected a table", path,
-                         BR_LONGEST_TABLE);
-    else if (strlen(*text) < length)
-        status = br_fail(err, BR_BAD_INPUT, "%s: found a zero byte, expected text", path);
-    fclose(file);
-    if (!status)
-        return BR_OK;
-    free(*text);
-    *text = NULL;
-    return status;
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
