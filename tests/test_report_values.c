@@ -78,7 +78,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     assert_non_null(t);
     MUST(br_named_methods_read("--methods", "euler,adaptive", &t->methods, &err));
     t->request = br_trial_request_default(scene);
-    t->norm[0] = &br_norm_l2;
+    t->request.norm = &br_norm_l2;
     t->count = 2;
     t->trial = calloc(2, sizeof *t->trial);
     t->front = calloc(2, sizeof *t->front);
@@ -93,9 +93,9 @@ static struct br_trade *made_trade(const struct br_scene *scene)
                      i ? 0.75 : 3.75,
                      4,
                      {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
-            .error = {{0.125, 0.25, 0.375}},
-            .scale = {1.5},
-            .own = {0.0078125},
+            .error = {0.125, 0.25, 0.375},
+            .scale = 1.5,
+            .own = 0.0078125,
         };
     t->front[1] = true;
     t->wall_seconds = 10.5;
@@ -156,7 +156,7 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     br_plan_default(p, scene);
     MUST(br_named_methods_read("--methods", "euler,bdf2", &p->methods, &err));
     p->goal = (struct br_plan_goal){0.5, NAN};
-    p->norm[0] = &br_norm_l2;
+    p->request.norm = &br_norm_l2;
     p->seconds = seconds_of_plan;
     p->count = 2;
     p->trial = calloc(2, sizeof *p->trial);
@@ -167,9 +167,9 @@ static struct br_plan *made_plan(const struct br_scene *scene)
             .named = &p->methods.list[0],
             .at = {11 + i, 20 + i},
             .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
-            .error = {{0.125, 0.25, 0.375}},
-            .scale = {1.5},
-            .own = {0.25},
+            .error = {0.125, 0.25, 0.375},
+            .scale = 1.5,
+            .own = 0.25,
         };
         p->forecast[i] = (struct br_plan_forecast){i, 0.0625, 7.5};
     }

@@ -95,11 +95,10 @@ static const struct br_judge *judge_of(const struct br_trial_request *r)
 static void set_measured(const struct br_trial_request *r, struct br_judge_request *request)
 {
     for (int measure = 0; measure < BR_TIP; measure++)
-        for (size_t m = 0; m < r->norms; m++)
-            if (br_norm_needs(r->norm[m], (enum br_measure)measure)) {
-                request->measured[BR_AXIAL][measure] = r->scene->axial.modelled;
-                request->measured[BR_BENDING][measure] = r->scene->bending.modelled;
-            }
+        if (br_norm_needs(r->norm, (enum br_measure)measure)) {
+            request->measured[BR_AXIAL][measure] = r->scene->axial.modelled;
+            request->measured[BR_BENDING][measure] = r->scene->bending.modelled;
+        }
 }
 
 static enum br_status create_judge(const struct br_trial_request *r,

@@ -118,7 +118,7 @@ static void see(const struct br_plan *p, const struct br_named_method *c, struct
     seen->points = seen->works = 0;
     for (size_t i = 0; i < p->count; i++) {
         const struct br_trial *t = &p->trial[i];
-        const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
+        const double error = br_trial_bound(t), seconds = p->seconds(t);
         if (t->named != c)
             continue;
         if (error > 0 && isfinite(error))
@@ -181,7 +181,6 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
     struct br_named_methods all;
     const struct br_method usual = br_method_default();
     *plan = (struct br_plan){.request = br_trial_request_default(scene),
-                             .norm = {br_norms[0]},
                              .goal = {NAN, NAN},
                              .most_rounds = 8,
                              .seconds = br_trial_seconds,
@@ -199,9 +198,9 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 /* Whether a trial's error is at most the goal's, or its seconds. */
 static bool meets(const struct br_plan *p, const struct br_trial *t)
 {
-    if (!isfinite(br_trial_bound(t, 0)))
+    if (!isfinite(br_trial_bound(t)))
         return false;
-    return isfinite(p->goal.error) ? br_trial_bound(t, 0) <= p->goal.error
+    return isfinite(p->goal.error) ? br_trial_bound(t) <= p->goal.error
                                    : p->seconds(t) <= p->goal.seconds;
 }
 
@@ -213,7 +212,7 @@ static size_t least_of(const struct br_plan *p, double least_error)
     size_t best = p->count;
     double least = INFINITY;
     for (size_t i = 0; i < p->count; i++) {
-        const double error = br_trial_bound(&p->trial[i], 0), seconds = p->seconds(&p->trial[i]);
+        const double error = br_trial_bound(&p->trial[i]), seconds = p->seconds(&p->trial[i]);
         const double value = by_error ? seconds : error;
         if (p->forecast[i].round > 0 && meets(p, &p->trial[i]) && error >= least_error &&
             value < least) {
@@ -330,10 +329,10 @@ static enum br_status check_probes(struct br_plan *p, struct br_error *err)
     size_t good = 0;
     for (size_t i = 0; i < p->count; i++) {
         const struct br_trial *t = &p->trial[i];
-        if (isfinite(br_trial_bound(t, 0)))
+        if (isfinite(br_trial_bound(t)))
             good++;
-        if (t->scale[0] > 0 && isfinite(t->own[0]))
-            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own[0] / t->scale[0]);
+        if (t->scale > 0 && isfinite(t->own))
+            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own / t->scale);
     }
     if (good == 0)
         return br_fail(err, BR_NOT_FINITE,
@@ -353,8 +352,6 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     const double start = br_seconds();
     void *kept = NULL;
     bool tried = true;
-    p->request.norm = p->norm;
-    p->request.norms = 1;
     p->first = SIZE_MAX;
     enum br_status status = check_goal(p, err);
     if (!status)

@@ -96,8 +96,7 @@ struct br_plan_models {
 
 struct br_plan {
     /* in */
-    struct br_trial_request request; /* norm and norms are set by the plan */
-    const struct br_norm *norm[1];
+    struct br_trial_request request;
     struct br_named_methods methods;
     struct br_plan_goal goal;
     size_t most_rounds;

@@ -41,7 +41,7 @@ static bool is_near_failure(const struct search *s, double x, double y)
         const double distance = hypot(log((double)t->at.n) - x, 2 * (br_plan_y(t) - y));
         if (t->named == s->named && distance < nearest) {
             nearest = distance;
-            failed = !isfinite(br_trial_bound(t, 0));
+            failed = !isfinite(br_trial_bound(t));
         }
     }
     return failed;
@@ -263,7 +263,7 @@ static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t
     const struct br_trial *t = &plan->trial[best];
     const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
     const double y = br_plan_y(t), wanted = log(plan->goal.error / sqrt(br_plan_band));
-    if (br_trial_bound(t, 0) * br_plan_band >= plan->goal.error || !m->known)
+    if (br_trial_bound(t) * br_plan_band >= plan->goal.error || !m->known)
         return;
     struct br_plan_candidate found = {.named = NULL};
     double nearest = INFINITY;
@@ -301,7 +301,7 @@ static void propose_for_error(const struct br_plan *plan, struct table *table, s
 static void propose_for_seconds(const struct br_plan *plan, struct table *table, size_t best,
                                 struct br_plan_batch *batch)
 {
-    const double error = best < plan->count ? br_trial_bound(&plan->trial[best], 0) : INFINITY;
+    const double error = best < plan->count ? br_trial_bound(&plan->trial[best]) : INFINITY;
     if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
         return; /* the judge could not say what is better */
     take_least(plan, batch, table->safe, SAFE, worth_seconds * error);

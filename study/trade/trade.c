@@ -12,9 +12,9 @@ double br_trade_target(size_t digit)
 
 double br_trade_digits_per_second(const struct br_trial *trial)
 {
-    if (!isfinite(br_trial_bound(trial, 0)))
+    if (!isfinite(br_trial_bound(trial)))
         return NAN;
-    return -log10(br_trial_relative(trial, 0, BR_PART_TOTAL)) / br_trial_seconds(trial);
+    return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
 }
 
 double br_trade_seconds_of_all(const struct br_trial_outlook *o)
@@ -46,7 +46,7 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
     for (size_t i = 0; i < count; i++) {
         if (only && trial[i].named != only)
             continue;
-        if (!(br_trial_bound(&trial[i], 0) <= target) || !isfinite(br_trial_seconds(&trial[i])))
+        if (!(br_trial_bound(&trial[i]) <= target) || !isfinite(br_trial_seconds(&trial[i])))
             continue;
         if (best == count || is_cheaper(&trial[i], &trial[best]))
             best = i;
@@ -60,7 +60,7 @@ static const double tie = 1e-6;
 /* Whether `a` loses to `b`; of equals the later one does. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 {
-    const double error = br_trial_bound(a, 0), other_error = br_trial_bound(b, 0);
+    const double error = br_trial_bound(a), other_error = br_trial_bound(b);
     const double seconds = br_trial_seconds(a), other_seconds = br_trial_seconds(b);
     if (other_seconds < seconds)
         return other_error <= (1 + tie) * error;
@@ -70,7 +70,7 @@ static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 void br_trials_front(const struct br_trial *trial, size_t count, bool *front)
 {
     for (size_t i = 0; i < count; i++) {
-        front[i] = isfinite(br_trial_bound(&trial[i], 0)) && isfinite(br_trial_seconds(&trial[i]));
+        front[i] = isfinite(br_trial_bound(&trial[i])) && isfinite(br_trial_seconds(&trial[i]));
         for (size_t j = 0; j < count && front[i]; j++)
             front[i] = j == i || !is_beaten(&trial[i], &trial[j]);
     }
@@ -91,8 +91,6 @@ static void choose(struct br_trade *t)
 enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
-    t->request.norm = t->norm;
-    t->request.norms = 1;
     enum br_status status = br_trials_keep_judge(&t->request, &t->judge, err);
     if (seconds > 0)
         t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);

@@ -32,8 +32,7 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
     return (struct br_trial_request){
         .scene = scene,
         .reference_method = br_method_default(),
-        .norm = br_norms,
-        .norms = 1,
+        .norm = br_norms[0],
         .repeats = 3,
         .repeat_seconds = 0.1,
         .time_limit = 10,
@@ -53,17 +52,16 @@ double br_trial_seconds(const struct br_trial *trial)
     return trial->cost.set_up + trial->cost.march;
 }
 
-double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part part)
+double br_trial_relative(const struct br_trial *trial)
 {
-    return trial->scale[m] > 0 ? trial->error[m][part] / trial->scale[m] : NAN;
+    return trial->scale > 0 ? trial->error[BR_PART_TOTAL] / trial->scale : NAN;
 }
 
-double br_trial_bound(const struct br_trial *trial, size_t m)
+double br_trial_bound(const struct br_trial *trial)
 {
-    const double own = isfinite(trial->own[m]) ? trial->own[m] : 0;
+    const double own = isfinite(trial->own) ? trial->own : 0;
     const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
-    return counts && trial->scale[m] > 0 ? (trial->error[m][BR_PART_TOTAL] + own) / trial->scale[m]
-                                         : NAN;
+    return counts && trial->scale > 0 ? (trial->error[BR_PART_TOTAL] + own) / trial->scale : NAN;
 }
 
 /* ---- seconds ---- */
@@ -247,16 +245,14 @@ static double work_of(const struct br_trial *trial)
            1e5;
 }
 
-static void begin(struct br_trial *t, const struct br_trial_request *request)
+static void begin(struct br_trial *t)
 {
     t->end = t->end == BR_TRIAL_LEFT ? BR_TRIAL_LEFT : BR_TRIAL_DONE;
     t->cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     t->failure = (struct br_error){0};
-    for (size_t m = 0; m < request->norms; m++) {
-        t->scale[m] = t->own[m] = NAN;
-        for (int part = 0; part < BR_PARTS; part++)
-            t->error[m][part] = NAN;
-    }
+    t->scale = t->own = NAN;
+    for (int part = 0; part < BR_PARTS; part++)
+        t->error[part] = NAN;
 }
 
 /* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
@@ -267,7 +263,7 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
     const struct br_observer *o = request->observer;
     double whole = 0, done = 0;
     for (size_t i = 0; i < count; i++) {
-        begin(&trial[i], request);
+        begin(&trial[i]);
         whole += trial[i].end == BR_TRIAL_LEFT ? 0 : work_of(&trial[i]);
     }
     enum br_status status = BR_OK;
@@ -285,8 +281,8 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
 
 /* ---- errors ---- */
 
-/* Trials as cells of studies: one study for each mesh and degree (a chain of them over the norms),
- * whose cells are marched by as many methods, so that the judge looks at that mesh once. */
+/* Trials as cells of studies: one study for each mesh and degree, whose cells are
+ * marched by as many methods, so that the judge looks at that mesh once. */
 struct groups {
     const struct br_trial_request *request;
     size_t count;
@@ -294,7 +290,7 @@ struct groups {
     struct br_trial **member; /* borrowed; the arrays are all owned */
     size_t *steps;
     struct br_method *method;
-    struct br_study *study; /* count in the first norm, then the next norms of each */
+    struct br_study *study; /* count */
 };
 
 /* Whether two trials are judged, on the same elements. */
@@ -330,38 +326,31 @@ static void collect(struct groups *g, struct br_trial *trial, size_t count)
     g->first[g->count] = used;
 }
 
-static struct br_study *study_of(const struct groups *g, size_t i, size_t m)
-{
-    return &g->study[m == 0 ? i : g->count + i * (g->request->norms - 1) + m - 1];
-}
-
 static void fill_studies(const struct groups *g, const struct br_judge *judge)
 {
     const struct br_trial_request *r = g->request;
-    for (size_t i = 0; i < g->count; i++)
-        for (size_t m = 0; m < r->norms; m++) {
-            struct br_study *s = study_of(g, i, m);
-            const size_t first = g->first[i];
-            *s = (struct br_study){
-                .scene = r->scene,
-                .norm = r->norm[m],
-                .method = g->method[first],
-                .cell_method = &g->method[first],
-                .judge = judge,
-                .reference_method = r->reference_method,
-                .reference = r->reference,
-                .n_count = 1,
-                .k_count = g->first[i + 1] - first,
-                .n = &g->member[first]->at.n,
-                .steps = &g->steps[first],
-                .kept = r->kept,
-                .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
-            };
-            s->reference_method.axial_degree = s->method.axial_degree;
-        }
+    for (size_t i = 0; i < g->count; i++) {
+        struct br_study *s = &g->study[i];
+        const size_t first = g->first[i];
+        *s = (struct br_study){
+            .scene = r->scene,
+            .norm = r->norm,
+            .method = g->method[first],
+            .cell_method = &g->method[first],
+            .judge = judge,
+            .reference_method = r->reference_method,
+            .reference = r->reference,
+            .n_count = 1,
+            .k_count = g->first[i + 1] - first,
+            .n = &g->member[first]->at.n,
+            .steps = &g->steps[first],
+            .kept = r->kept,
+        };
+        s->reference_method.axial_degree = s->method.axial_degree;
+    }
 }
 
-/* The judge's own error and round-off, in a norm. */
+/* The judge's own error and round-off. */
 static double own_error(const struct br_study *s)
 {
     const double told =
@@ -369,12 +358,11 @@ static double own_error(const struct br_study *s)
     return isfinite(told) ? told + s->judged_by.round_off * s->reference_scale : NAN;
 }
 
-static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
-                      const struct br_cell *cell)
+static void take_cell(struct br_trial *t, const struct br_study *s, const struct br_cell *cell)
 {
-    t->scale[m] = s->reference_scale;
-    t->own[m] = own_error(s);
-    memcpy(t->error[m], cell->error, sizeof cell->error);
+    t->scale = s->reference_scale;
+    t->own = own_error(s);
+    memcpy(t->error, cell->error, sizeof cell->error);
     const double error = cell->error[BR_PART_TOTAL];
     if (cell->failure.status || !isfinite(error)) {
         t->end = BR_TRIAL_FAILED;
@@ -388,8 +376,7 @@ static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
         t->end = BR_TRIAL_UNSTABLE;
         br_fail(&t->failure, BR_VERDICT,
                 "the lagged contact is beyond its stability limit: bounded chatter");
-    } else if (t->end == BR_TRIAL_DONE && !(error >= br_flag_margin * t->own[m]) &&
-               isfinite(t->own[m])) {
+    } else if (t->end == BR_TRIAL_DONE && !(error >= br_flag_margin * t->own) && isfinite(t->own)) {
         t->end = BR_TRIAL_DOUBTFUL;
     }
 }
@@ -397,11 +384,8 @@ static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
 static void take_cells(const struct groups *g)
 {
     for (size_t i = 0; i < g->count; i++)
-        for (size_t m = 0; m < g->request->norms; m++) {
-            const struct br_study *s = study_of(g, i, m);
-            for (size_t c = 0; c < s->k_count; c++)
-                take_cell(g->member[g->first[i] + c], m, s, &s->cell[c]);
-        }
+        for (size_t c = 0; c < g->study[i].k_count; c++)
+            take_cell(g->member[g->first[i] + c], &g->study[i], &g->study[i].cell[c]);
 }
 
 static enum br_status allocate(struct groups *g, size_t count, struct br_error *err)
@@ -410,7 +394,7 @@ static enum br_status allocate(struct groups *g, size_t count, struct br_error *
     g->member = br_allocate(count, sizeof(struct br_trial *));
     g->steps = br_allocate(count, sizeof *g->steps);
     g->method = br_allocate(count, sizeof *g->method);
-    g->study = br_allocate(count * g->request->norms, sizeof *g->study);
+    g->study = br_allocate(count, sizeof *g->study);
     return g->first && g->member && g->steps && g->method && g->study
                ? BR_OK
                : br_no_memory(err, "the trials");
@@ -418,7 +402,7 @@ static enum br_status allocate(struct groups *g, size_t count, struct br_error *
 
 static void clear(struct groups *g)
 {
-    for (size_t i = 0; g->study && i < g->count * g->request->norms; i++)
+    for (size_t i = 0; g->study && i < g->count; i++)
         br_study_clear(&g->study[i]);
     free(g->first);
     free(g->member);
