@@ -281,16 +281,15 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
 
 /* ---- errors ---- */
 
-/* Trials as cells of studies: one study for each mesh and degree, whose cells are
- * marched by as many methods, so that the judge looks at that mesh once. */
+/* Trials as cells of studies: one study for each mesh and degree, whose cells are marched by as
+ * many methods, so that the judge looks at that mesh once. */
 struct groups {
-    const struct br_trial_request *request;
     size_t count;
-    size_t *first;            /* count + 1: of each group in the next three lists */
-    struct br_trial **member; /* borrowed; the arrays are all owned */
+    struct br_study *study;   /* count; the arrays are all owned */
+    struct br_trial **member; /* by cell, those of one study behind those of another; borrowed */
     size_t *steps;
     struct br_method *method;
-    struct br_study *study; /* count */
+    size_t cells;
 };
 
 /* Whether two trials are judged, on the same elements. */
@@ -309,45 +308,32 @@ static bool is_first(const struct br_trial *trial, size_t i)
     return trial[i].end == BR_TRIAL_DONE;
 }
 
-static void collect(struct groups *g, struct br_trial *trial, size_t count)
+/* The study of a trial and of those behind it on the same elements. */
+static void add_group(struct groups *g, struct br_trial *first, const struct br_trial *end,
+                      const struct br_trial_request *r, const struct br_judge *judge)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!is_first(trial, i))
-            continue;
-        g->first[g->count++] = used;
-        for (size_t j = i; j < count; j++)
-            if (same_group(&trial[j], &trial[i])) {
-                g->member[used] = &trial[j];
-                g->steps[used] = trial[j].at.steps;
-                g->method[used++] = br_trial_method(&trial[j]);
-            }
-    }
-    g->first[g->count] = used;
-}
-
-static void fill_studies(const struct groups *g, const struct br_judge *judge)
-{
-    const struct br_trial_request *r = g->request;
-    for (size_t i = 0; i < g->count; i++) {
-        struct br_study *s = &g->study[i];
-        const size_t first = g->first[i];
-        *s = (struct br_study){
-            .scene = r->scene,
-            .norm = r->norm,
-            .method = g->method[first],
-            .cell_method = &g->method[first],
-            .judge = judge,
-            .reference_method = r->reference_method,
-            .reference = r->reference,
-            .n_count = 1,
-            .k_count = g->first[i + 1] - first,
-            .n = &g->member[first]->at.n,
-            .steps = &g->steps[first],
-            .kept = r->kept,
-        };
-        s->reference_method.axial_degree = s->method.axial_degree;
-    }
+    struct br_study *s = &g->study[g->count++];
+    *s = (struct br_study){
+        .scene = r->scene,
+        .norm = r->norm,
+        .method = br_trial_method(first),
+        .cell_method = &g->method[g->cells],
+        .judge = judge,
+        .reference_method = r->reference_method,
+        .reference = r->reference,
+        .n_count = 1,
+        .n = &first->at.n,
+        .steps = &g->steps[g->cells],
+        .kept = r->kept,
+    };
+    s->reference_method.axial_degree = s->method.axial_degree;
+    for (struct br_trial *t = first; t < end; t++)
+        if (same_group(t, first)) {
+            s->k_count++;
+            g->member[g->cells] = t;
+            g->steps[g->cells] = t->at.steps;
+            g->method[g->cells++] = br_trial_method(t);
+        }
 }
 
 /* The judge's own error and round-off. */
@@ -383,32 +369,20 @@ static void take_cell(struct br_trial *t, const struct br_study *s, const struct
 
 static void take_cells(const struct groups *g)
 {
-    for (size_t i = 0; i < g->count; i++)
-        for (size_t c = 0; c < g->study[i].k_count; c++)
-            take_cell(g->member[g->first[i] + c], &g->study[i], &g->study[i].cell[c]);
-}
-
-static enum br_status allocate(struct groups *g, size_t count, struct br_error *err)
-{
-    g->first = br_allocate(count + 1, sizeof *g->first);
-    g->member = br_allocate(count, sizeof(struct br_trial *));
-    g->steps = br_allocate(count, sizeof *g->steps);
-    g->method = br_allocate(count, sizeof *g->method);
-    g->study = br_allocate(count, sizeof *g->study);
-    return g->first && g->member && g->steps && g->method && g->study
-               ? BR_OK
-               : br_no_memory(err, "the trials");
+    struct br_trial **member = g->member;
+    for (const struct br_study *s = g->study; s < g->study + g->count; s++)
+        for (size_t c = 0; c < s->k_count; c++)
+            take_cell(*member++, s, &s->cell[c]);
 }
 
 static void clear(struct groups *g)
 {
-    for (size_t i = 0; g->study && i < g->count; i++)
+    for (size_t i = 0; i < g->count; i++)
         br_study_clear(&g->study[i]);
-    free(g->first);
+    free(g->study);
     free(g->member);
     free(g->steps);
     free(g->method);
-    free(g->study);
 }
 
 /* Judges the trials that came to their end. */
@@ -421,14 +395,18 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
                        judge->title);
     if (count == 0)
         return BR_OK;
-    struct groups g = {.request = request};
-    enum br_status status = allocate(&g, count, err);
-    if (!status) {
-        collect(&g, trial, count);
-        fill_studies(&g, judge);
-        if (g.count)
-            status = br_study_run(g.study, g.count, request->threads, request->observer, err);
-    }
+    struct groups g = {.study = br_allocate(count, sizeof *g.study),
+                       .member = br_allocate(count, sizeof(struct br_trial *)),
+                       .steps = br_allocate(count, sizeof *g.steps),
+                       .method = br_allocate(count, sizeof *g.method)};
+    enum br_status status = BR_OK;
+    if (!g.study || !g.member || !g.steps || !g.method)
+        status = br_no_memory(err, "the trials");
+    for (size_t i = 0; i < count && !status; i++)
+        if (is_first(trial, i))
+            add_group(&g, &trial[i], &trial[count], request, judge);
+    if (g.count && !status)
+        status = br_study_run(g.study, g.count, request->threads, request->observer, err);
     if (!status)
         take_cells(&g);
     clear(&g);
