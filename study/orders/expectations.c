@@ -113,14 +113,6 @@ enum br_status br_expectations_read(const char *where, const char *text, size_t 
 
 /* ---- verdicts ---- */
 
-static const struct br_quantity_orders *orders_of(const struct br_orders *o, const char *name)
-{
-    for (size_t i = 0; i < o->count; i++)
-        if (strcmp(o->numbers->quantity[o->of[i].quantity].name, name) == 0)
-            return &o->of[i];
-    return NULL;
-}
-
 /* What is expected of a line, with points of its own, and an order by the joint fit where that is
  * sure. */
 static enum br_status observe(const struct br_quantity_orders *of,
@@ -154,7 +146,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
 static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
                             const char *path, struct br_case *c, struct br_error *err)
 {
-    const struct br_quantity_orders *of = orders_of(o, e->quantity);
+    const struct br_quantity_orders *of = NULL;
+    for (size_t i = 0; i < o->count && !of; i++)
+        if (strcmp(o->numbers->quantity[i].name, e->quantity) == 0)
+            of = &o->of[i];
     const struct br_orders_line *line = of ? br_orders_finest(of, e->axis) : NULL;
     if (!of)
         return br_fail(err, BR_BAD_INPUT,

@@ -144,28 +144,10 @@ static enum br_status split_words(struct split *s, char **word, struct br_error 
     return BR_OK;
 }
 
-static enum br_status check_used(const struct split *s, struct br_error *err)
-{
-    for (int i = 0; i < BR_AXES; i++)
-        if (s->program->axis[i].column && !s->used[i])
-            return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
-                           s->program->axis[i].column->name);
-    return BR_OK;
-}
-
 static bool is_program(const char *path)
 {
     struct stat info;
     return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
-}
-
-/* Where relative names are looked up (out). */
-static enum br_status find_folder(const struct br_orders_request *p, char here[PATH_MAX],
-                                  struct br_error *err)
-{
-    if (p->folder ? realpath(p->folder, here) : getcwd(here, PATH_MAX))
-        return BR_OK;
-    return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
 }
 
 /* A word of its own; one that names a file is its whole path, since the program runs elsewhere. */
@@ -231,8 +213,11 @@ static enum br_status make_cell(const struct br_orders_request *p, const struct 
                                 : br_no_memory(err, "the words of a command");
     if (!status && (!*word || !**word))
         status = br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
-    if (!status)
-        status = check_used(&s, err);
+    for (int i = 0; i < BR_AXES && !status; i++)
+        if (p->axis[i].column && !s.used[i])
+            status =
+                br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
+                        p->axis[i].column->name);
     if (!status)
         status = find_program(here, *word, cell, err);
     for (size_t i = 0; !status && word[i]; i++)
@@ -244,10 +229,14 @@ static enum br_status make_cell(const struct br_orders_request *p, const struct 
 
 static enum br_status make_cells(struct job *j, struct br_error *err)
 {
+    const char *folder = j->program->folder;
+    char here[PATH_MAX]; /* where relative names are looked up */
+    enum br_status status = BR_OK;
     j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
-    char here[PATH_MAX];
-    enum br_status status =
-        j->cell ? find_folder(j->program, here, err) : br_no_memory(err, "the cells of a study");
+    if (!j->cell)
+        status = br_no_memory(err, "the cells of a study");
+    else if (!(folder ? realpath(folder, here) : getcwd(here, sizeof here)))
+        status = br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
     for (size_t i = 0; i < j->numbers->rows && !status; i++)
         status = make_cell(j->program, &j->numbers->row[i], here, &j->cell[i], err);
     return status;
@@ -322,14 +311,6 @@ void br_remove_folder(const char *folder)
             nanosleep(&moment, NULL);
         nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
     }
-}
-
-static void remove_folder(struct run *r)
-{
-    for (int i = 0; i < 2; i++)
-        if (r->printed[i] >= 0)
-            close(r->printed[i]);
-    br_remove_folder(r->folder);
 }
 
 /* The group is its own, and so are its signals: those that beamrate ignores would stay ignored.
@@ -556,7 +537,10 @@ static enum br_status run_cell(const struct job *j, const struct cell *cell,
         watch(j->program, &r);
         status = finish(j->program, &r, row, err);
     }
-    remove_folder(&r);
+    for (int i = 0; i < 2; i++)
+        if (r.printed[i] >= 0)
+            close(r.printed[i]);
+    br_remove_folder(r.folder);
     return status;
 }
 

@@ -23,7 +23,9 @@ struct key {
     enum br_status (*take)(const struct entry *e);
     size_t at;        /* of a text or a number in the request */
     const char *unit; /* of a number; NULL: none */
-    bool mapping, of_runs;
+    bool of_runs;
+    /* Of a mapping of names to texts, instead: takes each pair. */
+    enum br_status (*take_pair)(const struct entry *e, const char *name, const yaml_node_t *value);
 };
 
 static enum br_status refuse_inner(const struct entry *e, size_t line, const struct br_error *inner)
@@ -86,10 +88,7 @@ static enum br_status take_formal(const struct entry *e)
                                  "found '%s', expected an order from 1 to 10", e->text);
 }
 
-/* Each pair of a mapping of names to texts. */
-static enum br_status each_pair(const struct entry *e,
-                                enum br_status (*take)(const struct entry *e, const char *name,
-                                                       const yaml_node_t *value))
+static enum br_status take_pairs(const struct entry *e)
 {
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = e->node->data.mapping.pairs.start;
@@ -99,7 +98,7 @@ static enum br_status each_pair(const struct entry *e,
         status = name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE
                      ? br_scene_refuse(e->r, br_yaml_line(name), e->of->name,
                                        "expected names with a text each")
-                     : take(e, br_yaml_text(name), value);
+                     : e->of->take_pair(e, br_yaml_text(name), value);
     }
     return status;
 }
@@ -111,11 +110,6 @@ static enum br_status take_reading(const struct entry *e, const char *name,
     return br_orders_request_reading(e->request, name, br_yaml_text(value), &inner)
                ? refuse_inner(e, br_yaml_line(value), &inner)
                : BR_OK;
-}
-
-static enum br_status take_readings(const struct entry *e)
-{
-    return each_pair(e, take_reading);
 }
 
 static enum br_status take_expectation(const struct entry *e, const char *name,
@@ -136,11 +130,6 @@ static enum br_status take_expectation(const struct entry *e, const char *name,
     return status == BR_NO_MEMORY ? br_no_memory(e->r->err, "the study") : status;
 }
 
-static enum br_status take_expectations(const struct entry *e)
-{
-    return each_pair(e, take_expectation);
-}
-
 static const struct key keys[] = {
     {"title", take_text, .at = offsetof(struct br_orders_request, title)},
     {"run", take_text, .at = offsetof(struct br_orders_request, command)},
@@ -151,14 +140,14 @@ static const struct key keys[] = {
     {"k", take_list, .of_runs = true},
     {"dt", take_list, .of_runs = true},
     {"steps", take_list, .of_runs = true},
-    {"read", take_readings, .mapping = true, .of_runs = true},
+    {"read", take_pairs, .of_runs = true, .take_pair = take_reading},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_number, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},
-    {"verify", take_expectations, .mapping = true},
+    {"verify", take_pairs, .take_pair = take_expectation},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
@@ -175,12 +164,12 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
             continue;
         if (seen[i])
             return br_scene_refuse(r, br_yaml_line(name), text, "is given twice");
-        if (value->type != (keys[i].mapping ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
+        if (value->type != (keys[i].take_pair ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
             return br_scene_refuse(r, br_yaml_line(value), text, "expected %s",
-                                   keys[i].mapping ? "names with a text each" : "one text");
+                                   keys[i].take_pair ? "names with a text each" : "one text");
         seen[i] = true;
         return keys[i].take(&(struct entry){r, request, &keys[i],
-                                            keys[i].mapping ? NULL : br_yaml_text(value), value});
+                                            keys[i].take_pair ? NULL : br_yaml_text(value), value});
     }
     char known[400] = "";
     for (size_t i = 0; i < KEYS; i++)

@@ -313,17 +313,11 @@ static void measure_release(const struct br_paper *p, size_t which, struct br_fi
         e->scene.friction.coefficient);
 }
 
-/* The stress of the first step that slips. */
-static double stress_at_release(const struct br_history_record *record)
-{
-    const size_t first = last_at_rest(record) + 1;
-    return first < record->rows ? fabs(record->row[first].friction_force) : NAN;
-}
-
 static void measure_reaches(const struct br_paper *p, size_t which, struct br_finding *f)
 {
     const struct br_example *e = &p->example[which];
-    f->value = stress_at_release(&e->record);
+    const size_t first = last_at_rest(&e->record) + 1; /* that slips */
+    f->value = first < e->record.rows ? fabs(e->record.row[first].friction_force) : NAN;
     f->exact = f->printed = e->scene.friction.coefficient; /* (12): slip at the bound only */
     f->error = fabs(f->value - f->exact);
     f->agreement = br_below(f->error, 0, 1e-9 * f->exact);

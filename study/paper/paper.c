@@ -265,14 +265,6 @@ static const double figure_times[BR_EXAMPLES][BR_FIGURE_TIMES] = {
     {0.5, 1, 1.5, 2, 2.5, 3},
 };
 
-const double *br_figure_times(size_t example, size_t *count)
-{
-    *count = 0;
-    while (*count < BR_FIGURE_TIMES && figure_times[example][*count] > 0)
-        ++*count;
-    return figure_times[example];
-}
-
 struct br_paper_request br_paper_request_default(void)
 {
     return (struct br_paper_request){.n = 1000, .per_second = 1000, .per_decade = 4};
@@ -309,8 +301,10 @@ static enum br_status run_example(struct br_paper *p, size_t i, struct br_error 
 {
     struct br_example *e = &p->example[i];
     const size_t steps = p->request.per_second * (size_t)lround(e->scene.duration);
-    size_t times;
-    const double *time = br_figure_times(i, &times);
+    const double *time = figure_times[i];
+    size_t times = 0;
+    while (times < BR_FIGURE_TIMES && time[times] > 0)
+        times++;
     return record(&e->scene, p->request.n, steps, time, times, &e->record, err);
 }
 
@@ -391,14 +385,6 @@ enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error 
     return status ? status : br_scene_read(path, scene, err);
 }
 
-static enum br_status read_scenes(struct br_paper *p, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
-        status = br_paper_scene(i, &p->example[i].scene, err);
-    return status;
-}
-
 enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *request,
                             const struct br_observer *observer, struct br_error *err)
 {
@@ -411,7 +397,9 @@ enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *r
             "figures: n is %zu, expected an even number; steps of a second %zu, expected a "
             "multiple of 100",
             request->n, request->per_second);
-    enum br_status status = read_scenes(p, err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
+        status = br_paper_scene(i, &p->example[i].scene, err);
     if (!status)
         status = create_sweeps(p, err);
     if (!status)

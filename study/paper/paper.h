@@ -83,9 +83,6 @@ enum br_status br_paper_run(struct br_paper *paper, const struct br_paper_reques
                             const struct br_observer *observer, struct br_error *err);
 void br_paper_clear(struct br_paper *paper);
 
-/* The times of an example's curves, s, ascending; *count of them. */
-const double *br_figure_times(size_t example, size_t *count);
-
 /* ---- claims ---- */
 
 /* What the paper says there, as far as it can be checked: a registry. Each claim measures its value

@@ -92,15 +92,6 @@ static const struct br_judge *judge_of(const struct br_trial_request *r)
     return r->judge ? r->judge : br_judge_best(r->scene);
 }
 
-static void set_measured(const struct br_trial_request *r, struct br_judge_request *request)
-{
-    for (int measure = 0; measure < BR_TIP; measure++)
-        if (br_norm_needs(r->norm, (enum br_measure)measure)) {
-            request->measured[BR_AXIAL][measure] = r->scene->axial.modelled;
-            request->measured[BR_BENDING][measure] = r->scene->bending.modelled;
-        }
-}
-
 static enum br_status create_judge(const struct br_trial_request *r,
                                    struct br_judge_request *request, void **self,
                                    struct br_error *err)
@@ -167,7 +158,11 @@ static enum br_status look_at_judge(const struct br_trial_request *r, struct jud
     if (!judge->create || judge->nests)
         return BR_OK;
     void *self = NULL;
-    set_measured(r, &request);
+    for (int measure = 0; measure < BR_TIP; measure++) {
+        const bool needed = br_norm_needs(r->norm, (enum br_measure)measure);
+        request.measured[BR_AXIAL][measure] = needed && r->scene->axial.modelled;
+        request.measured[BR_BENDING][measure] = needed && r->scene->bending.modelled;
+    }
     double start = br_thread_seconds();
     enum br_status status = create_judge(r, &request, &self, err);
     judging->mesh = br_thread_seconds() - start;

@@ -272,15 +272,6 @@ static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *
                            : BR_OK;
 }
 
-static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
-{
-    const size_t repeats = p->request.repeats;
-    p->request.repeats = 1;
-    const enum br_status status = hold_new(p, 0, err);
-    p->request.repeats = repeats;
-    return status;
-}
-
 /* Whether the rounds have gone on for long without anything better than the best. */
 static bool is_idle(const struct br_plan *p)
 {
@@ -358,8 +349,11 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
         status = br_plan_lay_out(p, err);
     if (!status)
         status = br_trials_keep_judge(&p->request, &kept, err);
+    const size_t repeats = p->request.repeats;
+    p->request.repeats = 1;
     if (!status)
-        status = hold_probes(p, err);
+        status = hold_new(p, 0, err);
+    p->request.repeats = repeats;
     if (!status)
         status = check_probes(p, err);
     while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))

@@ -32,18 +32,13 @@ static size_t piece_of(const struct br_plan_curve *c, double at)
     return i;
 }
 
-/* How far `at` is through piece i, 0 to 1; outside of the knots less or more. */
-static double fraction(const struct br_plan_curve *c, size_t i, double at)
-{
-    return (at - c->at[i]) / (c->at[i + 1] - c->at[i]);
-}
-
 static double curve_value(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return c->value[0];
     const size_t i = piece_of(c, at);
-    return c->value[i] + fraction(c, i, at) * (c->value[i + 1] - c->value[i]);
+    const double through = (at - c->at[i]) / (c->at[i + 1] - c->at[i]); /* 0 to 1 within */
+    return c->value[i] + through * (c->value[i + 1] - c->value[i]);
 }
 
 /* Minus the slope of a curve. */
@@ -409,15 +404,6 @@ static enum br_status fit_seconds(struct br_plan_cost *cost, const struct br_pla
     return status;
 }
 
-/* Few works: all of the cost by elements and solves, as the largest of them has it. */
-static void guess(struct br_plan_cost *cost, const struct br_plan_work *work, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, work[i].seconds / (work[i].n * work[i].solves));
-    cost->c[3] = most;
-}
-
 enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_work *work,
                                 size_t count, struct br_error *err)
 {
@@ -429,9 +415,10 @@ enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_
     gsl_error_handler_t *const before = gsl_set_error_handler_off();
     if (count > BR_PLAN_COSTS)
         status = fit_seconds(cost, work, count, err);
-    else
-        guess(cost, work, count);
     gsl_set_error_handler(before);
+    /* Few works: all of the cost by elements and solves, as the largest of them has it. */
+    for (size_t i = 0; i < count && count <= BR_PLAN_COSTS; i++)
+        cost->c[3] = fmax(cost->c[3], work[i].seconds / (work[i].n * work[i].solves));
     double sum = 0;
     for (size_t i = 0; i < count && !status; i++)
         sum += pow(log(work[i].seconds / seconds_of(cost, work[i].n, work[i].solves)), 2);

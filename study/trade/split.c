@@ -110,25 +110,19 @@ static const double finest_tolerance = 1e-11;
 /* Steps of a fixed length, at least; and of the run's, at least so many to one. */
 enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
 
-static struct br_refinement by_tolerance(const struct br_split *split,
-                                         const struct br_time_scheme *scheme)
+static struct br_refinement refined_by(const struct br_split *split,
+                                       const struct br_time_scheme *scheme)
 {
     struct br_refinement r = {.stand = {.method = split->method, .steps = split->at.steps}};
     r.stand.method.scheme = scheme;
-    r.stand.method.tolerance = finest_tolerance;
-    snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
-    return r;
-}
-
-static struct br_refinement by_steps(const struct br_split *split,
-                                     const struct br_time_scheme *scheme)
-{
-    struct br_refinement r = {.stand = {.method = split->method}};
-    size_t ratio = LEAST_RATIO;
-    while (ratio * split->at.steps < FINE_STEPS)
-        ratio *= 2; /* even: a march of half as many steps gives its error */
-    r.stand.method.scheme = scheme;
-    r.stand.steps = ratio * split->at.steps;
+    if (scheme->adaptive) {
+        r.stand.method.tolerance = finest_tolerance;
+        snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
+        return r;
+    }
+    r.stand.steps *= LEAST_RATIO;
+    while (r.stand.steps < FINE_STEPS)
+        r.stand.steps *= 2; /* even: a march of half as many steps gives its error */
     snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
              br_time_step(split->scene, r.stand.steps));
     return r;
@@ -141,12 +135,12 @@ static size_t refinements(const struct br_split *split, size_t most, struct br_r
     size_t count = 0;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
         if ((*s)->adaptive && count + 1 < most)
-            out[count++] = by_tolerance(split, *s);
+            out[count++] = refined_by(split, *s);
         if (!(*s)->adaptive && (*s)->order > highest->order)
             highest = *s;
     }
     if (count < most)
-        out[count++] = by_steps(split, highest);
+        out[count++] = refined_by(split, highest);
     return count;
 }
 
