@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/orders/numbers.h"
+#include "study/orders/orders.h"
 
 #include <float.h>
 #include <math.h>

@@ -31,16 +31,13 @@ static const char *title_of(const struct br_method_field *f)
     return f->words_title ? f->words_title : f->title;
 }
 
-size_t br_named_method_kinds(void)
-{
-    return KINDS;
-}
-
 const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
     size_t used = 0;
     double value;
     const char *word;
+    if (kind >= KINDS)
+        return NULL;
     words[0] = '\0';
     for (size_t i = 0; (word = word_of(kinds[kind], i, &value)) && used < size; i++)
         used += (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", word);
