@@ -113,25 +113,6 @@ static void consider_column(const struct search *s, double y)
 
 /* ---- one named method ---- */
 
-static void consider_steps(const struct search *s)
-{
-    double before = 0;
-    const double most = exp(s->most_y) * most_beyond;
-    for (double real = BR_PLAN_LEAST_STEPS; real <= most; real *= step_factor) {
-        const double steps = floor(real + 0.5);
-        if (steps > before)
-            consider_column(s, log(steps));
-        before = steps;
-    }
-}
-
-static void consider_tolerances(const struct search *s)
-{
-    for (double tolerance = 0.1; - log(tolerance) <= s->most_y + log(most_beyond);
-         tolerance /= tolerance_factor)
-        consider_column(s, -log(tolerance));
-}
-
 static bool is_tried_column(const struct search *s, size_t i)
 {
     for (size_t j = 0; j < i; j++)
@@ -142,13 +123,6 @@ static bool is_tried_column(const struct search *s, size_t i)
 }
 
 /* Columns that were tried are known best. */
-static void consider_tried(const struct search *s)
-{
-    for (size_t i = 0; i < s->plan->count; i++)
-        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
-            consider_column(s, br_plan_y(&s->plan->trial[i]));
-}
-
 static void look_through(struct search *s)
 {
     s->most_x = s->most_y = -INFINITY;
@@ -157,22 +131,26 @@ static void look_through(struct search *s)
         s->most_x = fmax(s->most_x, p->x);
         s->most_y = fmax(s->most_y, p->y);
     }
-    consider_tried(s);
-    if (s->named->method.scheme->adaptive)
-        consider_tolerances(s);
-    else
-        consider_steps(s);
+    for (size_t i = 0; i < s->plan->count; i++)
+        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
+            consider_column(s, br_plan_y(&s->plan->trial[i]));
+    if (s->named->method.scheme->adaptive) {
+        for (double tolerance = 0.1; - log(tolerance) <= s->most_y + log(most_beyond);
+             tolerance /= tolerance_factor)
+            consider_column(s, -log(tolerance));
+        return;
+    }
+    const double most = exp(s->most_y) * most_beyond;
+    double before = 0;
+    for (double real = BR_PLAN_LEAST_STEPS; real <= most; real *= step_factor) {
+        const double steps = floor(real + 0.5);
+        if (steps > before)
+            consider_column(s, log(steps));
+        before = steps;
+    }
 }
 
 /* ---- all named methods ---- */
-
-static double largest_seconds(const struct br_plan *plan)
-{
-    double most = 0;
-    for (size_t i = 0; i < plan->count; i++)
-        most = fmax(most, plan->seconds(&plan->trial[i])); /* NaN is passed over */
-    return most;
-}
 
 /* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
 static double best_seconds_of(const struct br_plan *plan, size_t best)
@@ -196,6 +174,9 @@ struct table {
 static void search_all(const struct br_plan *plan, size_t best, struct table *table)
 {
     const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
+    double most = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        most = fmax(most, plan->seconds(&plan->trial[i])); /* NaN is passed over */
     table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
     for (size_t c = 0; c < plan->methods.count; c++) {
         table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
@@ -204,7 +185,7 @@ static void search_all(const struct br_plan *plan, size_t best, struct table *ta
             .plan = plan,
             .named = &plan->methods.list[c],
             .models = &plan->model[c],
-            .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
+            .most_seconds = fmin(limit, most_growth * most),
             .best_seconds = best_seconds_of(plan, best),
             .safe = &table->safe[c],
             .gamble = &table->gamble[c],
@@ -298,23 +279,16 @@ static void propose_for_error(const struct br_plan *plan, struct table *table, s
         take(plan, batch, &table->explorer);
 }
 
-static void propose_for_seconds(const struct br_plan *plan, struct table *table, size_t best,
-                                struct br_plan_batch *batch)
-{
-    const double error = best < plan->count ? br_trial_bound(&plan->trial[best]) : INFINITY;
-    if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
-        return; /* the judge could not say what is better */
-    take_least(plan, batch, table->safe, SAFE, worth_seconds * error);
-}
-
 void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch)
 {
     struct table table;
     const size_t best = br_plan_best(plan);
+    const struct br_trial *t = best < plan->count ? &plan->trial[best] : NULL;
     batch->count = 0;
     search_all(plan, best, &table);
     if (isfinite(plan->goal.error))
         propose_for_error(plan, &table, best, batch);
-    else
-        propose_for_seconds(plan, &table, best, batch);
+    else if (!t || t->end != BR_TRIAL_DOUBTFUL) /* else the judge could not say what is better */
+        take_least(plan, batch, table.safe, SAFE,
+                   worth_seconds * (t ? br_trial_bound(t) : INFINITY));
 }
