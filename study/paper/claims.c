@@ -103,6 +103,17 @@ static double time_of(const struct br_history_row *row, size_t rows, size_t i)
     return i < rows ? row[i].time : NAN;
 }
 
+/* The last of an example's events that begins one of two phases; NULL: none. */
+static const struct br_exact_event *last_event(const struct br_example *e, enum br_phase a,
+                                               enum br_phase b)
+{
+    const struct br_exact_event *last = NULL;
+    for (size_t i = 0; i < e->events; i++)
+        if (e->event[i].phase == a || e->event[i].phase == b)
+            last = &e->event[i];
+    return last;
+}
+
 /* ---- Example 1: stick ---- */
 
 /* The largest |w| over the beam at the figure's times, m. */
@@ -153,13 +164,10 @@ static double last_movement(const struct br_history_record *record)
 static void measure_stuck(const struct br_paper *p, size_t which, struct br_finding *f)
 {
     const struct br_example *e = &p->example[which];
-    double own = NAN;
+    const struct br_exact_event *stick = last_event(e, BR_STICK, BR_STICK);
+    const double own = stick ? stick->error : NAN;
     f->value = last_movement(&e->record);
-    for (size_t i = 0; i < e->events; i++)
-        if (e->event[i].phase == BR_STICK) {
-            f->exact = e->event[i].time;
-            own = e->event[i].error;
-        }
+    f->exact = stick ? stick->time : NAN;
     f->error = fabs(f->value - f->exact) + own;
     f->agreement = f->exact > own ? BR_DIFFERS : br_below(f->exact, own, 1e-15);
     snprintf(
@@ -276,18 +284,6 @@ static size_t last_at_rest(const struct br_history_record *record)
     return i - 1;
 }
 
-/* When the exact tip begins to slip for good, s. */
-static double exact_release(const struct br_example *e, double *own)
-{
-    double time = *own = NAN;
-    for (size_t i = 0; i < e->events; i++)
-        if (e->event[i].phase == BR_SLIP_DOWN || e->event[i].phase == BR_SLIP_UP) {
-            time = e->event[i].time;
-            *own = e->event[i].error;
-        }
-    return time;
-}
-
 /* Theory: with a load q(t) L the propped cantilever's reaction is 3/8 q L; the bound is c_V. */
 static double theory_release(const struct br_scene *scene)
 {
@@ -299,11 +295,11 @@ static double theory_release(const struct br_scene *scene)
 static void measure_release(const struct br_paper *p, size_t which, struct br_finding *f)
 {
     const struct br_example *e = &p->example[which];
-    double own;
-    const size_t last = last_at_rest(&e->record);
-    f->value = e->record.row[last].time;
-    f->exact = exact_release(e, &own);
-    f->error = fabs(f->value - f->exact) + own + e->record.row[1].time; /* known to a step */
+    const struct br_exact_event *slip = last_event(e, BR_SLIP_DOWN, BR_SLIP_UP); /* for good */
+    f->value = e->record.row[last_at_rest(&e->record)].time;
+    f->exact = slip ? slip->time : NAN;
+    f->error = fabs(f->value - f->exact) + (slip ? slip->error : NAN) +
+               e->record.row[1].time; /* known to a step */
     f->printed = 0.68;
     f->agreement = br_same(f, 0.005);
     snprintf(
@@ -328,12 +324,10 @@ static void measure_reaches(const struct br_paper *p, size_t which, struct br_fi
 static void measure_penetrates(const struct br_paper *p, size_t which, struct br_finding *f)
 {
     const struct br_example *e = &p->example[which];
-    bool opens = false;
+    const bool opens = last_event(e, BR_OPEN, BR_OPEN);
     compare_most(e, opening, f);
     f->value = -f->value; /* the least penetration is the largest opening */
     f->exact = -f->exact;
-    for (size_t i = 0; i < e->events; i++)
-        opens = opens || e->event[i].phase == BR_OPEN;
     f->agreement = opens ? BR_DIFFERS : br_above(f->exact, 0, 0);
     snprintf(f->note, sizeof f->note,
              "the least is that of the first step, %.3g s; the exact contact %s",

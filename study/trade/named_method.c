@@ -7,11 +7,9 @@
 
 #include "study/scene/method_fields.h"
 
-enum { WORD = 32 };
-
 /* ---- the words of a name ---- */
 
-/* The words of a name are rows of the registries, and the words that a field has for its values. */
+/* Rows of the registries, and the words that a field has for its values. */
 static const struct br_method_field *const kinds[] = {
     &br_method_fields[BR_METHOD_SCHEME],    &br_method_fields[BR_METHOD_CONTACT],
     &br_method_fields[BR_METHOD_FRICTION],  &br_method_fields[BR_METHOD_SOLVER],
@@ -129,15 +127,9 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
                        BR_METHOD_NAME_SIZE - 1);
     strcpy(c->name, name);
     enum br_status status = BR_OK;
-    for (const char *rest = name; !status; rest++) {
-        char word[WORD];
-        const size_t length = strcspn(rest, "+");
-        snprintf(word, sizeof word, "%.*s", (int)(length < WORD ? length : WORD - 1), rest);
-        status = take_word(word, &c->method, taken, err);
-        rest += length;
-        if (!*rest)
-            break;
-    }
+    char words[BR_METHOD_NAME_SIZE], *rest = strcpy(words, name);
+    while (rest && !status)
+        status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
     return status ? status : check(&c->method, taken, err);
