@@ -297,26 +297,32 @@ static void test_refused(void **state)
 static void test_refused_lists(void **state)
 {
     (void)state;
-    static const double lists[][3] = {{4, 8, 4},           {4, 0, 8},        {4, -8, 16},
-                                      {4, (double)NAN, 8}, {4, INFINITY, 8}, {4, 8.5, 16},
-                                      {4, 8, 1e300}};
+    static const char *const lists[][2] = {
+        {"4,8,4", "n: 4 is given twice"},
+        {"4,0,8", "expected positive numbers"},
+        {"4,-8,16", "expected positive numbers"},
+        {"4,nan,8", "expected positive numbers"},
+        {"4,inf,8", "expected positive numbers"},
+        {"", "expected positive numbers"},
+        {"4,8.5,16", "n: found 8.5, expected a whole number above 0"},
+        {"4,8,1e300", "n: found 1e+300, expected a whole number above 0"},
+    };
     struct br_numbers numbers;
     struct br_error err;
-    struct br_orders_request p = program("true {n}");
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        p.axis[BR_AXIS_SPACE].given = lists[i];
-        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT,
-                i == 0 ? "n: found 4 twice" : "expected a whole number above 0");
+        struct br_orders_request r = br_orders_request_default();
+        REFUSED(br_orders_request_axis(&r, "n", lists[i][0], &err), BR_BAD_INPUT, lists[i][1]);
+        br_orders_request_clear(&r);
     }
-    p.axis[BR_AXIS_SPACE].count = 0;
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "n: the list is empty");
+    struct br_orders_request r = br_orders_request_default();
+    MUST(br_orders_request_reading(&r, "err", "err=(.*)", &err));
+    REFUSED(br_orders_request_reading(&r, "err", "e=(.*)", &err), BR_BAD_INPUT,
+            "err is read twice");
+    br_orders_request_clear(&r);
+    struct br_orders_request p = program("true {n}");
     p.axis[BR_AXIS_SPACE].column = NULL;
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no list");
     p = program("true {n}");
-    const struct br_reading twice[] = {err_reading, err_reading};
-    p.reading = twice;
-    p.readings = 2;
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "'err' is there twice");
     p.readings = 0;
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no reading");
 }

@@ -27,8 +27,6 @@ enum {
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
 
-static const double MOST_COUNTED = 0x1p53; /* all whole numbers below are doubles */
-
 /* One run to be. */
 struct cell {
     char **words;  /* owned, as they are; a NULL at the end */
@@ -573,22 +571,6 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-static enum br_status check_list(const struct br_program_axis *axis, struct br_error *err)
-{
-    const struct br_resolution_column *column = axis->column;
-    for (size_t i = 0; i < axis->count; i++) {
-        const double given = axis->given[i];
-        const bool whole = given == floor(given) && given < MOST_COUNTED;
-        if (!(given > 0 && isfinite(given)) || !(column->is_size || whole))
-            return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
-                           given, column->is_size ? "finite size" : "whole number");
-        for (size_t k = 0; k < i; k++)
-            if (axis->given[k] == given)
-                return br_fail(err, BR_BAD_INPUT, "%s: found %.17g twice", column->name, given);
-    }
-    return axis->count ? BR_OK : br_fail(err, BR_BAD_INPUT, "%s: the list is empty", column->name);
-}
-
 static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
                                 struct br_error *err)
 {
@@ -618,26 +600,10 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     for (size_t i = 0; i < p->readings && !status; i++) {
         const char *name = p->reading[i].name;
         status = br_reading_check(&p->reading[i], err);
-        for (size_t k = 0; k < i && !status; k++)
-            if (strcmp(p->reading[k].name, name) == 0)
-                status = br_fail(err, BR_BAD_INPUT, "the reading '%s' is there twice", name);
         if (!status)
             status = br_numbers_add_quantity(numbers, name, NULL, br_lists(p->values, name), err);
     }
     return status ? status : br_orders_check_lists(p, numbers, err);
-}
-
-static enum br_status check(const struct br_orders_request *p, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    if (!p->axis[BR_AXIS_SPACE].column && !p->axis[BR_AXIS_TIME].column)
-        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
-    if (p->readings == 0)
-        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    for (int i = 0; i < BR_AXES && !status; i++)
-        if (p->axis[i].column)
-            status = check_list(&p->axis[i], err);
-    return status;
 }
 
 enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
@@ -645,7 +611,11 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
 {
     struct job j = {.program = program, .numbers = numbers};
     *numbers = (struct br_numbers){.rows = 0};
-    enum br_status status = check(program, err);
+    enum br_status status = BR_OK;
+    if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
+        status = br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    else if (program->readings == 0)
+        status = br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
     if (!status)
         status = make_rows(program, numbers, err);
     if (!status)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/orders/request.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "study/orders/sha256.h"
@@ -115,7 +116,11 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     if (r->axis[c->axis].column)
         return br_fail(err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
                        r->axis[c->axis].column->name, column);
-    const enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    for (size_t i = 0; i < count && !status; i++) /* all whole numbers below 2^53 are doubles */
+        if (!c->is_size && !(given[i] == floor(given[i]) && given[i] < 0x1p53))
+            status = br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a whole number above 0",
+                             column, given[i]);
     r->axis[c->axis] = (struct br_program_axis){c, given, count};
     return status;
 }

@@ -160,7 +160,8 @@ void br_remove_folder(const char *folder);
 
 /* ---- parts of a request, as options and study files write them ---- */
 
-/* The list of an axis: "10,20,40", of the column n, h, dofs, k, dt or steps. */
+/* The list of an axis: "10,20,40", of the column n, h, dofs, k, dt or steps: positive, counts
+ * whole, each once. */
 enum br_status br_orders_request_axis(struct br_orders_request *request, const char *column,
                                       const char *list, struct br_error *err);
 
