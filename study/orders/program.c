@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-
+/* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -17,6 +17,7 @@
 #include "solver/clock.h"
 #include "study/grid/each.h"
 #include "study/orders/request.h"
+#include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
 enum {
@@ -542,6 +543,165 @@ static enum br_status run_cell(const struct job *j, const struct cell *cell,
     return status;
 }
 
+/* ---- finished cells ---- */
+
+static const char format[] = "beamrate-cell 1";
+
+enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes that are read for a word */
+
+/* With what it is and its end, so that no two lists of texts are the same bytes. */
+static void add_text(struct br_sha256 *sum, char kind, const char *text)
+{
+    br_sha256_add(sum, &kind, 1);
+    br_sha256_add(sum, text, strlen(text) + 1);
+}
+
+/* What is no regular file counts by its name alone. */
+static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
+                               struct br_error *err)
+{
+    struct stat info;
+    char text[BR_SHA256_TEXT];
+    long long size;
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return BR_OK;
+    snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
+             (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    if (info.st_size <= largest) {
+        const int file = open(path, O_RDONLY | O_CLOEXEC);
+        const bool read = file >= 0 && br_sha256_file(file, &size, text);
+        const int reason = errno;
+        if (file >= 0)
+            close(file);
+        if (!read)
+            return br_fail(err, BR_IO,
+                           "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
+                           strerror(reason));
+    }
+    add_text(sum, 'f', text);
+    return BR_OK;
+}
+
+/* Names a cell after all that its numbers follow from, as far as that can be seen: the words, the
+ * contents of the program and of files that words name, also behind a "=" (of large ones their size
+ * and time), and the readings. Files that the program reads without being told are not seen. */
+static enum br_status key_of(const struct br_orders_request *request, const struct cell *cell,
+                             char key[BR_SHA256_TEXT], struct br_error *err)
+{
+    struct br_sha256 sum;
+    br_sha256_start(&sum);
+    add_text(&sum, 'v', format);
+    add_text(&sum, 'p', cell->program);
+    enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
+    for (char **word = cell->words; *word && !status; word++) {
+        const char *behind = strchr(*word, '=');
+        add_text(&sum, 'w', *word);
+        status = add_file(&sum, *word, LARGEST_WORD_FILE, err);
+        if (behind && !status)
+            status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
+    }
+    for (size_t i = 0; i < request->readings; i++) {
+        add_text(&sum, 'n', request->reading[i].name);
+        add_text(&sum, "rjc"[request->reading[i].kind], request -> reading[i].what);
+    }
+    br_sha256_end(&sum, key);
+    return status;
+}
+
+static double number_or_nan(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+/* Fills the row's numbers, seconds and bytes, and says that it was kept. false: there is no such
+ * cell that can be read. */
+static bool find_cell(const struct br_orders_request *request, const char *key,
+                      struct br_numbers_row *row)
+{
+    char path[PATH_MAX];
+    const size_t readings = request->readings;
+    if ((size_t)snprintf(path, sizeof path, "%s/%s.json", request->kept, key) >= sizeof path)
+        return false;
+    json_t *kept = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
+    const char *tag = json_string_value(json_object_get(kept, "format"));
+    const json_t *numbers = json_object_get(kept, "numbers");
+    bool found = tag && strcmp(tag, format) == 0 && json_array_size(numbers) == readings;
+    for (size_t i = 0; i < readings && found; i++) {
+        row->number[i] = number_or_nan(json_array_get(numbers, i));
+        found = isfinite(row->number[i]);
+    }
+    if (found) {
+        row->seconds = number_or_nan(json_object_get(kept, "seconds"));
+        row->bytes = number_or_nan(json_object_get(kept, "bytes"));
+        row->kept = true;
+    }
+    json_decref(kept);
+    return found;
+}
+
+static json_t *json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* NULL: out of memory. The command is there for people. */
+static json_t *text_of(const struct cell *cell, size_t readings, const struct br_numbers_row *row)
+{
+    json_t *command = json_array(), *numbers = json_array();
+    bool whole = command && numbers;
+    for (char **word = cell->words; *word && whole; word++) {
+        char text[512];
+        br_quoted(text, sizeof text, &br_for_text, *word);
+        whole = json_array_append_new(command, json_string(text)) == 0;
+    }
+    for (size_t i = 0; i < readings && whole; i++)
+        whole = json_array_append_new(numbers, json_number(row->number[i])) == 0;
+    json_t *all = whole ? json_pack("{s:s, s:O, s:O, s:o, s:o}", "format", format, "command",
+                                    command, "numbers", numbers, "seconds",
+                                    json_number(row->seconds), "bytes", json_number(row->bytes))
+                        : NULL;
+    json_decref(command);
+    json_decref(numbers);
+    return all;
+}
+
+/* By rename: another study finds it whole, or not at all. */
+static bool write_cell(char *unfinished, const char *finished, const json_t *cell)
+{
+    const int file = mkostemp(unfinished, O_CLOEXEC);
+    if (file < 0)
+        return false;
+    const bool written = json_dumpfd(cell, file, JSON_INDENT(1)) == 0 && fsync(file) == 0;
+    int reason = errno;
+    close(file);
+    if (written && rename(unfinished, finished) == 0)
+        return true;
+    reason = written ? errno : reason;
+    unlink(unfinished);
+    errno = reason;
+    return false;
+}
+
+/* Keeps a row, whole or not at all. */
+static enum br_status keep_cell(const struct br_orders_request *request, const char *key,
+                                const struct cell *of, const struct br_numbers_row *row,
+                                struct br_error *err)
+{
+    char unfinished[PATH_MAX], finished[PATH_MAX];
+    json_t *cell = text_of(of, request->readings, row);
+    if (!cell)
+        return br_no_memory(err, "a finished cell");
+    snprintf(unfinished, sizeof unfinished, "%s/.unfinished-XXXXXX", request->kept);
+    const int length = snprintf(finished, sizeof finished, "%s/%s.json", request->kept, key);
+    errno = ENAMETOOLONG;
+    const bool kept = (size_t)length < sizeof finished && write_cell(unfinished, finished, cell);
+    const int reason = errno;
+    json_decref(cell);
+    return kept ? BR_OK
+                : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                          request->kept, strerror(reason));
+}
+
 /* A cell whose program has changed meanwhile is not kept. */
 static enum br_status take_cell(void *self, size_t i, struct br_error *err)
 {
@@ -549,19 +709,19 @@ static enum br_status take_cell(void *self, size_t i, struct br_error *err)
     const struct br_orders_request *p = j->program;
     const struct cell *cell = &j->cell[i];
     struct br_numbers_row *row = &j->numbers->row[i];
-    char key[BR_CELL_KEY], now[BR_CELL_KEY];
+    char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
     if (!p->kept)
         return run_cell(j, cell, row, err);
-    enum br_status status = br_cell_key(p, cell->program, cell->words, key, err);
-    if (status || (!p->anew && br_cell_find(p, key, row)))
+    enum br_status status = key_of(p, cell, key, err);
+    if (status || (!p->anew && find_cell(p, key, row)))
         return status;
     status = run_cell(j, cell, row, err);
     if (status || row->failure)
         return status;
-    status = br_cell_key(p, cell->program, cell->words, now, err);
+    status = key_of(p, cell, now, err);
     if (status || strcmp(key, now) != 0)
         return status;
-    return br_cell_keep(p, key, cell->words, row, err);
+    return keep_cell(p, key, cell, row, err);
 }
 
 /* ---- the grid ---- */

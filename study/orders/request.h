@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is asked of a study of any program, by options or by a study file, and the sources of its
- * numbers: a table in a file (table.c), or a program that is run (program.c: its runs;
- * program_reading.c: numbers in what it prints; program_cache.c: finished cells in a folder). */
+ * numbers: a table in a file (table.c), or a program that is run (program.c; program_reading.c: the
+ * numbers in what it prints). */
 #ifndef BR_STUDY_ORDERS_REQUEST_H
 #define BR_STUDY_ORDERS_REQUEST_H
 
@@ -134,25 +134,6 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
  * one; the message begins with the reading's name. */
 enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
                                double *number, struct br_error *err);
-
-enum { BR_CELL_KEY = 65 };
-
-/* Names a cell after all that its numbers follow from, as far as that can be seen: the words, the
- * contents of the program (an absolute path) and of files that words name, also behind a "=" (above
- * 64 MiB their size and time stand for them), and the readings. Relative names are looked up
- * in the caller's folder. Files that the program reads without being told are not seen. */
-enum br_status br_cell_key(const struct br_orders_request *request, const char *program,
-                           char *const *words, char key[BR_CELL_KEY], struct br_error *err);
-
-/* Fills the row's numbers, seconds and bytes, and says that it was kept. false: there is no such
- * cell that can be read. */
-bool br_cell_find(const struct br_orders_request *request, const char *key,
-                  struct br_numbers_row *row);
-
-/* Keeps a row, whole or not at all. */
-enum br_status br_cell_keep(const struct br_orders_request *request, const char *key,
-                            char *const *words, const struct br_numbers_row *row,
-                            struct br_error *err);
 
 /* Removes a folder with all that is in it; "": none. What has just been killed may still be there
  * for a moment, and write, so it is tried for a while. */

@@ -317,16 +317,6 @@ static enum br_status take_column(const struct source *s, size_t place, struct b
     return status;
 }
 
-static enum br_status take_columns(const struct source *s, struct br_error *err)
-{
-    enum br_status status = br_numbers_make_room(s->numbers, s->rows, s->columns, err);
-    for (size_t i = 0; i < s->rows && !status; i++)
-        s->numbers->row[i].line = line_of(s, i + 1);
-    for (size_t i = 1; i <= s->columns && !status; i++)
-        status = take_column(s, i, err);
-    return status ? status : br_orders_check_lists(s->request, s->numbers, err);
-}
-
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
@@ -343,7 +333,13 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
         status = br_fail(err, BR_BAD_INPUT, "%s: found %zu rows, expected at most %d", s.path,
                          s.rows, BR_MOST_TABLE_ROWS);
     if (!status)
-        status = take_columns(&s, err);
+        status = br_numbers_make_room(numbers, s.rows, s.columns, err);
+    for (size_t i = 0; i < s.rows && !status; i++)
+        numbers->row[i].line = line_of(&s, i + 1);
+    for (size_t i = 1; i <= s.columns && !status; i++)
+        status = take_column(&s, i, err);
+    if (!status)
+        status = br_orders_check_lists(q, numbers, err);
     json_decref(s.table);
     if (status)
         return status;

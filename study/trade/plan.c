@@ -106,58 +106,45 @@ static void forget(struct br_plan *p)
     }
 }
 
-/* What is seen of one named method's trials, in room for all. */
-struct seen {
-    struct br_plan_point *point;
-    struct br_plan_work *work;
-    size_t points, works;
-};
-
-static void see(const struct br_plan *p, const struct br_named_method *c, struct seen *seen)
-{
-    seen->points = seen->works = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        const struct br_trial *t = &p->trial[i];
-        const double error = br_trial_bound(t), seconds = p->seconds(t);
-        if (t->named != c)
-            continue;
-        if (error > 0 && isfinite(error))
-            seen->point[seen->points++] =
-                (struct br_plan_point){log((double)t->at.n), br_plan_y(t), error};
-        if (seconds > 0 && isfinite(seconds) && t->cost.counts.stages > 0)
-            seen->work[seen->works++] = (struct br_plan_work){
-                (double)t->at.n, br_plan_y(t), (double)t->cost.counts.stages, seconds};
-    }
-}
-
-/* The space error's order is 2 for elements of degree 1; of more it is measured. */
-static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
+/* By what is seen of its trials, in room for all. The space error's order is 2 for elements of
+ * degree 1; of more it is measured. */
+static enum br_status fit_one(struct br_plan *p, size_t c, struct br_plan_point *point,
+                              struct br_plan_work *work, struct br_error *err)
 {
     const struct br_named_method *named = &p->methods.list[c];
     struct br_plan_models *m = &p->model[c];
-    const double p_order = 1.0 + named->method.axial_degree;
-    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
-    see(p, named, seen);
-    if (seen->points < 4 || seen->works == 0)
+    size_t points = 0, works = 0;
+    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
+        const double error = br_trial_bound(t), seconds = p->seconds(t), n = (double)t->at.n;
+        const double solves = (double)t->cost.counts.stages;
+        if (t->named != named)
+            continue;
+        if (error > 0 && isfinite(error))
+            point[points++] = (struct br_plan_point){log(n), br_plan_y(t), error};
+        if (seconds > 0 && isfinite(seconds) && solves > 0)
+            work[works++] = (struct br_plan_work){n, br_plan_y(t), solves, seconds};
+    }
+    if (points < 4 || works == 0)
         return BR_OK;
+    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
     enum br_status status =
-        br_plan_model_fit(&m->error, seen->point, seen->points, p_order, q, err);
+        br_plan_model_fit(&m->error, point, points, 1.0 + named->method.axial_degree, q, err);
     if (!status)
-        status = br_plan_cost_fit(&m->cost, seen->work, seen->works, err);
+        status = br_plan_cost_fit(&m->cost, work, works, err);
     m->known = !status;
     return status == BR_NO_MEMORY ? status : BR_OK;
 }
 
 static enum br_status fit_all(struct br_plan *p, struct br_error *err)
 {
-    struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
-                        .work = br_allocate(p->count + 1, sizeof *seen.work)};
-    enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
+    struct br_plan_point *point = br_allocate(p->count + 1, sizeof *point);
+    struct br_plan_work *work = br_allocate(p->count + 1, sizeof *work);
+    enum br_status status = point && work ? BR_OK : br_no_memory(err, "the models");
     forget(p);
     for (size_t c = 0; c < p->methods.count && !status; c++)
-        status = fit_one(p, c, &seen, err);
-    free(seen.point);
-    free(seen.work);
+        status = fit_one(p, c, point, work, err);
+    free(point);
+    free(work);
     return status;
 }
 
@@ -266,12 +253,6 @@ double br_plan_spent(const struct br_plan *p)
 
 /* ---- rounds ---- */
 
-static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *err)
-{
-    return p->count > from ? br_trials_hold(&p->trial[from], p->count - from, &p->request, err)
-                           : BR_OK;
-}
-
 /* Whether the rounds have gone on for long without anything better than the best. */
 static bool is_idle(const struct br_plan *p)
 {
@@ -295,7 +276,8 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
         add(p, &trial, (struct br_plan_forecast){p->rounds + 1, exp(c->log_error), c->seconds});
     }
     *tried = p->count > from;
-    status = hold_new(p, from, err);
+    if (*tried)
+        status = br_trials_hold(&p->trial[from], p->count - from, &p->request, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
     return status;
@@ -352,7 +334,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     const size_t repeats = p->request.repeats;
     p->request.repeats = 1;
     if (!status)
-        status = hold_new(p, 0, err);
+        status = br_trials_hold(p->trial, p->count, &p->request, err);
     p->request.repeats = repeats;
     if (!status)
         status = check_probes(p, err);
