@@ -343,7 +343,6 @@ static enum br_status run_coupled(struct br_paper *p, struct br_error *err)
 struct work {
     struct br_paper *paper;
     const struct br_observer *observer;
-    size_t sweep[BR_SWEEPS]; /* points */
 };
 
 /* The long ones first: exact solutions, examples, the sweep, the rest. */
@@ -356,8 +355,8 @@ static enum br_status run_task(void *self, size_t task, struct br_error *err)
     if (task < BR_EXAMPLES)
         return run_example(w->paper, task, err);
     task -= BR_EXAMPLES;
-    for (size_t s = 0; s < BR_SWEEPS; task -= w->sweep[s++])
-        if (task < w->sweep[s])
+    for (size_t s = 0; s < BR_SWEEPS; task -= w->paper->sweep[s++].points)
+        if (task < w->paper->sweep[s].points)
             return run_sweep_point(w->paper, s, task, err);
     return task ? run_coupled(w->paper, err) : run_early(w->paper, err);
 }
@@ -365,9 +364,9 @@ static enum br_status run_task(void *self, size_t task, struct br_error *err)
 static enum br_status run_tasks(struct br_paper *p, const struct br_observer *observer,
                                 struct br_error *err)
 {
-    struct work work = {p, observer, {p->sweep[0].points, p->sweep[1].points}};
+    struct work work = {p, observer};
     const struct br_each each = {
-        .count = 2 * BR_EXAMPLES + work.sweep[0] + work.sweep[1] + 2,
+        .count = 2 * BR_EXAMPLES + p->sweep[0].points + p->sweep[1].points + 2,
         .threads = p->request.threads,
         .observer = observer,
         .turn = run_task,

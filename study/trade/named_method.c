@@ -199,35 +199,24 @@ static void add_scheme(const struct br_scene *scene, const struct br_time_scheme
         add(scene, all, "%s+%s", scheme->name, (*rule)->name);
 }
 
-/* The first scheme of order two: what the other friction rules and solvers are held with. */
-static const struct br_time_scheme *base_scheme(void)
+void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
 {
-    const struct br_time_scheme *const *scheme = br_time_schemes;
-    while (scheme[1] && (*scheme)->order != 2)
-        scheme++;
-    return *scheme;
-}
-
-static void add_solvers(const struct br_scene *scene, const char *base,
-                        struct br_named_methods *all)
-{
+    /* The first scheme of order two: what the other friction rules and solvers are held with. */
+    const struct br_time_scheme *const *second = br_time_schemes;
+    while (second[1] && (*second)->order != 2)
+        second++;
+    const char *base = (*second)->name;
+    all->count = 0;
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        add_scheme(scene, *s, all);
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        if (scene->axial.modelled && (s == second || (*s)->order > 2))
+            add(scene, all, "%s+p2", (*s)->name);
+    for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
+        add(scene, all, "%s+%s", base, br_friction_rules[i]->name);
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
         add(scene, all, "%s+%s", base, (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling") && br_linear_solver_heeds(*s, "--refinement"))
             add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
     }
-}
-
-void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
-{
-    const struct br_time_scheme *base = base_scheme();
-    all->count = 0;
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        add_scheme(scene, *s, all);
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        if (scene->axial.modelled && (*s == base || (*s)->order > 2))
-            add(scene, all, "%s+p2", (*s)->name);
-    for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
-        add(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
-    add_solvers(scene, base->name, all);
 }
