@@ -7,7 +7,7 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "plots/pictures.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 #include "tables/reports.h"
 
 struct run {

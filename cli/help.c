@@ -130,10 +130,9 @@ static void print_methods(FILE *out)
         print_heeders(out, i);
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
-    for (size_t i = 0; i < br_named_method_kinds(); i++) {
-        const char *title = br_named_method_kind(i, text, sizeof text);
+    const char *title;
+    for (size_t i = 0; (title = br_named_method_kind(i, text, sizeof text)); i++)
         fprintf(out, "  %-30s %s\n", title, text);
-    }
 }
 
 /* ---- the command ---- */

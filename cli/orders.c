@@ -8,7 +8,6 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
-#include "study/orders/table.h"
 #include "study/scene/file.h"
 
 struct run {
@@ -90,7 +89,8 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
                                              : path,
                                   &q->path, err) ||
                         copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err) ||
-                        (path && br_table_load(standard ? "/dev/stdin" : path, &q->table, err)) ||
+                        (path && br_text_load(standard ? "/dev/stdin" : path, BR_LONGEST_TABLE,
+                                          "table", &q->table, err)) ||
                         read_options(o, q, err);
     return failed ? err->status : BR_OK;
 }
@@ -128,7 +128,12 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
-    return expect ? br_orders_request_expect(q, "--expect", expect, 0, err) : BR_OK;
+    q->jobs = r->session.threads;
+    q->kept = br_option_text(o, BR_OPT_KEEP);
+    q->anew = !br_option_given(o, BR_OPT_RESUME);
+    return expect ? br_expectations_read("--expect", expect, 0, &q->expectation, &q->expectations,
+                                         err)
+                  : BR_OK;
 }
 
 /* What can be refused is refused before a program is run. */

@@ -39,7 +39,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     br_plan_default(p, &r->opened.scene);
     p->goal = (struct br_plan_goal){br_option_number(o, BR_OPT_ERROR, NAN),
                                     br_option_number(o, BR_OPT_SECONDS, NAN)};
-    p->norm[0] = r->study.norm[0];
+    p->request.norm = r->study.norm[0];
     p->request.judge = judge;
     p->request.threads = r->session.threads;
     p->request.repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);

@@ -10,7 +10,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"

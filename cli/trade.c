@@ -60,7 +60,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
         q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
-    item->trade.norm[0] = r->study.norm[0];
+    q->norm = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
     q->reference_method = fine_method();

@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #include "plots/pictures.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 
 static const char horizontal[] = "horizontal displacement u (m)",
                   vertical[] = "vertical displacement w (m)", over_time[] = "time t (s)",

@@ -64,14 +64,14 @@ bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_
 /* Errors beyond 10 say nothing, and widen no axis. */
 static bool has_place(const struct br_trade_picture *p, const struct br_trial *t)
 {
-    const double error = br_trial_relative(t, 0, BR_PART_TOTAL);
+    const double error = br_trial_relative(t);
     return error > 0 && error <= 10 && p->work(t) > 0;
 }
 
 static void add_trial(const struct br_trade_picture *p, const struct br_trial *t,
                       struct br_series *s)
 {
-    br_point_add(s, p->work(t), br_trial_relative(t, 0, BR_PART_TOTAL), NULL);
+    br_point_add(s, p->work(t), br_trial_relative(t), NULL);
 }
 
 /* The trials that count of a method, or of all that are shown (NULL), but those that another one
@@ -83,7 +83,7 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
         if ((only ? trial->named == only : p->shows(t, trial->named)) &&
-            isfinite(br_trial_bound(trial, 0)) && has_place(p, trial))
+            isfinite(br_trial_bound(trial)) && has_place(p, trial))
             add_trial(p, trial, s);
     }
     br_series_sort(s);
@@ -136,7 +136,7 @@ static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
     for (size_t i = 0; i < t->count; i++)
         for (size_t k = 0; k < front->count && t->trial[i].named == c; k++)
             kept += front->point[k].x == p->work(&t->trial[i]) &&
-                    front->point[k].y == br_trial_relative(&t->trial[i], 0, BR_PART_TOTAL);
+                    front->point[k].y == br_trial_relative(&t->trial[i]);
     return br_trade_is_printed_method(c) ? t->count + 2 : kept;
 }
 
@@ -173,7 +173,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
         BR_SAY(f->note[0], "not drawn: %zu failed, %zu over the time limit", failed, over);
     struct br_panel *panel = br_panel_add(f, picture->label, "");
     panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "relative %s", trade->norm[0]->symbol);
+    BR_SAY(panel->y_label, "relative %s", trade->request.norm->symbol);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "Pareto front");
     add_front(picture, trade, NULL, front);
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++)

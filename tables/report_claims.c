@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "study/fit/fit.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 #include "tables/reports.h"
 
 /* "0.7990 +- 0.0020 s" */

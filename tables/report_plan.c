@@ -10,7 +10,7 @@
 
 static double error_of(const struct br_plan *p, size_t i)
 {
-    return br_trial_bound(&p->trial[i], 0);
+    return br_trial_bound(&p->trial[i]);
 }
 
 static void answer_trial(struct br_document *d, const struct br_plan *p, const char *what, size_t i)
@@ -83,7 +83,7 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
         return;
     const struct br_trial *t = &p->trial[p->chosen];
     const struct br_method method = br_trial_method(t);
-    const bool usual = p->norm[0] == br_norms[0];
+    const bool usual = p->request.norm == br_norms[0];
     char scene[1024], options[BR_METHOD_TEXT], step[64], line[2048];
     br_quoted(scene, sizeof scene, &br_for_shell, scene_word);
     snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
@@ -94,7 +94,8 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
     else
         snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
     snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
-             t->named->name, t->at.n, step, usual ? "" : " --norm ", usual ? "" : p->norm[0]->name);
+             t->named->name, t->at.n, step, usual ? "" : " --norm ",
+             usual ? "" : p->request.norm->name);
     br_put_command(d, "trade", "To measure it again", line);
 }
 
@@ -118,7 +119,7 @@ static void put_answer(struct br_document *d, const struct br_plan *p, const cha
 static const char *remark_on(const struct br_plan *p, size_t i)
 {
     if (p->trial[i].end != BR_TRIAL_DONE)
-        return br_trial_end_name(p->trial[i].end);
+        return br_trial_end_names[p->trial[i].end];
     if (i == p->chosen)
         return i == p->first ? "first, chosen" : "chosen";
     return i == p->first ? "first" : NULL;
@@ -142,7 +143,7 @@ static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
     BR_PUT(d, br_count(c->steps), .key = "steps");
     br_hide(d, "solves", NULL, br_count(c->stages));
     br_hide(d, "set_ups", NULL, br_count(c->set_ups));
-    br_hide(d, "end", NULL, br_text(br_trial_end_name(t->end)));
+    br_hide(d, "end", NULL, br_text(br_trial_end_names[t->end]));
     br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
     br_hide(d, "failure", NULL, br_failure_text(&t->failure));
     BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
@@ -226,8 +227,8 @@ static void put_facts(struct br_document *d, const struct br_plan *p)
     br_hide_fact(d, br_text(p->request.scene->name), NULL, "scene.name");
     br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
     br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
-    br_hide_fact(d, br_text(p->norm[0]->name), NULL, "norm");
-    br_hide_fact(d, br_text(br_plan_end_name(p->end)), NULL, "end");
+    br_hide_fact(d, br_text(p->request.norm->name), NULL, "norm");
+    br_hide_fact(d, br_text(br_plan_end_names[p->end]), NULL, "end");
     br_hide_fact(d, br_number(p->own), NULL, "own_error");
     br_hide_fact(d, br_count(p->rounds), NULL, "rounds");
     br_hide_fact(d, br_if(p->first < p->count, br_count(p->first)), NULL, "first");
@@ -251,7 +252,7 @@ static void put_notes(struct br_document *d, const struct br_plan *p, const char
             "both relative. The observed order in h is %.2f, in %s it is %.2f.",
             parts.space, parts.time, parts.p,
             p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k", parts.q);
-    br_put_note(d, "%s", p->norm[0]->title);
+    br_put_note(d, "%s", p->request.norm->title);
     br_put_note(d,
                 "Relative errors are over the norm of the solution; the judge's own error, %.1e, "
                 "is added.",

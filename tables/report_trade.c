@@ -15,7 +15,7 @@ static const char *describe(const struct br_trade *t, size_t i, char text[TEXT])
     char trial[BR_TRIAL_TEXT];
     snprintf(text, TEXT, "%s; %.3g CPU s, relative error %.2e",
              br_trial_text(t->request.scene, &t->trial[i], trial), br_trial_seconds(&t->trial[i]),
-             br_trial_relative(&t->trial[i], 0, BR_PART_TOTAL));
+             br_trial_relative(&t->trial[i]));
     return text;
 }
 
@@ -98,7 +98,7 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
         const enum br_trial_end end = (enum br_trial_end)i;
         if (!br_trade_tally(t, end))
             continue;
-        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_name(end));
+        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_names[end]);
         between = ", ";
     }
     br_put_more(d, ".");
@@ -117,16 +117,16 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
 {
     const struct br_trial *trial = &t->trial[i];
     const struct br_counts *c = &trial->cost.counts;
-    const double *error = trial->error[0];
-    const char *unit = t->norm[0]->unit;
+    const double *error = trial->error;
+    const char *unit = t->request.norm->unit;
     br_put_trial(d, t->request.scene, trial);
-    BR_PUT(d, br_number(br_trial_relative(trial, 0, BR_PART_TOTAL)), .key = "relative_error",
+    BR_PUT(d, br_number(br_trial_relative(trial)), .key = "relative_error",
            .heading = "relative error", .format = "%.2e");
     BR_PUT(d, br_number(error[BR_PART_TOTAL]), .key = "error", .unit = unit, .format = "%.3e");
     br_hide(d, "axial", unit, br_number(error[BR_PART_AXIAL]));
     br_hide(d, "bending", unit, br_number(error[BR_PART_BENDING]));
-    br_hide(d, "own_error", unit, br_number(trial->own[0]));
-    br_hide(d, "scale", unit, br_number(trial->scale[0]));
+    br_hide(d, "own_error", unit, br_number(trial->own));
+    br_hide(d, "scale", unit, br_number(trial->scale));
     BR_PUT(d, br_number(br_trial_seconds(trial)), .key = "seconds", .heading = "CPU", .unit = "s",
            .format = "%.3g");
     br_hide(d, "set_up", "s", br_number(trial->cost.set_up));
@@ -139,7 +139,7 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
     br_hide(d, "set_ups", NULL, br_count(c->set_ups));
     BR_PUT(d, br_number(br_trade_digits_per_second(trial)), .key = "digits_per_second",
            .heading = "digits/s", .format = "%.3g", .flags = BR_FILES_ONLY);
-    br_hide(d, "end", NULL, br_text(br_trial_end_name(trial->end)));
+    br_hide(d, "end", NULL, br_text(br_trial_end_names[trial->end]));
     br_hide(d, "front", NULL, br_truth(t->front[i]));
     br_hide(d, "printed", NULL, br_truth(trial->printed));
     br_hide(d, "failure", NULL, br_failure_text(&trial->failure));
@@ -205,7 +205,7 @@ static void put_failures(struct br_document *d, const struct br_trade *t)
             continue;
         br_put_row(d);
         br_put_trial(d, t->request.scene, trial);
-        BR_PUT(d, br_text(br_trial_end_name(trial->end)), .key = "end");
+        BR_PUT(d, br_text(br_trial_end_names[trial->end]), .key = "end");
         BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
     }
 }
@@ -221,19 +221,19 @@ static const struct br_judge *judge_of(const struct br_trade *t)
 static void note_judge(struct br_document *d, const struct br_trade *t)
 {
     const struct br_trial *known = t->trial;
-    while (known < t->trial + t->count && !isfinite(known->scale[0]))
+    while (known < t->trial + t->count && !isfinite(known->scale))
         known++;
-    br_put_note(d, "%s", t->norm[0]->title);
+    br_put_note(d, "%s", t->request.norm->title);
     br_put_note(d, "Judged by: %s.", judge_of(t)->title);
     if (known == t->trial + t->count)
         return;
-    br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale[0],
-                t->norm[0]->unit);
-    if (isfinite(known->own[0]))
+    br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale,
+                t->request.norm->unit);
+    if (isfinite(known->own))
         br_put_note(d,
                     "The judge's own error is at most %.1e of that. It is added before a trial "
                     "counts as good enough.",
-                    known->own[0] / known->scale[0]);
+                    known->own / known->scale);
 }
 
 static void put_notes(struct br_document *d, const struct br_trade *t, const char *machine)
@@ -260,8 +260,8 @@ static void put_facts(struct br_document *d, const struct br_trade *t)
 {
     const struct br_fact facts[] = {
         {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
-        {"norm", NULL, NULL, br_text(t->norm[0]->name)},
-        {"unit", NULL, NULL, br_text(t->norm[0]->unit)},
+        {"norm", NULL, NULL, br_text(t->request.norm->name)},
+        {"unit", NULL, NULL, br_text(t->request.norm->unit)},
         {"judge", NULL, NULL, br_text(judge_of(t)->name)},
         {"repeats", NULL, NULL, br_count(t->request.repeats)},
         {"repeat_seconds", NULL, NULL, br_number(t->request.repeat_seconds)},

@@ -9,7 +9,7 @@
 
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 #include "support.h"
 
 static const size_t grid_n[] = {10, 20, 30, 40, 60}, grid_steps[] = {20, 50, 100, 200};

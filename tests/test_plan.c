@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 #include "support.h"
 
 /* ---- models, on made-up data ---- */
@@ -170,17 +170,14 @@ static double exhaustive(const struct br_plan *plan, double most)
                     continue;
                 trial[count++] = adaptive
                                      ? (struct br_trial){.named = one,
-                                                         .at = {n[i], BR_PLAN_LEVELS},
+                                                         .at = {n[i], BR_TRIAL_LEVELS},
                                                          .tolerance = pow(0.1, 0.5 + (double)j)}
                                      : (struct br_trial){.named = one, .at = {n[i], k[j]}};
             }
-    struct br_trial_request request = plan->request;
-    request.norm = plan->norm;
-    request.norms = 1;
-    MUST(br_trials_hold(trial, count, &request, &err));
+    MUST(br_trials_hold(trial, count, &plan->request, &err));
     double least = INFINITY;
     for (size_t i = 0; i < count; i++)
-        if (br_trial_bound(&trial[i], 0) <= plan->goal.error)
+        if (br_trial_bound(&trial[i]) <= plan->goal.error)
             least = fmin(least, counted(&trial[i]));
     free(trial);
     return least;
@@ -203,12 +200,12 @@ static void test_promise(void **state)
             MUST(br_plan_make(plan, &err));
             assert_true(plan->chosen < plan->count);
             const struct br_trial *t = &plan->trial[plan->chosen];
-            const double achieved = br_trial_bound(t, 0), cost = counted(t);
+            const double achieved = br_trial_bound(t), cost = counted(t);
             const double best = exhaustive(plan, cost);
             if (!(achieved <= errors[e] && achieved >= errors[e] / br_plan_band) ||
                 plan->end != BR_PLAN_MET)
                 fail_msg("%s to %g: achieved %g, %s", scenes[s], errors[e], achieved,
-                         br_plan_end_name(plan->end));
+                         br_plan_end_names[plan->end]);
             if (!(cost <= 2 * best))
                 fail_msg("%s to %g: %s, n = %zu costs %g, the best %g", scenes[s], errors[e],
                          t->named->name, t->at.n, cost, best);
@@ -231,7 +228,7 @@ static void test_seconds(void **state)
         MUST(br_plan_make(plan, &err));
         assert_int_equal(plan->end, BR_PLAN_MET);
         AT_MOST(counted(&plan->trial[plan->chosen]), seconds[i]);
-        AT_MOST(br_trial_bound(&plan->trial[plan->chosen], 0), least[i]);
+        AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), least[i]);
         drop(plan);
     }
     br_scene_clear(&scene);
@@ -260,7 +257,7 @@ static void test_own_error(void **state)
     struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
     MUST(br_plan_make(plan, &err));
     assert_int_equal(plan->end, BR_PLAN_MET);
-    AT_MOST(br_trial_bound(&plan->trial[plan->chosen], 0), 1e-5);
+    AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), 1e-5);
     drop(plan);
     br_scene_clear(&scene);
 }

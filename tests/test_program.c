@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 
 static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
 static const struct br_resolution_column unknowns = {"dofs", BR_AXIS_SPACE, false, true};
@@ -23,18 +23,18 @@ static const struct br_resolution_column step = {"k", BR_AXIS_TIME, true, false}
 
 static char folder[] = "/tmp/beamrate-test-XXXXXX";
 static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};
-static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX, false};
+static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX};
 
 /* n in {4, 8, 16}, one run at once. */
-static struct br_program program(const char *command)
+static struct br_orders_request program(const char *command)
 {
-    return (struct br_program){.command = command,
-                               .axis[BR_AXIS_SPACE] = {&cells, three, 3},
-                               .dimension = 1,
-                               .reading = &err_reading,
-                               .readings = 1,
-                               .jobs = 1,
-                               .seconds = 10};
+    return (struct br_orders_request){.command = (char *)command,
+                                      .axis[BR_AXIS_SPACE] = {&cells, three, 3},
+                                      .dimension = 1,
+                                      .reading = &err_reading,
+                                      .readings = 1,
+                                      .jobs = 1,
+                                      .seconds = 10};
 }
 
 static const char *path_of(const char *name)
@@ -85,7 +85,7 @@ static size_t entries_of(const char *path)
     return count - 2;
 }
 
-static struct br_numbers run(const struct br_program *p)
+static struct br_numbers run(const struct br_orders_request *p)
 {
     struct br_numbers numbers;
     struct br_error err;
@@ -98,10 +98,10 @@ static struct br_numbers run(const struct br_program *p)
 
 static const char good[] = "awk -v n=$1 -v k=$2 'BEGIN { printf \"err=%.17g\\n\", 1 / n^2 + k }'";
 
-static struct br_program on_grid(int jobs)
+static struct br_orders_request on_grid(int jobs)
 {
     write_script("good", good);
-    struct br_program p = program(command_of("good", "{n} {k}"));
+    struct br_orders_request p = program(command_of("good", "{n} {k}"));
     p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, two, 2};
     p.jobs = jobs;
     return p;
@@ -112,7 +112,7 @@ static void test_grid(void **state)
     (void)state;
     static const double n[] = {4, 4, 8, 8, 16, 16}, k[] = {0.1, 0.05, 0.1, 0.05, 0.1, 0.05};
     for (int jobs = 1; jobs <= 4; jobs += 3) {
-        const struct br_program p = on_grid(jobs);
+        const struct br_orders_request p = on_grid(jobs);
         struct br_numbers numbers = run(&p);
         assert_int_equal(numbers.rows, 6);
         assert_int_equal(numbers.quantities, 1);
@@ -139,7 +139,7 @@ static void test_at_once(void **state)
     write_script("meet", "touch $0.$1\n"
                          "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
                          "echo err=1");
-    struct br_program p = program(command_of("meet", "{n}"));
+    struct br_orders_request p = program(command_of("meet", "{n}"));
     p.jobs = 3;
     struct br_numbers numbers = run(&p);
     for (size_t i = 0; i < 3; i++)
@@ -152,7 +152,7 @@ static void test_unknowns(void **state)
 {
     (void)state;
     static const double list[] = {64, 8000};
-    struct br_program p = program("/usr/bin/printf 'err={dofs}\\n'");
+    struct br_orders_request p = program("/usr/bin/printf 'err={dofs}\\n'");
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&unknowns, list, 2};
     p.dimension = 3;
     struct br_numbers numbers = run(&p);
@@ -170,7 +170,7 @@ static void test_words(void **state)
     static const double list[] = {1e6}, dt[] = {1.25e-7};
     write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
                           "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
-    struct br_program p = program(command_of(
+    struct br_orders_request p = program(command_of(
         "words", "a\\ b 'c  d' \"e \\\"f\\\" \\g\" ; | '' x\"y\"'z' $(touch PWN) `touch PWN` "
                  "'; touch PWN' {n}/{k} '{{n} {n}' }"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
@@ -196,9 +196,11 @@ static void test_words(void **state)
 static void test_environment(void **state)
 {
     (void)state;
-    const struct br_reading reading = {"language", "^LC_ALL=(.*)", BR_READING_REGEX, true};
-    struct br_program p = program("/usr/bin/env err={n}");
+    static char language[] = "language";
+    const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX};
+    struct br_orders_request p = program("/usr/bin/env err={n}");
     p.reading = &reading;
+    p.values = language;
     setenv("LC_ALL", "POSIX", 1);
     struct br_numbers numbers = run(&p);
     unsetenv("LC_ALL");
@@ -212,7 +214,7 @@ static void test_environment(void **state)
 static void test_no_folder(void **state)
 {
     (void)state;
-    struct br_program p = program("true {n}");
+    struct br_orders_request p = program("true {n}");
     struct br_numbers numbers;
     struct br_error err;
     char *there = strdup(path_of("tmp")), *long_name = malloc(6000);
@@ -239,7 +241,7 @@ static void test_relative(void **state)
     assert_non_null(getcwd(before, sizeof before));
     assert_int_equal(chdir(folder), 0);
     write_script("here", "echo err=$1");
-    struct br_program p = program("./here {n}");
+    struct br_orders_request p = program("./here {n}");
     struct br_numbers numbers = run(&p);
     assert_true(numbers.row[2].number[0] == 16);
     br_numbers_clear(&numbers);
@@ -274,7 +276,7 @@ static void test_refused(void **state)
     struct br_numbers numbers;
     struct br_error err;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct br_program p = program(cases[i][0]);
+        const struct br_orders_request p = program(cases[i][0]);
         REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i][1]);
         assert_null(numbers.row);
     }
@@ -282,39 +284,45 @@ static void test_refused(void **state)
     FILE *script = fopen(path_of("nobody"), "w");
     fputs("#!/no/such/interpreter\n", script);
     fclose(script);
-    const struct br_program nobody = program(command_of("nobody", "{n}"));
+    const struct br_orders_request nobody = program(command_of("nobody", "{n}"));
     REFUSED(br_program_run(&nobody, &numbers, &err), BR_BAD_INPUT, "(its interpreter?)");
     write_script("noshell", "");
     FILE *file = fopen(path_of("noshell"), "w");
     fputs("echo err=1\n", file);
     fclose(file);
-    const struct br_program p = program(command_of("noshell", "{n}"));
+    const struct br_orders_request p = program(command_of("noshell", "{n}"));
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "cannot be run");
 }
 
 static void test_refused_lists(void **state)
 {
     (void)state;
-    static const double lists[][3] = {{4, 8, 4},           {4, 0, 8},        {4, -8, 16},
-                                      {4, (double)NAN, 8}, {4, INFINITY, 8}, {4, 8.5, 16},
-                                      {4, 8, 1e300}};
+    static const char *const lists[][2] = {
+        {"4,8,4", "n: 4 is given twice"},
+        {"4,0,8", "expected positive numbers"},
+        {"4,-8,16", "expected positive numbers"},
+        {"4,nan,8", "expected positive numbers"},
+        {"4,inf,8", "expected positive numbers"},
+        {"", "expected positive numbers"},
+        {"4,8.5,16", "n: found 8.5, expected a whole number above 0"},
+        {"4,8,1e300", "n: found 1e+300, expected a whole number above 0"},
+    };
     struct br_numbers numbers;
     struct br_error err;
-    struct br_program p = program("true {n}");
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
-        p.axis[BR_AXIS_SPACE].given = lists[i];
-        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT,
-                i == 0 ? "n: found 4 twice" : "expected a whole number above 0");
+        struct br_orders_request r = br_orders_request_default();
+        REFUSED(br_orders_request_axis(&r, "n", lists[i][0], &err), BR_BAD_INPUT, lists[i][1]);
+        br_orders_request_clear(&r);
     }
-    p.axis[BR_AXIS_SPACE].count = 0;
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "n: the list is empty");
+    struct br_orders_request r = br_orders_request_default();
+    MUST(br_orders_request_reading(&r, "err", "err=(.*)", &err));
+    REFUSED(br_orders_request_reading(&r, "err", "e=(.*)", &err), BR_BAD_INPUT,
+            "err is read twice");
+    br_orders_request_clear(&r);
+    struct br_orders_request p = program("true {n}");
     p.axis[BR_AXIS_SPACE].column = NULL;
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no list");
     p = program("true {n}");
-    const struct br_reading twice[] = {err_reading, err_reading};
-    p.reading = twice;
-    p.readings = 2;
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "'err' is there twice");
     p.readings = 0;
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "no reading");
 }
@@ -350,7 +358,7 @@ static void test_failures(void **state)
         snprintf(text, sizeof text, "if [ $1 != 8 ]; then echo err=$1; exit; fi\n%s",
                  cases[i].script);
         write_script("bad", text);
-        const struct br_program p = program(command_of("bad", "{n}"));
+        const struct br_orders_request p = program(command_of("bad", "{n}"));
         struct br_numbers numbers = run(&p);
         assert_null(numbers.row[0].failure);
         assert_null(numbers.row[2].failure);
@@ -368,7 +376,7 @@ static void test_long_complaint(void **state)
     (void)state;
     write_script("long", "{ awk 'BEGIN { for (i = 0; i < 400; i++) printf \"\303\244\" }'\n"
                          "[ $1 = 8 ] && odd=x; echo; echo \"${odd}the reason\"; } >&2; exit 1");
-    const struct br_program p = program(command_of("long", "{n}"));
+    const struct br_orders_request p = program(command_of("long", "{n}"));
     struct br_numbers numbers = run(&p);
     for (size_t i = 0; i < 2; i++) {
         const char *tail = strstr(numbers.row[i].failure, "printed: ") + 9;
@@ -421,7 +429,7 @@ static void test_hanging(void **state)
                          "[ $1 = 16 ] && echo err=1 && exit\n"
                          "[ $1 = 8 ] && trap 'echo term >> $0.terms' TERM\n"
                          "while [ $1 = 8 ]; do sleep 0.1; done; wait");
-    struct br_program p = program(command_of("hang", "{n}"));
+    struct br_orders_request p = program(command_of("hang", "{n}"));
     p.jobs = 3;
     p.seconds = 1;
     const double start = br_seconds();
@@ -448,7 +456,7 @@ static void test_cost(void **state)
                          "8) awk 'BEGIN { for (i = 0; i < 4000000; i++) s += i }';;\n"
                          "16) awk 'BEGIN { s = \"x\"; while (length(s) < 1e8) s = s s }';;\n"
                          "esac; echo err=1");
-    const struct br_program p = program(command_of("cost", "{n}"));
+    const struct br_orders_request p = program(command_of("cost", "{n}"));
     struct br_numbers numbers = run(&p);
     AT_MOST(numbers.row[0].seconds, 0.1);
     AT_MOST(0.05, numbers.row[1].seconds);
@@ -465,7 +473,7 @@ static void test_cost(void **state)
 static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails ] && exit 1\n"
                                "echo err=$1";
 
-static void expect_run(struct br_program *p, size_t runs, double factor)
+static void expect_run(struct br_orders_request *p, size_t runs, double factor)
 {
     struct br_numbers numbers = run(p);
     size_t kept = 0;
@@ -488,7 +496,7 @@ static void test_kept(void **state)
     write_script("count", counting);
     char kept[128];
     snprintf(kept, sizeof kept, "%s", path_of("kept"));
-    struct br_program p = program(command_of("count", "{n}"));
+    struct br_orders_request p = program(command_of("count", "{n}"));
     p.kept = kept;
     expect_run(&p, 3, 1);
     expect_run(&p, 0, 1);
@@ -498,7 +506,7 @@ static void test_kept(void **state)
     assert_int_equal(entries_of(kept), 3);
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
     expect_run(&p, 1, 1);
-    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX, false};
+    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX};
     p.reading = &other;
     expect_run(&p, 4, 1);
     p.reading = &err_reading;
@@ -526,7 +534,7 @@ static void test_kept_script(void **state)
     setenv("PATH", folders, 1);
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
         snprintf(command, sizeof command, forms[i], path_of("script"));
-        struct br_program p = program(command);
+        struct br_orders_request p = program(command);
         p.kept = kept;
         for (int version = 1; version <= 2; version++) {
             char text[64];
@@ -569,7 +577,7 @@ static void test_not_kept(void **state)
     snprintf(kept, sizeof kept, "%s", path_of("kept-not"));
     write_script("count", counting);
     write_script("count.fails", "");
-    struct br_program p = program(command_of("count", "{n}"));
+    struct br_orders_request p = program(command_of("count", "{n}"));
     p.kept = kept;
     struct br_numbers numbers = run(&p);
     assert_non_null(numbers.row[1].failure);
@@ -604,7 +612,7 @@ static void test_unseen(void **state)
 {
     (void)state;
     write_script("unseen", "echo err=1; exit 3");
-    const struct br_program p = program(command_of("unseen", "{n}"));
+    const struct br_orders_request p = program(command_of("unseen", "{n}"));
     struct br_numbers numbers;
     struct br_error err;
     signal(SIGCHLD, SIG_IGN);
@@ -619,7 +627,7 @@ static void test_together(void **state)
     (void)state;
     char kept[128];
     snprintf(kept, sizeof kept, "%s", path_of("kept-together"));
-    struct br_program p = on_grid(1);
+    struct br_orders_request p = on_grid(1);
     p.kept = kept;
     pid_t child[3];
     for (int i = 0; i < 3; i++) {
@@ -671,7 +679,7 @@ static void test_interrupted(void **state)
     snprintf(kept, sizeof kept, "%s", path_of("kept-slow"));
     write_script("slow", "[ $1 != 16 ] && echo err=$1 && exit\n"
                          "echo $$ > $0.pid; touch $0.started; sleep 60");
-    struct br_program p = program(command_of("slow", "{n}"));
+    struct br_orders_request p = program(command_of("slow", "{n}"));
     p.kept = kept;
     p.observer = &observer;
     struct br_numbers numbers;
@@ -744,25 +752,25 @@ static void test_readings(void **state)
         {JSON, "/a", "{\"a\": 1} x", NAN, "no JSON"},
         {JSON, "/a", "", NAN, "no JSON"},
         {CSV, "L2", "n,L2,x\n4,0.5,1\n8,0.25,2\n", 0.25, NULL},
-        {CSV, "L2", "# a\r\n\r\nn, \"L2\"\r\n", NAN, "not alone in its field, on line 3"},
+        {CSV, "L2", "# a\r\n\r\nn, \"L2\"\r\n", NAN, "no row below"},
+        {CSV, "L2", ",L2\n4,0.5\n", 0.5, NULL},
         {CSV, "a \"b\", c", "\"n\",\"a \"\"b\"\", c\"\r\n\"1\n2\",\"0.5\"\r\n", 0.5, NULL},
         {CSV, "x", "n,x\n4, 0.5", 0.5, NULL},
         {CSV, "n", "n\n\n3\n\n", 3, NULL},
         {CSV, "y", "n,x\n4,0.5", NAN, "found 0 columns 'y'"},
         {CSV, "x", "x,x\n4,0.5", NAN, "found 2 columns 'x'"},
         {CSV, "x", "n,x\n", NAN, "no row below"},
-        {CSV, "x", "", NAN, "found 0 columns"},
-        {CSV, "x", "n,x\n1,5,2\n", NAN, "found 3 fields on line 2, expected 2"},
-        {CSV, "x", "n,x\n1\n", NAN, "found 1 fields on line 2, expected 2"},
+        {CSV, "x", "", NAN, "the output:1: the table is empty"},
+        {CSV, "x", "n,x\n1,5,2\n", NAN, "the output:2: found more than 2 fields"},
+        {CSV, "x", "n,x\n1\n", NAN, "the output:2: found fewer than 2 fields"},
         {CSV, "x", "n,x\n1,\n", NAN, "found ''"},
         {CSV, "x", "n,x\n1,nan\n", NAN, "found 'nan'"},
         {CSV, "x", "n,x\n1,\"2", NAN, "quote"},
         {CSV, "x", "n,x\n1,\"2\"3", NAN, "quote"},
-        {CSV, "x", "n,x\n1,2\"", NAN, "quote"},
+        {CSV, "x", "n,x\n1,2\"", NAN, "found '2\"'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind,
-                                           false};
+        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind};
         const char *output = cases[i].output;
         struct br_error err = {0};
         double number = 0;
@@ -785,17 +793,17 @@ static void test_refused_readings(void **state)
         struct br_reading reading;
         const char *message;
     } cases[] = {
-        {{"", "(.)", BR_READING_REGEX, false}, "no name"},
-        {{"q", "(", BR_READING_REGEX, false}, "q: '(' is no extended regular expression"},
-        {{"q", "a", BR_READING_REGEX, false}, "has 0 groups, expected one"},
-        {{"q", "(a)(b)", BR_READING_REGEX, false}, "has 2 groups"},
-        {{"q", "a", BR_READING_JSON, false}, "'a' is no JSON pointer"},
-        {{"q", "/a~2", BR_READING_JSON, false}, "is no JSON pointer"},
-        {{"q", "/a~", BR_READING_JSON, false}, "is no JSON pointer"},
-        {{"q", "", BR_READING_CSV, false}, "no column"},
+        {{"", "(.)", BR_READING_REGEX}, "no name"},
+        {{"q", "(", BR_READING_REGEX}, "q: '(' is no extended regular expression"},
+        {{"q", "a", BR_READING_REGEX}, "has 0 groups, expected one"},
+        {{"q", "(a)(b)", BR_READING_REGEX}, "has 2 groups"},
+        {{"q", "a", BR_READING_JSON}, "'a' is no JSON pointer"},
+        {{"q", "/a~2", BR_READING_JSON}, "is no JSON pointer"},
+        {{"q", "/a~", BR_READING_JSON}, "is no JSON pointer"},
+        {{"q", "", BR_READING_CSV}, "no column"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct br_program p = program("true {n}");
+        struct br_orders_request p = program("true {n}");
         struct br_numbers numbers;
         struct br_error err;
         p.reading = &cases[i].reading;
@@ -817,8 +825,8 @@ static void test_without_memory(void **state)
 {
     (void)state;
     static const double list[] = {4};
-    struct br_program p = program("/usr/bin/printf '{{\"a\": {n}}'");
-    const struct br_reading reading = {"a", "/a", BR_READING_JSON, true};
+    struct br_orders_request p = program("/usr/bin/printf '{{\"a\": {n}}'");
+    const struct br_reading reading = {"a", "/a", BR_READING_JSON};
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
     p.reading = &reading;
     br_test_without_memory(attempt, &p, 10);

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "study/foresee/prediction.h"
-#include "study/paper/claims.h"
+#include "study/paper/paper.h"
 #include "study/run/run.h"
 #include "study/trade/plan.h"
 #include "study/trade/split.h"
@@ -78,7 +78,7 @@ static struct br_trade *made_trade(const struct br_scene *scene)
     assert_non_null(t);
     MUST(br_named_methods_read("--methods", "euler,adaptive", &t->methods, &err));
     t->request = br_trial_request_default(scene);
-    t->norm[0] = &br_norm_l2;
+    t->request.norm = &br_norm_l2;
     t->count = 2;
     t->trial = calloc(2, sizeof *t->trial);
     t->front = calloc(2, sizeof *t->front);
@@ -93,9 +93,9 @@ static struct br_trade *made_trade(const struct br_scene *scene)
                      i ? 0.75 : 3.75,
                      4,
                      {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
-            .error = {{0.125, 0.25, 0.375}},
-            .scale = {1.5},
-            .own = {0.0078125},
+            .error = {0.125, 0.25, 0.375},
+            .scale = 1.5,
+            .own = 0.0078125,
         };
     t->front[1] = true;
     t->wall_seconds = 10.5;
@@ -130,10 +130,10 @@ static struct br_split made_split(struct br_scene *scene)
     s.method.tolerance = 0.0009765625;
     s.method.linear.refinement = 3;
     s.method.iteration = (struct br_iteration){0.25, 0.0001220703125, 77};
-    for (; br_sources[s.shares]; s.shares++) {
+    for (; br_sources[s.shares].name; s.shares++) {
         const double times = (double)(s.shares + 1);
         s.share[s.shares] = (struct br_share){
-            .source = br_sources[s.shares],
+            .source = &br_sources[s.shares],
             .error = {{times, 2 * times, 3 * times}},
             .floor = {{0.125 * times, 0.25 * times, 0.375 * times}},
             .tip = {5 * times, -7 * times},
@@ -156,7 +156,7 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     br_plan_default(p, scene);
     MUST(br_named_methods_read("--methods", "euler,bdf2", &p->methods, &err));
     p->goal = (struct br_plan_goal){0.5, NAN};
-    p->norm[0] = &br_norm_l2;
+    p->request.norm = &br_norm_l2;
     p->seconds = seconds_of_plan;
     p->count = 2;
     p->trial = calloc(2, sizeof *p->trial);
@@ -167,9 +167,9 @@ static struct br_plan *made_plan(const struct br_scene *scene)
             .named = &p->methods.list[0],
             .at = {11 + i, 20 + i},
             .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
-            .error = {{0.125, 0.25, 0.375}},
-            .scale = {1.5},
-            .own = {0.25},
+            .error = {0.125, 0.25, 0.375},
+            .scale = 1.5,
+            .own = 0.25,
         };
         p->forecast[i] = (struct br_plan_forecast){i, 0.0625, 7.5};
     }

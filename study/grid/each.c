@@ -4,6 +4,41 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
+/* ---- observers ---- */
+
+bool br_observer_stops(const struct br_observer *o)
+{
+    return o && o->stop && o->stop(o->self);
+}
+
+static void tell_share(void *self, double fraction)
+{
+    const struct br_observer_share *share = self;
+    share->whole->progress(share->whole->self, share->from + share->length * fraction);
+}
+
+static bool stop_share(void *self)
+{
+    const struct br_observer_share *share = self;
+    return br_observer_stops(share->whole);
+}
+
+static void prepare_share(void *self, double most)
+{
+    const struct br_observer_share *share = self;
+    share->whole->preparing(share->whole->self, most);
+}
+
+struct br_observer br_observer_of(struct br_observer_share *share)
+{
+    return (struct br_observer){.progress = share->whole->progress ? tell_share : NULL,
+                                .stop = stop_share,
+                                .self = share,
+                                .preparing = share->whole->preparing ? prepare_share : NULL};
+}
+
+/* ---- loops ---- */
+
 struct loop {
     const struct br_each *each;
     atomic_bool over;
@@ -23,7 +58,7 @@ static void take_turn(struct loop *l, size_t i)
     const struct br_each *e = l->each;
     const struct br_observer *o = e->observer;
     struct br_error failure = {0};
-    if (o && o->stop && o->stop(o->self))
+    if (br_observer_stops(o))
         br_fail(&failure, BR_INTERRUPTED, "interrupted");
     else
         failure.status = e->turn(e->self, i, &failure);

@@ -14,4 +14,16 @@ struct br_observer {
     void (*preparing)(void *self, double share);
 };
 
+/* Whether an observer says stop; NULL: nobody does. */
+bool br_observer_stops(const struct br_observer *observer);
+
+/* A share of a longer work: its progress is `from` to `from` + `length` of the whole's. */
+struct br_observer_share {
+    const struct br_observer *whole; /* borrowed */
+    double from, length;
+};
+
+/* The share's own observer; it borrows the share. */
+struct br_observer br_observer_of(struct br_observer_share *share);
+
 #endif

@@ -144,8 +144,7 @@ struct work {
     FILE *results;                   /* of all slices, into bytes */
     char *bytes;
     size_t size;
-    const struct br_observer *whole; /* and the share of the slice at work */
-    double from, length;
+    struct br_observer_share share; /* of the slice at work */
 };
 
 /* Cuts the missing cells of a study (of: SIZE_MAX or 0; in/out) into slices. */
@@ -197,24 +196,6 @@ static enum br_status find_missing(struct work *w, struct br_error *err)
     return BR_OK;
 }
 
-static void tell_share(void *self, double fraction)
-{
-    const struct work *w = self;
-    w->whole->progress(w->whole->self, w->from + w->length * fraction);
-}
-
-static bool stop_share(void *self)
-{
-    const struct work *w = self;
-    return w->whole->stop && w->whole->stop(w->whole->self);
-}
-
-static void prepare_share(void *self, double share)
-{
-    const struct work *w = self;
-    w->whole->preparing(w->whole->self, share);
-}
-
 /* The cells of a slice that went well, in all norms. */
 static void keep_cells(const struct work *w, size_t slice)
 {
@@ -229,21 +210,17 @@ static void keep_cells(const struct work *w, size_t slice)
 
 static enum br_status march(struct work *w, int threads, struct br_error *err)
 {
-    const struct br_observer *o = w->whole;
-    const struct br_observer share = {
-        .progress = o && o->progress ? tell_share : NULL,
-        .stop = stop_share,
-        .self = w,
-        .preparing = o && o->preparing ? prepare_share : NULL,
-    };
+    struct br_observer of_share;
+    if (w->share.whole)
+        of_share = br_observer_of(&w->share);
     enum br_status status = BR_OK;
     if (!(w->results = open_memstream(&w->bytes, &w->size)))
         return br_no_memory(err, "what is kept");
-    w->length = 1 / (double)w->slices.count;
+    w->share.length = 1 / (double)w->slices.count;
     for (size_t i = 0; i < w->slices.count && !status; i++) {
-        w->from = (double)i * w->length;
-        status = br_batch_march(w->studies, w->count, &w->slices, i, threads, o ? &share : NULL,
-                                w->results, err);
+        w->share.from = (double)i * w->share.length;
+        status = br_batch_march(w->studies, w->count, &w->slices, i, threads,
+                                w->share.whole ? &of_share : NULL, w->results, err);
         if (!status)
             keep_cells(w, i);
     }
@@ -277,7 +254,7 @@ static enum br_status put_together(struct work *w, struct br_error *err)
 enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int threads,
                                 const struct br_observer *observer, struct br_error *err)
 {
-    struct work w = {.studies = studies, .count = count, .whole = observer};
+    struct work w = {.studies = studies, .count = count, .share.whole = observer};
     enum br_status status = find_missing(&w, err);
     if (!status && w.slices.count)
         status = march(&w, threads, err);

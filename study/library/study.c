@@ -274,20 +274,6 @@ struct beamrate_orders {
     struct br_orders orders;
 };
 
-static enum br_status fill_row(struct br_numbers_row *row, const struct beamrate_numbers *from,
-                               size_t i, struct br_error *err)
-{
-    row->given[BR_AXIS_SPACE] = row->z[BR_AXIS_SPACE] = from->h ? from->h[i] : NAN;
-    row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = from->k ? from->k[i] : NAN;
-    row->line = i + 1;
-    row->seconds = row->bytes = NAN;
-    row->number = br_allocate(1, sizeof *row->number);
-    if (!row->number)
-        return br_no_memory(err, "the numbers");
-    *row->number = from->number[i];
-    return BR_OK;
-}
-
 static enum br_status copy_numbers(const struct beamrate_numbers *from, struct br_numbers *to,
                                    struct br_error *err)
 {
@@ -296,18 +282,17 @@ static enum br_status copy_numbers(const struct beamrate_numbers *from, struct b
                        name_of_numbers);
     to->column[BR_AXIS_SPACE] = from->h ? br_resolution_column_find("h") : NULL;
     to->column[BR_AXIS_TIME] = from->k ? br_resolution_column_find("k") : NULL;
-    to->quantity = br_allocate(1, sizeof *to->quantity);
-    to->row = br_allocate(from->count, sizeof *to->row);
-    if (!to->quantity || !to->row)
-        return br_no_memory(err, "the numbers");
-    to->quantities = 1;
-    to->quantity->is_value = from->values;
-    to->quantity->name = strdup(from->values ? "value" : "error");
-    if (!to->quantity->name)
-        return br_no_memory(err, "the numbers");
-    enum br_status status = BR_OK;
-    for (; to->rows < from->count && !status; to->rows++)
-        status = fill_row(&to->row[to->rows], from, to->rows, err);
+    enum br_status status = br_numbers_make_room(to, from->count, 1, err);
+    if (!status)
+        status =
+            br_numbers_add_quantity(to, from->values ? "value" : "error", NULL, from->values, err);
+    for (size_t i = 0; i < from->count && !status; i++) {
+        struct br_numbers_row *row = &to->row[i];
+        row->given[BR_AXIS_SPACE] = row->z[BR_AXIS_SPACE] = from->h ? from->h[i] : NAN;
+        row->given[BR_AXIS_TIME] = row->z[BR_AXIS_TIME] = from->k ? from->k[i] : NAN;
+        row->line = i + 1;
+        *row->number = from->number[i];
+    }
     return status ? status : br_numbers_check(to, name_of_numbers, err);
 }
 

@@ -77,26 +77,30 @@ static enum br_status take_name(struct reader *r, char name[64])
     return BR_OK;
 }
 
-enum br_status br_expectations_read(const char *where, const char *text,
+enum br_status br_expectations_read(const char *where, const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err)
 {
     struct reader r = {where, text, err};
-    size_t most = 1;
+    size_t most = *count + 1;
     for (const char *c = text; *c; c++)
         most += *c == ',' || *c == ';';
-    *count = 0;
-    *expectations = br_allocate(most, sizeof **expectations);
-    if (!*expectations)
+    struct br_order_expectation *all = br_allocate(most, sizeof *all);
+    if (!all)
         return br_no_memory(err, "the expectations");
+    if (*count)
+        memcpy(all, *expectations, *count * sizeof *all);
+    free(*expectations);
+    *expectations = all;
     char name[64] = "";
     bool goes_on = true, named = false;
     while (goes_on) {
-        struct br_order_expectation *e = &(*expectations)[(*count)++];
+        struct br_order_expectation *e = &all[(*count)++];
         if ((!named && take_name(&r, name)) || take_order(&r, e))
             return err->status;
         strcpy(e->quantity, name);
-        for (const struct br_order_expectation *f = *expectations; f < e; f++)
+        e->line = line;
+        for (const struct br_order_expectation *f = all; f < e; f++)
             if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
                 return br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice", where,
                                name, br_axis_letters[e->axis]);
@@ -108,14 +112,6 @@ enum br_status br_expectations_read(const char *where, const char *text,
 }
 
 /* ---- verdicts ---- */
-
-static const struct br_quantity_orders *orders_of(const struct br_orders *o, const char *name)
-{
-    for (size_t i = 0; i < o->count; i++)
-        if (strcmp(o->numbers->quantity[o->of[i].quantity].name, name) == 0)
-            return &o->of[i];
-    return NULL;
-}
 
 /* What is expected of a line, with points of its own, and an order by the joint fit where that is
  * sure. */
@@ -150,7 +146,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
 static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
                             const char *path, struct br_case *c, struct br_error *err)
 {
-    const struct br_quantity_orders *of = orders_of(o, e->quantity);
+    const struct br_quantity_orders *of = NULL;
+    for (size_t i = 0; i < o->count && !of; i++)
+        if (strcmp(o->numbers->quantity[i].name, e->quantity) == 0)
+            of = &o->of[i];
     const struct br_orders_line *line = of ? br_orders_finest(of, e->axis) : NULL;
     if (!of)
         return br_fail(err, BR_BAD_INPUT,

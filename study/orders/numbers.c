@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/orders/numbers.h"
+#include "study/orders/orders.h"
 
 #include <float.h>
 #include <math.h>
@@ -52,6 +52,32 @@ bool br_lists(const char *list, const char *name)
     return false;
 }
 
+enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
+                                    struct br_error *err)
+{
+    numbers->quantity = br_allocate(quantities + 1, sizeof *numbers->quantity);
+    numbers->row = br_allocate(rows + 1, sizeof *numbers->row);
+    for (; numbers->row && numbers->rows < rows; numbers->rows++) {
+        struct br_numbers_row *row = &numbers->row[numbers->rows];
+        *row = (struct br_numbers_row){.given = {NAN, NAN},
+                                       .z = {NAN, NAN},
+                                       .number = br_allocate(quantities + 1, sizeof *row->number),
+                                       .seconds = NAN,
+                                       .bytes = NAN};
+        if (!row->number)
+            return br_no_memory(err, "the numbers");
+    }
+    return numbers->row && numbers->quantity ? BR_OK : br_no_memory(err, "the numbers");
+}
+
+enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *name,
+                                       const char *unit, bool is_value, struct br_error *err)
+{
+    struct br_quantity *q = &numbers->quantity[numbers->quantities++];
+    *q = (struct br_quantity){strdup(name), unit ? strdup(unit) : NULL, is_value};
+    return q->name && (!unit || q->unit) ? BR_OK : br_no_memory(err, "the numbers");
+}
+
 void br_numbers_clear(struct br_numbers *numbers)
 {
     for (size_t i = 0; i < numbers->quantities; i++) {
@@ -86,25 +112,12 @@ static int by_resolution(const void *a, const void *b)
     return (x->line > y->line) - (x->line < y->line);
 }
 
-enum { PLACE = 400 };
-
-static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
-                                const char *path, struct br_error *err)
+void br_numbers_sort(struct br_numbers *numbers)
 {
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_resolution_column *column = numbers->column[axis];
-        if (!column)
-            continue;
-        if (!(row->given[axis] > 0 && isfinite(row->given[axis])))
-            return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found %g, expected a number above 0",
-                           path, row->line, column->name, row->given[axis]);
-        if (!(row->z[axis] >= DBL_MIN && isfinite(row->z[axis])))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: found %g, expected a size within the range of numbers",
-                           path, row->line, column->name, row->given[axis]);
-    }
-    return BR_OK;
+    qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
 }
+
+enum { PLACE = 400 };
 
 /* Where a row is from: "file:3", or what was run. */
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
@@ -118,23 +131,31 @@ static void name_row(const struct br_numbers *numbers, const struct br_numbers_r
                  row->given[axis]);
 }
 
-static enum br_status check_numbers(const struct br_numbers *numbers,
-                                    const struct br_numbers_row *row, const char *path,
-                                    struct br_error *err)
+static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                                const char *path, struct br_error *err)
 {
     char place[PLACE];
     name_row(numbers, row, path, place);
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_resolution_column *column = numbers->column[axis];
+        const double given = row->given[axis], z = row->z[axis];
+        if (column && !(given > 0 && isfinite(given)))
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", place,
+                           column->name, given);
+        if (column && !(z >= DBL_MIN && isfinite(z)))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: %s: found %g, expected a size within the range of numbers", place,
+                           column->name, given);
+    }
     for (size_t i = 0; i < numbers->quantities; i++) {
         const struct br_quantity *q = &numbers->quantity[i];
         const double number = row->number[i];
-        if (row->failure || isnan(number))
-            continue;
         if (!q->is_value && number < 0)
             return br_fail(err, BR_BAD_INPUT,
                            "%s: %.100s: found %g, expected an error of at least 0; is it a value? "
                            "(--value %.100s)",
                            place, q->name, number, q->name);
-        if (!(fabs(number) <= DBL_MAX / 4)) /* so that differences do not overflow */
+        if (fabs(number) > DBL_MAX / 4) /* so that differences do not overflow */
             return br_fail(err, BR_BAD_INPUT, "%s: %.100s: found %g, expected at most %.2g", place,
                            q->name, number, DBL_MAX / 4);
     }
@@ -170,28 +191,12 @@ static enum br_status unite_sizes(struct br_numbers *numbers, int axis, size_t *
     return BR_OK;
 }
 
-static enum br_status refuse_twice(const struct br_numbers *numbers, const char *path,
-                                   const struct br_numbers_row *a, const struct br_numbers_row *b,
-                                   struct br_error *err)
-{
-    char place[PLACE];
-    name_row(numbers, b, path, place);
-    if (!b->line)
-        return br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s:%zu: the resolution is that of line %zu, expected each once", path, b->line,
-                   a->line);
-}
-
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err)
 {
     enum br_status status = BR_OK;
     size_t most = 0;
-    for (size_t i = 0; i < numbers->rows && !status; i++) {
+    for (size_t i = 0; i < numbers->rows && !status; i++)
         status = check_row(numbers, &numbers->row[i], path, err);
-        if (!status)
-            status = check_numbers(numbers, &numbers->row[i], path, err);
-    }
     for (int axis = 0; axis < BR_AXES && !status; axis++) {
         size_t count = 0;
         if (numbers->column[axis])
@@ -200,14 +205,21 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
     }
     if (status)
         return status;
-    qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
+    br_numbers_sort(numbers);
     for (size_t i = 1; i < numbers->rows; i++) {
         const struct br_numbers_row *a = &numbers->row[i - 1], *b = &numbers->row[i];
         bool equal = true;
         for (int axis = 0; axis < BR_AXES; axis++)
             equal &= !numbers->column[axis] || a->z[axis] == b->z[axis];
-        if (equal)
-            return refuse_twice(numbers, path, a, b, err);
+        if (!equal)
+            continue;
+        char place[PLACE];
+        name_row(numbers, b, path, place);
+        return b->line
+                   ? br_fail(err, BR_BAD_INPUT,
+                             "%s: the resolution is that of line %zu, expected each once", place,
+                             a->line)
+                   : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
     }
     if (most < 3)
         return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,

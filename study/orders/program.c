@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/orders/program.h"
-
+/* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
@@ -17,6 +16,8 @@
 
 #include "solver/clock.h"
 #include "study/grid/each.h"
+#include "study/orders/request.h"
+#include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
 enum {
@@ -27,19 +28,14 @@ enum {
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
 
-static const double MOST_COUNTED = 0x1p53; /* all whole numbers below are doubles */
-
 /* One run to be. */
 struct cell {
-    char **words;  /* owned, with a NULL at the end */
-    char *letters; /* of the words; owned */
-    char **file;   /* files: the words that are paths of files; owned */
-    size_t files;
+    char **words;  /* owned, as they are; a NULL at the end */
     char *program; /* absolute path; owned */
 };
 
 struct job {
-    const struct br_program *program;
+    const struct br_orders_request *program;
     struct br_numbers *numbers;
     struct cell *cell;  /* by row; owned */
     char **environment; /* owned; its texts are not */
@@ -61,7 +57,7 @@ static void print_number(const struct br_resolution_column *column, double x, ch
 
 /* A command on its way to words. */
 struct split {
-    const struct br_program *program;
+    const struct br_orders_request *program;
     const struct br_numbers_row *row;
     const char *rest;
     char *to;   /* where the next letter goes */
@@ -123,15 +119,10 @@ static enum br_status put_piece(struct split *s, struct br_error *err)
     return BR_OK;
 }
 
-/* Splits the command and replaces its braces. What replaces them has neither blanks nor quotes. */
-static enum br_status make_words(struct split *s, struct cell *cell, struct br_error *err)
+/* Splits the command and replaces its braces, into word (out), with a NULL at the end, and the
+ * letters at s->to. What replaces braces has neither blanks nor quotes. */
+static enum br_status split_words(struct split *s, char **word, struct br_error *err)
 {
-    const size_t most = strlen(s->rest) + 1;
-    cell->letters = s->to = br_allocate(most, NUMBER);
-    cell->words = br_allocate(most + 1, sizeof *cell->words);
-    if (!cell->letters || !cell->words)
-        return br_no_memory(err, "the words of a command");
-    char **word = cell->words;
     bool within = false;
     while (*s->rest) {
         if (!s->quote && strchr(" \t\n", *s->rest)) {
@@ -149,17 +140,6 @@ static enum br_status make_words(struct split *s, struct cell *cell, struct br_e
     }
     if (s->quote)
         return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", s->quote);
-    return cell->words[0] && *cell->words[0]
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
-}
-
-static enum br_status check_used(const struct split *s, struct br_error *err)
-{
-    for (int i = 0; i < BR_AXES; i++)
-        if (s->program->axis[i].column && !s->used[i])
-            return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
-                           s->program->axis[i].column->name);
     return BR_OK;
 }
 
@@ -169,44 +149,25 @@ static bool is_program(const char *path)
     return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
 }
 
-/* Where relative names are looked up (out). */
-static enum br_status find_folder(const struct br_program *p, char here[PATH_MAX],
-                                  struct br_error *err)
+/* A word of its own; one that names a file is its whole path, since the program runs elsewhere. */
+static enum br_status take_word(const char *here, const char *word, char **to, struct br_error *err)
 {
-    if (p->folder ? realpath(p->folder, here) : getcwd(here, PATH_MAX))
-        return BR_OK;
-    return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
-}
-
-/* Words that name a file get its whole path, since the program runs elsewhere. */
-static enum br_status find_files(const char *here, struct cell *cell, struct br_error *err)
-{
-    size_t count = 0;
-    while (cell->words[count])
-        count++;
-    cell->file = br_allocate(count + 1, sizeof *cell->file);
-    if (!cell->file)
-        return br_no_memory(err, "the files of a command");
-    for (size_t i = 1; i < count; i++) {
-        struct stat info;
-        char *path = NULL;
-        if (*cell->words[i] == '/' || !*cell->words[i])
-            continue;
-        if (asprintf(&path, "%s/%s", here, cell->words[i]) < 0)
-            return br_no_memory(err, "a file's path");
-        if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) {
-            free(path);
-            continue;
-        }
-        cell->file[cell->files++] = cell->words[i] = path;
+    struct stat info;
+    if (asprintf(to, "%s/%s", here, word) < 0) {
+        *to = NULL;
+        return br_no_memory(err, "a file's path");
     }
+    if (*word && *word != '/' && stat(*to, &info) == 0 && S_ISREG(info.st_mode))
+        return BR_OK;
+    strcpy(*to, word);
     return BR_OK;
 }
 
 /* As a shell finds it. path: in and out of `here` where it is relative. */
-static enum br_status find_program(const char *here, struct cell *cell, struct br_error *err)
+static enum br_status find_program(const char *here, const char *name, struct cell *cell,
+                                   struct br_error *err)
 {
-    const char *name = *cell->words, *folders = getenv("PATH");
+    const char *folders = getenv("PATH");
     char shown[SHOWN];
     const bool direct = strchr(name, '/');
     for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
@@ -230,33 +191,53 @@ static enum br_status find_program(const char *here, struct cell *cell, struct b
 static void clear_cells(struct job *j)
 {
     for (size_t i = 0; i < j->numbers->rows && j->cell; i++) {
+        for (char **word = j->cell[i].words; word && *word; word++)
+            free(*word);
         free(j->cell[i].words);
-        free(j->cell[i].letters);
         free(j->cell[i].program);
-        for (size_t f = 0; f < j->cell[i].files; f++)
-            free(j->cell[i].file[f]);
-        free(j->cell[i].file);
     }
     free(j->cell);
     free(j->environment);
 }
 
+static enum br_status make_cell(const struct br_orders_request *p, const struct br_numbers_row *row,
+                                const char *here, struct cell *cell, struct br_error *err)
+{
+    const size_t most = strlen(p->command) + 1;
+    char *letters = br_allocate(most, NUMBER), **word = br_allocate(most + 1, sizeof *word);
+    struct split s = {p, row, .rest = p->command, .to = letters};
+    cell->words = br_allocate(most + 1, sizeof *cell->words);
+    enum br_status status = letters && word && cell->words
+                                ? split_words(&s, word, err)
+                                : br_no_memory(err, "the words of a command");
+    if (!status && (!*word || !**word))
+        status = br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    for (int i = 0; i < BR_AXES && !status; i++)
+        if (p->axis[i].column && !s.used[i])
+            status =
+                br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
+                        p->axis[i].column->name);
+    if (!status)
+        status = find_program(here, *word, cell, err);
+    for (size_t i = 0; !status && word[i]; i++)
+        status = take_word(i ? here : "", word[i], &cell->words[i], err);
+    free(letters);
+    free(word);
+    return status;
+}
+
 static enum br_status make_cells(struct job *j, struct br_error *err)
 {
+    const char *folder = j->program->folder;
+    char here[PATH_MAX]; /* where relative names are looked up */
+    enum br_status status = BR_OK;
     j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
-    char here[PATH_MAX];
-    enum br_status status =
-        j->cell ? find_folder(j->program, here, err) : br_no_memory(err, "the cells of a study");
-    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
-        struct split s = {j->program, &j->numbers->row[i], .rest = j->program->command};
-        status = make_words(&s, &j->cell[i], err);
-        if (!status)
-            status = check_used(&s, err);
-        if (!status)
-            status = find_program(here, &j->cell[i], err);
-        if (!status)
-            status = find_files(here, &j->cell[i], err);
-    }
+    if (!j->cell)
+        status = br_no_memory(err, "the cells of a study");
+    else if (!(folder ? realpath(folder, here) : getcwd(here, sizeof here)))
+        status = br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
+    for (size_t i = 0; i < j->numbers->rows && !status; i++)
+        status = make_cell(j->program, &j->numbers->row[i], here, &j->cell[i], err);
     return status;
 }
 
@@ -329,14 +310,6 @@ void br_remove_folder(const char *folder)
             nanosleep(&moment, NULL);
         nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
     }
-}
-
-static void remove_folder(struct run *r)
-{
-    for (int i = 0; i < 2; i++)
-        if (r->printed[i] >= 0)
-            close(r->printed[i]);
-    br_remove_folder(r->folder);
 }
 
 /* The group is its own, and so are its signals: those that beamrate ignores would stay ignored.
@@ -419,22 +392,22 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-static double limit_of(const struct br_program *p)
+static double limit_of(const struct br_orders_request *p)
 {
     return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
 }
 
 /* Why it must end before it does. */
-static enum end end_of(const struct br_program *p, const struct run *r, double late)
+static enum end end_of(const struct br_orders_request *p, const struct run *r, double late)
 {
-    if (p->observer && p->observer->stop && p->observer->stop(p->observer->self))
+    if (br_observer_stops(p->observer))
         return STOPPED;
     if (r->end)
         return r->end;
     return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
-static void watch(const struct br_program *p, struct run *r)
+static void watch(const struct br_orders_request *p, struct run *r)
 {
     const double start = br_seconds();
     struct timespec pause = {.tv_nsec = 1000000};
@@ -485,8 +458,9 @@ static void last_lines(int file, char shown[TAIL])
 }
 
 /* why: what was wrong with its numbers. */
-static enum br_status tell_failure(const struct br_program *p, const struct run *r, const char *why,
-                                   struct br_numbers_row *row, struct br_error *err)
+static enum br_status tell_failure(const struct br_orders_request *p, const struct run *r,
+                                   const char *why, struct br_numbers_row *row,
+                                   struct br_error *err)
 {
     char what[sizeof err->message], tail[TAIL];
     if (r->end == TOO_LONG)
@@ -510,7 +484,7 @@ static enum br_status tell_failure(const struct br_program *p, const struct run 
     return br_no_memory(err, "why a run failed");
 }
 
-static enum br_status read_numbers(const struct br_program *p, const struct run *r,
+static enum br_status read_numbers(const struct br_orders_request *p, const struct run *r,
                                    struct br_numbers_row *row, struct br_error *why)
 {
     const size_t size = size_of(r->printed[0]);
@@ -528,7 +502,7 @@ static enum br_status read_numbers(const struct br_program *p, const struct run 
     return status;
 }
 
-static enum br_status finish(const struct br_program *p, const struct run *r,
+static enum br_status finish(const struct br_orders_request *p, const struct run *r,
                              struct br_numbers_row *row, struct br_error *err)
 {
     struct br_error why = {0};
@@ -562,31 +536,192 @@ static enum br_status run_cell(const struct job *j, const struct cell *cell,
         watch(j->program, &r);
         status = finish(j->program, &r, row, err);
     }
-    remove_folder(&r);
+    for (int i = 0; i < 2; i++)
+        if (r.printed[i] >= 0)
+            close(r.printed[i]);
+    br_remove_folder(r.folder);
     return status;
+}
+
+/* ---- finished cells ---- */
+
+static const char format[] = "beamrate-cell 1";
+
+enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes that are read for a word */
+
+/* With what it is and its end, so that no two lists of texts are the same bytes. */
+static void add_text(struct br_sha256 *sum, char kind, const char *text)
+{
+    br_sha256_add(sum, &kind, 1);
+    br_sha256_add(sum, text, strlen(text) + 1);
+}
+
+/* What is no regular file counts by its name alone. */
+static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
+                               struct br_error *err)
+{
+    struct stat info;
+    char text[BR_SHA256_TEXT];
+    long long size;
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return BR_OK;
+    snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
+             (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    if (info.st_size <= largest) {
+        const int file = open(path, O_RDONLY | O_CLOEXEC);
+        const bool read = file >= 0 && br_sha256_file(file, &size, text);
+        const int reason = errno;
+        if (file >= 0)
+            close(file);
+        if (!read)
+            return br_fail(err, BR_IO,
+                           "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
+                           strerror(reason));
+    }
+    add_text(sum, 'f', text);
+    return BR_OK;
+}
+
+/* Names a cell after all that its numbers follow from, as far as that can be seen: the words, the
+ * contents of the program and of files that words name, also behind a "=" (of large ones their size
+ * and time), and the readings. Files that the program reads without being told are not seen. */
+static enum br_status key_of(const struct br_orders_request *request, const struct cell *cell,
+                             char key[BR_SHA256_TEXT], struct br_error *err)
+{
+    struct br_sha256 sum;
+    br_sha256_start(&sum);
+    add_text(&sum, 'v', format);
+    add_text(&sum, 'p', cell->program);
+    enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
+    for (char **word = cell->words; *word && !status; word++) {
+        const char *behind = strchr(*word, '=');
+        add_text(&sum, 'w', *word);
+        status = add_file(&sum, *word, LARGEST_WORD_FILE, err);
+        if (behind && !status)
+            status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
+    }
+    for (size_t i = 0; i < request->readings; i++) {
+        add_text(&sum, 'n', request->reading[i].name);
+        add_text(&sum, "rjc"[request->reading[i].kind], request -> reading[i].what);
+    }
+    br_sha256_end(&sum, key);
+    return status;
+}
+
+static double number_or_nan(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+/* Fills the row's numbers, seconds and bytes, and says that it was kept. false: there is no such
+ * cell that can be read. */
+static bool find_cell(const struct br_orders_request *request, const char *key,
+                      struct br_numbers_row *row)
+{
+    char path[PATH_MAX];
+    const size_t readings = request->readings;
+    if ((size_t)snprintf(path, sizeof path, "%s/%s.json", request->kept, key) >= sizeof path)
+        return false;
+    json_t *kept = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
+    const char *tag = json_string_value(json_object_get(kept, "format"));
+    const json_t *numbers = json_object_get(kept, "numbers");
+    bool found = tag && strcmp(tag, format) == 0 && json_array_size(numbers) == readings;
+    for (size_t i = 0; i < readings && found; i++) {
+        row->number[i] = number_or_nan(json_array_get(numbers, i));
+        found = isfinite(row->number[i]);
+    }
+    if (found) {
+        row->seconds = number_or_nan(json_object_get(kept, "seconds"));
+        row->bytes = number_or_nan(json_object_get(kept, "bytes"));
+        row->kept = true;
+    }
+    json_decref(kept);
+    return found;
+}
+
+static json_t *json_number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* NULL: out of memory. The command is there for people. */
+static json_t *text_of(const struct cell *cell, size_t readings, const struct br_numbers_row *row)
+{
+    json_t *command = json_array(), *numbers = json_array();
+    bool whole = command && numbers;
+    for (char **word = cell->words; *word && whole; word++) {
+        char text[512];
+        br_quoted(text, sizeof text, &br_for_text, *word);
+        whole = json_array_append_new(command, json_string(text)) == 0;
+    }
+    for (size_t i = 0; i < readings && whole; i++)
+        whole = json_array_append_new(numbers, json_number(row->number[i])) == 0;
+    json_t *all = whole ? json_pack("{s:s, s:O, s:O, s:o, s:o}", "format", format, "command",
+                                    command, "numbers", numbers, "seconds",
+                                    json_number(row->seconds), "bytes", json_number(row->bytes))
+                        : NULL;
+    json_decref(command);
+    json_decref(numbers);
+    return all;
+}
+
+/* By rename: another study finds it whole, or not at all. */
+static bool write_cell(char *unfinished, const char *finished, const json_t *cell)
+{
+    const int file = mkostemp(unfinished, O_CLOEXEC);
+    if (file < 0)
+        return false;
+    const bool written = json_dumpfd(cell, file, JSON_INDENT(1)) == 0 && fsync(file) == 0;
+    int reason = errno;
+    close(file);
+    if (written && rename(unfinished, finished) == 0)
+        return true;
+    reason = written ? errno : reason;
+    unlink(unfinished);
+    errno = reason;
+    return false;
+}
+
+/* Keeps a row, whole or not at all. */
+static enum br_status keep_cell(const struct br_orders_request *request, const char *key,
+                                const struct cell *of, const struct br_numbers_row *row,
+                                struct br_error *err)
+{
+    char unfinished[PATH_MAX], finished[PATH_MAX];
+    json_t *cell = text_of(of, request->readings, row);
+    if (!cell)
+        return br_no_memory(err, "a finished cell");
+    snprintf(unfinished, sizeof unfinished, "%s/.unfinished-XXXXXX", request->kept);
+    const int length = snprintf(finished, sizeof finished, "%s/%s.json", request->kept, key);
+    errno = ENAMETOOLONG;
+    const bool kept = (size_t)length < sizeof finished && write_cell(unfinished, finished, cell);
+    const int reason = errno;
+    json_decref(cell);
+    return kept ? BR_OK
+                : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                          request->kept, strerror(reason));
 }
 
 /* A cell whose program has changed meanwhile is not kept. */
 static enum br_status take_cell(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    const struct br_program *p = j->program;
+    const struct br_orders_request *p = j->program;
     const struct cell *cell = &j->cell[i];
     struct br_numbers_row *row = &j->numbers->row[i];
-    char key[BR_CELL_KEY], now[BR_CELL_KEY];
+    char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
     if (!p->kept)
         return run_cell(j, cell, row, err);
-    enum br_status status =
-        br_cell_key(cell->program, cell->words, p->reading, p->readings, key, err);
-    if (status || (!p->anew && br_cell_find(p->kept, key, p->readings, row)))
+    enum br_status status = key_of(p, cell, key, err);
+    if (status || (!p->anew && find_cell(p, key, row)))
         return status;
     status = run_cell(j, cell, row, err);
     if (status || row->failure)
         return status;
-    status = br_cell_key(cell->program, cell->words, p->reading, p->readings, now, err);
+    status = key_of(p, cell, now, err);
     if (status || strcmp(key, now) != 0)
         return status;
-    return br_cell_keep(p->kept, key, cell->words, p->readings, row, err);
+    return keep_cell(p, key, cell, row, err);
 }
 
 /* ---- the grid ---- */
@@ -596,105 +731,55 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-static enum br_status check_list(const struct br_program_axis *axis, struct br_error *err)
-{
-    const struct br_resolution_column *column = axis->column;
-    for (size_t i = 0; i < axis->count; i++) {
-        const double given = axis->given[i];
-        const bool whole = given == floor(given) && given < MOST_COUNTED;
-        if (!(given > 0 && isfinite(given)) || !(column->is_size || whole))
-            return br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a %s above 0", column->name,
-                           given, column->is_size ? "finite size" : "whole number");
-        for (size_t k = 0; k < i; k++)
-            if (axis->given[k] == given)
-                return br_fail(err, BR_BAD_INPUT, "%s: found %.17g twice", column->name, given);
-    }
-    return axis->count ? BR_OK : br_fail(err, BR_BAD_INPUT, "%s: the list is empty", column->name);
-}
-
-/* First over space. */
-static int from_coarse(const void *a, const void *b)
-{
-    const double *first = ((const struct br_numbers_row *)a)->z;
-    const double *second = ((const struct br_numbers_row *)b)->z;
-    int order = 0;
-    for (int i = 0; i < BR_AXES && order == 0; i++) /* NaN: both have no such axis */
-        order = (first[i] < second[i]) - (first[i] > second[i]);
-    return order;
-}
-
-static enum br_status make_rows(const struct br_program *p, struct br_numbers *numbers,
+static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
                                 struct br_error *err)
 {
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
-    numbers->row = br_allocate(rows, sizeof *numbers->row);
-    for (; numbers->row && numbers->rows < rows; numbers->rows++) {
-        struct br_numbers_row *row = &numbers->row[numbers->rows];
-        const size_t at[BR_AXES] = {
-            [BR_AXIS_SPACE] = numbers->rows / inner, [BR_AXIS_TIME] = numbers->rows % inner};
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    for (size_t r = 0; r < rows && !status; r++) {
+        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / inner, [BR_AXIS_TIME] = r % inner};
+        struct br_numbers_row *row = &numbers->row[r];
         for (int i = 0; i < BR_AXES; i++) {
-            const struct br_resolution_column *column = p->axis[i].column;
-            numbers->column[i] = column;
-            row->given[i] = column ? p->axis[i].given[at[i]] : (double)NAN;
-            row->z[i] = column ? br_numbers_z(column, row->given[i], p->dimension) : (double)NAN;
+            const struct br_resolution_column *column = numbers->column[i] = p->axis[i].column;
+            if (!column)
+                continue;
+            row->given[i] = p->axis[i].given[at[i]];
+            row->z[i] = br_numbers_z(column, row->given[i], p->dimension);
         }
-        row->seconds = row->bytes = (double)NAN;
-        row->number = br_allocate(p->readings, sizeof *row->number);
-        if (!row->number)
-            break;
     }
-    if (!numbers->row || numbers->rows < rows)
-        return br_no_memory(err, "the numbers of a study");
-    qsort(numbers->row, rows, sizeof *numbers->row, from_coarse);
-    return BR_OK;
+    if (!status)
+        br_numbers_sort(numbers);
+    return status;
 }
 
-static enum br_status make_quantities(const struct br_program *p, struct br_numbers *numbers,
+static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
 {
     enum br_status status = BR_OK;
-    numbers->quantity = br_allocate(p->readings, sizeof *numbers->quantity);
-    if (!numbers->quantity)
-        return br_no_memory(err, "the quantities of a study");
     for (size_t i = 0; i < p->readings && !status; i++) {
+        const char *name = p->reading[i].name;
         status = br_reading_check(&p->reading[i], err);
-        for (size_t k = 0; k < i && !status; k++)
-            if (strcmp(p->reading[k].name, p->reading[i].name) == 0)
-                status = br_fail(err, BR_BAD_INPUT, "the reading '%s' is there twice",
-                                 p->reading[i].name);
-        numbers->quantity[i].is_value = p->reading[i].is_value;
-        numbers->quantity[i].name = strdup(p->reading[i].name);
-        numbers->quantities = i + 1;
-        if (!numbers->quantity[i].name && !status)
-            status = br_no_memory(err, "the quantities of a study");
+        if (!status)
+            status = br_numbers_add_quantity(numbers, name, NULL, br_lists(p->values, name), err);
     }
-    return status;
+    return status ? status : br_orders_check_lists(p, numbers, err);
 }
 
-static enum br_status check(const struct br_program *p, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    if (!p->axis[BR_AXIS_SPACE].column && !p->axis[BR_AXIS_TIME].column)
-        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
-    if (p->readings == 0)
-        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    for (int i = 0; i < BR_AXES && !status; i++)
-        if (p->axis[i].column)
-            status = check_list(&p->axis[i], err);
-    return status;
-}
-
-enum br_status br_program_run(const struct br_program *program, struct br_numbers *numbers,
+enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
                               struct br_error *err)
 {
     struct job j = {.program = program, .numbers = numbers};
     *numbers = (struct br_numbers){.rows = 0};
-    enum br_status status = check(program, err);
-    if (!status)
-        status = make_quantities(program, numbers, err);
+    enum br_status status = BR_OK;
+    if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
+        status = br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    else if (program->readings == 0)
+        status = br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
     if (!status)
         status = make_rows(program, numbers, err);
+    if (!status)
+        status = make_quantities(program, numbers, err);
     if (!status)
         status = make_cells(&j, err);
     if (!status)

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/orders/program.h"
+#include "study/orders/request.h"
 #include "study/scene/quote.h"
 
 enum {
@@ -99,19 +99,6 @@ struct matches {
     char lines[64]; /* their numbers */
 };
 
-/* The first match in a line from `at`, its offsets counted from the line's beginning. As regexec.
- */
-static int match_from(const regex_t *regex, const char *line, size_t at, regmatch_t match[2])
-{
-    const int failure = regexec(regex, line + at, 2, match, at > 0 ? REG_NOTBOL : 0);
-    for (int i = 0; i < 2 && !failure; i++)
-        if (match[i].rm_so >= 0) { /* (a)|b has not always its group */
-            match[i].rm_so += (regoff_t)at;
-            match[i].rm_eo += (regoff_t)at;
-        }
-    return failure;
-}
-
 static enum br_status take_group(struct search *s, const char *line, const regmatch_t match[2],
                                  size_t number)
 {
@@ -133,7 +120,8 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
     enum br_status status = BR_OK;
     int failure = 0;
     for (size_t at = 0; at <= length && !status;) {
-        failure = match_from(regex, line, at, match);
+        match[0] = (regmatch_t){(regoff_t)at, (regoff_t)length};
+        failure = regexec(regex, line, 2, match, REG_STARTEND | (at > 0 ? REG_NOTBOL : 0));
         const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
         if (failure)
             break;
@@ -228,103 +216,36 @@ static enum br_status search_json(struct search *s)
 
 /* ---- CSV ---- */
 
-/* A table that is read field by field. */
-struct table {
-    char *at;     /* what is left */
-    size_t line;  /* of it */
-    char *field;  /* the last one, without quotes, made in place */
-    bool row_end; /* it is the last of its row */
-    bool broken;  /* it has a quote that does not end, or text around one */
-};
-
-static void read_field(struct table *t)
-{
-    const bool quoted = *t->at == '"';
-    bool open = quoted;
-    char *to = t->field = t->at;
-    for (t->at += quoted; *t->at; t->at++) {
-        if (quoted && *t->at == '"' && *++t->at != '"') { /* "" is a quote in the text */
-            open = false;
-            break;
-        }
-        if (!quoted && strchr(",\n\"", *t->at))
-            break;
-        t->line += *t->at == '\n';
-        *to++ = *t->at;
-    }
-    t->at += *t->at == '\r';
-    const char end = *t->at;
-    t->broken = open || !strchr(",\n", end); /* which finds the end of all, too */
-    t->row_end = end != ',';
-    t->line += end == '\n';
-    t->at += end != '\0';
-    *to = '\0';
-}
-
-static bool is_heading(const char *field, const char *name)
-{
-    const size_t length = strlen(name);
-    field += strspn(field, " \t");
-    return strncmp(field, name, length) == 0 && !field[length + strspn(field + length, " \t\r")];
-}
-
-/* What is known of the table so far. */
-struct found {
-    size_t fields;  /* of its heading; 0: it has not come */
-    size_t column;  /* the one that is looked for */
-    size_t columns; /* so many have its name */
-    size_t rows;    /* below the heading */
-    char *last;     /* its field of the last row */
-};
-
-static enum br_status read_row(const struct search *s, struct table *t, struct found *f)
-{
-    const size_t line = t->line;
-    size_t fields = 0;
-    do {
-        read_field(t);
-        if (t->broken)
-            return refuse(s, "a quote is not closed, or not alone in its field, on line %zu", line);
-        if (!f->fields && is_heading(t->field, s->reading->what)) {
-            f->column = fields;
-            f->columns++;
-        }
-        if (f->fields && fields == f->column)
-            f->last = t->field;
-        fields++;
-    } while (!t->row_end);
-    if (f->fields && fields != f->fields)
-        return refuse(s, "found %zu fields on line %zu, expected %zu as in the heading", fields,
-                      line, f->fields);
-    f->rows += f->fields > 0;
-    f->fields = fields;
-    return BR_OK;
-}
-
-/* Empty lines and those that begin with # are none of the table's. */
+/* In the last row. */
 static enum br_status search_csv(struct search *s)
 {
-    struct table t = {.at = s->output, .line = 1};
-    struct found f = {0};
     char buffer[SHOWN];
-    enum br_status status = BR_OK;
-    while (*t.at && !status) {
-        if (*t.at != '#' && t.at[strspn(t.at, "\r")] != '\n') {
-            status = read_row(s, &t, &f);
+    json_t *table = json_array();
+    struct br_error why = {0};
+    enum br_status status = br_table_split(s->output, "the output", table, &why);
+    const size_t rows = json_array_size(table);
+    const json_t *heading = json_array_get(table, 0), *field = NULL;
+    size_t columns = 0;
+    for (size_t i = 1; i < json_array_size(heading) && !status; i++) {
+        const char *name = json_string_value(json_array_get(heading, i));
+        if (!name || strcmp(name, s->reading->what) != 0)
             continue;
-        }
-        t.at += strcspn(t.at, "\n");
-        t.at += *t.at != '\0';
-        t.line++;
+        columns++;
+        field = json_array_get(json_array_get(table, rows - 1), i);
     }
     if (status)
-        return status;
-    if (f.columns != 1)
-        return refuse(s, "found %zu columns '%s' in the heading, expected one", f.columns,
-                      shown(buffer, s->reading->what));
-    if (f.rows == 0)
-        return refuse(s, "the table has no row below its heading");
-    return take_text(s, f.last, strlen(f.last));
+        status = status == BR_BAD_INPUT ? refuse(s, "%s", why.message)
+                                        : br_fail(s->err, status, "%s", why.message);
+    else if (columns != 1)
+        status = refuse(s, "found %zu columns '%s' in the heading, expected one", columns,
+                        shown(buffer, s->reading->what));
+    else if (rows == 1)
+        status = refuse(s, "the table has no row below its heading");
+    else
+        status = take_text(s, json_is_null(field) ? "" : json_string_value(field),
+                           json_string_length(field));
+    json_decref(table);
+    return status;
 }
 
 /* ---- all ---- */

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/orders/request.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "study/orders/sha256.h"
-#include "study/orders/table.h"
 #include "study/scene/words.h"
 
 struct br_orders_request br_orders_request_default(void)
@@ -28,7 +28,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->folder);
     free(r->errors);
     free(r->values);
-    free(r->reading);
+    free((struct br_reading *)r->reading);
     free(r->expectation);
     *r = (struct br_orders_request){0};
 }
@@ -40,88 +40,69 @@ static bool has_table(const struct br_orders_request *r)
     return r->table;
 }
 
-static enum br_status read_table(const struct br_orders_request *r, struct br_numbers *numbers,
-                                 struct br_error *err)
-{
-    const struct br_table_request q = {r->table_path ? r->table_path : r->path, r->errors,
-                                       r->values, r->dimension};
-    return br_table_read(r->table, &q, numbers, err);
-}
-
 static bool has_command(const struct br_orders_request *r)
 {
     return r->command;
 }
 
-/* Every name of a list is a reading's. */
-static enum br_status check_list(const struct br_orders_request *r, const char *option,
-                                 const char *list, struct br_error *err)
-{
-    const char *name;
-    size_t length;
-    while (list) {
-        list = br_list_next(list, &name, &length);
-        bool found = false;
-        for (size_t i = 0; i < r->readings; i++)
-            found |= strlen(r->reading[i].name) == length &&
-                     memcmp(r->reading[i].name, name, length) == 0;
-        if (!found)
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: nothing of the name '%.*s' is read", r->path,
-                           option, (int)length, name);
-    }
-    return BR_OK;
-}
+const struct br_orders_source br_orders_sources[] = {
+    {has_command, br_program_run}, {has_table, br_table_read}, {NULL, NULL}};
 
-/* A reading is an error, unless it is listed as a value. */
-static enum br_status check_readings(const struct br_orders_request *r, struct br_error *err)
+const char *br_orders_path(const struct br_orders_request *r)
 {
-    if (check_list(r, "--error", r->errors, err) || check_list(r, "--value", r->values, err))
-        return err->status;
-    for (size_t i = 0; i < r->readings; i++)
-        if (br_lists(r->errors, r->reading[i].name) && br_lists(r->values, r->reading[i].name))
-            return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
-                           r->path, r->reading[i].name);
-    return BR_OK;
+    return r->table_path ? r->table_path : r->path;
 }
-
-static enum br_status run_program(const struct br_orders_request *r, struct br_numbers *numbers,
-                                  struct br_error *err)
-{
-    if (check_readings(r, err))
-        return err->status;
-    for (size_t i = 0; i < r->readings; i++)
-        r->reading[i].is_value = br_lists(r->values, r->reading[i].name);
-    const struct br_program program = {
-        .command = r->command,
-        .folder = r->folder,
-        .axis = {r->axis[BR_AXIS_SPACE], r->axis[BR_AXIS_TIME]},
-        .dimension = r->dimension,
-        .reading = r->reading,
-        .readings = r->readings,
-        .jobs = r->jobs,
-        .seconds = r->seconds,
-        .kept = r->kept,
-        .anew = r->anew,
-        .observer = r->observer,
-    };
-    const enum br_status status = br_program_run(&program, numbers, err);
-    return status ? status : br_numbers_check(numbers, r->path, err);
-}
-
-static const struct br_orders_source table = {"table", "a table in a file: CSV, TSV or JSON lines",
-                                              has_table, read_table};
-static const struct br_orders_source program = {
-    "program", "a program that is run at each resolution", has_command, run_program};
-const struct br_orders_source *const br_orders_sources[] = {&program, &table, NULL};
 
 enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbers *numbers,
                               struct br_error *err)
 {
     *numbers = (struct br_numbers){0};
-    for (const struct br_orders_source *const *s = br_orders_sources; *s; s++)
-        if ((*s)->applies(r))
-            return (*s)->read(r, numbers, err);
+    for (const struct br_orders_source *s = br_orders_sources; s->applies; s++)
+        if (s->applies(r)) {
+            const enum br_status status = s->read(r, numbers, err);
+            return status ? status : br_numbers_check(numbers, br_orders_path(r), err);
+        }
     return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
+}
+
+/* Every name of a list is a quantity's. */
+static enum br_status check_list(const struct br_orders_request *r, const char *option,
+                                 const char *list, const struct br_numbers *numbers,
+                                 struct br_error *err)
+{
+    const char *name, *path = br_orders_path(r);
+    size_t length;
+    while (list) {
+        list = br_list_next(list, &name, &length);
+        bool found = false;
+        for (size_t i = 0; i < numbers->quantities; i++)
+            found |= strlen(numbers->quantity[i].name) == length &&
+                     memcmp(numbers->quantity[i].name, name, length) == 0;
+        char word[8];
+        snprintf(word, sizeof word, "%.*s", (int)length, name);
+        if (!found && br_resolution_column_find(word))
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: '%s' is a resolution, expected numbers",
+                           path, option, word);
+        if (!found)
+            return br_fail(err, BR_BAD_INPUT,
+                           r->command ? "%s: %s: nothing of the name '%.*s' is read"
+                                      : "%s: %s: there is no column '%.*s'",
+                           path, option, (int)length, name);
+    }
+    return BR_OK;
+}
+
+enum br_status br_orders_check_lists(const struct br_orders_request *r,
+                                     const struct br_numbers *numbers, struct br_error *err)
+{
+    if (check_list(r, "--error", r->errors, numbers, err) ||
+        check_list(r, "--value", r->values, numbers, err))
+        return err->status;
+    for (size_t i = 0; i < numbers->quantities; i++)
+        if (numbers->quantity[i].is_value && br_lists(r->errors, numbers->quantity[i].name))
+            return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
+                           br_orders_path(r), numbers->quantity[i].name);
+    return BR_OK;
 }
 
 /* ---- parts ---- */
@@ -135,7 +116,11 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     if (r->axis[c->axis].column)
         return br_fail(err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
                        r->axis[c->axis].column->name, column);
-    const enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    for (size_t i = 0; i < count && !status; i++) /* all whole numbers below 2^53 are doubles */
+        if (!c->is_size && !(given[i] == floor(given[i]) && given[i] < 0x1p53))
+            status = br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a whole number above 0",
+                             column, given[i]);
     r->axis[c->axis] = (struct br_program_axis){c, given, count};
     return status;
 }
@@ -161,42 +146,12 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
         return br_no_memory(err, "what is read");
     if (r->readings)
         memcpy(more, r->reading, r->readings * sizeof *more);
-    free(r->reading);
+    free((struct br_reading *)r->reading);
     r->reading = more;
     reading.name = strdup(name);
     reading.what = strdup(what);
     more[r->readings++] = reading;
     return reading.name && reading.what ? BR_OK : br_no_memory(err, "what is read");
-}
-
-enum br_status br_orders_request_expect(struct br_orders_request *r, const char *where,
-                                        const char *text, size_t line, struct br_error *err)
-{
-    struct br_order_expectation *more = NULL;
-    size_t count = 0;
-    enum br_status status = br_expectations_read(where, text, &more, &count, err);
-    for (size_t i = 0; i < count && !status; i++)
-        for (size_t j = 0; j < r->expectations && !status; j++)
-            if (more[i].axis == r->expectation[j].axis &&
-                strcmp(more[i].quantity, r->expectation[j].quantity) == 0)
-                status = br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice",
-                                 where, more[i].quantity, br_axis_letters[more[i].axis]);
-    struct br_order_expectation *all =
-        status ? NULL : br_allocate(r->expectations + count, sizeof *all);
-    if (!status && !all)
-        status = br_no_memory(err, "what is expected");
-    if (!status) {
-        if (r->expectations)
-            memcpy(all, r->expectation, r->expectations * sizeof *all);
-        memcpy(all + r->expectations, more, count * sizeof *all);
-        for (size_t i = 0; i < count; i++)
-            all[r->expectations + i].line = line;
-        free(r->expectation);
-        r->expectation = all;
-        r->expectations += count;
-    }
-    free(more);
-    return status;
 }
 
 /* ---- what is solved ---- */

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "study/orders/request.h"
-#include "study/orders/table.h"
 #include "study/scene/file.h"
 #include "study/scene/value.h"
 #include "study/scene/words.h"
@@ -14,41 +13,33 @@
 struct entry {
     const struct br_scene_reader *r;
     struct br_orders_request *request;
-    const char *key, *text; /* text: NULL where the value is a mapping */
+    const struct key *of;
+    const char *text; /* NULL where the value is a mapping */
     const yaml_node_t *node;
+};
+
+struct key {
+    const char *name;
+    enum br_status (*take)(const struct entry *e);
+    size_t at;        /* of a text or a number in the request */
+    const char *unit; /* of a number; NULL: none */
+    bool of_runs;
+    /* Of a mapping of names to texts, instead: takes each pair. */
+    enum br_status (*take_pair)(const struct entry *e, const char *name, const yaml_node_t *value);
 };
 
 static enum br_status refuse_inner(const struct entry *e, size_t line, const struct br_error *inner)
 {
     if (inner->status != BR_BAD_INPUT)
         return br_fail(e->r->err, inner->status, "%s", inner->message);
-    return br_scene_refuse(e->r, line, e->key, "%s", inner->message);
+    return br_scene_refuse(e->r, line, e->of->name, "%s", inner->message);
 }
 
-static enum br_status keep_text(const struct entry *e, char **to)
+static enum br_status take_text(const struct entry *e)
 {
+    char **to = (char **)((char *)e->request + e->of->at);
     *to = strdup(e->text);
     return *to ? BR_OK : br_no_memory(e->r->err, "the study");
-}
-
-static enum br_status take_title(const struct entry *e)
-{
-    return keep_text(e, &e->request->title);
-}
-
-static enum br_status take_command(const struct entry *e)
-{
-    return keep_text(e, &e->request->command);
-}
-
-static enum br_status take_error(const struct entry *e)
-{
-    return keep_text(e, &e->request->errors);
-}
-
-static enum br_status take_value(const struct entry *e)
-{
-    return keep_text(e, &e->request->values);
 }
 
 /* In the folder of the study file. */
@@ -62,7 +53,7 @@ static enum br_status take_table(const struct entry *e)
         *path = NULL;
         return br_no_memory(e->r->err, "the study");
     }
-    return br_table_load(*path, &e->request->table, &inner)
+    return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, &inner)
                ? refuse_inner(e, br_yaml_line(e->node), &inner)
                : BR_OK;
 }
@@ -70,46 +61,34 @@ static enum br_status take_table(const struct entry *e)
 static enum br_status take_list(const struct entry *e)
 {
     struct br_error inner = {0};
-    return br_orders_request_axis(e->request, e->key, e->text, &inner)
+    return br_orders_request_axis(e->request, e->of->name, e->text, &inner)
                ? refuse_inner(e, br_yaml_line(e->node), &inner)
                : BR_OK;
 }
 
 /* A number above 0, with the unit that is expected behind it. */
-static enum br_status take_number(const struct entry *e, const char *unit, double *value)
+static enum br_status take_number(const struct entry *e)
 {
-    const char *end = br_read_number(e->text, value);
+    double *value = (double *)((char *)e->request + e->of->at);
+    const char *unit = e->of->unit ? e->of->unit : "", *end = br_read_number(e->text, value);
     end = end ? end + strspn(end, " ") : NULL;
     if (end && strcmp(end, unit) == 0 && *value > 0)
         return BR_OK;
-    return br_scene_refuse(e->r, br_yaml_line(e->node), e->key,
+    return br_scene_refuse(e->r, br_yaml_line(e->node), e->of->name,
                            "found '%s', expected a number above 0%s%s", e->text,
                            *unit ? " and its unit, " : "", unit);
 }
 
-static enum br_status take_dimension(const struct entry *e)
-{
-    return take_number(e, "", &e->request->dimension);
-}
-
 static enum br_status take_formal(const struct entry *e)
 {
-    const enum br_status status = take_number(e, "", &e->request->formal);
+    const enum br_status status = take_number(e);
     return status || (e->request->formal >= 1 && e->request->formal <= 10)
                ? status
-               : br_scene_refuse(e->r, br_yaml_line(e->node), e->key,
+               : br_scene_refuse(e->r, br_yaml_line(e->node), e->of->name,
                                  "found '%s', expected an order from 1 to 10", e->text);
 }
 
-static enum br_status take_limit(const struct entry *e)
-{
-    return take_number(e, "s", &e->request->seconds);
-}
-
-/* Each pair of a mapping of names to texts. */
-static enum br_status each_pair(const struct entry *e,
-                                enum br_status (*take)(const struct entry *e, const char *name,
-                                                       const yaml_node_t *value))
+static enum br_status take_pairs(const struct entry *e)
 {
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = e->node->data.mapping.pairs.start;
@@ -117,9 +96,9 @@ static enum br_status each_pair(const struct entry *e,
         const yaml_node_t *name = yaml_document_get_node(e->r->document, p->key);
         const yaml_node_t *value = yaml_document_get_node(e->r->document, p->value);
         status = name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE
-                     ? br_scene_refuse(e->r, br_yaml_line(name), e->key,
+                     ? br_scene_refuse(e->r, br_yaml_line(name), e->of->name,
                                        "expected names with a text each")
-                     : take(e, br_yaml_text(name), value);
+                     : e->of->take_pair(e, br_yaml_text(name), value);
     }
     return status;
 }
@@ -133,11 +112,6 @@ static enum br_status take_reading(const struct entry *e, const char *name,
                : BR_OK;
 }
 
-static enum br_status take_readings(const struct entry *e)
-{
-    return each_pair(e, take_reading);
-}
-
 static enum br_status take_expectation(const struct entry *e, const char *name,
                                        const yaml_node_t *value)
 {
@@ -149,38 +123,31 @@ static enum br_status take_expectation(const struct entry *e, const char *name,
     else if (asprintf(&text, "%s: %s", name, br_yaml_text(value)) < 0)
         text = NULL;
     else
-        status = br_orders_request_expect(e->request, where, text, line, e->r->err);
+        status = br_expectations_read(where, text, line, &e->request->expectation,
+                                      &e->request->expectations, e->r->err);
     free(where);
     free(text);
     return status == BR_NO_MEMORY ? br_no_memory(e->r->err, "the study") : status;
 }
 
-static enum br_status take_expectations(const struct entry *e)
-{
-    return each_pair(e, take_expectation);
-}
-
-static const struct key {
-    const char *name;
-    bool mapping;
-    enum br_status (*take)(const struct entry *e);
-} keys[] = {
-    {"title", false, take_title},
-    {"run", false, take_command},
-    {"table", false, take_table},
-    {"n", false, take_list},
-    {"h", false, take_list},
-    {"dofs", false, take_list},
-    {"k", false, take_list},
-    {"dt", false, take_list},
-    {"steps", false, take_list},
-    {"read", true, take_readings},
-    {"error", false, take_error},
-    {"value", false, take_value},
-    {"dimension", false, take_dimension},
-    {"formal_order", false, take_formal},
-    {"time_limit", false, take_limit},
-    {"verify", true, take_expectations},
+static const struct key keys[] = {
+    {"title", take_text, .at = offsetof(struct br_orders_request, title)},
+    {"run", take_text, .at = offsetof(struct br_orders_request, command)},
+    {"table", .take = take_table},
+    {"n", take_list, .of_runs = true},
+    {"h", take_list, .of_runs = true},
+    {"dofs", take_list, .of_runs = true},
+    {"k", take_list, .of_runs = true},
+    {"dt", take_list, .of_runs = true},
+    {"steps", take_list, .of_runs = true},
+    {"read", take_pairs, .of_runs = true, .take_pair = take_reading},
+    {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
+    {"value", take_text, .at = offsetof(struct br_orders_request, values)},
+    {"dimension", take_number, .at = offsetof(struct br_orders_request, dimension)},
+    {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
+    {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
+     .of_runs = true},
+    {"verify", take_pairs, .take_pair = take_expectation},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
@@ -197,12 +164,12 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
             continue;
         if (seen[i])
             return br_scene_refuse(r, br_yaml_line(name), text, "is given twice");
-        if (value->type != (keys[i].mapping ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
+        if (value->type != (keys[i].take_pair ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
             return br_scene_refuse(r, br_yaml_line(value), text, "expected %s",
-                                   keys[i].mapping ? "names with a text each" : "one text");
+                                   keys[i].take_pair ? "names with a text each" : "one text");
         seen[i] = true;
-        return keys[i].take(
-            &(struct entry){r, request, text, keys[i].mapping ? NULL : br_yaml_text(value), value});
+        return keys[i].take(&(struct entry){r, request, &keys[i],
+                                            keys[i].take_pair ? NULL : br_yaml_text(value), value});
     }
     char known[400] = "";
     for (size_t i = 0; i < KEYS; i++)
@@ -214,14 +181,11 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
 /* What is said of runs alone. */
 static enum br_status check_table(const struct br_scene_reader *r, const bool seen[KEYS])
 {
-    static const char *const of_runs[] = {"n",  "h",     "dofs", "k",
-                                          "dt", "steps", "read", "time_limit"};
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     for (size_t i = 0; i < KEYS; i++)
-        for (size_t j = 0; j < sizeof of_runs / sizeof *of_runs; j++)
-            if (seen[i] && strcmp(keys[i].name, of_runs[j]) == 0)
-                return br_scene_refuse(r, br_yaml_line(root), keys[i].name,
-                                       "is given beside 'table', expected beside 'run' only");
+        if (seen[i] && keys[i].of_runs)
+            return br_scene_refuse(r, br_yaml_line(root), keys[i].name,
+                                   "is given beside 'table', expected beside 'run' only");
     return BR_OK;
 }
 

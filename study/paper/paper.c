@@ -77,11 +77,11 @@ static enum br_status measure(void *self, const struct br_march *march,
     return BR_OK;
 }
 
-/* How a point is marched. */
-struct way {
-    bool implicit;  /* the contact force at the new step */
-    size_t coarser; /* h and k times this */
-};
+/* How a point is marched: the contact force at the new step or not; h and k times so much. */
+static const struct way {
+    bool implicit;
+    size_t coarser;
+} ways[BR_SWEEP_WAYS] = {{false, 1}, {true, 1}, {true, 2}};
 
 static enum br_status run(const struct br_paper *p, const struct br_scene *scene,
                           const struct way *way, struct size *size, bool *unstable,
@@ -110,7 +110,7 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
     struct br_march *march = NULL;
     struct br_history_end end;
     const enum br_status status = br_history_run(&request, &march, &end, err);
-    if (march && unstable)
+    if (march)
         *unstable = br_march_contact_unstable(march);
     br_march_free(march);
     return status;
@@ -129,23 +129,20 @@ static enum br_status run_sweep_point(struct br_paper *p, size_t sweep, size_t i
     if (!size.nodal)
         return br_no_memory(err, "the sweep");
     enum br_status status = BR_OK;
-    for (int rule = 0; rule < 2 && !status; rule++) {
+    for (int way = 0; way < BR_SWEEP_WAYS && !status; way++) {
+        bool unstable = false;
         size.last = size.most = 0;
-        status = run(p, &scene, &(struct way){rule, 1}, &size, rule ? NULL : &point->unstable, err);
-        point->last[rule] = size.last;
-        point->most[rule] = size.most;
+        status = run(p, &scene, &ways[way], &size, &unstable, err);
+        point->last[way] = size.last;
+        point->most[way] = size.most;
+        point->unstable |= unstable && !ways[way].implicit;
     }
-    size.last = size.most = 0;
-    if (!status)
-        status = run(p, &scene, &(struct way){true, 2}, &size, NULL, err);
-    point->doubled = size.most;
     free(size.nodal);
     return status;
 }
 
 /* ---- exact solutions ---- */
 
-/* The exact solutions of the examples, and two cells of each table judged by them. */
 static struct br_history_row row_at(const struct br_exact *exact, double time,
                                     struct br_exact_state *state)
 {
@@ -268,14 +265,6 @@ static const double figure_times[BR_EXAMPLES][BR_FIGURE_TIMES] = {
     {0.5, 1, 1.5, 2, 2.5, 3},
 };
 
-const double *br_figure_times(size_t example, size_t *count)
-{
-    *count = 0;
-    while (*count < BR_FIGURE_TIMES && figure_times[example][*count] > 0)
-        ++*count;
-    return figure_times[example];
-}
-
 struct br_paper_request br_paper_request_default(void)
 {
     return (struct br_paper_request){.n = 1000, .per_second = 1000, .per_decade = 4};
@@ -312,8 +301,10 @@ static enum br_status run_example(struct br_paper *p, size_t i, struct br_error 
 {
     struct br_example *e = &p->example[i];
     const size_t steps = p->request.per_second * (size_t)lround(e->scene.duration);
-    size_t times;
-    const double *time = br_figure_times(i, &times);
+    const double *time = figure_times[i];
+    size_t times = 0;
+    while (times < BR_FIGURE_TIMES && time[times] > 0)
+        times++;
     return record(&e->scene, p->request.n, steps, time, times, &e->record, err);
 }
 
@@ -352,7 +343,6 @@ static enum br_status run_coupled(struct br_paper *p, struct br_error *err)
 struct work {
     struct br_paper *paper;
     const struct br_observer *observer;
-    size_t sweep[BR_SWEEPS]; /* points */
 };
 
 /* The long ones first: exact solutions, examples, the sweep, the rest. */
@@ -365,8 +355,8 @@ static enum br_status run_task(void *self, size_t task, struct br_error *err)
     if (task < BR_EXAMPLES)
         return run_example(w->paper, task, err);
     task -= BR_EXAMPLES;
-    for (size_t s = 0; s < BR_SWEEPS; task -= w->sweep[s++])
-        if (task < w->sweep[s])
+    for (size_t s = 0; s < BR_SWEEPS; task -= w->paper->sweep[s++].points)
+        if (task < w->paper->sweep[s].points)
             return run_sweep_point(w->paper, s, task, err);
     return task ? run_coupled(w->paper, err) : run_early(w->paper, err);
 }
@@ -374,9 +364,9 @@ static enum br_status run_task(void *self, size_t task, struct br_error *err)
 static enum br_status run_tasks(struct br_paper *p, const struct br_observer *observer,
                                 struct br_error *err)
 {
-    struct work work = {p, observer, {p->sweep[0].points, p->sweep[1].points}};
+    struct work work = {p, observer};
     const struct br_each each = {
-        .count = 2 * BR_EXAMPLES + work.sweep[0] + work.sweep[1] + 2,
+        .count = 2 * BR_EXAMPLES + p->sweep[0].points + p->sweep[1].points + 2,
         .threads = p->request.threads,
         .observer = observer,
         .turn = run_task,
@@ -394,14 +384,6 @@ enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error 
     return status ? status : br_scene_read(path, scene, err);
 }
 
-static enum br_status read_scenes(struct br_paper *p, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
-        status = br_paper_scene(i, &p->example[i].scene, err);
-    return status;
-}
-
 enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *request,
                             const struct br_observer *observer, struct br_error *err)
 {
@@ -414,7 +396,9 @@ enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *r
             "figures: n is %zu, expected an even number; steps of a second %zu, expected a "
             "multiple of 100",
             request->n, request->per_second);
-    enum br_status status = read_scenes(p, err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_EXAMPLES && !status; i++)
+        status = br_paper_scene(i, &p->example[i].scene, err);
     if (!status)
         status = create_sweeps(p, err);
     if (!status)

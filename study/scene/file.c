@@ -61,19 +61,20 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
 }
 
 /* The stream is read once, to its end: a pipe has no second time. */
-static enum br_status read_all(const char *path, FILE *file, char *text, struct br_error *err)
+static enum br_status read_all(const char *path, FILE *file, size_t longest, const char *what,
+                               char *text, struct br_error *err)
 {
     errno = 0;
-    const size_t length = fread(text, 1, BR_LONGEST_SCENE + 1, file);
+    const size_t length = fread(text, 1, longest + 1, file);
     if (ferror(file))
         return br_fail(err,
                        errno == EINTR    ? BR_INTERRUPTED
                        : errno == EISDIR ? BR_BAD_INPUT
                                          : BR_IO,
                        "%s: %s", path, strerror(errno));
-    if (length > BR_LONGEST_SCENE)
-        return br_fail(err, BR_BAD_INPUT, "%s: found more than %d bytes, expected a scene", path,
-                       BR_LONGEST_SCENE);
+    if (length > longest)
+        return br_fail(err, BR_BAD_INPUT, "%s: found more than %zu bytes, expected a %s", path,
+                       longest, what);
     const char *zero = memchr(text, 0, length);
     size_t line = 1;
     for (const char *c = text; zero && c < zero; c++)
@@ -82,7 +83,8 @@ static enum br_status read_all(const char *path, FILE *file, char *text, struct 
                 : BR_OK;
 }
 
-enum br_status br_scene_load(const char *path, char **text, struct br_error *err)
+enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
+                            struct br_error *err)
 {
     *text = NULL;
     FILE *file = strcmp(path, standard_input) == 0 ? stdin : fopen(path, "rb");
@@ -92,9 +94,9 @@ enum br_status br_scene_load(const char *path, char **text, struct br_error *err
                        : errno == ENOMEM ? BR_NO_MEMORY
                                          : BR_BAD_INPUT,
                        "%s: %s", path, strerror(errno));
-    *text = br_allocate(BR_LONGEST_SCENE + 2, 1);
+    *text = br_allocate(longest + 2, 1); /* what is not read takes no memory */
     enum br_status status =
-        *text ? read_all(path, file, *text, err) : br_no_memory(err, "the scene");
+        *text ? read_all(path, file, longest, what, *text, err) : br_no_memory(err, "a file");
     if (file != stdin)
         fclose(file);
     if (status) {
@@ -102,6 +104,11 @@ enum br_status br_scene_load(const char *path, char **text, struct br_error *err
         *text = NULL;
     }
     return status;
+}
+
+enum br_status br_scene_load(const char *path, char **text, struct br_error *err)
+{
+    return br_text_load(path, BR_LONGEST_SCENE, "scene", text, err);
 }
 
 enum br_status br_scene_open(const char *name, char *path, size_t size, char **text,

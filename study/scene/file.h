@@ -37,8 +37,12 @@ enum br_status br_scene_open(const char *name, char *path, size_t size, char **t
                              struct br_scene *scene, struct br_error *err);
 
 /* The whole text of a file, of standard input or a pipe, which can be read once; *text (out): owned
- * by the caller. Fails with BR_BAD_INPUT where it is longer than BR_LONGEST_SCENE or no text; with
- * BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
+ * by the caller. Fails with BR_BAD_INPUT where it is longer than so many bytes or no text, and then
+ * says what is expected, "scene"; with BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
+enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
+                            struct br_error *err);
+
+/* The same of at most BR_LONGEST_SCENE bytes. */
 enum br_status br_scene_load(const char *path, char **text, struct br_error *err);
 
 /* Writes the path of a scene into `path` (out, size bytes): `name` itself where it

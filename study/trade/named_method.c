@@ -7,11 +7,9 @@
 
 #include "study/scene/method_fields.h"
 
-enum { WORD = 32 };
-
 /* ---- the words of a name ---- */
 
-/* The words of a name are rows of the registries, and the words that a field has for its values. */
+/* Rows of the registries, and the words that a field has for its values. */
 static const struct br_method_field *const kinds[] = {
     &br_method_fields[BR_METHOD_SCHEME],    &br_method_fields[BR_METHOD_CONTACT],
     &br_method_fields[BR_METHOD_FRICTION],  &br_method_fields[BR_METHOD_SOLVER],
@@ -31,16 +29,13 @@ static const char *title_of(const struct br_method_field *f)
     return f->words_title ? f->words_title : f->title;
 }
 
-size_t br_named_method_kinds(void)
-{
-    return KINDS;
-}
-
 const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
     size_t used = 0;
     double value;
     const char *word;
+    if (kind >= KINDS)
+        return NULL;
     words[0] = '\0';
     for (size_t i = 0; (word = word_of(kinds[kind], i, &value)) && used < size; i++)
         used += (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", word);
@@ -132,15 +127,9 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
                        BR_METHOD_NAME_SIZE - 1);
     strcpy(c->name, name);
     enum br_status status = BR_OK;
-    for (const char *rest = name; !status; rest++) {
-        char word[WORD];
-        const size_t length = strcspn(rest, "+");
-        snprintf(word, sizeof word, "%.*s", (int)(length < WORD ? length : WORD - 1), rest);
-        status = take_word(word, &c->method, taken, err);
-        rest += length;
-        if (!*rest)
-            break;
-    }
+    char words[BR_METHOD_NAME_SIZE], *rest = strcpy(words, name);
+    while (rest && !status)
+        status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
     return status ? status : check(&c->method, taken, err);
@@ -210,35 +199,24 @@ static void add_scheme(const struct br_scene *scene, const struct br_time_scheme
         add(scene, all, "%s+%s", scheme->name, (*rule)->name);
 }
 
-/* The first scheme of order two: what the other friction rules and solvers are held with. */
-static const struct br_time_scheme *base_scheme(void)
+void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
 {
-    const struct br_time_scheme *const *scheme = br_time_schemes;
-    while (scheme[1] && (*scheme)->order != 2)
-        scheme++;
-    return *scheme;
-}
-
-static void add_solvers(const struct br_scene *scene, const char *base,
-                        struct br_named_methods *all)
-{
+    /* The first scheme of order two: what the other friction rules and solvers are held with. */
+    const struct br_time_scheme *const *second = br_time_schemes;
+    while (second[1] && (*second)->order != 2)
+        second++;
+    const char *base = (*second)->name;
+    all->count = 0;
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        add_scheme(scene, *s, all);
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        if (scene->axial.modelled && (s == second || (*s)->order > 2))
+            add(scene, all, "%s+p2", (*s)->name);
+    for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
+        add(scene, all, "%s+%s", base, br_friction_rules[i]->name);
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
         add(scene, all, "%s+%s", base, (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling") && br_linear_solver_heeds(*s, "--refinement"))
             add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
     }
-}
-
-void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
-{
-    const struct br_time_scheme *base = base_scheme();
-    all->count = 0;
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        add_scheme(scene, *s, all);
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        if (scene->axial.modelled && (*s == base || (*s)->order > 2))
-            add(scene, all, "%s+p2", (*s)->name);
-    for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
-        add(scene, all, "%s+%s", base->name, br_friction_rules[i]->name);
-    add_solvers(scene, base->name, all);
 }

@@ -92,16 +92,6 @@ static const struct br_judge *judge_of(const struct br_trial_request *r)
     return r->judge ? r->judge : br_judge_best(r->scene);
 }
 
-static void set_measured(const struct br_trial_request *r, struct br_judge_request *request)
-{
-    for (int measure = 0; measure < BR_TIP; measure++)
-        for (size_t m = 0; m < r->norms; m++)
-            if (br_norm_needs(r->norm[m], (enum br_measure)measure)) {
-                request->measured[BR_AXIAL][measure] = r->scene->axial.modelled;
-                request->measured[BR_BENDING][measure] = r->scene->bending.modelled;
-            }
-}
-
 static enum br_status create_judge(const struct br_trial_request *r,
                                    struct br_judge_request *request, void **self,
                                    struct br_error *err)
@@ -168,7 +158,11 @@ static enum br_status look_at_judge(const struct br_trial_request *r, struct jud
     if (!judge->create || judge->nests)
         return BR_OK;
     void *self = NULL;
-    set_measured(r, &request);
+    for (int measure = 0; measure < BR_TIP; measure++) {
+        const bool needed = br_norm_needs(r->norm, (enum br_measure)measure);
+        request.measured[BR_AXIAL][measure] = needed && r->scene->axial.modelled;
+        request.measured[BR_BENDING][measure] = needed && r->scene->bending.modelled;
+    }
     double start = br_thread_seconds();
     enum br_status status = create_judge(r, &request, &self, err);
     judging->mesh = br_thread_seconds() - start;
@@ -244,9 +238,8 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     enum br_status status =
         pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
-        const struct br_observer *o = r->observer;
-        status = o && o->stop && o->stop(o->self) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                                  : find_pace(r->scene, trial, i, pace, err);
+        status = br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                : find_pace(r->scene, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
         outlook->seconds += trial[i].foreseen;

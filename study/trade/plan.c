@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -26,12 +26,8 @@ static double rounded(double tolerance)
 
 struct br_trial br_plan_trial(const struct br_plan_candidate *c)
 {
-    struct br_trial t = {.named = c->named, .at = {(size_t)(c->n + 0.5), BR_PLAN_LEVELS}};
-    if (c->named->method.scheme->adaptive)
-        t.tolerance = rounded(exp(-c->y));
-    else
-        t.at.steps = (size_t)(exp(c->y) + 0.5);
-    return t;
+    return br_trial_at(c->named, (size_t)(c->n + 0.5), (size_t)(exp(c->y) + 0.5),
+                       rounded(exp(-c->y)));
 }
 
 bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
@@ -53,78 +49,54 @@ static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_
     p->forecast[p->count++] = forecast;
 }
 
-/* ---- cheap trials ---- */
+/* ---- cheap trials: the first models are made from them ---- */
 
-/* The cheap trials that the first models of a plan are made from. */
-
-static const size_t probe_meshes[] = {2, 4, 12, 36, 108, 324, 972, 2916};
+enum { MESHES = 8 };
+static const size_t probe_meshes[MESHES] = {2, 4, 12, 36, 108, 324, 972, 2916};
 
 /* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
  * solution switches are better than their neighbours. Many time levels in common spare the judge
  * work. */
-static const size_t probe_steps[] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
+enum { PROBES = 10 };
+static const size_t probe_steps[PROBES] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
 static const size_t mesh_of_all_steps = 108;
 
-static const double probe_tolerances[] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
-                                          1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+static const double probe_tolerances[PROBES] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
+                                                1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
 /* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
  * at most; solves of an adaptive scheme where they are not known yet. */
 static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
-
-enum {
-    MESHES = sizeof probe_meshes / sizeof *probe_meshes,
-    STEPS = sizeof probe_steps / sizeof *probe_steps,
-    TOLERANCES = sizeof probe_tolerances / sizeof *probe_tolerances
-};
 
 /* Those of one method on one mesh. */
 static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
 {
     const bool adaptive = named->method.scheme->adaptive;
     const double stages = br_time_scheme_stages(named->method.scheme);
-    const size_t count = adaptive ? TOLERANCES : STEPS;
     const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
-    for (size_t j = 0; j < count; j += next) {
-        struct br_trial trial = {.named = named, .at = {n, BR_PLAN_LEVELS}};
-        if (adaptive)
-            trial.tolerance = probe_tolerances[j];
-        else
-            trial.at.steps = probe_steps[j];
+    for (size_t j = 0; j < PROBES; j += next) {
+        const struct br_trial trial = br_trial_at(named, n, probe_steps[j], probe_tolerances[j]);
         const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
         if (((double)n + overhead) * solves <= most_work)
             add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
     }
 }
 
-static void add_probes(struct br_plan *plan)
-{
-    for (size_t c = 0; c < plan->methods.count; c++)
-        for (size_t i = 0; i < MESHES; i++)
-            add_column(plan, &plan->methods.list[c], probe_meshes[i]);
-}
-
-/* Room for all cheap trials, and for as many rounds as there may be. */
-static enum br_status make_room(struct br_plan *p, struct br_error *err)
-{
-    const size_t probes = MESHES * (STEPS > TOLERANCES ? STEPS : TOLERANCES);
-    const size_t most = p->methods.count * probes + p->most_rounds * BR_PLAN_BATCH;
-    p->trial = br_allocate(most, sizeof *p->trial);
-    p->forecast = br_allocate(most, sizeof *p->forecast);
-    return p->trial && p->forecast ? BR_OK : br_no_memory(err, "the trials");
-}
-
+/* With room for as many rounds as there may be. */
 enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
 {
-    const enum br_status status = make_room(p, err);
-    if (!status)
-        add_probes(p);
-    return status;
+    const size_t most = p->methods.count * MESHES * PROBES + p->most_rounds * BR_PLAN_BATCH;
+    p->trial = br_allocate(most, sizeof *p->trial);
+    p->forecast = br_allocate(most, sizeof *p->forecast);
+    if (!p->trial || !p->forecast)
+        return br_no_memory(err, "the trials");
+    for (size_t c = 0; c < p->methods.count; c++)
+        for (size_t i = 0; i < MESHES; i++)
+            add_column(p, &p->methods.list[c], probe_meshes[i]);
+    return BR_OK;
 }
 
 /* ---- models ---- */
-
-/* The models of a plan's named methods, from their trials. */
 
 static void forget(struct br_plan *p)
 {
@@ -134,58 +106,45 @@ static void forget(struct br_plan *p)
     }
 }
 
-/* What is seen of one named method's trials, in room for all. */
-struct seen {
-    struct br_plan_point *point;
-    struct br_plan_work *work;
-    size_t points, works;
-};
-
-static void see(const struct br_plan *p, const struct br_named_method *c, struct seen *seen)
-{
-    seen->points = seen->works = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        const struct br_trial *t = &p->trial[i];
-        const double error = br_trial_bound(t, 0), seconds = p->seconds(t);
-        if (t->named != c)
-            continue;
-        if (error > 0 && isfinite(error))
-            seen->point[seen->points++] =
-                (struct br_plan_point){log((double)t->at.n), br_plan_y(t), error};
-        if (seconds > 0 && isfinite(seconds) && t->cost.counts.stages > 0)
-            seen->work[seen->works++] = (struct br_plan_work){
-                (double)t->at.n, br_plan_y(t), (double)t->cost.counts.stages, seconds};
-    }
-}
-
-/* The space error's order is 2 for elements of degree 1; of more it is measured. */
-static enum br_status fit_one(struct br_plan *p, size_t c, struct seen *seen, struct br_error *err)
+/* By what is seen of its trials, in room for all. The space error's order is 2 for elements of
+ * degree 1; of more it is measured. */
+static enum br_status fit_one(struct br_plan *p, size_t c, struct br_plan_point *point,
+                              struct br_plan_work *work, struct br_error *err)
 {
     const struct br_named_method *named = &p->methods.list[c];
     struct br_plan_models *m = &p->model[c];
-    const double p_order = 1.0 + named->method.axial_degree;
-    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
-    see(p, named, seen);
-    if (seen->points < 4 || seen->works == 0)
+    size_t points = 0, works = 0;
+    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
+        const double error = br_trial_bound(t), seconds = p->seconds(t), n = (double)t->at.n;
+        const double solves = (double)t->cost.counts.stages;
+        if (t->named != named)
+            continue;
+        if (error > 0 && isfinite(error))
+            point[points++] = (struct br_plan_point){log(n), br_plan_y(t), error};
+        if (seconds > 0 && isfinite(seconds) && solves > 0)
+            work[works++] = (struct br_plan_work){n, br_plan_y(t), solves, seconds};
+    }
+    if (points < 4 || works == 0)
         return BR_OK;
+    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
     enum br_status status =
-        br_plan_model_fit(&m->error, seen->point, seen->points, p_order, q, err);
+        br_plan_model_fit(&m->error, point, points, 1.0 + named->method.axial_degree, q, err);
     if (!status)
-        status = br_plan_cost_fit(&m->cost, seen->work, seen->works, err);
+        status = br_plan_cost_fit(&m->cost, work, works, err);
     m->known = !status;
     return status == BR_NO_MEMORY ? status : BR_OK;
 }
 
 static enum br_status fit_all(struct br_plan *p, struct br_error *err)
 {
-    struct seen seen = {.point = br_allocate(p->count + 1, sizeof *seen.point),
-                        .work = br_allocate(p->count + 1, sizeof *seen.work)};
-    enum br_status status = seen.point && seen.work ? BR_OK : br_no_memory(err, "the models");
+    struct br_plan_point *point = br_allocate(p->count + 1, sizeof *point);
+    struct br_plan_work *work = br_allocate(p->count + 1, sizeof *work);
+    enum br_status status = point && work ? BR_OK : br_no_memory(err, "the models");
     forget(p);
     for (size_t c = 0; c < p->methods.count && !status; c++)
-        status = fit_one(p, c, &seen, err);
-    free(seen.point);
-    free(seen.work);
+        status = fit_one(p, c, point, work, err);
+    free(point);
+    free(work);
     return status;
 }
 
@@ -199,22 +158,16 @@ static const double worth_the_band = 1.25;
 /* After so many rounds without anything better there is none more. */
 static const size_t most_idle_rounds = 3;
 
-const char *br_plan_end_name(enum br_plan_end end)
-{
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_PLAN_LIST(X)
-#undef X
-    };
-    return words[end];
-}
+const char *const br_plan_end_names[] = {[BR_PLAN_MET] = "met",
+                                         [BR_PLAN_COARSEST] = "coarsest",
+                                         [BR_PLAN_BETTER] = "better",
+                                         [BR_PLAN_MISSED] = "missed"};
 
 void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 {
     struct br_named_methods all;
     const struct br_method usual = br_method_default();
     *plan = (struct br_plan){.request = br_trial_request_default(scene),
-                             .norm = {br_norms[0]},
                              .goal = {NAN, NAN},
                              .most_rounds = 8,
                              .seconds = br_trial_seconds,
@@ -232,9 +185,9 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 /* Whether a trial's error is at most the goal's, or its seconds. */
 static bool meets(const struct br_plan *p, const struct br_trial *t)
 {
-    if (!isfinite(br_trial_bound(t, 0)))
+    if (!isfinite(br_trial_bound(t)))
         return false;
-    return isfinite(p->goal.error) ? br_trial_bound(t, 0) <= p->goal.error
+    return isfinite(p->goal.error) ? br_trial_bound(t) <= p->goal.error
                                    : p->seconds(t) <= p->goal.seconds;
 }
 
@@ -246,7 +199,7 @@ static size_t least_of(const struct br_plan *p, double least_error)
     size_t best = p->count;
     double least = INFINITY;
     for (size_t i = 0; i < p->count; i++) {
-        const double error = br_trial_bound(&p->trial[i], 0), seconds = p->seconds(&p->trial[i]);
+        const double error = br_trial_bound(&p->trial[i]), seconds = p->seconds(&p->trial[i]);
         const double value = by_error ? seconds : error;
         if (p->forecast[i].round > 0 && meets(p, &p->trial[i]) && error >= least_error &&
             value < least) {
@@ -300,22 +253,6 @@ double br_plan_spent(const struct br_plan *p)
 
 /* ---- rounds ---- */
 
-static enum br_status hold_new(struct br_plan *p, size_t from, struct br_error *err)
-{
-    return p->count > from ? br_trials_hold(&p->trial[from], p->count - from, &p->request, err)
-                           : BR_OK;
-}
-
-static enum br_status hold_probes(struct br_plan *p, struct br_error *err)
-{
-    const size_t repeats = p->request.repeats;
-    add_probes(p);
-    p->request.repeats = 1;
-    const enum br_status status = hold_new(p, 0, err);
-    p->request.repeats = repeats;
-    return status;
-}
-
 /* Whether the rounds have gone on for long without anything better than the best. */
 static bool is_idle(const struct br_plan *p)
 {
@@ -339,7 +276,8 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
         add(p, &trial, (struct br_plan_forecast){p->rounds + 1, exp(c->log_error), c->seconds});
     }
     *tried = p->count > from;
-    status = hold_new(p, from, err);
+    if (*tried)
+        status = br_trials_hold(&p->trial[from], p->count - from, &p->request, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
     return status;
@@ -364,10 +302,10 @@ static enum br_status check_probes(struct br_plan *p, struct br_error *err)
     size_t good = 0;
     for (size_t i = 0; i < p->count; i++) {
         const struct br_trial *t = &p->trial[i];
-        if (isfinite(br_trial_bound(t, 0)))
+        if (isfinite(br_trial_bound(t)))
             good++;
-        if (t->scale[0] > 0 && isfinite(t->own[0]))
-            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own[0] / t->scale[0]);
+        if (t->scale > 0 && isfinite(t->own))
+            p->own = fmin(isfinite(p->own) ? p->own : INFINITY, t->own / t->scale);
     }
     if (good == 0)
         return br_fail(err, BR_NOT_FINITE,
@@ -387,16 +325,17 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     const double start = br_seconds();
     void *kept = NULL;
     bool tried = true;
-    p->request.norm = p->norm;
-    p->request.norms = 1;
     p->first = SIZE_MAX;
     enum br_status status = check_goal(p, err);
     if (!status)
-        status = make_room(p, err);
+        status = br_plan_lay_out(p, err);
     if (!status)
         status = br_trials_keep_judge(&p->request, &kept, err);
+    const size_t repeats = p->request.repeats;
+    p->request.repeats = 1;
     if (!status)
-        status = hold_probes(p, err);
+        status = br_trials_hold(p->trial, p->count, &p->request, err);
+    p->request.repeats = repeats;
     if (!status)
         status = check_probes(p, err);
     while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
 
@@ -31,18 +32,13 @@ static size_t piece_of(const struct br_plan_curve *c, double at)
     return i;
 }
 
-/* How far `at` is through piece i, 0 to 1; outside of the knots less or more. */
-static double fraction(const struct br_plan_curve *c, size_t i, double at)
-{
-    return (at - c->at[i]) / (c->at[i + 1] - c->at[i]);
-}
-
 static double curve_value(const struct br_plan_curve *c, double at)
 {
     if (c->count < 2)
         return c->value[0];
     const size_t i = piece_of(c, at);
-    return c->value[i] + fraction(c, i, at) * (c->value[i + 1] - c->value[i]);
+    const double through = (at - c->at[i]) / (c->at[i + 1] - c->at[i]); /* 0 to 1 within */
+    return c->value[i] + through * (c->value[i + 1] - c->value[i]);
 }
 
 /* Minus the slope of a curve. */
@@ -54,28 +50,20 @@ static double curve_order(const struct br_plan_curve *c, double at)
     return -(c->value[i + 1] - c->value[i]) / (c->at[i + 1] - c->at[i]);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-/* Knots at the values, the near ones merged; thinned where there are too many. */
+/* Knots at the values, the near ones merged; fewer where there are too many. */
 static void lay_knots(struct br_plan_curve *c, double *value, size_t count, double gap)
 {
-    qsort(value, count, sizeof *value, ascending);
-    do {
+    gsl_sort(value, 1, count);
+    for (bool all = false; !all; gap *= 2) {
+        all = true;
         c->count = 0;
-        for (size_t i = 0; i < count; i++)
-            if (c->count == 0 || value[i] - c->at[c->count - 1] > gap) {
-                if (c->count == BR_PLAN_KNOTS) {
-                    c->count++;
-                    break;
-                }
+        for (size_t i = 0; i < count && all; i++) {
+            const bool is_knot = c->count == 0 || value[i] - c->at[c->count - 1] > gap;
+            all = !is_knot || c->count < BR_PLAN_KNOTS;
+            if (is_knot && all)
                 c->at[c->count++] = value[i];
-            }
-        gap *= 2;
-    } while (c->count > BR_PLAN_KNOTS);
+        }
+    }
 }
 
 /* ---- the fit ---- */
@@ -130,11 +118,6 @@ static size_t penalties(const struct br_plan_curve *c, double order, double stif
     return row;
 }
 
-static size_t penalty_rows(const struct br_plan_curve *c)
-{
-    return c->count < 2 ? 0 : 2 * c->count - 3;
-}
-
 static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
 {
     const struct problem *problem = params;
@@ -178,7 +161,9 @@ static void start(struct br_plan_model *m, double atanh_r, gsl_vector *v)
 static enum br_status solve(struct problem *problem, double atanh_r, struct br_error *err)
 {
     struct br_plan_model *m = problem->model;
-    const size_t rows = m->points + penalty_rows(&m->space) + penalty_rows(&m->time) + 1;
+    const size_t of_space = m->space.count < 2 ? 0 : 2 * m->space.count - 3;
+    const size_t of_time = m->time.count < 2 ? 0 : 2 * m->time.count - 3;
+    const size_t rows = m->points + of_space + of_time + 1;
     gsl_multifit_nlinear_parameters parameters = gsl_multifit_nlinear_default_parameters();
     gsl_multifit_nlinear_fdf fdf = {.f = residuals, .n = rows, .p = unknowns(m), .params = problem};
     gsl_multifit_nlinear_workspace *w =
@@ -279,8 +264,6 @@ void br_plan_model_clear(struct br_plan_model *m)
 
 /* ---- resolutions that were not tried ---- */
 
-/* What a model of errors says of resolutions that were not tried. */
-
 /* Distances, as logarithms, at which a residual has lost 1/e of its say. */
 static const double reach_x = 0.7, reach_y = 0.25;
 
@@ -340,9 +323,7 @@ static double seconds_of(const struct br_plan_cost *cost, double n, double solve
     return sum;
 }
 
-/* ---- solves over steps or tolerances ---- */
-
-/* The mean of the logarithms at each y. */
+/* Solves over steps or tolerances: the mean of the logarithms at each y. */
 static void average_solves(struct br_plan_cost *cost, const struct br_plan_work *work, size_t count)
 {
     struct br_plan_curve *c = &cost->solves;
@@ -362,19 +343,8 @@ static void average_solves(struct br_plan_cost *cost, const struct br_plan_work 
         members[j]++;
         c->value[j] += (log(work[i].solves) - c->value[j]) / (double)members[j];
     }
+    gsl_sort2(c->at, 1, c->value, 1, c->count);
 }
-
-static void sort_curve(struct br_plan_curve *c)
-{
-    for (size_t i = 1; i < c->count; i++)
-        for (size_t j = i; j > 0 && c->at[j] < c->at[j - 1]; j--) {
-            const double at = c->at[j], value = c->value[j];
-            c->at[j] = c->at[j - 1], c->value[j] = c->value[j - 1];
-            c->at[j - 1] = at, c->value[j - 1] = value;
-        }
-}
-
-/* ---- seconds ---- */
 
 /* Least squares of seconds/model - 1 over the terms that are in use. */
 static enum br_status fit_terms(struct br_plan_cost *cost, const struct br_plan_work *work,
@@ -434,16 +404,6 @@ static enum br_status fit_seconds(struct br_plan_cost *cost, const struct br_pla
     return status;
 }
 
-/* Few works: all of the cost by elements and solves, as the largest of them has it. */
-static void guess(struct br_plan_cost *cost, const struct br_plan_work *work, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, work[i].seconds / (work[i].n * work[i].solves));
-    for (int i = 0; i < BR_PLAN_COSTS; i++)
-        cost->c[i] = i == 3 ? most : 0;
-}
-
 enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_work *work,
                                 size_t count, struct br_error *err)
 {
@@ -451,14 +411,14 @@ enum br_status br_plan_cost_fit(struct br_plan_cost *cost, const struct br_plan_
     if (count == 0)
         return br_fail(err, BR_BAD_INPUT, "no trial that a cost could be modelled from");
     average_solves(cost, work, count);
-    sort_curve(&cost->solves);
     enum br_status status = BR_OK;
     gsl_error_handler_t *const before = gsl_set_error_handler_off();
     if (count > BR_PLAN_COSTS)
         status = fit_seconds(cost, work, count, err);
-    else
-        guess(cost, work, count);
     gsl_set_error_handler(before);
+    /* Few works: all of the cost by elements and solves, as the largest of them has it. */
+    for (size_t i = 0; i < count && count <= BR_PLAN_COSTS; i++)
+        cost->c[3] = fmax(cost->c[3], work[i].seconds / (work[i].n * work[i].solves));
     double sum = 0;
     for (size_t i = 0; i < count && !status; i++)
         sum += pow(log(work[i].seconds / seconds_of(cost, work[i].n, work[i].solves)), 2);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search for what might do, by the models, in all resolutions of all named methods. */
-#include "study/trade/plan_steps.h"
+#include "study/trade/plan.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -41,7 +41,7 @@ static bool is_near_failure(const struct search *s, double x, double y)
         const double distance = hypot(log((double)t->at.n) - x, 2 * (br_plan_y(t) - y));
         if (t->named == s->named && distance < nearest) {
             nearest = distance;
-            failed = !isfinite(br_trial_bound(t, 0));
+            failed = !isfinite(br_trial_bound(t));
         }
     }
     return failed;
@@ -113,25 +113,6 @@ static void consider_column(const struct search *s, double y)
 
 /* ---- one named method ---- */
 
-static void consider_steps(const struct search *s)
-{
-    double before = 0;
-    const double most = exp(s->most_y) * most_beyond;
-    for (double real = BR_PLAN_LEAST_STEPS; real <= most; real *= step_factor) {
-        const double steps = floor(real + 0.5);
-        if (steps > before)
-            consider_column(s, log(steps));
-        before = steps;
-    }
-}
-
-static void consider_tolerances(const struct search *s)
-{
-    for (double tolerance = 0.1; - log(tolerance) <= s->most_y + log(most_beyond);
-         tolerance /= tolerance_factor)
-        consider_column(s, -log(tolerance));
-}
-
 static bool is_tried_column(const struct search *s, size_t i)
 {
     for (size_t j = 0; j < i; j++)
@@ -142,13 +123,6 @@ static bool is_tried_column(const struct search *s, size_t i)
 }
 
 /* Columns that were tried are known best. */
-static void consider_tried(const struct search *s)
-{
-    for (size_t i = 0; i < s->plan->count; i++)
-        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
-            consider_column(s, br_plan_y(&s->plan->trial[i]));
-}
-
 static void look_through(struct search *s)
 {
     s->most_x = s->most_y = -INFINITY;
@@ -157,22 +131,26 @@ static void look_through(struct search *s)
         s->most_x = fmax(s->most_x, p->x);
         s->most_y = fmax(s->most_y, p->y);
     }
-    consider_tried(s);
-    if (s->named->method.scheme->adaptive)
-        consider_tolerances(s);
-    else
-        consider_steps(s);
+    for (size_t i = 0; i < s->plan->count; i++)
+        if (s->plan->trial[i].named == s->named && !is_tried_column(s, i))
+            consider_column(s, br_plan_y(&s->plan->trial[i]));
+    if (s->named->method.scheme->adaptive) {
+        for (double tolerance = 0.1; - log(tolerance) <= s->most_y + log(most_beyond);
+             tolerance /= tolerance_factor)
+            consider_column(s, -log(tolerance));
+        return;
+    }
+    const double most = exp(s->most_y) * most_beyond;
+    double before = 0;
+    for (double real = BR_PLAN_LEAST_STEPS; real <= most; real *= step_factor) {
+        const double steps = floor(real + 0.5);
+        if (steps > before)
+            consider_column(s, log(steps));
+        before = steps;
+    }
 }
 
 /* ---- all named methods ---- */
-
-static double largest_seconds(const struct br_plan *plan)
-{
-    double most = 0;
-    for (size_t i = 0; i < plan->count; i++)
-        most = fmax(most, plan->seconds(&plan->trial[i])); /* NaN is passed over */
-    return most;
-}
 
 /* What the trial `best` costs: clocks err, so the model has a say, too. Infinite: count. */
 static double best_seconds_of(const struct br_plan *plan, size_t best)
@@ -196,6 +174,9 @@ struct table {
 static void search_all(const struct br_plan *plan, size_t best, struct table *table)
 {
     const double limit = plan->request.time_limit > 0 ? plan->request.time_limit : INFINITY;
+    double most = 0;
+    for (size_t i = 0; i < plan->count; i++)
+        most = fmax(most, plan->seconds(&plan->trial[i])); /* NaN is passed over */
     table->explorer = (struct br_plan_candidate){.log_error = INFINITY};
     for (size_t c = 0; c < plan->methods.count; c++) {
         table->safe[c] = (struct br_plan_candidate){.seconds = nobody, .log_error = nobody};
@@ -204,7 +185,7 @@ static void search_all(const struct br_plan *plan, size_t best, struct table *ta
             .plan = plan,
             .named = &plan->methods.list[c],
             .models = &plan->model[c],
-            .most_seconds = fmin(limit, most_growth * largest_seconds(plan)),
+            .most_seconds = fmin(limit, most_growth * most),
             .best_seconds = best_seconds_of(plan, best),
             .safe = &table->safe[c],
             .gamble = &table->gamble[c],
@@ -216,8 +197,6 @@ static void search_all(const struct br_plan *plan, size_t best, struct table *ta
 }
 
 /* ---- the next round ---- */
-
-/* The candidates of a plan's next round. */
 
 /* Something new has to be cheaper than what is there by this, a gamble by that. */
 static const double worth_trying = 0.9, worth_a_gamble = 0.6, least_score = 0.1;
@@ -265,7 +244,7 @@ static void tune(const struct br_plan *plan, struct br_plan_batch *batch, size_t
     const struct br_trial *t = &plan->trial[best];
     const struct br_plan_models *m = &plan->model[t->named - plan->methods.list];
     const double y = br_plan_y(t), wanted = log(plan->goal.error / sqrt(br_plan_band));
-    if (br_trial_bound(t, 0) * br_plan_band >= plan->goal.error || !m->known)
+    if (br_trial_bound(t) * br_plan_band >= plan->goal.error || !m->known)
         return;
     struct br_plan_candidate found = {.named = NULL};
     double nearest = INFINITY;
@@ -300,23 +279,16 @@ static void propose_for_error(const struct br_plan *plan, struct table *table, s
         take(plan, batch, &table->explorer);
 }
 
-static void propose_for_seconds(const struct br_plan *plan, struct table *table, size_t best,
-                                struct br_plan_batch *batch)
-{
-    const double error = best < plan->count ? br_trial_bound(&plan->trial[best], 0) : INFINITY;
-    if (best < plan->count && plan->trial[best].end == BR_TRIAL_DOUBTFUL)
-        return; /* the judge could not say what is better */
-    take_least(plan, batch, table->safe, SAFE, worth_seconds * error);
-}
-
 void br_plan_propose(const struct br_plan *plan, struct br_plan_batch *batch)
 {
     struct table table;
     const size_t best = br_plan_best(plan);
+    const struct br_trial *t = best < plan->count ? &plan->trial[best] : NULL;
     batch->count = 0;
     search_all(plan, best, &table);
     if (isfinite(plan->goal.error))
         propose_for_error(plan, &table, best, batch);
-    else
-        propose_for_seconds(plan, &table, best, batch);
+    else if (!t || t->end != BR_TRIAL_DOUBTFUL) /* else the judge could not say what is better */
+        take_least(plan, batch, table.safe, SAFE,
+                   worth_seconds * (t ? br_trial_bound(t) : INFINITY));
 }

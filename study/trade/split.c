@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "study/grid/sweep.h"
 
@@ -91,17 +92,15 @@ static const char *space(const struct br_scene *scene, const struct br_refinemen
     return NULL;
 }
 
-static const struct br_source all[] = {
+const struct br_source br_sources[] = {
     {"round-off", "round-off of the linear solver", round_off, false},
     {"iteration", "tolerance of the friction's iteration", iteration, false},
     {"mu", "friction smoothed over |v| <= mu", smoothing, false},
     {"lag", "contact force from the step before", lag, false},
     {"time", "time steps", time_steps, true},
     {"space", "elements", space, true},
+    {NULL},
 };
-
-const struct br_source *const br_sources[] = {&all[0], &all[1], &all[2], &all[3],
-                                              &all[4], &all[5], NULL};
 
 /* ---- refinements ---- */
 
@@ -111,25 +110,19 @@ static const double finest_tolerance = 1e-11;
 /* Steps of a fixed length, at least; and of the run's, at least so many to one. */
 enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
 
-static struct br_refinement by_tolerance(const struct br_split *split,
-                                         const struct br_time_scheme *scheme)
+static struct br_refinement refined_by(const struct br_split *split,
+                                       const struct br_time_scheme *scheme)
 {
     struct br_refinement r = {.stand = {.method = split->method, .steps = split->at.steps}};
     r.stand.method.scheme = scheme;
-    r.stand.method.tolerance = finest_tolerance;
-    snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
-    return r;
-}
-
-static struct br_refinement by_steps(const struct br_split *split,
-                                     const struct br_time_scheme *scheme)
-{
-    struct br_refinement r = {.stand = {.method = split->method}};
-    size_t ratio = LEAST_RATIO;
-    while (ratio * split->at.steps < FINE_STEPS)
-        ratio *= 2; /* even: a march of half as many steps gives its error */
-    r.stand.method.scheme = scheme;
-    r.stand.steps = ratio * split->at.steps;
+    if (scheme->adaptive) {
+        r.stand.method.tolerance = finest_tolerance;
+        snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
+        return r;
+    }
+    r.stand.steps *= LEAST_RATIO;
+    while (r.stand.steps < FINE_STEPS)
+        r.stand.steps *= 2; /* even: a march of half as many steps gives its error */
     snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
              br_time_step(split->scene, r.stand.steps));
     return r;
@@ -142,45 +135,32 @@ static size_t refinements(const struct br_split *split, size_t most, struct br_r
     size_t count = 0;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
         if ((*s)->adaptive && count + 1 < most)
-            out[count++] = by_tolerance(split, *s);
+            out[count++] = refined_by(split, *s);
         if (!(*s)->adaptive && (*s)->order > highest->order)
             highest = *s;
     }
     if (count < most)
-        out[count++] = by_steps(split, highest);
+        out[count++] = refined_by(split, highest);
     return count;
 }
 
 /* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
 
 /* `heads` distances, each in all norms. */
+enum { MOST_HEADS = BR_MOST_SOURCES + 3 };
 struct distances {
     const struct br_split *split;
-    struct br_study *study; /* norms * heads, the first norm first */
-    size_t *steps;          /* heads: of the cells */
-    size_t heads, most;
+    struct br_study study[BR_MOST_NORMS][MOST_HEADS];
+    size_t steps[MOST_HEADS]; /* of the cells */
+    size_t heads;
 };
 
-static struct br_study *distance(const struct distances *d, size_t head, size_t norm)
+static void distances_free(struct distances *d)
 {
-    return &d->study[norm * d->most + head];
-}
-
-static enum br_status distances_create(struct distances *d, const struct br_split *split,
-                                       size_t most, struct br_error *err)
-{
-    *d = (struct distances){.split = split, .most = most};
-    d->study = br_allocate(most * split->norms, sizeof *d->study);
-    d->steps = br_allocate(most, sizeof *d->steps);
-    return d->study && d->steps ? BR_OK : br_no_memory(err, "the parts of the error");
-}
-
-static void distances_clear(struct distances *d)
-{
-    for (size_t i = 0; d->study && i < d->most * d->split->norms; i++)
-        br_study_clear(&d->study[i]);
-    free(d->study);
-    free(d->steps);
+    for (size_t m = 0; d && m < d->split->norms; m++)
+        for (size_t head = 0; head < d->heads; head++)
+            br_study_clear(&d->study[m][head]);
+    free(d);
 }
 
 /* Adds the distance of one stand from the next; returns its index. */
@@ -191,7 +171,7 @@ static size_t add_distance(struct distances *d, const struct br_stand *from,
     const size_t head = d->heads++;
     d->steps[head] = from->steps;
     for (size_t m = 0; m < split->norms; m++)
-        *distance(d, head, m) = (struct br_study){
+        d->study[m][head] = (struct br_study){
             .scene = split->scene,
             .norm = split->norm[m],
             .method = from->method,
@@ -202,28 +182,21 @@ static size_t add_distance(struct distances *d, const struct br_stand *from,
             .k_count = 1,
             .n = &split->at.n,
             .steps = &d->steps[head],
-            .next_norm = m + 1 < split->norms ? distance(d, head, m + 1) : NULL,
+            .next_norm = m + 1 < split->norms ? &d->study[m + 1][head] : NULL,
         };
     return head;
 }
 
 /* The failure of a distance: of the reference, or of the cell. */
-static const struct br_error *failure_of(const struct br_study *s)
+static const struct br_error *failure_of(const struct distances *d, size_t head)
 {
+    const struct br_study *s = &d->study[0][head];
     return s->failure.status || !s->cell ? &s->failure : &s->cell[0].failure;
 }
 
 static bool failed(const struct distances *d, size_t head)
 {
-    const struct br_study *s = distance(d, head, 0);
-    return failure_of(s)->status || !isfinite(s->cell[0].error[BR_PART_TOTAL]);
-}
-
-/* Marches all that have been added. What fails is left in the studies. */
-static enum br_status march(struct distances *d, int threads, const struct br_observer *observer,
-                            struct br_error *err)
-{
-    return br_study_run_each(d->study, d->heads, threads, observer, err);
+    return failure_of(d, head)->status || !isfinite(d->study[0][head].cell[0].error[BR_PART_TOTAL]);
 }
 
 /* ---- the refinement in time ---- */
@@ -238,9 +211,9 @@ static struct br_stand without_time_error(const struct br_split *split,
                                           const struct br_refinement *refined)
 {
     struct br_stand stand = start(split);
-    for (const struct br_source *const *s = br_sources; *s; s++) {
+    for (const struct br_source *s = br_sources; s->name; s++) {
         struct br_stand next = stand;
-        if ((*s)->remove(split->scene, refined, &next) == NULL && !next.continuous)
+        if (s->remove(split->scene, refined, &next) == NULL && !next.continuous)
             stand = next;
     }
     return stand;
@@ -275,7 +248,7 @@ static void take_errors(const struct distances *d, size_t head, by_norm error)
 {
     for (size_t m = 0; m < d->split->norms; m++)
         for (int part = 0; part < BR_PARTS; part++)
-            error[m][part] = distance(d, head, m)->cell[0].error[part];
+            error[m][part] = d->study[m][head].cell[0].error[part];
 }
 
 /* How far a refined march is from a coarser one of its kind, in the first norm and relative to the
@@ -283,29 +256,26 @@ static void take_errors(const struct distances *d, size_t head, by_norm error)
 static enum br_status try_refinement(struct br_split *split, const struct br_refinement *refined,
                                      struct refining *r, struct br_error *err)
 {
-    struct distances d;
-    enum br_status status = distances_create(&d, split, 1, err);
-    if (!status) {
-        const struct br_stand fine = without_time_error(split, refined);
-        const struct br_stand coarse = coarser(&fine);
-        add_distance(&d, &coarse, &fine);
-        status = march(&d, r->threads, r->observer, err);
-    }
-    if (!status && failed(&d, 0) && !r->failure.status)
-        r->failure = *failure_of(distance(&d, 0, 0));
-    else if (!status && !(distance(&d, 0, 0)->reference_scale > 0) && !r->failure.status)
+    const struct br_stand fine = without_time_error(split, refined), coarse = coarser(&fine);
+    struct distances *d = br_allocate(1, sizeof *d);
+    if (!d)
+        return br_no_memory(err, "the parts of the error");
+    d->split = split;
+    add_distance(d, &coarse, &fine);
+    const struct br_study *s = d->study[0];
+    const enum br_status status = br_study_run_each(d->study[0], 1, r->threads, r->observer, err);
+    if (!status && failed(d, 0) && !r->failure.status)
+        r->failure = *failure_of(d, 0);
+    else if (!status && !(s->reference_scale > 0) && !r->failure.status)
         br_fail(&r->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
-    if (!status && !failed(&d, 0)) {
-        const struct br_study *s = distance(&d, 0, 0);
-        const double relative = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;
-        if (relative < r->least) {
-            r->least = relative;
-            split->refined = *refined;
-            split->refined.stand = without_time_error(split, refined);
-            take_errors(&d, 0, r->error);
-        }
+    if (!status && !failed(d, 0) &&
+        s->cell[0].error[BR_PART_TOTAL] / s->reference_scale < r->least) {
+        r->least = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;
+        split->refined = *refined;
+        split->refined.stand = fine;
+        take_errors(d, 0, r->error);
     }
-    distances_clear(&d);
+    distances_free(d);
     return status;
 }
 
@@ -327,7 +297,7 @@ static enum br_status refine(struct br_split *split, struct refining *r, struct 
 /* ---- the chain ---- */
 
 struct chain {
-    struct distances d;
+    struct distances *d;
     size_t whole;                 /* head: the run and the solution */
     size_t audit[2];              /* heads: riccati and plain, as given and before `in_time` */
     size_t link[BR_MOST_SOURCES]; /* heads, by share */
@@ -340,7 +310,7 @@ static size_t add_audit(struct chain *c, const struct br_stand *stand)
     struct br_stand plain = *stand, riccati = *stand;
     plain.method.solver = &br_plain;
     riccati.method.solver = &br_riccati;
-    return add_distance(&c->d, &plain, &riccati);
+    return add_distance(c->d, &plain, &riccati);
 }
 
 static void add_links(struct br_split *split, struct chain *c)
@@ -348,19 +318,19 @@ static void add_links(struct br_split *split, struct chain *c)
     struct br_stand stand = start(split);
     const struct br_stand solution = {.method = split->method, .continuous = true};
     bool audited = false;
-    c->whole = add_distance(&c->d, &stand, &solution);
+    c->whole = add_distance(c->d, &stand, &solution);
     c->audit[0] = add_audit(c, &stand);
-    for (const struct br_source *const *s = br_sources; *s; s++) {
+    for (const struct br_source *s = br_sources; s->name; s++) {
         struct br_share *share = &split->share[split->shares++];
         struct br_stand next = stand;
-        *share = (struct br_share){.source = *s};
-        share->none = (*s)->remove(split->scene, &split->refined, &next);
+        *share = (struct br_share){.source = s};
+        share->none = s->remove(split->scene, &split->refined, &next);
         if (share->none)
             continue;
-        if ((*s)->in_time && !audited)
+        if (s->in_time && !audited)
             c->audit[1] = add_audit(c, &stand);
-        audited |= (*s)->in_time;
-        c->link[split->shares - 1] = add_distance(&c->d, &stand, &next);
+        audited |= s->in_time;
+        c->link[split->shares - 1] = add_distance(c->d, &stand, &next);
         stand = next;
     }
 }
@@ -369,13 +339,13 @@ static void add_links(struct br_split *split, struct chain *c)
 static enum br_status check_links(const struct br_split *split, const struct chain *c,
                                   struct br_error *err)
 {
-    const struct br_error *whole = failure_of(distance(&c->d, c->whole, 0));
+    const struct br_error *whole = failure_of(c->d, c->whole);
     if (whole->status)
         return br_fail(err, whole->status, "%.1000s", whole->message);
     for (size_t i = 0; i < split->shares; i++) {
-        if (split->share[i].none || !failed(&c->d, c->link[i]))
+        if (split->share[i].none || !failed(c->d, c->link[i]))
             continue;
-        const struct br_error *failure = failure_of(distance(&c->d, c->link[i], 0));
+        const struct br_error *failure = failure_of(c->d, c->link[i]);
         return br_fail(err, failure->status ? failure->status : BR_NOT_FINITE,
                        "the part of the error called %s: %.900s", split->share[i].source->name,
                        failure->status ? failure->message : "it is not a number");
@@ -388,8 +358,8 @@ static double floor_of_march(const struct br_split *split, const struct chain *c
                              size_t norm, int part)
 {
     const size_t audit = c->audit[in_time];
-    return failed(&c->d, audit) ? split->predicted_round_off * split->scale[norm]
-                                : 2 * distance(&c->d, audit, norm)->cell[0].error[part];
+    return failed(c->d, audit) ? split->predicted_round_off * split->scale[norm]
+                               : 2 * c->d->study[norm][audit].cell[0].error[part];
 }
 
 static void set_floor(const struct br_split *split, const struct chain *c, size_t head,
@@ -397,7 +367,7 @@ static void set_floor(const struct br_split *split, const struct chain *c, size_
 {
     for (size_t m = 0; m < split->norms; m++)
         for (int part = 0; part < BR_PARTS; part++) {
-            const struct br_study *s = distance(&c->d, head, m);
+            const struct br_study *s = &c->d->study[m][head];
             share->floor[m][part] = floor_of_march(split, c, in_time, m, part);
             if (in_time)
                 share->floor[m][part] += c->refining.error[m][part];
@@ -410,8 +380,8 @@ static void set_floor(const struct br_split *split, const struct chain *c, size_
 static void set_share(const struct br_split *split, const struct chain *c, size_t head,
                       struct br_share *share)
 {
-    const struct br_study *s = distance(&c->d, head, 0);
-    take_errors(&c->d, head, share->error);
+    const struct br_study *s = &c->d->study[0][head];
+    take_errors(c->d, head, share->error);
     set_floor(split, c, head, share->source && share->source->in_time, share);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         share->tip[kind] = s->cell[0].tip[kind] - s->reference_tip[kind];
@@ -419,10 +389,10 @@ static void set_share(const struct br_split *split, const struct chain *c, size_
 
 static void set_whole(struct br_split *split, const struct chain *c)
 {
-    const struct br_study *s = distance(&c->d, c->whole, 0);
+    const struct br_study *s = &c->d->study[0][c->whole];
     split->unstable = s->cell[0].unstable;
     for (size_t m = 0; m < split->norms; m++)
-        split->scale[m] = distance(&c->d, c->whole, m)->reference_scale;
+        split->scale[m] = c->d->study[m][c->whole].reference_scale;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         split->tip[kind] = s->cell[0].tip[kind];
         split->solution_tip[kind] = s->reference_tip[kind];
@@ -453,13 +423,13 @@ static void add_up(struct br_split *split)
 
 static void clear_results(struct br_split *split)
 {
-    split->judge = br_judge_best(split->scene);
-    split->shares = 0;
-    split->whole = (struct br_share){0};
-    for (size_t m = 0; m < BR_MOST_NORMS; m++)
-        for (int part = 0; part < BR_PARTS; part++)
-            split->sum[m][part] = 0;
-    split->tip_sum[BR_AXIAL] = split->tip_sum[BR_BENDING] = 0;
+    struct br_split empty = {.scene = split->scene,
+                             .method = split->method,
+                             .at = split->at,
+                             .norms = split->norms,
+                             .judge = br_judge_best(split->scene)};
+    memcpy(empty.norm, split->norm, sizeof empty.norm);
+    *split = empty;
 }
 
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
@@ -477,11 +447,12 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     enum br_status status = refine(split, &c.refining, err);
     if (status)
         return status;
-    status = distances_create(&c.d, split, BR_MOST_SOURCES + 3, err);
-    if (!status) {
-        add_links(split, &c);
-        status = march(&c.d, threads, observer, err);
-    }
+    c.d = br_allocate(1, sizeof *c.d);
+    if (!c.d)
+        return br_no_memory(err, "the parts of the error");
+    c.d->split = split;
+    add_links(split, &c);
+    status = br_study_run_each(c.d->study[0], c.d->heads, threads, observer, err);
     if (!status)
         status = check_links(split, &c, err);
     if (!status) {
@@ -491,7 +462,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
                 set_share(split, &c, c.link[i], &split->share[i]);
         add_up(split);
     }
-    distances_clear(&c.d);
+    distances_free(c.d);
     return status;
 }
 

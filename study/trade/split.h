@@ -36,8 +36,8 @@ struct br_source {
     bool in_time; /* its share comes from the refined march alone */
 };
 
-/* The chain, in its order; NULL-terminated. */
-extern const struct br_source *const br_sources[];
+/* The chain, in its order; ends with a NULL name. */
+extern const struct br_source br_sources[];
 
 /* One part of the error, or all of it. */
 struct br_share {

@@ -12,9 +12,9 @@ double br_trade_target(size_t digit)
 
 double br_trade_digits_per_second(const struct br_trial *trial)
 {
-    if (!isfinite(br_trial_bound(trial, 0)))
+    if (!isfinite(br_trial_bound(trial)))
         return NAN;
-    return -log10(br_trial_relative(trial, 0, BR_PART_TOTAL)) / br_trial_seconds(trial);
+    return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
 }
 
 double br_trade_seconds_of_all(const struct br_trial_outlook *o)
@@ -46,7 +46,7 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
     for (size_t i = 0; i < count; i++) {
         if (only && trial[i].named != only)
             continue;
-        if (!(br_trial_bound(&trial[i], 0) <= target) || !isfinite(br_trial_seconds(&trial[i])))
+        if (!(br_trial_bound(&trial[i]) <= target) || !isfinite(br_trial_seconds(&trial[i])))
             continue;
         if (best == count || is_cheaper(&trial[i], &trial[best]))
             best = i;
@@ -60,7 +60,7 @@ static const double tie = 1e-6;
 /* Whether `a` loses to `b`; of equals the later one does. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 {
-    const double error = br_trial_bound(a, 0), other_error = br_trial_bound(b, 0);
+    const double error = br_trial_bound(a), other_error = br_trial_bound(b);
     const double seconds = br_trial_seconds(a), other_seconds = br_trial_seconds(b);
     if (other_seconds < seconds)
         return other_error <= (1 + tie) * error;
@@ -70,7 +70,7 @@ static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 void br_trials_front(const struct br_trial *trial, size_t count, bool *front)
 {
     for (size_t i = 0; i < count; i++) {
-        front[i] = isfinite(br_trial_bound(&trial[i], 0)) && isfinite(br_trial_seconds(&trial[i]));
+        front[i] = isfinite(br_trial_bound(&trial[i])) && isfinite(br_trial_seconds(&trial[i]));
         for (size_t j = 0; j < count && front[i]; j++)
             front[i] = j == i || !is_beaten(&trial[i], &trial[j]);
     }
@@ -91,8 +91,6 @@ static void choose(struct br_trade *t)
 enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
-    t->request.norm = t->norm;
-    t->request.norms = 1;
     enum br_status status = br_trials_keep_judge(&t->request, &t->judge, err);
     if (seconds > 0)
         t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);
@@ -127,43 +125,32 @@ void br_trade_clear(struct br_trade *t)
 
 /* ---- the grid ---- */
 
-/* The trials of a trade: which resolutions each named method is tried at. */
-
 /* Roots of ten apart in time and factors of four in space, which nest. */
 static const size_t default_n[] = {25, 100, 400, 1600, 6400};
 static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
 static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
-
-/* An adaptive scheme is looked at so many times: each of these is the end of a step. */
-enum { LEVELS = 20 };
 
 /* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
  * which are some 20 times slower; steps of an adaptive scheme where they are not known yet, and of
  * one that marches by itself and solves for more than a step. */
 static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
-/* A grid with its defaults filled in. */
-struct lists {
-    struct br_trade_grid grid;
-    bool capped_n, capped_steps; /* defaults: leave out what is heavy */
+enum {
+    DEFAULT_N = sizeof default_n / sizeof *default_n,
+    DEFAULT_STEPS = sizeof default_steps / sizeof *default_steps,
+    DEFAULT_TOLERANCES = sizeof default_tolerance / sizeof *default_tolerance
 };
 
-static struct lists fill_in(const struct br_trade_grid *given)
+/* A grid with its defaults filled in, which leave out what is heavy. */
+static struct br_trade_grid fill_in(struct br_trade_grid g)
 {
-    struct lists l = {*given, given->n_count == 0, given->step_count == 0};
-    if (l.capped_n) {
-        l.grid.n = default_n;
-        l.grid.n_count = sizeof default_n / sizeof *default_n;
-    }
-    if (l.capped_steps) {
-        l.grid.steps = default_steps;
-        l.grid.step_count = sizeof default_steps / sizeof *default_steps;
-    }
-    if (!given->tolerances) {
-        l.grid.tolerance = default_tolerance;
-        l.grid.tolerances = sizeof default_tolerance / sizeof *default_tolerance;
-    }
-    return l;
+    if (!g.n_count)
+        g.n = default_n, g.n_count = DEFAULT_N;
+    if (!g.step_count)
+        g.steps = default_steps, g.step_count = DEFAULT_STEPS;
+    if (!g.tolerances)
+        g.tolerance = default_tolerance, g.tolerances = DEFAULT_TOLERANCES;
+    return g;
 }
 
 bool br_trade_is_printed_method(const struct br_named_method *c)
@@ -184,98 +171,74 @@ static bool is_printed(const struct br_scene *scene, const struct br_printed *pr
     return false;
 }
 
-/* Adds a trial; with trade->trial NULL it only counts. */
-static void add(struct br_trade *t, const struct br_trial *trial)
-{
-    if (t->trial)
-        t->trial[t->count] = *trial;
-    t->count++;
-}
-
 /* Whether a default grid has it. */
-static bool is_light(const struct lists *l, const struct br_named_method *c, size_t n, double steps)
+static bool is_light(const struct br_named_method *c, size_t n, double steps)
 {
     const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
     const bool quick = c->method.solver == br_linear_solvers[0];
-    return !(l->capped_n || l->capped_steps) || work <= (quick ? most_work : most_slow_work);
+    return work <= (quick ? most_work : most_slow_work);
 }
 
-static void add_adaptive(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
-{
-    for (size_t i = 0; i < l->grid.n_count; i++)
-        for (size_t j = 0; j < l->grid.tolerances; j++)
-            if (!l->capped_n || is_light(l, c, l->grid.n[i], guessed_steps))
-                add(t, &(struct br_trial){.named = c,
-                                          .at = {l->grid.n[i], LEVELS},
-                                          .tolerance = l->grid.tolerance[j]});
-}
-
-static bool is_listed(const struct lists *l, const struct br_named_method *c, size_t n,
+static bool is_listed(const struct br_trade_grid *g, const struct br_named_method *c, size_t n,
                       size_t steps)
 {
     bool has_n = false, has_steps = false;
-    for (size_t i = 0; i < l->grid.n_count; i++)
-        has_n |= l->grid.n[i] == n;
-    for (size_t j = 0; j < l->grid.step_count; j++)
-        has_steps |= l->grid.steps[j] == steps;
-    return has_n && has_steps && is_light(l, c, n, (double)steps);
+    for (size_t i = 0; i < g->n_count; i++)
+        has_n |= g->n[i] == n;
+    for (size_t j = 0; j < g->step_count; j++)
+        has_steps |= g->steps[j] == steps;
+    return has_n && has_steps && is_light(c, n, (double)steps);
 }
 
 /* Where neither list is given, the paper's method has all that the paper prints. */
-static void add_printed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+static void add_printed(struct br_trade *t, const struct br_trade_grid *g,
+                        const struct br_named_method *c)
 {
-    const struct br_scene *scene = t->request.scene;
-    for (size_t i = 0; l->grid.printed && i < l->grid.printed->count; i++) {
-        const struct br_printed_cell *cell = &l->grid.printed->cell[i];
+    for (size_t i = 0; g->printed && i < g->printed->count; i++) {
+        const struct br_printed_cell *cell = &g->printed->cell[i];
         size_t steps;
-        if (br_steps_of(scene, cell->k, &steps, NULL) || is_listed(l, c, cell->n, steps))
+        if (br_steps_of(t->request.scene, cell->k, &steps, NULL) || is_listed(g, c, cell->n, steps))
             continue;
-        add(t, &(struct br_trial){.named = c, .at = {cell->n, steps}, .printed = true});
+        t->trial[t->count++] =
+            (struct br_trial){.named = c, .at = {cell->n, steps}, .printed = true};
     }
 }
 
-static void add_fixed(struct br_trade *t, const struct lists *l, const struct br_named_method *c)
+static void add_named(struct br_trade *t, const struct br_trade_grid *g,
+                      const struct br_named_method *c)
 {
-    const bool paper = br_trade_is_printed_method(c);
-    for (size_t i = 0; i < l->grid.n_count; i++)
-        for (size_t j = 0; j < l->grid.step_count; j++) {
-            const size_t n = l->grid.n[i], steps = l->grid.steps[j];
-            if (is_light(l, c, n, (double)steps))
-                add(t,
-                    &(struct br_trial){.named = c,
-                                       .at = {n, steps},
-                                       .printed = paper && is_printed(t->request.scene,
-                                                                      l->grid.printed, n, steps)});
+    const bool paper = br_trade_is_printed_method(c), adaptive = c->method.scheme->adaptive;
+    const bool capped_n = g->n == default_n, capped_steps = g->steps == default_steps;
+    const bool capped = capped_n || (capped_steps && !adaptive);
+    for (size_t i = 0; i < g->n_count; i++)
+        for (size_t j = 0; j < (adaptive ? g->tolerances : g->step_count); j++) {
+            struct br_trial trial =
+                br_trial_at(c, g->n[i], adaptive ? 0 : g->steps[j], adaptive ? g->tolerance[j] : 0);
+            const double steps = adaptive ? guessed_steps : (double)trial.at.steps;
+            trial.printed =
+                paper && is_printed(t->request.scene, g->printed, trial.at.n, trial.at.steps);
+            if (!capped || is_light(c, trial.at.n, steps))
+                t->trial[t->count++] = trial;
         }
-    if (paper && l->capped_n && l->capped_steps)
-        add_printed(t, l, c);
+    if (paper && capped_n && capped_steps)
+        add_printed(t, g, c);
 }
 
-static void add_all(struct br_trade *t, const struct lists *l)
-{
-    t->count = 0;
-    for (size_t i = 0; i < t->methods.count; i++) {
-        const struct br_named_method *c = &t->methods.list[i];
-        if (c->method.scheme->adaptive)
-            add_adaptive(t, l, c);
-        else
-            add_fixed(t, l, c);
-    }
-}
-
-enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *grid,
+enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *given,
                                 struct br_error *err)
 {
-    const struct lists l = fill_in(grid);
-    t->trial = NULL;
-    t->front = NULL;
-    add_all(t, &l);
-    if (t->count == 0)
-        return br_fail(err, BR_BAD_INPUT, "there is nothing to try: no method takes this scene");
-    t->trial = br_allocate(t->count, sizeof *t->trial);
-    t->front = br_allocate(t->count, sizeof *t->front);
+    const struct br_trade_grid g = fill_in(*given);
+    const size_t levels = g.tolerances > g.step_count ? g.tolerances : g.step_count;
+    const size_t printed = g.printed ? g.printed->count : 0;
+    const size_t most = t->methods.count * (g.n_count * levels + printed) + 1;
+    t->count = 0;
+    t->trial = br_allocate(most, sizeof *t->trial);
+    t->front = br_allocate(most, sizeof *t->front);
     if (!t->trial || !t->front)
         return br_no_memory(err, "the trials");
-    add_all(t, &l);
-    return BR_OK;
+    for (size_t i = 0; i < t->methods.count; i++)
+        add_named(t, &g, &t->methods.list[i]);
+    return t->count
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "there is nothing to try: no method takes this scene");
 }

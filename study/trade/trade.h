@@ -22,8 +22,7 @@ struct br_trade_grid {
 
 struct br_trade {
     struct br_named_methods methods;
-    struct br_trial_request request; /* in one norm */
-    const struct br_norm *norm[1];
+    struct br_trial_request request;
     struct br_trial *trial; /* count, those of a named method together; owned */
     size_t count;
     bool *front;                  /* count: on the Pareto front of all; owned */
@@ -41,8 +40,7 @@ struct br_trade {
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
 
-/* Foresees what the trials take; `request` is set, but for norm and norms. Fails as
- * br_trials_foresee does. */
+/* Foresees what the trials take; `request` is set. Fails as br_trials_foresee does. */
 enum br_status br_trade_foresee(struct br_trade *trade, struct br_error *err);
 
 /* Holds the trials and chooses. Fails as br_trials_hold does. */
@@ -61,7 +59,7 @@ double br_trade_seconds_of_all(const struct br_trial_outlook *outlook);
 /* How many trials ended like that. */
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 
-/* ---- choosing, in the request's first norm ---- */
+/* ---- choosing ---- */
 
 /* The trial with the least seconds among those whose error is at most the target, of one named
  * method or of all (NULL); of equals the one with fewer solves, then the first. `count`: there is

@@ -13,14 +13,18 @@
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 
-const char *br_trial_end_name(enum br_trial_end end)
+const char *const br_trial_end_names[BR_TRIAL_ENDS] = {
+    [BR_TRIAL_DONE] = "done",         [BR_TRIAL_DOUBTFUL] = "doubtful",
+    [BR_TRIAL_UNSTABLE] = "unstable", [BR_TRIAL_OVER] = "over limit",
+    [BR_TRIAL_FAILED] = "failed",     [BR_TRIAL_LEFT] = "left out"};
+
+struct br_trial br_trial_at(const struct br_named_method *named, size_t n, size_t steps,
+                            double tolerance)
 {
-    static const char *const words[] = {
-#define X(name, word) [name] = word,
-        BR_TRIAL_LIST(X)
-#undef X
-    };
-    return words[end];
+    if (named->method.scheme->adaptive)
+        return (struct br_trial){
+            .named = named, .at = {n, BR_TRIAL_LEVELS}, .tolerance = tolerance};
+    return (struct br_trial){.named = named, .at = {n, steps}};
 }
 
 struct br_trial_request br_trial_request_default(const struct br_scene *scene)
@@ -28,8 +32,7 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
     return (struct br_trial_request){
         .scene = scene,
         .reference_method = br_method_default(),
-        .norm = br_norms,
-        .norms = 1,
+        .norm = br_norms[0],
         .repeats = 3,
         .repeat_seconds = 0.1,
         .time_limit = 10,
@@ -49,22 +52,19 @@ double br_trial_seconds(const struct br_trial *trial)
     return trial->cost.set_up + trial->cost.march;
 }
 
-double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part part)
+double br_trial_relative(const struct br_trial *trial)
 {
-    return trial->scale[m] > 0 ? trial->error[m][part] / trial->scale[m] : NAN;
+    return trial->scale > 0 ? trial->error[BR_PART_TOTAL] / trial->scale : NAN;
 }
 
-double br_trial_bound(const struct br_trial *trial, size_t m)
+double br_trial_bound(const struct br_trial *trial)
 {
-    const double own = isfinite(trial->own[m]) ? trial->own[m] : 0;
+    const double own = isfinite(trial->own) ? trial->own : 0;
     const bool counts = trial->end == BR_TRIAL_DONE || trial->end == BR_TRIAL_DOUBTFUL;
-    return counts && trial->scale[m] > 0 ? (trial->error[m][BR_PART_TOTAL] + own) / trial->scale[m]
-                                         : NAN;
+    return counts && trial->scale > 0 ? (trial->error[BR_PART_TOTAL] + own) / trial->scale : NAN;
 }
 
 /* ---- seconds ---- */
-
-/* The seconds of trials: each marches alone, in this thread, with nothing else at work. */
 
 /* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
 static const double between_looks = 1e5;
@@ -83,12 +83,6 @@ struct clocked {
     double start;  /* of its steps, s of this thread */
 };
 
-static bool is_stopped(const struct br_trial_request *request)
-{
-    const struct br_observer *o = request->observer;
-    return o && o->stop && o->stop(o->self);
-}
-
 /* The seconds that the march surely takes to its end if it goes on like this; only those so far
  * where its steps predict nothing. */
 static double foreseen(const struct clocked *c, double spent)
@@ -104,7 +98,7 @@ static enum br_status look_at_clock(const struct clocked *c, struct br_error *er
 {
     const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
     const double spent = c->set_up + steps;
-    if (is_stopped(c->request))
+    if (br_observer_stops(c->request->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
         return BR_OK;
@@ -251,16 +245,14 @@ static double work_of(const struct br_trial *trial)
            1e5;
 }
 
-static void begin(struct br_trial *t, const struct br_trial_request *request)
+static void begin(struct br_trial *t)
 {
     t->end = t->end == BR_TRIAL_LEFT ? BR_TRIAL_LEFT : BR_TRIAL_DONE;
     t->cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     t->failure = (struct br_error){0};
-    for (size_t m = 0; m < request->norms; m++) {
-        t->scale[m] = t->own[m] = NAN;
-        for (int part = 0; part < BR_PARTS; part++)
-            t->error[m][part] = NAN;
-    }
+    t->scale = t->own = NAN;
+    for (int part = 0; part < BR_PARTS; part++)
+        t->error[part] = NAN;
 }
 
 /* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
@@ -271,15 +263,15 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
     const struct br_observer *o = request->observer;
     double whole = 0, done = 0;
     for (size_t i = 0; i < count; i++) {
-        begin(&trial[i], request);
+        begin(&trial[i]);
         whole += trial[i].end == BR_TRIAL_LEFT ? 0 : work_of(&trial[i]);
     }
     enum br_status status = BR_OK;
     for (size_t i = 0; i < count && !status; i++) {
         if (trial[i].end == BR_TRIAL_LEFT)
             continue;
-        status = is_stopped(request) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                     : time_one(&trial[i], request, err);
+        status = br_observer_stops(o) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                      : time_one(&trial[i], request, err);
         done += work_of(&trial[i]);
         if (o && o->progress)
             o->progress(o->self, done / whole);
@@ -289,18 +281,15 @@ static enum br_status time_all(struct br_trial *trial, size_t count,
 
 /* ---- errors ---- */
 
-/* The errors of trials, as cells of studies: one study for each mesh and degree, whose cells are
- * marched by as many methods, so that the judge looks at that mesh once. */
-
-/* Trials in groups, each on the same elements: a chain of studies over the norms. */
+/* Trials as cells of studies: one study for each mesh and degree, whose cells are marched by as
+ * many methods, so that the judge looks at that mesh once. */
 struct groups {
-    const struct br_trial_request *request;
     size_t count;
-    size_t *first;            /* count + 1: of each group in the next three lists */
-    struct br_trial **member; /* borrowed; the arrays are all owned */
+    struct br_study *study;   /* count; the arrays are all owned */
+    struct br_trial **member; /* by cell, those of one study behind those of another; borrowed */
     size_t *steps;
     struct br_method *method;
-    struct br_study *study; /* count in the first norm, then the next norms of each */
+    size_t cells;
 };
 
 /* Whether two trials are judged, on the same elements. */
@@ -319,55 +308,35 @@ static bool is_first(const struct br_trial *trial, size_t i)
     return trial[i].end == BR_TRIAL_DONE;
 }
 
-static void collect(struct groups *g, struct br_trial *trial, size_t count)
+/* The study of a trial and of those behind it on the same elements. */
+static void add_group(struct groups *g, struct br_trial *first, const struct br_trial *end,
+                      const struct br_trial_request *r, const struct br_judge *judge)
 {
-    size_t used = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!is_first(trial, i))
-            continue;
-        g->first[g->count++] = used;
-        for (size_t j = i; j < count; j++)
-            if (same_group(&trial[j], &trial[i])) {
-                g->member[used] = &trial[j];
-                g->steps[used] = trial[j].at.steps;
-                g->method[used++] = br_trial_method(&trial[j]);
-            }
-    }
-    g->first[g->count] = used;
-}
-
-static struct br_study *study_of(const struct groups *g, size_t i, size_t m)
-{
-    return &g->study[m == 0 ? i : g->count + i * (g->request->norms - 1) + m - 1];
-}
-
-static void fill_studies(const struct groups *g, const struct br_judge *judge)
-{
-    const struct br_trial_request *r = g->request;
-    for (size_t i = 0; i < g->count; i++)
-        for (size_t m = 0; m < r->norms; m++) {
-            struct br_study *s = study_of(g, i, m);
-            const size_t first = g->first[i];
-            *s = (struct br_study){
-                .scene = r->scene,
-                .norm = r->norm[m],
-                .method = g->method[first],
-                .cell_method = &g->method[first],
-                .judge = judge,
-                .reference_method = r->reference_method,
-                .reference = r->reference,
-                .n_count = 1,
-                .k_count = g->first[i + 1] - first,
-                .n = &g->member[first]->at.n,
-                .steps = &g->steps[first],
-                .kept = r->kept,
-                .next_norm = m + 1 < r->norms ? study_of(g, i, m + 1) : NULL,
-            };
-            s->reference_method.axial_degree = s->method.axial_degree;
+    struct br_study *s = &g->study[g->count++];
+    *s = (struct br_study){
+        .scene = r->scene,
+        .norm = r->norm,
+        .method = br_trial_method(first),
+        .cell_method = &g->method[g->cells],
+        .judge = judge,
+        .reference_method = r->reference_method,
+        .reference = r->reference,
+        .n_count = 1,
+        .n = &first->at.n,
+        .steps = &g->steps[g->cells],
+        .kept = r->kept,
+    };
+    s->reference_method.axial_degree = s->method.axial_degree;
+    for (struct br_trial *t = first; t < end; t++)
+        if (same_group(t, first)) {
+            s->k_count++;
+            g->member[g->cells] = t;
+            g->steps[g->cells] = t->at.steps;
+            g->method[g->cells++] = br_trial_method(t);
         }
 }
 
-/* The judge's own error and round-off, in a norm. */
+/* The judge's own error and round-off. */
 static double own_error(const struct br_study *s)
 {
     const double told =
@@ -375,12 +344,11 @@ static double own_error(const struct br_study *s)
     return isfinite(told) ? told + s->judged_by.round_off * s->reference_scale : NAN;
 }
 
-static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
-                      const struct br_cell *cell)
+static void take_cell(struct br_trial *t, const struct br_study *s, const struct br_cell *cell)
 {
-    t->scale[m] = s->reference_scale;
-    t->own[m] = own_error(s);
-    memcpy(t->error[m], cell->error, sizeof cell->error);
+    t->scale = s->reference_scale;
+    t->own = own_error(s);
+    memcpy(t->error, cell->error, sizeof cell->error);
     const double error = cell->error[BR_PART_TOTAL];
     if (cell->failure.status || !isfinite(error)) {
         t->end = BR_TRIAL_FAILED;
@@ -394,43 +362,27 @@ static void take_cell(struct br_trial *t, size_t m, const struct br_study *s,
         t->end = BR_TRIAL_UNSTABLE;
         br_fail(&t->failure, BR_VERDICT,
                 "the lagged contact is beyond its stability limit: bounded chatter");
-    } else if (t->end == BR_TRIAL_DONE && !(error >= br_flag_margin * t->own[m]) &&
-               isfinite(t->own[m])) {
+    } else if (t->end == BR_TRIAL_DONE && !(error >= br_flag_margin * t->own) && isfinite(t->own)) {
         t->end = BR_TRIAL_DOUBTFUL;
     }
 }
 
 static void take_cells(const struct groups *g)
 {
-    for (size_t i = 0; i < g->count; i++)
-        for (size_t m = 0; m < g->request->norms; m++) {
-            const struct br_study *s = study_of(g, i, m);
-            for (size_t c = 0; c < s->k_count; c++)
-                take_cell(g->member[g->first[i] + c], m, s, &s->cell[c]);
-        }
-}
-
-static enum br_status allocate(struct groups *g, size_t count, struct br_error *err)
-{
-    g->first = br_allocate(count + 1, sizeof *g->first);
-    g->member = br_allocate(count, sizeof(struct br_trial *));
-    g->steps = br_allocate(count, sizeof *g->steps);
-    g->method = br_allocate(count, sizeof *g->method);
-    g->study = br_allocate(count * g->request->norms, sizeof *g->study);
-    return g->first && g->member && g->steps && g->method && g->study
-               ? BR_OK
-               : br_no_memory(err, "the trials");
+    struct br_trial **member = g->member;
+    for (const struct br_study *s = g->study; s < g->study + g->count; s++)
+        for (size_t c = 0; c < s->k_count; c++)
+            take_cell(*member++, s, &s->cell[c]);
 }
 
 static void clear(struct groups *g)
 {
-    for (size_t i = 0; g->study && i < g->count * g->request->norms; i++)
+    for (size_t i = 0; i < g->count; i++)
         br_study_clear(&g->study[i]);
-    free(g->first);
+    free(g->study);
     free(g->member);
     free(g->steps);
     free(g->method);
-    free(g->study);
 }
 
 /* Judges the trials that came to their end. */
@@ -443,14 +395,18 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
                        judge->title);
     if (count == 0)
         return BR_OK;
-    struct groups g = {.request = request};
-    enum br_status status = allocate(&g, count, err);
-    if (!status) {
-        collect(&g, trial, count);
-        fill_studies(&g, judge);
-        if (g.count)
-            status = br_study_run(g.study, g.count, request->threads, request->observer, err);
-    }
+    struct groups g = {.study = br_allocate(count, sizeof *g.study),
+                       .member = br_allocate(count, sizeof(struct br_trial *)),
+                       .steps = br_allocate(count, sizeof *g.steps),
+                       .method = br_allocate(count, sizeof *g.method)};
+    enum br_status status = BR_OK;
+    if (!g.study || !g.member || !g.steps || !g.method)
+        status = br_no_memory(err, "the trials");
+    for (size_t i = 0; i < count && !status; i++)
+        if (is_first(trial, i))
+            add_group(&g, &trial[i], &trial[count], request, judge);
+    if (g.count && !status)
+        status = br_study_run(g.study, g.count, request->threads, request->observer, err);
     if (!status)
         take_cells(&g);
     clear(&g);
@@ -459,44 +415,18 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
 
 /* ---- both ---- */
 
-/* A share of the whole work, for the observer. */
-struct share {
-    const struct br_observer *whole;
-    double from, length;
-};
-
-static void tell_share(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->progress(share->whole->self, share->from + share->length * fraction);
-}
-
-static void tell_preparing(void *self, double fraction)
-{
-    const struct share *share = self;
-    share->whole->preparing(share->whole->self, fraction);
-}
-
-static bool stop_share(void *self)
-{
-    const struct share *share = self;
-    return share->whole->stop && share->whole->stop(share->whole->self);
-}
-
 /* Seconds take about three quarters of the time. */
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err)
 {
-    struct share share = {.whole = request->observer, .length = 0.75};
-    const struct br_observer part = {
-        .progress = request->observer && request->observer->progress ? tell_share : NULL,
-        .stop = stop_share,
-        .self = &share,
-        .preparing = request->observer && request->observer->preparing ? tell_preparing : NULL,
-    };
+    struct br_observer_share share = {.whole = request->observer, .length = 0.75};
+    struct br_observer part;
     struct br_trial_request own = *request;
-    own.observer = request->observer ? &part : NULL;
+    if (request->observer) {
+        part = br_observer_of(&share);
+        own.observer = &part;
+    }
     enum br_status status = time_all(trial, count, &own, err);
-    share = (struct share){request->observer, 0.75, 0.25};
+    share = (struct br_observer_share){request->observer, 0.75, 0.25};
     return status ? status : judge_all(trial, count, &own, err);
 }

@@ -11,22 +11,17 @@
 #include "study/grid/study.h"
 #include "study/trade/named_method.h"
 
-/* X(name, word): how a trial ended. */
-#define BR_TRIAL_LIST(X)                                                          \
-    X(BR_TRIAL_DONE, "done")                                                      \
-    X(BR_TRIAL_DOUBTFUL, "doubtful") /* the judge's own error is not far below */ \
-    X(BR_TRIAL_UNSTABLE, "unstable") /* lagged contact beyond its limit */        \
-    X(BR_TRIAL_OVER, "over limit")   /* takes longer than the time limit */       \
-    X(BR_TRIAL_FAILED, "failed")                                                  \
-    X(BR_TRIAL_LEFT, "left out") /* for time: br_trials_foresee */
-
+/* How a trial ended. */
 enum br_trial_end {
-#define X(name, word) name,
-    BR_TRIAL_LIST(X)
-#undef X
-        BR_TRIAL_ENDS
+    BR_TRIAL_DONE,
+    BR_TRIAL_DOUBTFUL, /* the judge's own error is not far below */
+    BR_TRIAL_UNSTABLE, /* lagged contact beyond its limit */
+    BR_TRIAL_OVER,     /* takes longer than the time limit */
+    BR_TRIAL_FAILED,
+    BR_TRIAL_LEFT, /* for time: br_trials_foresee */
+    BR_TRIAL_ENDS
 };
-const char *br_trial_end_name(enum br_trial_end end);
+extern const char *const br_trial_end_names[BR_TRIAL_ENDS];
 
 /* What a march takes; the least of the repeats. */
 struct br_trial_cost {
@@ -45,11 +40,17 @@ struct br_trial {
     /* out */
     enum br_trial_end end;
     struct br_trial_cost cost;
-    double error[BR_MOST_NORMS][BR_PARTS]; /* by the request's norms, in their units; NaN: none */
-    double scale[BR_MOST_NORMS];           /* the norm of the solution, same unit */
-    double own[BR_MOST_NORMS];             /* the judge's own error, same unit; NaN: not known */
-    struct br_error failure;               /* why it is BR_TRIAL_FAILED or BR_TRIAL_OVER */
+    double error[BR_PARTS];  /* in the request's norm and its unit; NaN: none */
+    double scale;            /* the norm of the solution, same unit */
+    double own;              /* the judge's own error, same unit; NaN: not known */
+    struct br_error failure; /* why it is BR_TRIAL_FAILED or BR_TRIAL_OVER */
 };
+
+/* A trial by a named method: with so many steps or, of an adaptive one, to a tolerance, looked at
+ * so often that each look is the end of a step. */
+enum { BR_TRIAL_LEVELS = 20 };
+struct br_trial br_trial_at(const struct br_named_method *named, size_t n, size_t steps,
+                            double tolerance);
 
 /* How trials are held. All borrowed. */
 struct br_trial_request {
@@ -57,8 +58,7 @@ struct br_trial_request {
     const struct br_judge *judge;      /* NULL: br_judge_best of the scene */
     struct br_method reference_method; /* of a judge that nests */
     struct br_resolution reference;    /* likewise */
-    const struct br_norm *const *norm; /* norms, at least one */
-    size_t norms;
+    const struct br_norm *norm;
     size_t repeats;                     /* timed marches of a trial, at least 1 */
     double repeat_seconds;              /* no more repeats once they have taken so long, s */
     double time_limit;                  /* of one march with its set-up, s; 0: none */
@@ -101,11 +101,11 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
 /* Set-up and march, s; NaN: it did not come to its end. */
 double br_trial_seconds(const struct br_trial *trial);
 
-/* The error of a part in norm m over the norm of the whole solution; NaN: none. */
-double br_trial_relative(const struct br_trial *trial, size_t m, enum br_part part);
+/* The error over the norm of the solution; NaN: none. */
+double br_trial_relative(const struct br_trial *trial);
 
 /* What the relative error is at most, the judge's own error added; NaN: no trial that counts. */
-double br_trial_bound(const struct br_trial *trial, size_t m);
+double br_trial_bound(const struct br_trial *trial);
 
 /* The method that a trial marches with: its named method's, with the trial's tolerance. */
 struct br_method br_trial_method(const struct br_trial *trial);
