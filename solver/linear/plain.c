@@ -13,10 +13,9 @@
 #include <string.h>
 
 #include "solver/instruction_set.h"
+#include "solver/linear/block.h"
 #include "solver/linear/plain.h"
 #include "solver/linear/states.h"
-
-typedef long double real; /* of the tables, which are computed once */
 
 #define INLINE static inline __attribute__((always_inline))
 
@@ -63,43 +62,6 @@ INLINE double transposed_control(int d, int c, const double *p)
 
 /* ---- tables ---- */
 
-struct block {
-    real e[2][2];
-};
-
-static struct block times(struct block a, struct block b)
-{
-    struct block c;
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++)
-            c.e[i][j] = a.e[i][0] * b.e[0][j] + a.e[i][1] * b.e[1][j];
-    return c;
-}
-
-static struct block plus(struct block a, struct block b)
-{
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++)
-            a.e[i][j] += b.e[i][j];
-    return a;
-}
-
-static struct block transpose(struct block a)
-{
-    return (struct block){{{a.e[0][0], a.e[1][0]}, {a.e[0][1], a.e[1][1]}}};
-}
-
-/* S^-1; false where S is not positive definite. */
-static bool invert(struct block s, struct block *inverse)
-{
-    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
-    if (!(s.e[0][0] > 0 && det > 0 && isfinite(det)))
-        return false;
-    *inverse =
-        (struct block){{{s.e[1][1] / det, -s.e[0][1] / det}, {-s.e[1][0] / det, s.e[0][0] / det}}};
-    return true;
-}
-
 /* The Riccati recursion, from the tip to the clamp. */
 struct recursion {
     real mass, r[2];            /* rho h / k; R */
@@ -145,13 +107,13 @@ static bool quadratic_gain(struct recursion *rec)
     const real m = rec->mass, *r = rec->r, p = rec->p.e[0][0];
     const struct block s = {{{r[0] + m / 3 + p, -m / 12}, {-m / 12, r[1] + m / 30}}};
     const struct block h = {{{m / 2 + p}, {-m / 6}}};
-    if (!invert(s, &rec->inverse))
+    if (!is_positive_definite(s))
         return false;
+    rec->inverse = inverse_of(s);
     rec->k = times(rec->inverse, h);
     const real k0 = rec->k.e[0][0], k1 = rec->k.e[1][0];
-    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
     /* 1 - K_0, whose P cancels */
-    const real closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / det;
+    const real closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / determinant(s);
     rec->p.e[0][0] =
         mass_square(m, closed, k0, -k1) + r[0] * k0 * k0 + r[1] * k1 * k1 + closed * closed * p;
     for (int c = 0; c < 2; c++)
@@ -193,8 +155,9 @@ static bool beam_gain(struct recursion *rec)
     struct block s = times(gt, times(q, control)); /* S = R + G'QG */
     for (int c = 0; c < 2; c++)
         s.e[c][c] += rec->r[c];
-    if (!invert(s, &rec->inverse))
+    if (!is_positive_definite(s))
         return false;
+    rec->inverse = inverse_of(s);
     const struct block h = times(gt, plus(times(q, t), transpose(mab))); /* H = G'(QT + Mab') */
     const struct block k = times(rec->inverse, h);                       /* K = S^-1 H */
     const struct block a = plus(t, times(minus_control, k));             /* A = T - GK */
@@ -335,15 +298,18 @@ INLINE void sweep_right(int d, int m, struct plain *s, double force)
 }
 
 /* d and m become constants. */
+#define WITH_SIZES(s, sweep, ...)             \
+    ((s)->d == 2   ? sweep(2, 2, __VA_ARGS__) \
+     : (s)->m == 2 ? sweep(1, 2, __VA_ARGS__) \
+                   : sweep(1, 1, __VA_ARGS__))
+
 BR_SWEEP
 static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err)
 {
     (void)err;
     struct plain *s = self;
-    *velocity = s->d == 2   ? sweep_left(2, 2, s, drive)
-                : s->m == 2 ? sweep_left(1, 2, s, drive)
-                            : sweep_left(1, 1, s, drive);
+    *velocity = WITH_SIZES(s, sweep_left, s, drive);
     return BR_OK;
 }
 
@@ -351,12 +317,7 @@ BR_SWEEP
 static double finish(void *self, double force)
 {
     struct plain *s = self;
-    if (s->d == 2)
-        sweep_right(2, 2, s, force);
-    else if (s->m == 2)
-        sweep_right(1, 2, s, force);
-    else
-        sweep_right(1, 1, s, force);
+    WITH_SIZES(s, sweep_right, s, force);
     return s->state[2 * (size_t)s->m * s->field.n + (size_t)s->m];
 }
 
@@ -425,8 +386,7 @@ static enum br_status set_step(void *self, double k, struct br_error *err)
 static void control_of(const struct plain *s, const double *node, double *kappa)
 {
     if (s->d == 2) {
-        kappa[0] = node[3] - node[1];
-        kappa[1] = 3 * (node[1] + node[3]) - 6 * (node[2] - node[0]);
+        br_curvature(node, kappa);
         return;
     }
     kappa[0] = node[s->m] - node[0];
