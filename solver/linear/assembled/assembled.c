@@ -92,51 +92,57 @@ static void add_elements(const struct br_field *f, double mass, const double *v,
         add_bending(f, mass * f->h, v, stiffness, w, out);
 }
 
+/* ---- the matrix ---- */
+
+/* The first row of a column, of the lower triangle or of both. */
+static size_t first_row(const struct br_band *a, bool both, size_t column)
+{
+    return !both ? column : column > a->band ? column - a->band : 0;
+}
+
+void br_band_pattern(const struct br_band *a, bool both, int *column, int *row)
+{
+    int count = 0;
+    for (size_t j = 0; j < a->order; j++) {
+        column[j] = count;
+        for (size_t i = first_row(a, both, j); i <= j + a->band && i < a->order; i++)
+            row[count++] = (int)i;
+    }
+    column[a->order] = count;
+}
+
+void br_band_values(const struct br_band *a, bool both, double *value)
+{
+    for (size_t j = 0; j < a->order; j++)
+        for (size_t i = first_row(a, both, j); i <= j + a->band && i < a->order; i++) {
+            const size_t low = i < j ? i : j, high = i < j ? j : i;
+            *value++ = a->value[low * (a->band + 1) + high - low];
+        }
+}
+
 /* ---- the system A x = b ---- */
 
-struct system {
+struct assembled {
     struct br_field field;
     size_t unknowns; /* a node */
     size_t nodal;    /* length of a nodal array, clamped node included */
+    size_t tip;      /* index of the tip's displacement in one */
     const struct br_factoriser *factoriser;
     void *factor;
     int refinement; /* steps a solve, at most, where the factoriser does not do it */
     struct br_band matrix;
-    double *residual, *correction; /* workspace, nodal */
+    struct br_states states;             /* nodal: displacement, and behind it velocity */
+    double *displacement, *velocity;     /* of the first of them */
+    double *free_velocity;               /* v* */
+    double *tip_response;                /* z = A^-1 e_tip, nodal */
+    double *rhs, *residual, *correction; /* workspace, nodal */
+    double loss;   /* of a solve, relative, as check_digits has it: the largest of all steps */
+    double safety; /* how much more a march may lose, see round_off */
+    double usual;  /* loss of a march as usual_loss has it */
 };
 
-/* Prepares what does not depend on the values; clear it even where it fails. */
-static enum br_status system_init(struct system *s, const struct br_field *field,
-                                  const struct br_linear_options *options,
-                                  const struct br_factoriser *factoriser, struct br_error *err)
-{
-    s->field = *field;
-    s->unknowns = br_field_unknowns(field);
-    s->nodal = br_field_size(field);
-    s->factoriser = factoriser;
-    s->refinement = factoriser->refines ? 0 : options->refinement;
-    s->matrix = (struct br_band){.order = s->unknowns * field->n, .band = 2 * s->unknowns - 1};
-    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
-        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
-                       field->n);
-    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
-    s->residual = br_allocate(2 * s->nodal, sizeof *s->residual);
-    if (!s->matrix.value || !s->residual)
-        return br_no_memory(err, "the stiffness form");
-    s->correction = s->residual + s->nodal;
-    return factoriser->create(&s->matrix, options, &s->factor, err);
-}
-
-static void system_clear(struct system *s)
-{
-    if (s->factoriser)
-        s->factoriser->free(s->factor);
-    free(s->matrix.value);
-    free(s->residual);
-}
-
 /* Assembles and factorises A for s->field. */
-static enum br_status system_factorise(struct system *s, struct br_error *err)
+static enum br_status factorise_matrix(struct assembled *s, struct br_error *err)
 {
     const size_t count = s->matrix.order * (s->matrix.band + 1);
     memset(s->matrix.value, 0, count * sizeof *s->matrix.value);
@@ -160,45 +166,46 @@ static double largest(const double *x, size_t count)
     return most;
 }
 
-static enum br_status solve_once(struct system *s, const double *rhs, double *x,
+static enum br_status solve_once(struct assembled *s, const double *rhs, double *x,
                                  struct br_error *err)
 {
     return s->factoriser->solve(s->factor, rhs + s->unknowns, x + s->unknowns, err);
 }
 
-/* residual = rhs - A x */
-static void form_residual(struct system *s, const double *rhs, const double *x)
+/* correction = A^-1 (rhs - A x) */
+static enum br_status correct(struct assembled *s, const double *x, struct br_error *err)
 {
     const struct br_field *f = &s->field;
-    memcpy(s->residual, rhs, s->nodal * sizeof *rhs);
+    memcpy(s->residual, s->rhs, s->nodal * sizeof *s->rhs);
     add_elements(f, -f->density / f->k, x, f->viscosity + f->k * f->stiffness, x, s->residual);
+    return solve_once(s, s->residual, s->correction, err);
 }
 
-static enum br_status no_digits(const struct system *s, struct br_error *err)
+/* x = A^-1 rhs; nodal (out), and the clamped node of x stays as it is, zero. Then x += A^-1 (rhs -
+ * A x), in double, until a correction is no longer half of the one before, or the next one would be
+ * round-off. The residual is formed element by element from what deforms them, so that it is as
+ * exact as one of more digits, and the error itself shrinks, not just the residual (N. J. Higham,
+ * Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1). The march
+ * reports what is not finite. */
+static enum br_status solve(struct assembled *s, double *x, struct br_error *err)
 {
-    return br_fail(err, BR_SINGULAR,
-                   "%s: the refinement does not converge, since the matrix of n = %zu elements is "
-                   "too ill-conditioned for a solution with any right digit",
-                   s->factoriser->name, s->field.n);
-}
-
-/* x += A^-1 (rhs - A x), in double, until a correction is no longer half of the one before, or the
- * next one would be round-off. The residual is formed element by element from what deforms them, so
- * that it is as exact as one of more digits, and the error itself shrinks, not just the residual
- * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1).
- * The march reports what is not finite. */
-static enum br_status refine(struct system *s, const double *rhs, double *x, struct br_error *err)
-{
+    enum br_status status = solve_once(s, s->rhs, x, err);
+    if (status || s->refinement == 0)
+        return status;
     double last = largest(x, s->nodal);
     const double enough = DBL_EPSILON * last;
     for (int step = 0; step < s->refinement; step++) {
-        form_residual(s, rhs, x);
-        const enum br_status status = solve_once(s, s->residual, s->correction, err);
+        status = correct(s, x, err);
         if (status)
             return status;
         const double size = largest(s->correction, s->nodal);
+        if (!(size <= last / 2) && step == 0 && isfinite(size))
+            return br_fail(err, BR_SINGULAR,
+                           "%s: the refinement does not converge, since the matrix of n = %zu "
+                           "elements is too ill-conditioned for a solution with any right digit",
+                           s->factoriser->name, s->field.n);
         if (!(size <= last / 2))
-            return step == 0 && isfinite(size) ? no_digits(s, err) : BR_OK;
+            break;
         for (size_t i = 0; i < s->nodal; i++)
             x[i] += s->correction[i];
         if (size == 0 || size / last * size <= enough)
@@ -206,26 +213,6 @@ static enum br_status refine(struct system *s, const double *rhs, double *x, str
         last = size;
     }
     return BR_OK;
-}
-
-/* x = A^-1 rhs; both nodal (in, out), and the clamped node of x stays as it is, zero. */
-static enum br_status system_solve(struct system *s, const double *rhs, double *x,
-                                   struct br_error *err)
-{
-    const enum br_status status = solve_once(s, rhs, x, err);
-    return status ? status : refine(s, rhs, x, err);
-}
-
-/* How much of x = A^-1 rhs is wrong, relative to its largest value (out): the correction that one
- * more step of refinement would make. */
-static enum br_status system_loss(struct system *s, const double *rhs, const double *x,
-                                  double *loss, struct br_error *err)
-{
-    form_residual(s, rhs, x);
-    const enum br_status status = solve_once(s, s->residual, s->correction, err);
-    if (!status)
-        *loss = largest(s->correction, s->nodal) / largest(x, s->nodal);
-    return status;
 }
 
 /* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
@@ -290,29 +277,10 @@ double br_assembled_residual(const struct br_field *f, const struct br_linear_op
 
 /* ---- a field solver ---- */
 
-struct assembled {
-    struct system system;
-    struct br_states states; /* nodal: displacement, and behind it velocity */
-    double *displacement;    /* of the first of them */
-    double *velocity;
-    double *free_velocity; /* v* */
-    double *tip_response;  /* z = A^-1 e_tip, nodal */
-    double *rhs;           /* workspace, nodal */
-    double loss;   /* of a solve, relative, as system_loss has it: the largest of all steps */
-    double safety; /* how much more a march may lose, see round_off */
-    double usual;  /* loss of a march as usual_loss has it */
-};
-
-/* Index of the tip's displacement in a nodal array. */
-static size_t tip_index(const struct assembled *s)
-{
-    return s->system.field.n * s->system.unknowns;
-}
-
 /* Each step's velocity is off by what a solve loses, which inertia keeps for so many steps. */
 static double kept(const struct assembled *s, double steps)
 {
-    return fmin(1 + br_field_inertia(&s->system.field), steps);
+    return fmin(1 + br_field_inertia(&s->field), steps);
 }
 
 /* A march that is more than a twentieth off has next to no digit left; near 1 the mass, or what the
@@ -321,14 +289,15 @@ static const double most_loss = 0.05, few_steps = 10;
 
 /* What is lost is measured, not predicted: it depends on n, k, damping and the order of elimination
  * by factors of thousands, and only sometimes makes a pivot negative. A force at the tip asks for
- * the softest motion there is, which loses most. */
+ * the softest motion there is, which loses most: of that, relative to its largest value, the
+ * correction is that one more step of refinement would make. */
 static enum br_status check_digits(struct assembled *s, struct br_error *err)
 {
-    const struct br_field *f = &s->system.field;
-    double loss = NAN;
-    const enum br_status status = system_loss(&s->system, s->rhs, s->tip_response, &loss, err);
+    const struct br_field *f = &s->field;
+    const enum br_status status = correct(s, s->tip_response, err);
     if (status)
         return status;
+    const double loss = largest(s->correction, s->nodal) / largest(s->tip_response, s->nodal);
     s->loss = fmax(s->loss, loss);
     const double lost = loss * kept(s, few_steps);
     if (lost <= most_loss)
@@ -338,50 +307,48 @@ static enum br_status check_digits(struct assembled *s, struct br_error *err)
         "%s: the %s matrix of n = %zu elements and k = %g s is too ill-conditioned: %.2g "
         "of the velocity is lost in %g steps, expected at most %g; solver riccati has no "
         "such matrix",
-        s->system.factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost,
-        few_steps, most_loss);
-}
-
-static enum br_status find_tip_response(struct assembled *s, struct br_error *err)
-{
-    memset(s->rhs, 0, s->system.nodal * sizeof *s->rhs);
-    s->rhs[tip_index(s)] = 1;
-    const enum br_status status = system_solve(&s->system, s->rhs, s->tip_response, err);
-    if (status)
-        return status;
-    const double compliance = s->tip_response[tip_index(s)];
-    if (compliance > 0 && isfinite(compliance))
-        return check_digits(s, err);
-    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
-                   s->system.factoriser->name, compliance);
+        s->factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost, few_steps,
+        most_loss);
 }
 
 /* All that depends on the step's length. */
 static enum br_status factorise(struct assembled *s, struct br_error *err)
 {
-    const enum br_status status = system_factorise(&s->system, err);
-    return status ? status : find_tip_response(s, err);
+    enum br_status status = factorise_matrix(s, err);
+    memset(s->rhs, 0, s->nodal * sizeof *s->rhs);
+    s->rhs[s->tip] = 1;
+    if (!status)
+        status = solve(s, s->tip_response, err);
+    if (status)
+        return status;
+    const double compliance = s->tip_response[s->tip];
+    if (compliance > 0 && isfinite(compliance))
+        return check_digits(s, err);
+    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
+                   s->factoriser->name, compliance);
 }
 
 static void point_at_first(struct assembled *s)
 {
     s->displacement = s->states.of[0];
-    s->velocity = s->displacement + s->system.nodal;
+    s->velocity = s->displacement + s->nodal;
 }
 
 static enum br_status allocate(struct assembled *s, struct br_error *err)
 {
-    const size_t nodal = s->system.nodal;
-    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
-    if (status)
-        return status;
-    point_at_first(s);
-    s->free_velocity = br_allocate(3 * nodal, sizeof *s->free_velocity);
-    if (!s->free_velocity)
+    const size_t nodal = s->nodal;
+    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
+    s->free_velocity = br_allocate(5 * nodal, sizeof *s->free_velocity);
+    if (!s->matrix.value || !s->free_velocity)
         return br_no_memory(err, "the stiffness form");
     s->tip_response = s->free_velocity + nodal;
     s->rhs = s->tip_response + nodal;
-    return BR_OK;
+    s->residual = s->rhs + nodal;
+    s->correction = s->residual + nodal;
+    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
+    if (!status)
+        point_at_first(s);
+    return status;
 }
 
 static enum br_status assembled_create(const struct br_linear_solver *row,
@@ -390,15 +357,28 @@ static enum br_status assembled_create(const struct br_linear_solver *row,
                                        struct br_error *err)
 {
     const struct br_factoriser *factoriser = row->factoriser;
+    const size_t unknowns = br_field_unknowns(field), order = unknowns * field->n;
     struct assembled *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, "the stiffness form");
-    s->safety = factoriser->refines && options->refinement > 0 ? 15 : 3;
-    s->usual = usual_loss(field, factoriser->refines, options);
-    enum br_status status = system_init(&s->system, field, options, factoriser, err);
+    *s = (struct assembled){
+        .field = *field,
+        .unknowns = unknowns,
+        .nodal = br_field_size(field),
+        .tip = order,
+        .factoriser = factoriser,
+        .refinement = factoriser->refines ? 0 : options->refinement,
+        .matrix = {.order = order, .band = 2 * unknowns - 1},
+        .safety = factoriser->refines && options->refinement > 0 ? 15 : 3,
+        .usual = usual_loss(field, factoriser->refines, options),
+    };
+    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
+        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
+                       field->n);
+    enum br_status status = allocate(s, err);
     if (!status)
-        status = allocate(s, err);
+        status = factoriser->create(&s->matrix, options, &s->factor, err);
     return status ? status : factorise(s, err);
 }
 
@@ -407,7 +387,8 @@ static void assembled_free(void *self)
     struct assembled *s = self;
     if (!s)
         return;
-    system_clear(&s->system);
+    s->factoriser->free(s->factor);
+    free(s->matrix.value);
     br_states_clear(&s->states);
     free(s->free_velocity);
     free(s);
@@ -416,7 +397,7 @@ static void assembled_free(void *self)
 static enum br_status assembled_set_step(void *self, double k, struct br_error *err)
 {
     struct assembled *s = self;
-    s->system.field.k = k;
+    s->field.k = k;
     return factorise(s, err);
 }
 
@@ -428,7 +409,7 @@ static enum br_status assembled_set_step(void *self, double k, struct br_error *
 static double march_round_off(const void *self, size_t steps)
 {
     const struct assembled *s = self;
-    const struct br_field *f = &s->system.field;
+    const struct br_field *f = &s->field;
     const double sums = 16 * DBL_EPSILON, scatter = 3;
     const double usual = fmin(scatter * s->usual, 1) / (1 + br_field_inertia(f)) + sums;
     return fmax(s->safety * s->loss, usual) * kept(s, (double)steps) +
@@ -438,20 +419,20 @@ static double march_round_off(const void *self, size_t steps)
 static double assembled_compliance(const void *self)
 {
     const struct assembled *s = self;
-    return s->tip_response[tip_index(s)];
+    return s->tip_response[s->tip];
 }
 
 static void assembled_set(void *self, const double *displacement, const double *velocity)
 {
     struct assembled *s = self;
-    memcpy(s->displacement, displacement, s->system.nodal * sizeof *displacement);
-    memcpy(s->velocity, velocity, s->system.nodal * sizeof *velocity);
+    memcpy(s->displacement, displacement, s->nodal * sizeof *displacement);
+    memcpy(s->velocity, velocity, s->nodal * sizeof *velocity);
 }
 
 static void assembled_get(const void *self, double *displacement, double *velocity)
 {
     const struct assembled *s = self;
-    const size_t bytes = s->system.nodal * sizeof *displacement;
+    const size_t bytes = s->nodal * sizeof *displacement;
     if (displacement)
         memcpy(displacement, s->displacement, bytes);
     if (velocity)
@@ -461,7 +442,7 @@ static void assembled_get(const void *self, double *displacement, double *veloci
 /* What deforms element i, from nodal values: its elongation or its two curvatures. */
 static void strain(const struct assembled *s, const double *nodal, size_t i, double *out)
 {
-    if (s->system.field.kind == BR_AXIAL)
+    if (s->field.kind == BR_AXIAL)
         out[0] = nodal[i + 1] - nodal[i];
     else
         br_curvature(nodal + 2 * i, out);
@@ -470,18 +451,18 @@ static void strain(const struct assembled *s, const double *nodal, size_t i, dou
 static void assembled_strain_rate(const void *self, double *rate)
 {
     const struct assembled *s = self;
-    for (size_t i = 0; i < s->system.field.n; i++)
-        strain(s, s->velocity, i, rate + i * s->system.unknowns);
+    for (size_t i = 0; i < s->field.n; i++)
+        strain(s, s->velocity, i, rate + i * s->unknowns);
 }
 
 /* rhs = factor F + tip + M v/k - K w */
 static void form_rhs(struct assembled *s, const struct br_drive *drive)
 {
-    const struct br_field *f = &s->system.field;
-    for (size_t i = 0; i < s->system.nodal; i++)
+    const struct br_field *f = &s->field;
+    for (size_t i = 0; i < s->nodal; i++)
         s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
-    for (size_t c = 0; c < s->system.unknowns; c++)
-        s->rhs[tip_index(s) + c] += drive->tip[c];
+    for (size_t c = 0; c < s->unknowns; c++)
+        s->rhs[s->tip + c] += drive->tip[c];
     add_elements(f, f->density / f->k, s->velocity, f->stiffness, s->displacement, s->rhs);
 }
 
@@ -490,8 +471,8 @@ static enum br_status assembled_predict(void *self, const struct br_drive *drive
 {
     struct assembled *s = self;
     form_rhs(s, drive);
-    const enum br_status status = system_solve(&s->system, s->rhs, s->free_velocity, err);
-    *velocity = s->free_velocity[tip_index(s)];
+    const enum br_status status = solve(s, s->free_velocity, err);
+    *velocity = s->free_velocity[s->tip];
     return status;
 }
 
@@ -499,17 +480,17 @@ static enum br_status assembled_predict(void *self, const struct br_drive *drive
 static double assembled_finish(void *self, double force)
 {
     struct assembled *s = self;
-    for (size_t i = 0; i < s->system.nodal; i++) {
+    for (size_t i = 0; i < s->nodal; i++) {
         s->velocity[i] = s->free_velocity[i] - force * s->tip_response[i];
-        s->displacement[i] += s->system.field.k * s->velocity[i];
+        s->displacement[i] += s->field.k * s->velocity[i];
     }
-    return s->velocity[tip_index(s)];
+    return s->velocity[s->tip];
 }
 
 static double assembled_tip_displacement(const void *self)
 {
     const struct assembled *s = self;
-    return s->displacement[tip_index(s)];
+    return s->displacement[s->tip];
 }
 
 /* ---- more states ---- */
@@ -537,15 +518,14 @@ static void assembled_size(void *self, size_t which, double size[2])
 {
     const struct assembled *s = self;
     struct br_view view;
-    br_view_field(&view, &s->system.field,
-                  BR_STRAIN_RATE); /* the modes of a strain: the same scales */
+    br_view_field(&view, &s->field, BR_STRAIN_RATE); /* the modes of a strain: the same scales */
     for (int part = 0; part < 2; part++) {
-        const double *nodal = s->states.of[which] + (part ? s->system.nodal : 0);
+        const double *nodal = s->states.of[which] + (part ? s->nodal : 0);
         long double squares = 0; /* those of small numbers are lost in double */
         double modes[2];
-        for (size_t i = 0; i < s->system.field.n; i++) {
+        for (size_t i = 0; i < s->field.n; i++) {
             strain(s, nodal, i, modes);
-            for (size_t c = 0; c < s->system.unknowns; c++) {
+            for (size_t c = 0; c < s->unknowns; c++) {
                 const long double mode = (long double)view.scale[c] * modes[c];
                 squares += mode * mode;
             }

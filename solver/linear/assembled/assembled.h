@@ -17,6 +17,11 @@ struct br_band {
     double *value;
 };
 
+/* The whole band, with its zeros, by compressed columns, of the lower triangle or of both: a
+ * pattern that holds for any values, and the values (out). */
+void br_band_pattern(const struct br_band *a, bool both, int *column, int *row);
+void br_band_values(const struct br_band *a, bool both, double *value);
+
 /* How a library factorises and solves. */
 struct br_factoriser {
     const char *name;

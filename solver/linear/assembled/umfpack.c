@@ -43,33 +43,6 @@ static enum br_status read_options(struct umfpack *u, const struct br_linear_opt
                    options->scaling);
 }
 
-static size_t first_row(const struct br_band *a, size_t column)
-{
-    return column > a->band ? column - a->band : 0;
-}
-
-/* The whole band of both triangles. */
-static void fill_pattern(const struct br_band *a, struct umfpack *u)
-{
-    int count = 0;
-    for (size_t j = 0; j < a->order; j++) {
-        u->column[j] = count;
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++)
-            u->row[count++] = (int)i;
-    }
-    u->column[a->order] = count;
-}
-
-static void fill_values(const struct br_band *a, struct umfpack *u)
-{
-    double *value = u->value;
-    for (size_t j = 0; j < a->order; j++)
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++) {
-            const size_t low = i < j ? i : j, high = i < j ? j : i;
-            *value++ = a->value[low * (a->band + 1) + high - low];
-        }
-}
-
 static enum br_status umfpack_create(const struct br_band *a,
                                      const struct br_linear_options *options, void **factor,
                                      struct br_error *err)
@@ -87,7 +60,7 @@ static enum br_status umfpack_create(const struct br_band *a,
     u->work = br_allocate(5 * a->order, sizeof *u->work);
     if (!u->column || !u->row || !u->value || !u->iwork || !u->work)
         return br_no_memory(err, "umfpack's factor");
-    fill_pattern(a, u);
+    br_band_pattern(a, true, u->column, u->row);
     const enum br_status status = read_options(u, options, err);
     if (status)
         return status;
@@ -138,7 +111,7 @@ static enum br_status check_definite(struct umfpack *u, struct br_error *err)
 static enum br_status umfpack_factorise(void *factor, const struct br_band *a, struct br_error *err)
 {
     struct umfpack *u = factor;
-    fill_values(a, u);
+    br_band_values(a, true, u->value);
     if (u->numeric)
         umfpack_di_free_numeric(&u->numeric);
     const int result = umfpack_di_numeric(u->column, u->row, u->value, u->symbolic, &u->numeric,
