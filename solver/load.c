@@ -65,8 +65,7 @@ void br_step_load_clear(struct br_step_load *load)
 static enum br_status evaluate(const struct br_function *f, const char *name, double t,
                                double *value, struct br_error *err)
 {
-    const double x = 0;
-    br_function_evaluate(f, 1, &x, t, value);
+    *value = br_function_at(f, 0, t);
     if (!isfinite(*value))
         return br_fail(err, BR_NOT_FINITE, "the %s is %g at t = %.17g s", name, *value, t);
     return BR_OK;

@@ -1,5 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/load_fit.h"
+/* A load f(x, t) that is no product, as a sum of few: in each of some cells of the beam
+ *     f(x, t) = sum over j of f(x_j, t) L_j(x)
+ * with the Lagrange polynomials L_j of m Chebyshev points x_j. Their load vectors are assembled
+ * once; a step evaluates f at the x_j alone, where the direct way has five Gauss points an element.
+ *
+ * On a cell of width w the error is at most |d^m f / dx^m| / m! 2 (w/4)^m. That is enclosed over
+ * all times of the march by interval arithmetic (function.h): nothing is sampled. Where f is not
+ * smooth, or no few cells do, there is no fit, and the direct way is taken. */
+#include "solver/load.h"
 
 #include <math.h>
 #include <string.h>

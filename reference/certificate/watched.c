@@ -155,9 +155,9 @@ static double *place_field(struct br_watched *w, enum br_field_kind kind, double
     return memory + 3 * f->y.size;
 }
 
-enum br_status br_watched_init(struct br_watched *w, const struct br_march *march,
+enum br_status br_watched_init(struct br_watched *w, struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
-                               struct br_error *err)
+                               const struct br_march_watcher *watcher, struct br_error *err)
 {
     *w = (struct br_watched){.march = march, .scene = scene, .method = method};
     if (!br_textbook_step(method->scheme->name, 0))
@@ -173,15 +173,21 @@ enum br_status br_watched_init(struct br_watched *w, const struct br_march *marc
     if (!w->memory)
         return br_no_memory(err, "a certificate");
     double *memory = w->memory;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        memory = place_field(w, (enum br_field_kind)kind, memory);
-        sample(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        memory = place_field(w, kind, memory);
+        sample(w, kind, &w->field[kind].y.past[0]);
     }
+    if (!br_march_watch(march, watcher))
+        return br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
+                       BR_MOST_WATCHERS);
+    w->watcher = watcher->self;
     return BR_OK;
 }
 
 void br_watched_clear(struct br_watched *w)
 {
+    if (w->watcher)
+        br_march_unwatch(w->march, w->watcher);
     free(w->memory);
-    w->memory = NULL;
+    *w = (struct br_watched){0};
 }

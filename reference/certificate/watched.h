@@ -43,7 +43,8 @@ struct br_watched_field {
 };
 
 struct br_watched {
-    const struct br_march *march;
+    struct br_march *march;
+    void *watcher; /* who looks at it stage by stage */
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n;
@@ -52,11 +53,12 @@ struct br_watched {
     double *memory;
 };
 
-/* Samples a march at t = 0; it, its scene and the method must outlive the watched. Fails with
- * BR_BAD_INPUT where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
-enum br_status br_watched_init(struct br_watched *watched, const struct br_march *march,
+/* Samples a march at t = 0, which the watcher then looks at (br_march_watch) until the watched is
+ * cleared. The march, its scene and the method must outlive the watched. Fails with BR_BAD_INPUT
+ * where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
+enum br_status br_watched_init(struct br_watched *watched, struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
-                               struct br_error *err);
+                               const struct br_march_watcher *watcher, struct br_error *err);
 void br_watched_clear(struct br_watched *watched);
 
 /* The textbook's step that a field is in. */

@@ -21,12 +21,12 @@ struct br_projection {
     double *value;                /* there */
 };
 
-static enum br_status fill_points(struct br_projection *p, struct br_error *err)
+static enum br_status set_up(struct br_projection *p, const struct br_function *solution,
+                             struct br_partial order, struct br_error *err)
 {
+    p->x = br_allocate(2 * p->n * POINTS, sizeof *p->x);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
-    if (!table)
-        return br_no_memory(err, "a Gauss rule");
-    for (size_t q = 0; q < POINTS; q++) {
+    for (size_t q = 0; q < POINTS && p->x && table; q++) {
         double xi, weight, legendre[MODES];
         gsl_integration_glfixed_point(0, 1, q, &xi, &weight, table);
         br_legendre(MODES, xi, legendre);
@@ -35,19 +35,12 @@ static enum br_status fill_points(struct br_projection *p, struct br_error *err)
         for (size_t e = 0; e < p->n; e++)
             p->x[e * POINTS + q] = p->h * ((double)e + xi);
     }
+    const bool room = p->x && table;
     gsl_integration_glfixed_table_free(table);
-    return BR_OK;
-}
-
-static enum br_status set_up(struct br_projection *p, const struct br_function *solution,
-                             struct br_partial order, struct br_error *err)
-{
-    p->x = br_allocate(2 * p->n * POINTS, sizeof *p->x);
-    if (!p->x)
+    if (!room)
         return br_no_memory(err, "a projection");
     p->value = p->x + p->n * POINTS;
-    const enum br_status status = fill_points(p, err);
-    return status ? status : br_function_derivative(solution, order, &p->derivative, err);
+    return br_function_derivative(solution, order, &p->derivative, err);
 }
 
 enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
@@ -112,10 +105,9 @@ struct br_projection_rest br_projection_apply(struct br_projection *p, double t,
 struct mms_judge {
     struct br_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
     struct br_function tip[2];                         /* the solution itself */
-    char *solution[2];                                 /* NULL: not modelled */
+    const struct br_scene *scene;
     size_t meshes, levels;
     int axial_degree;
-    double length, duration;     /* m, s */
     double time[2];              /* by br_field_kind, s */
     double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
     double seconds[2];           /* by br_field_kind */
@@ -126,7 +118,7 @@ static void mms_free(void *self)
     struct mms_judge *j = self;
     if (!j)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         for (int measure = 0; measure < BR_MEASURES; measure++) {
             struct br_projection **projection = j->projection[kind][measure];
             for (size_t i = 0; projection && i < j->meshes; i++)
@@ -134,7 +126,6 @@ static void mms_free(void *self)
             free(projection);
         }
         br_function_free(&j->tip[kind]);
-        free(j->solution[kind]);
     }
     free(j);
 }
@@ -165,13 +156,8 @@ static enum br_status create_projections(struct mms_judge *j, enum br_field_kind
 static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
                                   const struct br_judge_request *r, struct br_error *err)
 {
-    const char *text = kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution;
-    if (!text)
+    if (!(kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution))
         return BR_OK;
-    j->solution[kind] = br_allocate(strlen(text) + 1, 1);
-    if (!j->solution[kind])
-        return br_no_memory(err, "the manufactured solution");
-    strcpy(j->solution[kind], text);
     enum br_status status = br_function_clone(
         kind == BR_AXIAL ? &r->scene->axial.given : &r->scene->bending.given, &j->tip[kind], err);
     for (int measure = 0; measure < BR_TIP && !status; measure++)
@@ -197,8 +183,7 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
     j->meshes = r->mesh_count;
     j->levels = r->levels;
     j->axial_degree = r->axial_degree;
-    j->length = scene->length;
-    j->duration = scene->duration;
+    j->scene = scene;
     const enum br_status status = create_part(j, BR_AXIAL, r, err);
     return status ? status : create_part(j, BR_BENDING, r, err);
 }
@@ -208,7 +193,7 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
 {
     struct mms_judge *j = self;
     (void)err;
-    j->time[kind] = j->duration * (double)i / (double)j->levels;
+    j->time[kind] = j->scene->duration * (double)i / (double)j->levels;
     return BR_OK;
 }
 
@@ -219,7 +204,7 @@ static void mms_sample(void *self, const struct br_sample_at *at, struct br_view
     struct br_projection_rest sums = {0};
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        br_function_evaluate(&j->tip[at->kind], 1, &j->length, j->time[at->kind], view->values);
+        *view->values = br_function_at(&j->tip[at->kind], j->scene->length, j->time[at->kind]);
     } else {
         br_view_modes(view,
                       br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
@@ -237,7 +222,7 @@ static struct br_judge_report mms_report(const void *self)
 {
     const struct mms_judge *j = self;
     struct br_judge_report report = {.seconds = j->seconds[BR_AXIAL] + j->seconds[BR_BENDING]};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_MEASURES; measure++)
             report.own_error[kind][measure] = sqrt(j->tail[kind][measure]);
     return report;
@@ -246,7 +231,7 @@ static struct br_judge_report mms_report(const void *self)
 static void mms_tell(const void *self, FILE *out)
 {
     const struct mms_judge *j = self;
-    const char *u = j->solution[BR_AXIAL], *w = j->solution[BR_BENDING];
+    const char *u = j->scene->axial.solution, *w = j->scene->bending.solution;
     fprintf(out, "Manufactured solution: %s%s%s%s%s.\n", u ? "u = " : "", u ? u : "",
             u && w ? ", " : "", w ? "w = " : "", w ? w : "");
 }

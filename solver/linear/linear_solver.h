@@ -77,7 +77,8 @@ struct br_field_solver {
      * bending, whose laws do not need it. */
     double (*tip_displacement)(const void *self);
 
-    /* ---- for schemes of more than an Euler step (scheme.h) ---- */
+    /* ---- for schemes of more than an Euler step (scheme.h); states.h has keep, exchange and
+     * combine for a solver whose states are rows of numbers ---- */
 
     /* Another length of the steps, s; the state stays. Fails as create does. */
     enum br_status (*set_step)(void *self, double k, struct br_error *err);

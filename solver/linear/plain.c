@@ -20,16 +20,15 @@
 #define INLINE static inline __attribute__((always_inline))
 
 struct plain {
+    struct br_states states; /* of each element the controls of the displacement, m, and of the
+                                velocity, m/s, which do not know the step, 2 m; then at 0 and m the
+                                tip's own: see tip_displacement */
     struct br_field field;
     int d, m;
     double alpha, r[2]; /* a / (c + ka); R, diagonal */
     double compliance;  /* z_tip */
     double *gain;       /* n of gain_size: A, K, S^-1, zeta, each by rows */
     double *drive;      /* m n, workspace: S^-1 s, m/s */
-    double *state;      /* of each element the controls of the displacement, m, and of the velocity,
-                         m/s, which do not know the step, 2 m; then at 0 and m the tip's own: see
-                         tip_displacement */
-    struct br_states states; /* the first is `state` */
 };
 
 INLINE int gain_size(int d, int m)
@@ -220,7 +219,7 @@ INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *d
     const size_t n = s->field.n, stride = drive->vector ? (size_t)m : 0;
     const double *load = drive->vector ? drive->vector : none;
     const double factor = drive->factor, alpha = s->alpha, r[2] = {s->r[0], s->r[1]};
-    const double *restrict gain = s->gain, *restrict state = s->state;
+    const double *restrict gain = s->gain, *restrict state = s->states.of[0];
     double *restrict out = s->drive;
     double p[2], tip[2] = {0};
     for (int a = 0; a < d; a++)
@@ -269,7 +268,7 @@ INLINE void sweep_right(int d, int m, struct plain *s, double force)
     const double k = s->field.k;
     double y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of the increment, and of the state */
     const double *restrict gain = s->gain, *restrict drive = s->drive;
-    double *restrict e = s->state;
+    double *restrict e = s->states.of[0];
     for (size_t i = 0; i < n; i++, e += 2 * m) {
         const double *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
         const double *zeta = feedback + m * d + m * m;
@@ -318,7 +317,7 @@ static double finish(void *self, double force)
 {
     struct plain *s = self;
     WITH_SIZES(s, sweep_right, s, force);
-    return s->state[2 * (size_t)s->m * s->field.n + (size_t)s->m];
+    return s->states.of[0][2 * (size_t)s->m * s->field.n + (size_t)s->m];
 }
 
 static double tip_displacement(const void *self)
@@ -326,10 +325,10 @@ static double tip_displacement(const void *self)
     const struct plain *s = self;
     const size_t m = (size_t)s->m, n = s->field.n;
     if (s->d == 1)
-        return s->state[2 * m * n];
+        return s->states.of[0][2 * m * n];
     double w[2] = {0};
     for (size_t i = 0; i < n; i++)
-        cross(2, s->state + 2 * m * i, w);
+        cross(2, s->states.of[0] + 2 * m * i, w);
     return w[0];
 }
 
@@ -371,7 +370,6 @@ static enum br_status create(const struct br_linear_solver *row, const struct br
         return br_no_memory(err, what);
     const enum br_status status =
         br_states_add(&s->states, 2 * (size_t)s->m * (field->n + 1), 1, err);
-    s->state = s->states.of[0];
     return status ? status : fill_tables(s, err);
 }
 
@@ -401,8 +399,8 @@ static void set(void *self, const double *displacement, const double *velocity)
     const size_t m = (size_t)s->m, n = s->field.n;
     for (size_t j = 0; j < 2; j++) {
         for (size_t i = 0; i < n; i++)
-            control_of(s, nodal[j] + m * i, s->state + (2 * i + j) * m);
-        memcpy(s->state + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(double));
+            control_of(s, nodal[j] + m * i, s->states.of[0] + (2 * i + j) * m);
+        memcpy(s->states.of[0] + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(double));
     }
 }
 
@@ -417,7 +415,7 @@ static void get(const void *self, double *displacement, double *velocity)
             continue;
         memcpy(to, y, m * sizeof *to);
         for (size_t i = 0; i < s->field.n; i++) {
-            const double *kappa = s->state + (2 * i + j) * m;
+            const double *kappa = s->states.of[0] + (2 * i + j) * m;
             to += m;
             cross(s->d, kappa, y);
             if (s->m > s->d)
@@ -432,26 +430,7 @@ static void strain_rate(const void *self, double *rate)
     const struct plain *s = self;
     const size_t m = (size_t)s->m;
     for (size_t i = 0; i < s->field.n; i++)
-        memcpy(rate + m * i, s->state + (2 * i + 1) * m, m * sizeof *rate);
-}
-
-static enum br_status keep(void *self, size_t count, struct br_error *err)
-{
-    struct plain *s = self;
-    return br_states_add(&s->states, s->states.size, count, err);
-}
-
-static void exchange(void *self, size_t a, size_t b)
-{
-    struct plain *s = self;
-    br_states_exchange(&s->states, a, b);
-    s->state = s->states.of[0];
-}
-
-static void combine(void *self, size_t into, size_t count, const double *weight)
-{
-    struct plain *s = self;
-    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
+        memcpy(rate + m * i, s->states.of[0] + (2 * i + 1) * m, m * sizeof *rate);
 }
 
 /* The square of u_x over an element is (kappa_0^2 + kappa_1^2 / 3) / h, of w_xx the same over h^3;
@@ -484,9 +463,9 @@ const struct br_field_solver br_plain_form = {
     .finish = finish,
     .tip_displacement = tip_displacement,
     .set_step = set_step,
-    .keep = keep,
-    .exchange = exchange,
-    .combine = combine,
+    .keep = br_keep_states,
+    .exchange = br_exchange_states,
+    .combine = br_combine_states,
     .size = size_of,
 };
 

@@ -123,6 +123,7 @@ void br_band_values(const struct br_band *a, bool both, double *value)
 /* ---- the system A x = b ---- */
 
 struct assembled {
+    struct br_states states; /* nodal: displacement, and behind it velocity */
     struct br_field field;
     size_t unknowns; /* a node */
     size_t nodal;    /* length of a nodal array, clamped node included */
@@ -131,8 +132,6 @@ struct assembled {
     void *factor;
     int refinement; /* steps a solve, at most, where the factoriser does not do it */
     struct br_band matrix;
-    struct br_states states;             /* nodal: displacement, and behind it velocity */
-    double *displacement, *velocity;     /* of the first of them */
     double *free_velocity;               /* v* */
     double *tip_response;                /* z = A^-1 e_tip, nodal */
     double *rhs, *residual, *correction; /* workspace, nodal */
@@ -328,12 +327,6 @@ static enum br_status factorise(struct assembled *s, struct br_error *err)
                    s->factoriser->name, compliance);
 }
 
-static void point_at_first(struct assembled *s)
-{
-    s->displacement = s->states.of[0];
-    s->velocity = s->displacement + s->nodal;
-}
-
 static enum br_status allocate(struct assembled *s, struct br_error *err)
 {
     const size_t nodal = s->nodal;
@@ -345,10 +338,7 @@ static enum br_status allocate(struct assembled *s, struct br_error *err)
     s->rhs = s->tip_response + nodal;
     s->residual = s->rhs + nodal;
     s->correction = s->residual + nodal;
-    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
-    if (!status)
-        point_at_first(s);
-    return status;
+    return br_states_add(&s->states, 2 * nodal, 1, err);
 }
 
 static enum br_status assembled_create(const struct br_linear_solver *row,
@@ -425,8 +415,8 @@ static double assembled_compliance(const void *self)
 static void assembled_set(void *self, const double *displacement, const double *velocity)
 {
     struct assembled *s = self;
-    memcpy(s->displacement, displacement, s->nodal * sizeof *displacement);
-    memcpy(s->velocity, velocity, s->nodal * sizeof *velocity);
+    memcpy(s->states.of[0], displacement, s->nodal * sizeof *displacement);
+    memcpy(s->states.of[0] + s->nodal, velocity, s->nodal * sizeof *velocity);
 }
 
 static void assembled_get(const void *self, double *displacement, double *velocity)
@@ -434,9 +424,9 @@ static void assembled_get(const void *self, double *displacement, double *veloci
     const struct assembled *s = self;
     const size_t bytes = s->nodal * sizeof *displacement;
     if (displacement)
-        memcpy(displacement, s->displacement, bytes);
+        memcpy(displacement, s->states.of[0], bytes);
     if (velocity)
-        memcpy(velocity, s->velocity, bytes);
+        memcpy(velocity, s->states.of[0] + s->nodal, bytes);
 }
 
 /* What deforms element i, from nodal values: its elongation or its two curvatures. */
@@ -452,25 +442,21 @@ static void assembled_strain_rate(const void *self, double *rate)
 {
     const struct assembled *s = self;
     for (size_t i = 0; i < s->field.n; i++)
-        strain(s, s->velocity, i, rate + i * s->unknowns);
+        strain(s, s->states.of[0] + s->nodal, i, rate + i * s->unknowns);
 }
 
 /* rhs = factor F + tip + M v/k - K w */
-static void form_rhs(struct assembled *s, const struct br_drive *drive)
-{
-    const struct br_field *f = &s->field;
-    for (size_t i = 0; i < s->nodal; i++)
-        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
-    for (size_t c = 0; c < s->unknowns; c++)
-        s->rhs[s->tip + c] += drive->tip[c];
-    add_elements(f, f->density / f->k, s->velocity, f->stiffness, s->displacement, s->rhs);
-}
-
 static enum br_status assembled_predict(void *self, const struct br_drive *drive, double *velocity,
                                         struct br_error *err)
 {
     struct assembled *s = self;
-    form_rhs(s, drive);
+    const struct br_field *f = &s->field;
+    const double *w = s->states.of[0], *v = w + s->nodal;
+    for (size_t i = 0; i < s->nodal; i++)
+        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < s->unknowns; c++)
+        s->rhs[s->tip + c] += drive->tip[c];
+    add_elements(f, f->density / f->k, v, f->stiffness, w, s->rhs);
     const enum br_status status = solve(s, s->free_velocity, err);
     *velocity = s->free_velocity[s->tip];
     return status;
@@ -480,38 +466,18 @@ static enum br_status assembled_predict(void *self, const struct br_drive *drive
 static double assembled_finish(void *self, double force)
 {
     struct assembled *s = self;
+    double *w = s->states.of[0], *v = w + s->nodal;
     for (size_t i = 0; i < s->nodal; i++) {
-        s->velocity[i] = s->free_velocity[i] - force * s->tip_response[i];
-        s->displacement[i] += s->field.k * s->velocity[i];
+        v[i] = s->free_velocity[i] - force * s->tip_response[i];
+        w[i] += s->field.k * v[i];
     }
-    return s->velocity[s->tip];
+    return v[s->tip];
 }
 
 static double assembled_tip_displacement(const void *self)
 {
     const struct assembled *s = self;
-    return s->displacement[s->tip];
-}
-
-/* ---- more states ---- */
-
-static enum br_status assembled_keep(void *self, size_t count, struct br_error *err)
-{
-    struct assembled *s = self;
-    return br_states_add(&s->states, s->states.size, count, err);
-}
-
-static void assembled_exchange(void *self, size_t a, size_t b)
-{
-    struct assembled *s = self;
-    br_states_exchange(&s->states, a, b);
-    point_at_first(s);
-}
-
-static void assembled_combine(void *self, size_t into, size_t count, const double *weight)
-{
-    struct assembled *s = self;
-    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
+    return s->states.of[0][s->tip];
 }
 
 static void assembled_size(void *self, size_t which, double size[2])
@@ -556,8 +522,8 @@ const struct br_field_solver br_assembled = {
     .finish = assembled_finish,
     .tip_displacement = assembled_tip_displacement,
     .set_step = assembled_set_step,
-    .keep = assembled_keep,
-    .exchange = assembled_exchange,
-    .combine = assembled_combine,
+    .keep = br_keep_states,
+    .exchange = br_exchange_states,
+    .combine = br_combine_states,
     .size = assembled_size,
 };

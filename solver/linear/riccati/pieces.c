@@ -141,12 +141,6 @@ static void point_at_first(struct br_pieces *s)
     s->tip = at;
 }
 
-static enum br_status pieces_keep(void *self, size_t count, struct br_error *err)
-{
-    struct br_pieces *s = self;
-    return br_states_add(&s->states, all_strands(s) + TIP_NUMBERS, count, err);
-}
-
 /* Cuts the beam and allocates all arrays. */
 static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
 {
@@ -162,7 +156,7 @@ static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
     if (!s->arena)
         return br_no_memory(err, "a solver");
     lay_out(s, s->arena);
-    const enum br_status status = pieces_keep(s, 1, err);
+    const enum br_status status = br_states_add(&s->states, all_strands(s) + TIP_NUMBERS, 1, err);
     if (!status)
         point_at_first(s);
     return status;
@@ -483,7 +477,7 @@ static enum br_status pieces_set_step(void *self, double k, struct br_error *err
 static void pieces_exchange(void *self, size_t a, size_t b)
 {
     struct br_pieces *s = self;
-    br_states_exchange(&s->states, a, b);
+    br_exchange_states(self, a, b);
     point_at_first(s);
     s->advanced = false;
     s->stale_ends = true;
@@ -595,7 +589,7 @@ static const struct br_field_solver pieces = {
     .finish = pieces_finish,
     .tip_displacement = pieces_tip_displacement,
     .set_step = pieces_set_step,
-    .keep = pieces_keep,
+    .keep = br_keep_states,
     .exchange = pieces_exchange,
     .combine = pieces_combine,
     .size = pieces_size,

@@ -25,6 +25,7 @@ struct br_strand {
 enum { BR_MOST_STRANDS = 2 };
 
 struct br_pieces {
+    struct br_states states; /* the strips have the first */
     struct br_field field;
     const struct br_kernel *kernel;
     int d;                                    /* unknowns a node: 1 or 2 */
@@ -39,10 +40,9 @@ struct br_pieces {
     double tip_increment[2], force_increment[2];
     double *tip; /* of the first of the states */
     double compliance;
-    bool stale_load;         /* loads are those of another step */
-    bool stale_ends;         /* the ends' q and z are those of another step or state */
-    struct br_states states; /* the strips have the first */
-    bool advanced;           /* the strands' ends have the velocities across the spans */
+    bool stale_load; /* loads are those of another step */
+    bool stale_ends; /* the ends' q and z are those of another step or state */
+    bool advanced;   /* the strands' ends have the velocities across the spans */
 };
 
 /* Fills all tables and joins for the field's step. Fails with BR_SINGULAR or BR_NO_MEMORY. */
