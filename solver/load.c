@@ -11,9 +11,10 @@ struct br_forces br_forces_of_scene(const struct br_scene *s, enum br_field_kind
                               s->duration};
 }
 
-static enum br_status clone_functions(struct br_step_load *load, const struct br_forces *forces,
-                                      struct br_error *err)
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+                                 const struct br_field *field, struct br_error *err)
 {
+    *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
     enum br_status status = br_load_clone(forces->load, &load->functions, err);
     if (!status)
         status = br_function_clone(forces->tip_force, &load->tip_force, err);
@@ -21,14 +22,6 @@ static enum br_status clone_functions(struct br_step_load *load, const struct br
         status = br_function_clone(forces->tip_moment, &load->tip_moment, err);
     while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
         load->terms++;
-    return status;
-}
-
-enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
-                                 const struct br_field *field, struct br_error *err)
-{
-    *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
-    enum br_status status = clone_functions(load, forces, err);
     for (size_t i = 0; i < load->terms && !status; i++) {
         const struct br_function *space = &load->functions.term[i].space;
         load->vector[i] = br_allocate(br_field_size(field), sizeof *load->vector[i]);
@@ -71,19 +64,6 @@ static enum br_status evaluate(const struct br_function *f, const char *name, do
     return BR_OK;
 }
 
-/* The tip's force on its displacement and moment on its slope. */
-static enum br_status update_tip(struct br_step_load *load, const struct br_field *field, double t,
-                                 struct br_error *err)
-{
-    double moment;
-    enum br_status status = evaluate(&load->tip_force, "tip force", t, &load->drive.tip[0], err);
-    if (!status)
-        status = evaluate(&load->tip_moment, "tip moment", t, &moment, err);
-    if (!status)
-        load->drive.tip[1] = moment / field->h; /* the slope is scaled, s = h w_x */
-    return status;
-}
-
 /* sum = sum of factor_i * vector_i */
 static void add_up(struct br_step_load *load, const struct br_field *field)
 {
@@ -120,9 +100,14 @@ static enum br_status update(struct br_step_load *load, const struct br_field *f
         add_up(load, field);
         drive->changed = true;
     }
-    if (!status &&
-        !(br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment)))
-        status = update_tip(load, field, t, err);
+    if (br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment))
+        return status;
+    double moment = 0;
+    if (!status)
+        status = evaluate(&load->tip_force, "tip force", t, &load->drive.tip[0], err);
+    if (!status)
+        status = evaluate(&load->tip_moment, "tip moment", t, &moment, err);
+    load->drive.tip[1] = moment / field->h; /* the slope is scaled, s = h w_x */
     return status;
 }
 

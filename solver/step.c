@@ -61,16 +61,6 @@ static double friction_force(struct br_march *m, struct br_friction_state *state
     return m->method.friction->force(state);
 }
 
-static enum br_status not_converged(const struct br_march *m, double t, struct br_error *err)
-{
-    const struct br_iteration *iteration = &m->method.iteration;
-    return br_fail(err, BR_NOT_FINITE,
-                   "friction rule %s did not reach its tolerance of %g in %zu iterations at t = %g "
-                   "s, with the parameter %g; --friction exact needs none",
-                   m->method.friction->name, iteration->tolerance, iteration->most, t,
-                   iteration->parameter);
-}
-
 /* ---- (16) and (17) ---- */
 
 /* Equation (16), with rho as in (27): find v_n in E^h with, for all q in E^h,
@@ -127,7 +117,11 @@ static enum br_status bending_stage(struct br_march *m, double depth, double t,
     m->counts.iterations += friction.iterations;
     if (m->method.friction->iterates && isnan(m->tip.friction_force) &&
         isfinite(friction.free_velocity) && isfinite(friction.bound))
-        return not_converged(m, t, err);
+        return br_fail(err, BR_NOT_FINITE,
+                       "friction rule %s did not reach its tolerance of %g in %zu iterations at "
+                       "t = %g s, with the parameter %g; --friction exact needs none",
+                       m->method.friction->name, friction.iteration.tolerance,
+                       friction.iteration.most, t, friction.iteration.parameter);
     m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
     return BR_OK;
 }

@@ -127,8 +127,8 @@ static const struct planted_bug planted_bugs[] = {
     {"moving_load_assembled_once", "stale", "solver/load.c", "check moving_load",
      "if (!status && term->space.uses_t) {", "if (!status && term->space.uses_t && t < 2e-3) {"},
     {"tip_force_forgotten", "lost", "solver/load.c", "check smoothed",
-     "if (!status &&\n        !(br_function_is_zero(&load->tip_force)",
-     "if (!status && 0 && !(br_function_is_zero(&load->tip_force)"},
+     "if (br_function_is_zero(&load->tip_force) &&",
+     "if (1 || br_function_is_zero(&load->tip_force) &&"},
 
     {"tip_moment_of_a_beam_of_one_metre", "units", "solver/load.c", "check mms_quadratic",
      "load->drive.tip[1] = moment / field->h;", "load->drive.tip[1] = moment * (double)field->n;"},
@@ -143,8 +143,8 @@ static const struct planted_bug planted_bugs[] = {
      "if (load->terms > 1 && other && !status) {",
      "if (load->terms > 1 && other && !status && t < 0.5) {"},
     {"tip_force_without_a_load_lost", "lost", "solver/load.c", "check bouncing",
-     "if (!status &&\n        !(br_function_is_zero(&load->tip_force)",
-     "if (!status && load->terms && !(br_function_is_zero(&load->tip_force)"},
+     "if (br_function_is_zero(&load->tip_force) &&",
+     "if (!load->terms || br_function_is_zero(&load->tip_force) &&"},
 
     /* ---- the flexibility form, bending ---- */
     {"bending_stiffness_entry", "coefficient", "solver/linear/plain.c", "check smoothed_coulomb",
@@ -404,7 +404,7 @@ static const struct planted_bug planted_bugs[] = {
 
     /* ---- what is measured ---- */
     {"strain_rate_one_and_a_half_percent_off", "coefficient", "solver/modes.c", "check example2",
-     "BR_AXIAL ? root / h :", "BR_AXIAL ? 1.015 * root / h :"},
+     "axial ? root / h :", "axial ? 1.015 * root / h :"},
 
     /* ---- what the certificate of a march sees, and an order may not ---- */
     {"esdirk3_start", "order", "solver/scheme.c",

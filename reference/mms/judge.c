@@ -21,10 +21,21 @@ struct br_projection {
     double *value;                /* there */
 };
 
-static enum br_status set_up(struct br_projection *p, const struct br_function *solution,
-                             struct br_partial order, struct br_error *err)
+enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
+                                    const struct br_projected *what, double length, size_t n,
+                                    struct br_error *err)
 {
-    p->x = br_allocate(2 * p->n * POINTS, sizeof *p->x);
+    *out = NULL;
+    if (what->kept > BR_PROJECTION_MOST_KEPT)
+        return br_fail(err, BR_BAD_INPUT, "%zu modes are to be kept, expected at most %d",
+                       what->kept, BR_PROJECTION_MOST_KEPT);
+    struct br_projection *p = *out = br_allocate(1, sizeof *p);
+    if (!p)
+        return br_no_memory(err, "a projection");
+    p->kept = what->kept;
+    p->n = n;
+    p->h = length / (double)n;
+    p->x = br_allocate(2 * n * POINTS, sizeof *p->x);
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
     for (size_t q = 0; q < POINTS && p->x && table; q++) {
         double xi, weight, legendre[MODES];
@@ -32,38 +43,15 @@ static enum br_status set_up(struct br_projection *p, const struct br_function *
         br_legendre(MODES, xi, legendre);
         for (size_t m = 0; m < MODES; m++)
             p->weight[q][m] = weight * legendre[m];
-        for (size_t e = 0; e < p->n; e++)
+        for (size_t e = 0; e < n; e++)
             p->x[e * POINTS + q] = p->h * ((double)e + xi);
     }
     const bool room = p->x && table;
     gsl_integration_glfixed_table_free(table);
     if (!room)
         return br_no_memory(err, "a projection");
-    p->value = p->x + p->n * POINTS;
-    return br_function_derivative(solution, order, &p->derivative, err);
-}
-
-enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
-                                    const struct br_projected *what,
-                                    const struct br_projection_mesh *mesh, struct br_error *err)
-{
-    *out = NULL;
-    if (what->kept > BR_PROJECTION_MOST_KEPT)
-        return br_fail(err, BR_BAD_INPUT, "%zu modes are to be kept, expected at most %d",
-                       what->kept, BR_PROJECTION_MOST_KEPT);
-    struct br_projection *p = br_allocate(1, sizeof *p);
-    if (!p)
-        return br_no_memory(err, "a projection");
-    p->kept = what->kept;
-    p->n = mesh->n;
-    p->h = mesh->length / (double)mesh->n;
-    const enum br_status status = set_up(p, solution, what->order, err);
-    if (status) {
-        br_projection_free(p);
-        return status;
-    }
-    *out = p;
-    return BR_OK;
+    p->value = p->x + n * POINTS;
+    return br_function_derivative(solution, what->order, &p->derivative, err);
 }
 
 void br_projection_free(struct br_projection *p)
@@ -75,22 +63,15 @@ void br_projection_free(struct br_projection *p)
     free(p);
 }
 
-/* All modes of an element from its values. */
-static void element_modes(const struct br_projection *p, const double *value, double mode[MODES])
-{
-    memset(mode, 0, MODES * sizeof *mode);
-    for (size_t q = 0; q < POINTS; q++)
-        for (size_t m = 0; m < MODES; m++)
-            mode[m] += sqrt(p->h) * value[q] * p->weight[q][m];
-}
-
 struct br_projection_rest br_projection_apply(struct br_projection *p, double t, double *modes)
 {
     struct br_projection_rest sums = {0};
     br_function_evaluate(&p->derivative, p->n * POINTS, p->x, t, p->value);
     for (size_t e = 0; e < p->n; e++) {
-        double mode[MODES];
-        element_modes(p, p->value + e * POINTS, mode);
+        double mode[MODES] = {0};
+        for (size_t q = 0; q < POINTS; q++)
+            for (size_t m = 0; m < MODES; m++)
+                mode[m] += sqrt(p->h) * p->value[e * POINTS + q] * p->weight[q][m];
         memcpy(modes + e * p->kept, mode, p->kept * sizeof *mode);
         for (size_t m = p->kept; m < MODES; m++)
             sums.rest += mode[m] * mode[m];
@@ -130,39 +111,31 @@ static void mms_free(void *self)
     free(j);
 }
 
-static enum br_status create_projections(struct mms_judge *j, enum br_field_kind kind,
-                                         enum br_measure measure, const struct br_judge_request *r,
-                                         struct br_error *err)
-{
-    struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
-    j->projection[kind][measure] = projection;
-    if (!projection)
-        return br_no_memory(err, "the manufactured solution");
-    const struct br_projected what = {
-        .order = {.x = measure != BR_STRAIN_RATE ? 0
-                       : kind == BR_AXIAL        ? 1
-                                                 : 2,
-                  .t = measure != BR_DISPLACEMENT},
-        .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
-    };
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->mesh_count && !status; i++) {
-        const struct br_projection_mesh mesh = {r->scene->length, r->mesh[i]};
-        status = br_projection_create(&projection[i], &j->tip[kind], &what, &mesh, err);
-    }
-    return status;
-}
-
 static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
                                   const struct br_judge_request *r, struct br_error *err)
 {
-    if (!(kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution))
+    const bool axial = kind == BR_AXIAL;
+    const struct br_scene *s = r->scene;
+    if (!(axial ? s->axial.solution : s->bending.solution))
         return BR_OK;
-    enum br_status status = br_function_clone(
-        kind == BR_AXIAL ? &r->scene->axial.given : &r->scene->bending.given, &j->tip[kind], err);
-    for (int measure = 0; measure < BR_TIP && !status; measure++)
-        if (r->measured[kind][measure])
-            status = create_projections(j, kind, (enum br_measure)measure, r, err);
+    enum br_status status =
+        br_function_clone(axial ? &s->axial.given : &s->bending.given, &j->tip[kind], err);
+    for (enum br_measure measure = 0; measure < BR_TIP && !status; measure++) {
+        const int derived = axial ? 1 : 2;
+        const struct br_projected what = {
+            .order = {measure == BR_STRAIN_RATE ? derived : 0, measure != BR_DISPLACEMENT},
+            .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
+        };
+        if (!r->measured[kind][measure])
+            continue;
+        struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
+        j->projection[kind][measure] = projection;
+        if (!projection)
+            return br_no_memory(err, "the manufactured solution");
+        for (size_t i = 0; i < r->mesh_count && !status; i++)
+            status = br_projection_create(&projection[i], &j->tip[kind], &what, s->length,
+                                          r->mesh[i], err);
+    }
     return status;
 }
 

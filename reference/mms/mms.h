@@ -54,20 +54,15 @@ struct br_projection_rest {
     double tail; /* of the last two degrees of it: how well that is known */
 };
 
-/* n equal elements of [0, length], m. */
-struct br_projection_mesh {
-    double length;
-    size_t n;
-};
-
 struct br_projection;
 
-/* Of a solution. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or as
- * br_function_derive) or BR_NO_MEMORY; *projection is then NULL. */
+/* Of a solution, on n equal elements of [0, length], m. Fails with BR_BAD_INPUT (not kept <=
+ * BR_PROJECTION_MOST_KEPT, or as br_function_derive) or BR_NO_MEMORY; free *projection even then.
+ */
 enum br_status br_projection_create(struct br_projection **projection,
                                     const struct br_function *solution,
-                                    const struct br_projected *what,
-                                    const struct br_projection_mesh *mesh, struct br_error *err);
+                                    const struct br_projected *what, double length, size_t n,
+                                    struct br_error *err);
 void br_projection_free(struct br_projection *projection); /* accepts NULL */
 
 /* At t, s: modes out, n * kept values. */
