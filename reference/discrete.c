@@ -100,20 +100,6 @@ static real friction_bound(const struct br_discrete *d, real time)
     return f->law == BR_TRESCA ? f->coefficient : f->coefficient * depth_at(d, time);
 }
 
-static enum br_regime regime_of(const struct br_discrete *d, enum br_field_kind kind)
-{
-    const struct br_discrete_tip *t = &d->tip;
-    if (kind == BR_AXIAL)
-        return !d->scene->contact.modelled ? BR_REGIME_NONE
-               : t->contact_force > 0      ? BR_REGIME_CLOSED
-                                           : BR_REGIME_OPEN;
-    if (!(t->friction_bound > 0))
-        return BR_REGIME_NONE;
-    if (fabsl(t->friction_force) < t->friction_bound)
-        return BR_REGIME_STICK;
-    return t->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
-}
-
 /* ---- a stage: an Euler step of tau from state 0 ---- */
 
 static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real time, real tau,
@@ -248,7 +234,9 @@ static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
         copy_state(f, BR_DISCRETE_START, BR_DISCRETE_PAST);
     }
     const enum br_regime before = part->regime;
-    part->regime = regime_of(d, kind);
+    part->regime = br_textbook_regime(
+        d->scene, kind, kind == BR_AXIAL ? d->tip.contact_force : d->tip.friction_force,
+        d->tip.friction_bound);
     part->since = d->done > 0 && part->regime != before ? 0 : part->since + 1;
     if (!isfinite(d->tip.velocity[kind]))
         return br_fail(err, BR_NOT_FINITE, "the exact discrete solution is %Lg m/s at step %zu",

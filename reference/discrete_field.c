@@ -415,38 +415,20 @@ static enum br_status update_forces(struct br_discrete_field *f, double t, long 
 
 /* ---- initial data ---- */
 
-/* A function and, for a beam, its slope at the nodes; the clamped one is zero. */
-static enum br_status interpolate(const struct br_discrete_field *field,
-                                  const struct br_function *f, const struct br_function *slope,
-                                  long double *nodal, struct br_error *err)
+/* One unknown of all nodes but the clamped one: `unit` times a function of the scene, which other
+ * threads may use. */
+static enum br_status fill_nodes(struct br_discrete_field *field, size_t unknown, long double unit,
+                                 const struct br_function *f, struct br_error *err)
 {
-    const size_t d = field->d;
-    for (size_t i = 1; i <= field->n; i++) {
-        const double x = (double)field->h * (double)i; /* as the data are given: at doubles */
-        enum br_status status = value_of(f, x, 0, &nodal[d * i], err);
-        if (!status && slope)
-            status = value_of(slope, x, 0, &nodal[d * i + 1], err);
-        if (status)
-            return status;
-        if (slope)
-            nodal[d * i + 1] *= field->h;
-    }
-    return BR_OK;
-}
-
-static enum br_status interpolate_clone(const struct br_discrete_field *field,
-                                        const struct br_function *f,
-                                        const struct br_function *slope, long double *nodal,
-                                        struct br_error *err)
-{
-    struct br_function own = {0}, own_slope = {0};
+    struct br_function own;
     enum br_status status = br_function_clone(f, &own, err);
-    if (!status && slope)
-        status = br_function_clone(slope, &own_slope, err);
-    if (!status)
-        status = interpolate(field, &own, slope ? &own_slope : NULL, nodal, err);
+    for (size_t i = 1; i <= field->n && !status; i++) {
+        const double x = (double)field->h * (double)i; /* as the data are given: at doubles */
+        long double value = 0;
+        status = value_of(&own, x, 0, &value, err);
+        field->nodal[field->d * i + unknown] = unit * value;
+    }
     br_function_free(&own);
-    br_function_free(&own_slope);
     return status;
 }
 
@@ -466,17 +448,17 @@ static enum br_status set_initial(struct br_discrete_field *f, const struct br_s
     const struct br_bending *b = &scene->bending;
     const struct br_function *of[2] = {axial ? &scene->axial.displacement : &b->displacement,
                                        axial ? &scene->axial.velocity : &b->velocity};
-    const struct br_function *slope[2] = {axial ? NULL : &b->displacement_slope,
-                                          axial ? NULL : &b->velocity_slope};
+    const struct br_function *slope[2] = {&b->displacement_slope, &b->velocity_slope};
+    enum br_status status = BR_OK;
     memset(f->nodal, 0, f->d * sizeof *f->nodal);
-    for (size_t part = 0; part < 2; part++) {
-        const enum br_status status = interpolate_clone(f, of[part], slope[part], f->nodal, err);
-        if (status)
-            return status;
-        for (size_t i = 0; i < f->n; i++)
+    for (size_t part = 0; part < 2 && !status; part++) {
+        status = fill_nodes(f, 0, 1, of[part], err);
+        if (!status && !axial)
+            status = fill_nodes(f, 1, f->h, slope[part], err);
+        for (size_t i = 0; i < f->n && !status; i++)
             strain_of(f->d, f->nodal + f->d * i, f->state[0] + f->d * (part * f->n + i));
     }
-    return BR_OK;
+    return status;
 }
 
 /* ---- a field ---- */

@@ -380,17 +380,14 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     const double wanted = a->next;
     const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
     struct trial trial;
-    bool switched = false;
     enum br_status status = check_going_on(m, err);
     if (!status)
         status = estimated_step(m, k, &trial, err);
     if (status)
         return status;
     const double whole = trial.k;
-    if (!status && !(trial.error <= 1))
-        switched = true; /* a jump */
-    if (!status)
-        status = stop_at_switches(m, &tip, &trial, &switched, err);
+    bool switched = !(trial.error <= 1); /* a jump */
+    status = stop_at_switches(m, &tip, &trial, &switched, err);
     if (status)
         return status;
     if (switched)

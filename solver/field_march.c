@@ -6,22 +6,6 @@
 
 /* ---- initial data ---- */
 
-/* Evaluated by clones: marches of one scene may be created in different threads. */
-static enum br_status interpolate(const struct br_field_march *part,
-                                  const struct br_function *value, const struct br_function *slope,
-                                  double *nodal, struct br_error *err)
-{
-    struct br_function own = {0}, own_slope = {0};
-    enum br_status status = br_function_clone(value, &own, err);
-    if (!status && slope)
-        status = br_function_clone(slope, &own_slope, err);
-    if (!status)
-        status = br_interpolate(&part->field, &own, slope ? &own_slope : NULL, nodal, err);
-    br_function_free(&own);
-    br_function_free(&own_slope);
-    return status;
-}
-
 static enum br_status set_initial(struct br_field_march *part,
                                   const struct br_function *displacement,
                                   const struct br_function *displacement_slope,
@@ -34,9 +18,10 @@ static enum br_status set_initial(struct br_field_march *part,
     double *nodal = br_allocate(2 * size, sizeof *nodal);
     if (!nodal)
         return br_no_memory(err, "the initial data");
-    enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
+    enum br_status status =
+        br_interpolate(&part->field, displacement, displacement_slope, nodal, err);
     if (!status)
-        status = interpolate(part, velocity, velocity_slope, nodal + size, err);
+        status = br_interpolate(&part->field, velocity, velocity_slope, nodal + size, err);
     for (size_t i = 0; i < size && !status; i++)
         part->started_with =
             fmax(part->started_with, fmax(fabs(nodal[i]), part->field.k * fabs(nodal[size + i])));
@@ -124,9 +109,8 @@ enum br_status br_field_march_create(struct br_field_march *part, const struct b
     const struct br_linear_solver *row = br_method_solver(method, field);
     part->solver = br_linear_solver_for(row, field);
     enum br_status status = part->solver->create(row, field, &method->linear, &part->state, err);
-    const struct br_forces forces = br_forces_of_scene(s, field->kind);
     if (!status)
-        status = br_step_load_init(&part->load, &forces, field, err);
+        status = br_step_load_init(&part->load, s, field, err);
     bool needed[BR_KNOWN] = {false};
     find_needed(method->scheme, needed);
     for (int i = 0; i < BR_KNOWN; i++)

@@ -3,23 +3,19 @@
 
 #include <math.h>
 
-struct br_forces br_forces_of_scene(const struct br_scene *s, enum br_field_kind kind)
-{
-    if (kind == BR_AXIAL)
-        return (struct br_forces){&s->axial.load, &s->axial.tip_force, NULL, s->duration};
-    return (struct br_forces){&s->bending.load, &s->bending.tip_force, &s->bending.tip_moment,
-                              s->duration};
-}
-
-enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_scene *scene,
                                  const struct br_field *field, struct br_error *err)
 {
     *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
-    enum br_status status = br_load_clone(forces->load, &load->functions, err);
+    const bool axial = field->kind == BR_AXIAL;
+    const struct br_axial *rod = &scene->axial;
+    const struct br_bending *beam = &scene->bending;
+    enum br_status status = br_load_clone(axial ? &rod->load : &beam->load, &load->functions, err);
     if (!status)
-        status = br_function_clone(forces->tip_force, &load->tip_force, err);
-    if (!status && forces->tip_moment)
-        status = br_function_clone(forces->tip_moment, &load->tip_moment, err);
+        status =
+            br_function_clone(axial ? &rod->tip_force : &beam->tip_force, &load->tip_force, err);
+    if (!status && !axial)
+        status = br_function_clone(&beam->tip_moment, &load->tip_moment, err);
     while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
         load->terms++;
     for (size_t i = 0; i < load->terms && !status; i++) {
@@ -30,7 +26,7 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_forc
         else if (!space->uses_t)
             status = br_assemble_load(field, space, 0, load->vector[i], err);
         else if (space->uses_x)
-            status = br_load_fit_create(field, space, forces->duration, &load->fit[i], err);
+            status = br_load_fit_create(field, space, scene->duration, &load->fit[i], err);
     }
     if (load->terms > 1 && !status) {
         load->sum = br_allocate(br_field_size(field), sizeof *load->sum);

@@ -7,17 +7,6 @@
 
 #include "solver/linear/linear_solver.h"
 
-/* The forces on one field: per length and at the tip. Borrowed. */
-struct br_forces {
-    const struct br_load *load;           /* N/m */
-    const struct br_function *tip_force;  /* of t, N */
-    const struct br_function *tip_moment; /* of t, N m; NULL for axial */
-    double duration;                      /* s: for t in [0, duration] */
-};
-
-/* Those of a scene. */
-struct br_forces br_forces_of_scene(const struct br_scene *scene, enum br_field_kind kind);
-
 /* ---- a load f(x, t) that is no product, as a sum of few: load_fit.c ---- */
 
 struct br_load_fit;
@@ -47,9 +36,9 @@ struct br_step_load {
     struct br_function tip_force, tip_moment; /* clones */
 };
 
-/* Clones the functions of a field's forces. Fails with BR_NOT_FINITE or BR_NO_MEMORY;
- * clear it even then. */
-enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+/* The forces of a scene on one field, per length and at the tip; their functions are cloned. Fails
+ * with BR_NOT_FINITE or BR_NO_MEMORY; clear it even then. */
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_scene *scene,
                                  const struct br_field *field, struct br_error *err);
 void br_step_load_clear(struct br_step_load *load);
 

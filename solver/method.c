@@ -31,13 +31,14 @@ const struct br_linear_solver *br_method_solver(const struct br_method *m,
 
 double br_method_round_off(const struct br_method *m, const struct br_field *field)
 {
-    return br_method_solver(m, field)->round_off(field, &m->linear);
+    const struct br_linear_solver *solver = br_method_solver(m, field);
+    return solver->round_off(solver, field, &m->linear);
 }
 
 double br_method_residual(const struct br_method *m, const struct br_field *field)
 {
     const struct br_linear_solver *solver = br_method_solver(m, field);
-    return solver->residual ? solver->residual(field, &m->linear) : 0;
+    return solver->residual ? solver->residual(solver, field, &m->linear) : 0;
 }
 
 double br_method_cost(const struct br_method *m, const struct br_scene *scene, size_t n)
@@ -47,8 +48,9 @@ double br_method_cost(const struct br_method *m, const struct br_scene *scene, s
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct br_field field = br_field_of_scene(scene, kind, n, 1);
         field.degree = m->axial_degree;
+        const struct br_linear_solver *solver = br_method_solver(m, &field);
         if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
-            cost += br_method_solver(m, &field)->cost(&field, sums);
+            cost += solver->cost(solver, &field, sums);
     }
     return cost * br_time_scheme_stages(m->scheme);
 }

@@ -638,8 +638,7 @@ static void refine(struct mesher *m, iv cell)
     const bool flat = bounded && 4 * range <= tolerance;
     if (flat || (bounded && is_polynomial(m, box, cell)))
         add_cell(m, cell, false, range);
-    else if (bounded &&
-             (width(cell) * range <= tolerance * m->total || width(cell) < m->aim->least))
+    else if (bounded && width(cell) * range <= tolerance * m->total)
         add_cell(m, cell, true, range);
     else if (!is_divisible(cell)) {
         m->out->capacity = m->out->count; /* no further */
@@ -670,7 +669,6 @@ static void refine_between(struct mesher *m, const struct br_breaks *breaks)
 enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
                           const struct br_mesh_aim *aim, struct br_mesh *out, struct br_error *err)
 {
-    const size_t most = aim->most ? aim->most : MOST_CELLS;
     struct mesher m = {.f = f,
                        .along = along,
                        .box = box,
@@ -679,8 +677,8 @@ enum br_status br_resolve(const struct br_function *f, enum br_variable along, s
                        .total = width(*side(&box, along)),
                        .err = err};
     struct br_breaks breaks = {0};
-    *out = (struct br_mesh){br_allocate(most + 1, sizeof *out->at),
-                            br_allocate(most, sizeof *out->rough), 0, most, 0};
+    *out = (struct br_mesh){br_allocate(MOST_CELLS + 1, sizeof *out->at),
+                            br_allocate(MOST_CELLS, sizeof *out->rough), 0, MOST_CELLS, 0};
     m.status = out->at && out->rough ? br_breaks_add(f, along, box, &breaks, err)
                                      : br_no_memory(err, "a mesh for a function");
     if (!m.status)

@@ -23,23 +23,13 @@ struct br_past_states {
     struct br_nodal start;                 /* Z; without acceleration */
 };
 
-/* What decides where a step starts anew. */
-enum br_watched_regime {
-    BR_WATCHED_NONE,
-    BR_WATCHED_OPEN,
-    BR_WATCHED_CLOSED,
-    BR_WATCHED_STICKS,
-    BR_WATCHED_UP,
-    BR_WATCHED_DOWN
-};
-
 struct br_watched_field {
-    struct br_past_states y;       /* what the step starts from, and its rows so far */
-    size_t steps, since;           /* steps so far, and since the last start */
-    double began, now;             /* this step, and its last stage so far, s */
-    enum br_watched_regime regime; /* then */
-    int last;                      /* of the rows, the step's end; -1: not in the textbook */
-    double *load;                  /* of the last stage, N */
+    struct br_past_states y; /* what the step starts from, and its rows so far */
+    size_t steps, since;     /* steps so far, and since the last start */
+    double began, now;       /* this step, and its last stage so far, s */
+    enum br_regime regime;   /* then, which decides where a step starts anew */
+    int last;                /* of the rows, the step's end; -1: not in the textbook */
+    double *load;            /* of the last stage, N */
 };
 
 struct br_watched {

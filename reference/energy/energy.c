@@ -226,7 +226,6 @@ struct field_work {
 
 struct meter_field {
     struct br_field field; /* as the scene has it */
-    bool modelled;
     struct field_energy start, now;
     struct power before, row[BR_TEXTBOOK_ROWS]; /* at the step's beginning, and its stages */
     struct field_work work;
@@ -236,15 +235,11 @@ struct meter_field {
 };
 
 struct br_energy_meter {
-    struct br_march *march;
-    const struct br_scene *scene;
-    const struct br_method *method;
     struct br_watched seen;
     struct meter_field field[2]; /* by br_field_kind */
     double limit, worst;         /* of the imbalance; worst: since the last call */
     double update;               /* what a certificate allows the displacement's update */
     bool any;
-    double *memory;
 };
 
 /* ---- a stage ---- */
@@ -275,10 +270,10 @@ static real mass_norm(const struct br_field *f, const double *y)
 
 /* A stage goes from Z to Y in tau, and its residual r is relative to the sum of its terms, those of
  * Z among them (certificate.c): where a velocity stops or a displacement decays in one step, Z's
- * are far larger than Y's. By Schwarz' inequality |v'r| is at most that relative size times |v| (a
- * (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K, |v - Z_v|
- * (|v| + |Z_v|) / tau                                            in those of M, and so is what
- * rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
+ * are far larger than Y's. By Schwarz' inequality |v'r| is at most that relative size times
+ *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K,
+ *     |v - Z_v| (|v| + |Z_v|) / tau                                            in those of M,
+ * and so is what rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
 static real residual_power(const struct br_field *f, const struct br_watched_field *seen, real tau,
                            real bent_speed, real tip_force)
 {
@@ -297,9 +292,9 @@ static real residual_power(const struct br_field *f, const struct br_watched_fie
  * residual beyond it. */
 static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
 {
-    const struct br_method *method = m->method;
+    const struct br_method *method = m->seen.method;
     const double own = br_method_residual(method, f);
-    const double now = br_energy_limit(f->n, br_march_round_off(m->march)) + own;
+    const double now = br_energy_limit(f->n, br_march_round_off(m->seen.march)) + own;
     return fmax(1, now / m->limit);
 }
 
@@ -307,7 +302,7 @@ static struct power power_of(const struct br_energy_meter *m, enum br_field_kind
 {
     const struct meter_field *f = &m->field[kind];
     const struct br_watched_field *seen = &m->seen.field[kind];
-    const struct br_tip *tip = br_march_tip(m->march);
+    const struct br_tip *tip = br_march_tip(m->seen.march);
     const double *v = seen->y.row[seen->last].velocity;
     const real bent = bend_product(&f->field, v, v);
     const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
@@ -478,7 +473,7 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
     const struct sum works = add_works(f, t);
     const struct sum taken =
         t->rows > 0 ? runge_kutta_takes(f, seen, t) : differences_take(f, seen, t);
-    f->now = energy_of_field(&f->field, &m->scene->contact, y->displacement, y->velocity);
+    f->now = energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
     const real contact =
         kind == BR_BENDING ? 0 : f->work.tip - tip_before - (f->now.contact - before.contact);
     const real size = scale_of(m, f,
@@ -509,52 +504,41 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
 
 /* ---- setting up ---- */
 
-/* A field by the scene, not by the solver. */
-static struct br_field field_of(const struct br_energy_meter *m, enum br_field_kind kind)
+/* A field by the scene, not by the solver, and its energies at t = 0. */
+static enum br_status set_up(struct br_energy_meter *m, enum br_field_kind kind,
+                             struct br_error *err)
 {
-    struct br_field f = br_field_of_scene(m->scene, kind, br_march_field(m->march, kind)->n, NAN);
+    struct meter_field *f = &m->field[kind];
+    const struct br_nodal *y = &m->seen.field[kind].y.past[0];
+    f->field = br_field_of_scene(m->seen.scene, kind, m->seen.n, NAN);
     if (kind == BR_AXIAL)
-        f.degree = m->method->axial_degree;
-    return f;
-}
-
-static enum br_status set_up(struct br_energy_meter *m, struct br_error *err)
-{
-    size_t room = 0;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        m->field[kind].field = field_of(m, kind);
-        m->field[kind].modelled = br_march_models(m->march, kind);
-        room += 2 * br_field_size(&m->field[kind].field);
-    }
-    double *memory = m->memory = br_allocate(room, sizeof *memory);
-    if (!memory)
+        f->field.degree = m->seen.method->axial_degree;
+    const size_t size = br_field_size(&f->field);
+    f->scratch[0] = br_allocate(2 * size, sizeof *f->scratch[0]);
+    if (!f->scratch[0])
         return br_no_memory(err, "the energies");
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct meter_field *f = &m->field[kind];
-        for (int i = 0; i < 2; i++, memory += br_field_size(&f->field))
-            f->scratch[i] = memory;
-        br_march_get(m->march, kind, f->scratch[0], f->scratch[1]);
-        if (f->modelled)
-            f->start = f->now =
-                energy_of_field(&f->field, &m->scene->contact, f->scratch[0], f->scratch[1]);
-    }
-    const struct br_march_watcher watcher = {m, watch_stage, watch_step};
-    return br_watched_init(&m->seen, m->march, m->scene, m->method, &watcher, err);
+    f->scratch[1] = f->scratch[0] + size;
+    if (br_march_models(m->seen.march, kind))
+        f->start = f->now =
+            energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
+    return BR_OK;
 }
 
 enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_march *march,
                                       const struct br_scene *scene, const struct br_method *method,
                                       struct br_error *err)
 {
+    const size_t n = br_march_field(march, BR_AXIAL)->n;
+    const double round_off = br_march_round_off(march);
     struct br_energy_meter *m = *out = br_allocate(1, sizeof *m);
     if (!m)
         return br_no_memory(err, "the energies");
-    *m = (struct br_energy_meter){.march = march, .scene = scene, .method = method};
-    m->limit = br_energy_limit(br_march_field(march, BR_AXIAL)->n, br_march_round_off(march));
-    m->update = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
-                                      br_march_round_off(march))
-                    .update;
-    const enum br_status status = set_up(m, err);
+    m->limit = br_energy_limit(n, round_off);
+    m->update = br_certificate_limits(method->scheme, n, round_off).update;
+    const struct br_march_watcher watcher = {m, watch_stage, watch_step};
+    enum br_status status = br_watched_init(&m->seen, march, scene, method, &watcher, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        status = set_up(m, kind, err);
     if (status) {
         br_energy_meter_free(m);
         *out = NULL;
@@ -567,7 +551,8 @@ void br_energy_meter_free(struct br_energy_meter *m)
     if (!m)
         return;
     br_watched_clear(&m->seen);
-    free(m->memory);
+    free(m->field[BR_AXIAL].scratch[0]);
+    free(m->field[BR_BENDING].scratch[0]);
     free(m);
 }
 

@@ -243,35 +243,27 @@ static double usual_loss(const struct br_field *f, bool refines,
     return fmin(loss, 1);
 }
 
-double br_refining_library_round_off(const struct br_field *f,
-                                     const struct br_linear_options *options)
-{
-    return usual_loss(f, true, options);
-}
-
 /* No step of refinement repairs the round-off of nodal values. */
-double br_assembled_round_off(const struct br_field *f, const struct br_linear_options *options)
+double br_assembled_round_off(const struct br_linear_solver *row, const struct br_field *f,
+                              const struct br_linear_options *options)
 {
-    return usual_loss(f, false, options) +
-           (options->refinement > 0 ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
+    const bool refined = options->refinement > 0 && !row->factoriser->refines;
+    return usual_loss(f, row->factoriser->refines, options) +
+           (refined ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
 }
 
 /* Elimination is backward stable: each row is solved for a nodal force that is off by a few last
  * bits of its terms, 24 C/h^3 |v| for bending and 2 C/h |v| for the rod (Higham, chapter 10). Such
  * forces are at random, and what balances them is a sum of them and of their levers: of moments
  * C |v|/L^2 the relative error is 0.5 times 2^-52 n^3.5, of normal forces 0.3 times 2^-52 n^1.5.
- * Eight times as much. */
-double br_refining_library_residual(const struct br_field *f,
-                                    const struct br_linear_options *options)
+ * Eight times as much; a library's own refinement is of the rounded matrix. */
+double br_assembled_residual(const struct br_linear_solver *row, const struct br_field *f,
+                             const struct br_linear_options *options)
 {
-    (void)options; /* its own refinement is of the rounded matrix */
     const double n = (double)f->n;
+    if (options->refinement > 0 && !row->factoriser->refines)
+        return 0;
     return DBL_EPSILON * (f->kind == BR_AXIAL ? 3 * n : 4 * n * n * n) * sqrt(n);
-}
-
-double br_assembled_residual(const struct br_field *f, const struct br_linear_options *options)
-{
-    return options->refinement > 0 ? 0 : br_refining_library_residual(f, options);
 }
 
 /* ---- a field solver ---- */
@@ -501,13 +493,13 @@ static void assembled_size(void *self, size_t which, double size[2])
 }
 
 /* A step has the solve's own start in it; a pass over the states costs what it does in plain.c. */
-double br_assembled_cost(const struct br_by_element *element, const struct br_field *field,
+double br_assembled_cost(const struct br_linear_solver *row, const struct br_field *field,
                          double sums)
 {
     static const struct br_by_element sum = {0.65, 1.3, 0};
     return 170 + 42 * sums +
            (double)field->n *
-               (br_by_element_of(element, field) + sums * br_by_element_of(&sum, field));
+               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
 }
 
 const struct br_field_solver br_assembled = {

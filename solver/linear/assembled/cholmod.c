@@ -101,12 +101,6 @@ static const struct br_factoriser cholmod = {
     .solve = cholmod_solve_it,
 };
 
-static double cost(const struct br_field *field, double sums)
-{
-    static const struct br_by_element element = {23.6, 44.8, 0};
-    return br_assembled_cost(&element, field, sums);
-}
-
 const struct br_linear_solver br_cholmod = {
     .name = "cholmod",
     .title = "assembled stiffness form, factorised once by SuiteSparse's CHOLMOD",
@@ -120,5 +114,6 @@ const struct br_linear_solver br_cholmod = {
     .residual = br_assembled_residual,
     .bytes = {260, 650, 0},
     .state_bytes = {16, 32, 0},
-    .cost = cost,
+    .cost = br_assembled_cost,
+    .element_cost = {23.6, 44.8, 0},
 };

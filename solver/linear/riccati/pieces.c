@@ -56,10 +56,12 @@ static double price(const struct cost *of, const struct cut *cut)
 }
 
 /* See linear_solver.h. */
-static double pieces_cost(const struct br_field *field, double sums)
+static double pieces_cost(const struct br_linear_solver *row, const struct br_field *field,
+                          double sums)
 {
+    (void)row;
     if (br_field_is_quadratic(field))
-        return br_plain.cost(field, sums);
+        return br_plain.cost(&br_plain, field, sums);
     static const struct cost axial = {260, 6.5, 55, 2.75}, axial_sum = {70, 1.6, 8, 3.1};
     static const struct cost bending = {450, 22, 115, 10.9}, bending_sum = {55, 7, 14, 6.5};
     static const double march = 140; /* of a step that has an odd rest alone */
@@ -610,9 +612,10 @@ static double most_excess(const struct br_field *f)
  * mode of free vibration. The joins add the round-off of their sums: where inertia rules, pieces
  * that are free at one end answer by far more than what is left when they are joined. Short beams
  * are one piece. */
-static double riccati_round_off(const struct br_field *field,
+static double riccati_round_off(const struct br_linear_solver *row, const struct br_field *field,
                                 const struct br_linear_options *options)
 {
+    (void)row;
     (void)options;
     const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
     const double excess = fmin(br_field_inertia(field), most_excess(field));
