@@ -636,18 +636,3 @@ const struct br_linear_solver br_riccati = {
     .state_bytes = {28, 44, 32},
     .cost = pieces_cost,
 };
-
-/* ---- kernels ---- */
-
-#define ROW(set) &br_kernel_##set,
-const struct br_kernel *const br_kernels[] = {BR_INSTRUCTION_SETS(ROW) NULL};
-
-const struct br_kernel *br_kernel_best(void)
-{
-    return br_kernels[br_instruction_set_best()];
-}
-
-const struct br_kernel *br_kernel_find(const char *name)
-{
-    return br_kernels[br_instruction_set_find(name)];
-}
