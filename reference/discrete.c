@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/discrete_state.h"
+#include "reference/discrete_field.h"
 #include "reference/textbook.h"
 
 typedef long double real;
@@ -18,12 +18,20 @@ struct path {
     real u[2], slope[2];          /* u and k u_t at both ends, m */
 };
 
+/* One field, and where its scheme is. */
+struct part {
+    bool modelled;
+    struct br_discrete_field field;
+    size_t since; /* steps since t = 0 or the last switch */
+    enum br_regime regime;
+};
+
 struct br_discrete {
     const struct br_scene *scene;
     const char *scheme;
     bool implicit, regularised;
-    size_t steps, done;
-    struct br_discrete_part part[2]; /* by br_field_kind */
+    size_t n, steps, done;
+    struct part part[2]; /* by br_field_kind */
     struct path path;
     struct br_discrete_tip tip;
 };
@@ -92,36 +100,21 @@ static real friction_bound(const struct br_discrete *d, real time)
     return f->law == BR_TRESCA ? f->coefficient : f->coefficient * depth_at(d, time);
 }
 
-static enum br_regime regime_of(const struct br_discrete *d, enum br_field_kind kind)
-{
-    const struct br_discrete_tip *t = &d->tip;
-    if (kind == BR_AXIAL)
-        return !d->scene->contact.modelled ? BR_REGIME_NONE
-               : t->contact_force > 0      ? BR_REGIME_CLOSED
-                                           : BR_REGIME_OPEN;
-    if (!(t->friction_bound > 0))
-        return BR_REGIME_NONE;
-    if (fabsl(t->friction_force) < t->friction_bound)
-        return BR_REGIME_STICK;
-    return t->friction_force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
-}
-
 /* ---- a stage: an Euler step of tau from state 0 ---- */
 
 static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real time, real tau,
                             struct br_error *err)
 {
-    struct br_discrete_part *part = &d->part[kind];
-    struct br_discrete_field *f = &part->field;
+    struct br_discrete_field *f = &d->part[kind].field;
     const double from = d->scene->duration * (double)d->done / (double)d->steps;
     const double to = d->scene->duration * (double)(d->done + 1) / (double)d->steps;
     const double t = time == 1 ? to : (double)(from + time * ((real)to - from));
     enum br_status status = br_discrete_field_set_step(f, tau, err);
+    real v = 0;
     if (!status)
-        status = br_discrete_load_update(&part->load, f, t, err);
+        status = br_discrete_field_predict(f, t, &v, err);
     if (status)
         return status;
-    const real v = br_discrete_field_predict(f, part->load.tip);
     if (kind == BR_AXIAL)
         d->tip.contact_force = contact_force(d, br_discrete_field_tip(f, false), v);
     else {
@@ -219,7 +212,7 @@ static enum br_status look_back(struct br_discrete *d, enum br_field_kind kind,
 static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
                                  struct br_error *err)
 {
-    struct br_discrete_part *part = &d->part[kind];
+    struct part *part = &d->part[kind];
     struct br_discrete_field *f = &part->field;
     const real k = (real)d->scene->duration / (real)d->steps;
     const struct br_textbook *book = br_textbook_step(d->scheme, part->since);
@@ -241,7 +234,9 @@ static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
         copy_state(f, BR_DISCRETE_START, BR_DISCRETE_PAST);
     }
     const enum br_regime before = part->regime;
-    part->regime = regime_of(d, kind);
+    part->regime = br_textbook_regime(
+        d->scene, kind, kind == BR_AXIAL ? d->tip.contact_force : d->tip.friction_force,
+        d->tip.friction_bound);
     part->since = d->done > 0 && part->regime != before ? 0 : part->since + 1;
     if (!isfinite(d->tip.velocity[kind]))
         return br_fail(err, BR_NOT_FINITE, "the exact discrete solution is %Lg m/s at step %zu",
@@ -251,9 +246,8 @@ static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
 
 enum br_status br_discrete_step(struct br_discrete *d, struct br_error *err)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_status status =
-            d->part[kind].modelled ? step_field(d, (enum br_field_kind)kind, err) : BR_OK;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const enum br_status status = d->part[kind].modelled ? step_field(d, kind, err) : BR_OK;
         if (status)
             return status;
     }
@@ -282,22 +276,16 @@ static enum br_status check_method(const struct br_method *m, struct br_error *e
     return BR_OK;
 }
 
-static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind, size_t n,
+static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind,
                                   struct br_error *err)
 {
-    struct br_discrete_part *part = &d->part[kind];
-    const struct br_scene *s = d->scene;
-    part->n = n;
-    part->d = kind == BR_AXIAL ? 1 : 2;
-    part->modelled = kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
+    struct part *part = &d->part[kind];
+    part->modelled = kind == BR_AXIAL ? d->scene->axial.modelled : d->scene->bending.modelled;
     if (!part->modelled)
         return BR_OK;
     const size_t states = strcmp(d->scheme, "euler") == 0 ? 1 : BR_DISCRETE_STATES;
-    enum br_status status = br_discrete_field_init(&part->field, s, kind, n, states, err);
-    if (!status)
-        status = br_discrete_load_init(&part->load, s, kind, &part->field, err);
-    if (!status)
-        status = br_discrete_set_initial(&part->field, s, kind, err);
+    const enum br_status status =
+        br_discrete_field_init(&part->field, d->scene, kind, d->n, states, err);
     for (int velocity = 0; velocity < 2 && !status; velocity++)
         (velocity ? d->tip.velocity : d->tip.displacement)[kind] =
             br_discrete_field_tip(&part->field, velocity);
@@ -322,9 +310,10 @@ enum br_status br_discrete_create(struct br_discrete **out, const struct br_scen
     d->scheme = method->scheme->name;
     d->implicit = strcmp(method->contact->name, "implicit") == 0;
     d->regularised = strcmp(method->friction->name, "regularised") == 0;
+    d->n = n;
     d->steps = steps;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        status = create_part(d, (enum br_field_kind)kind, n, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        status = create_part(d, kind, err);
     if (status)
         br_discrete_free(d);
     else
@@ -336,10 +325,8 @@ void br_discrete_free(struct br_discrete *d)
 {
     if (!d)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         br_discrete_field_clear(&d->part[kind].field);
-        br_discrete_load_clear(&d->part[kind].load);
-    }
     free(d);
 }
 
@@ -353,7 +340,7 @@ size_t br_discrete_steps_done(const struct br_discrete *d)
 struct br_discrete_tip br_discrete_tip(const struct br_discrete *d)
 {
     struct br_discrete_tip tip = d->tip;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (d->part[kind].modelled) {
             tip.displacement[kind] = br_discrete_field_tip(&d->part[kind].field, false);
             tip.velocity[kind] = br_discrete_field_tip(&d->part[kind].field, true);
@@ -364,8 +351,8 @@ struct br_discrete_tip br_discrete_tip(const struct br_discrete *d)
 void br_discrete_get(const struct br_discrete *d, enum br_field_kind kind,
                      long double *displacement, long double *velocity)
 {
-    const struct br_discrete_part *part = &d->part[kind];
-    const size_t bytes = part->d * (part->n + 1) * sizeof(long double);
+    const struct part *part = &d->part[kind];
+    const size_t bytes = (kind == BR_AXIAL ? 1 : 2) * (d->n + 1) * sizeof(long double);
     if (part->modelled) {
         br_discrete_field_get(&part->field, displacement, velocity);
         return;

@@ -9,9 +9,11 @@
  * b = F + M v/tau. The value of all elements from node i to the tip is a quadratic function of y_i,
  * 1/2 y'P y - p'y, found from the free end (dynamic programming; Bellman 1957). Its unknowns are
  * strains: what a stiffness matrix of condition n^4 would lose is never there. */
+#include <math.h>
 #include <string.h>
 
-#include "reference/discrete_state.h"
+#include "reference/discrete_field.h"
+#include "reference/textbook.h"
 
 enum { MOST = BR_DISCRETE_MOST };
 
@@ -44,15 +46,10 @@ static inline void pull_back(size_t d, const long double *p, long double *state,
     strain[1] = -p[0] / 6;
 }
 
-/* The textbook's matrices, times 6 and times 420; of the beam for (w, h w_x). */
-static const long double rod_mass[2][2] = {{2, 1}, {1, 2}};
-static const long double beam_mass[4][4] = {
-    {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-
 /* Entry (a, b) of the element's mass over rho h. */
 static long double mass_entry(size_t d, size_t a, size_t b)
 {
-    return d == 1 ? rod_mass[a][b] / 6 : beam_mass[a][b] / 420;
+    return d == 1 ? br_rod_mass[a][b] / 6.0L : br_beam_mass[a][b] / 420.0L;
 }
 
 /* D of strain c, which the stiffness multiplies, 1/m or 1/m^3. */
@@ -151,70 +148,7 @@ static bool add_element(const struct br_discrete_field *f, long double tau,
     return true;
 }
 
-/* ---- room ---- */
-
-static long double *numbers(size_t count)
-{
-    return br_allocate(count, sizeof(long double));
-}
-
-enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct br_scene *scene,
-                                      enum br_field_kind kind, size_t n, size_t states,
-                                      struct br_error *err)
-{
-    const bool axial = kind == BR_AXIAL;
-    *f = (struct br_discrete_field){
-        .n = n,
-        .d = axial ? 1 : 2,
-        .h = (long double)scene->length / (long double)n,
-        .density = scene->density,
-        .stiffness = axial ? scene->axial.stiffness : scene->bending.stiffness,
-        .viscosity = axial ? scene->axial.viscosity : scene->bending.viscosity,
-        .states = states,
-    };
-    bool room = true;
-    for (size_t i = 0; i < states; i++)
-        room = (f->state[i] = numbers(2 * f->d * n)) && room;
-    f->gain = br_allocate(n, sizeof *f->gain);
-    f->response = numbers(f->d * n);
-    f->free_rate = numbers(f->d * n);
-    f->nodal = numbers(f->d * (n + 1));
-    f->load = numbers(f->d * (n + 1));
-    room = room && f->gain && f->response && f->free_rate && f->nodal && f->load;
-    return room ? BR_OK : br_no_memory(err, "the exact discrete solution");
-}
-
-void br_discrete_field_clear(struct br_discrete_field *f)
-{
-    for (size_t i = 0; i < f->states; i++)
-        free(f->state[i]);
-    free(f->gain);
-    free(f->response);
-    free(f->free_rate);
-    free(f->nodal);
-    free(f->load);
-    *f = (struct br_discrete_field){0};
-}
-
 /* ---- nodal values ---- */
-
-/* u_1 - u_0; or h^2 w_xx of the Hermite cubic, its mean and its half slope. */
-static void strain_of(size_t d, const long double *x, long double *strain)
-{
-    strain[0] = d == 1 ? x[1] - x[0] : x[3] - x[1];
-    if (d == 2)
-        strain[1] = 3 * (x[1] + x[3]) - 6 * (x[2] - x[0]);
-}
-
-void br_discrete_field_set(struct br_discrete_field *f, const long double *displacement,
-                           const long double *velocity)
-{
-    const size_t d = f->d;
-    for (size_t i = 0; i < f->n; i++) {
-        strain_of(d, displacement + d * i, f->state[0] + d * i);
-        strain_of(d, velocity + d * i, f->state[0] + d * (f->n + i));
-    }
-}
 
 /* A sum and what it has lost to rounding (Neumaier 1974): over 1e6 elements plain sums would lose
  * more than all else does. */
@@ -358,15 +292,244 @@ enum br_status br_discrete_field_set_step(struct br_discrete_field *f, long doub
     return BR_OK;
 }
 
-long double br_discrete_field_predict(struct br_discrete_field *f,
-                                      const long double tip[BR_DISCRETE_MOST])
+/* ---- quadrature ---- */
+
+enum { POINTS = 5 };
+
+/* Gauss and Legendre's rule on [0, 1]: the roots of P_5 are 0 and -+ sqrt(5 -+ 2 sqrt(10/7)) / 3,
+ * the weights 128/225 and (322 +- 13 sqrt 70) / 900, here halved (Abramowitz and Stegun 25.4.30).
+ */
+static void gauss(long double x[POINTS], long double weight[POINTS])
 {
+    const long double inner = sqrtl(5 - 2 * sqrtl(10 / 7.0L)) / 6;
+    const long double outer = sqrtl(5 + 2 * sqrtl(10 / 7.0L)) / 6;
+    const long double place[POINTS] = {-outer, -inner, 0, inner, outer};
+    const long double heavy = (322 + 13 * sqrtl(70)) / 1800, light = (322 - 13 * sqrtl(70)) / 1800;
+    const long double share[POINTS] = {light, heavy, 64 / 225.0L, heavy, light};
+    for (int q = 0; q < POINTS; q++) {
+        x[q] = 0.5L + place[q];
+        weight[q] = share[q];
+    }
+}
+
+/* The shape functions of an element at xi: Lagrange's two, or Hermite's four for (w, h w_x). */
+static void shapes(size_t d, long double xi, long double shape[2 * MOST])
+{
+    const long double square = xi * xi, cube = square * xi;
+    if (d == 1) {
+        shape[0] = 1 - xi;
+        shape[1] = xi;
+        return;
+    }
+    shape[0] = 1 - 3 * square + 2 * cube;
+    shape[1] = xi - 2 * square + cube;
+    shape[2] = 3 * square - 2 * cube;
+    shape[3] = cube - square;
+}
+
+/* One value of f at a time. */
+static enum br_status value_of(const struct br_function *f, double x, double t, long double *value,
+                               struct br_error *err)
+{
+    const double y = br_function_at(f, x, t);
+    *value = y;
+    return isfinite(y) ? BR_OK
+                       : br_fail(err, BR_NOT_FINITE,
+                                 "an expression is %g at x = %.17g m, t = %.17g s", y, x, t);
+}
+
+/* vector = int f(x, t) shape: of a function of t alone the rule is exact, too. */
+static enum br_status assemble(const struct br_discrete_field *field, const struct br_function *f,
+                               double t, long double *vector, struct br_error *err)
+{
+    const size_t d = field->d;
+    long double xi[POINTS], weight[POINTS], shape[2 * MOST];
+    gauss(xi, weight);
+    memset(vector, 0, d * (field->n + 1) * sizeof *vector);
+    for (size_t q = 0; q < POINTS; q++) {
+        shapes(d, xi[q], shape);
+        for (size_t i = 0; i < field->n; i++) {
+            long double value;
+            const long double x = field->h * ((long double)i + xi[q]);
+            const enum br_status status = value_of(f, (double)x, t, &value, err);
+            if (status)
+                return status;
+            for (size_t a = 0; a < 2 * d; a++)
+                vector[d * i + a] += field->h * weight[q] * value * shape[a];
+        }
+    }
+    return BR_OK;
+}
+
+/* ---- forces ---- */
+
+/* The functions of the forces, and the load vectors that do not change. */
+static enum br_status take_forces(struct br_discrete_field *f, const struct br_scene *scene,
+                                  struct br_error *err)
+{
+    const bool axial = f->d == 1;
+    const struct br_function none = {0};
+    enum br_status status =
+        br_load_clone(axial ? &scene->axial.load : &scene->bending.load, &f->functions, err);
+    for (size_t i = 0; i < BR_LOAD_TERMS && !status; i++) {
+        const struct br_product *p = &f->functions.term[i];
+        if (br_product_is_zero(p))
+            continue;
+        f->vector[i] = br_allocate(f->d * (f->n + 1), sizeof *f->vector[i]);
+        if (!f->vector[i])
+            status = br_no_memory(err, "a load vector");
+        else if (!p->space.uses_t)
+            status = assemble(f, &p->space, 0, f->vector[i], err);
+    }
+    if (!status)
+        status = br_function_clone(axial ? &scene->axial.tip_force : &scene->bending.tip_force,
+                                   &f->tip_force, err);
+    if (!status)
+        status = br_function_clone(axial ? &none : &scene->bending.tip_moment, &f->tip_moment, err);
+    return status;
+}
+
+/* The load at time t, s, and what is at the tip's unknowns (out), N. */
+static enum br_status update_forces(struct br_discrete_field *f, double t, long double tip[MOST],
+                                    struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    const size_t size = f->d * (f->n + 1);
+    memset(f->load, 0, size * sizeof *f->load);
+    for (size_t i = 0; i < BR_LOAD_TERMS && f->vector[i] && !status; i++) {
+        const struct br_product *p = &f->functions.term[i];
+        long double factor = 0;
+        status = value_of(&p->time, 0, t, &factor, err);
+        if (!status && p->space.uses_t)
+            status = assemble(f, &p->space, t, f->vector[i], err);
+        for (size_t j = 0; j < size; j++)
+            f->load[j] += factor * f->vector[i][j];
+    }
+    if (!status)
+        status = value_of(&f->tip_force, 0, t, &tip[0], err);
+    if (!status)
+        status = value_of(&f->tip_moment, 0, t, &tip[1], err);
+    tip[1] /= f->h; /* on h w_x */
+    return status;
+}
+
+/* ---- initial data ---- */
+
+/* One unknown of all nodes but the clamped one: `unit` times a function of the scene, which other
+ * threads may use. */
+static enum br_status fill_nodes(struct br_discrete_field *field, size_t unknown, long double unit,
+                                 const struct br_function *f, struct br_error *err)
+{
+    struct br_function own;
+    enum br_status status = br_function_clone(f, &own, err);
+    for (size_t i = 1; i <= field->n && !status; i++) {
+        const double x = (double)field->h * (double)i; /* as the data are given: at doubles */
+        long double value = 0;
+        status = value_of(&own, x, 0, &value, err);
+        field->nodal[field->d * i + unknown] = unit * value;
+    }
+    br_function_free(&own);
+    return status;
+}
+
+/* u_1 - u_0; or h^2 w_xx of the Hermite cubic, its mean and its half slope. */
+static void strain_of(size_t d, const long double *x, long double *strain)
+{
+    strain[0] = d == 1 ? x[1] - x[0] : x[3] - x[1];
+    if (d == 2)
+        strain[1] = 3 * (x[1] + x[3]) - 6 * (x[2] - x[0]);
+}
+
+/* The interpolant of the scene's initial data. */
+static enum br_status set_initial(struct br_discrete_field *f, const struct br_scene *scene,
+                                  struct br_error *err)
+{
+    const bool axial = f->d == 1;
+    const struct br_bending *b = &scene->bending;
+    const struct br_function *of[2] = {axial ? &scene->axial.displacement : &b->displacement,
+                                       axial ? &scene->axial.velocity : &b->velocity};
+    const struct br_function *slope[2] = {&b->displacement_slope, &b->velocity_slope};
+    enum br_status status = BR_OK;
+    memset(f->nodal, 0, f->d * sizeof *f->nodal);
+    for (size_t part = 0; part < 2 && !status; part++) {
+        status = fill_nodes(f, 0, 1, of[part], err);
+        if (!status && !axial)
+            status = fill_nodes(f, 1, f->h, slope[part], err);
+        for (size_t i = 0; i < f->n && !status; i++)
+            strain_of(f->d, f->nodal + f->d * i, f->state[0] + f->d * (part * f->n + i));
+    }
+    return status;
+}
+
+/* ---- a field ---- */
+
+static long double *numbers(size_t count)
+{
+    return br_allocate(count, sizeof(long double));
+}
+
+enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct br_scene *scene,
+                                      enum br_field_kind kind, size_t n, size_t states,
+                                      struct br_error *err)
+{
+    const bool axial = kind == BR_AXIAL;
+    *f = (struct br_discrete_field){
+        .n = n,
+        .d = axial ? 1 : 2,
+        .h = (long double)scene->length / (long double)n,
+        .density = scene->density,
+        .stiffness = axial ? scene->axial.stiffness : scene->bending.stiffness,
+        .viscosity = axial ? scene->axial.viscosity : scene->bending.viscosity,
+        .states = states,
+    };
+    bool room = true;
+    for (size_t i = 0; i < states; i++)
+        room = (f->state[i] = numbers(2 * f->d * n)) && room;
+    f->gain = br_allocate(n, sizeof *f->gain);
+    f->response = numbers(f->d * n);
+    f->free_rate = numbers(f->d * n);
+    f->nodal = numbers(f->d * (n + 1));
+    f->load = numbers(f->d * (n + 1));
+    room = room && f->gain && f->response && f->free_rate && f->nodal && f->load;
+    enum br_status status = room ? BR_OK : br_no_memory(err, "the exact discrete solution");
+    if (!status)
+        status = take_forces(f, scene, err);
+    return status ? status : set_initial(f, scene, err);
+}
+
+void br_discrete_field_clear(struct br_discrete_field *f)
+{
+    for (size_t i = 0; i < f->states; i++)
+        free(f->state[i]);
+    free(f->gain);
+    free(f->response);
+    free(f->free_rate);
+    free(f->nodal);
+    free(f->load);
+    br_load_clear(&f->functions);
+    br_function_free(&f->tip_force);
+    br_function_free(&f->tip_moment);
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        free(f->vector[i]);
+    *f = (struct br_discrete_field){0};
+}
+
+/* ---- a step ---- */
+
+enum br_status br_discrete_field_predict(struct br_discrete_field *f, double t,
+                                         long double *velocity, struct br_error *err)
+{
+    long double tip[MOST] = {0};
+    const enum br_status status = update_forces(f, t, tip, err);
+    if (status)
+        return status;
     if (f->d == 1)
         find_forces(f, 1, tip);
     else
         find_forces(f, 2, tip);
     solve_field(f, f->state[0], f->free_rate);
-    return tip_of(f, f->free_rate);
+    *velocity = tip_of(f, f->free_rate);
+    return BR_OK;
 }
 
 void br_discrete_field_finish(struct br_discrete_field *f, long double force)

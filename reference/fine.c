@@ -81,11 +81,10 @@ static void fine_sample(void *self, const struct br_sample_at *at, struct br_vie
 static double round_off(const struct fine *f)
 {
     double largest = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (br_march_models(f->march[kind], (enum br_field_kind)kind))
-            largest = fmax(
-                largest, br_method_round_off(
-                             &f->method, br_march_field(f->march[kind], (enum br_field_kind)kind)));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (br_march_models(f->march[kind], kind))
+            largest = fmax(largest,
+                           br_method_round_off(&f->method, br_march_field(f->march[kind], kind)));
     return largest;
 }
 

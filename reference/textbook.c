@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/textbook.h"
 
+#include <math.h>
 #include <string.h>
 
 static const struct br_textbook implicit_euler = {.rows = 1, .a = {{1}}, .c = {1}};
@@ -111,6 +112,22 @@ const struct br_textbook *br_textbook_step(const char *scheme, size_t since)
         if (strcmp(schemes[i].name, scheme) == 0)
             return schemes[i].step[since < 2 ? since : 2];
     return NULL;
+}
+
+/* ---- the branches of the laws ---- */
+
+enum br_regime br_textbook_regime(const struct br_scene *scene, enum br_field_kind kind,
+                                  long double force, long double bound)
+{
+    if (kind == BR_AXIAL)
+        return !scene->contact.modelled ? BR_REGIME_NONE
+               : force > 0              ? BR_REGIME_CLOSED
+                                        : BR_REGIME_OPEN;
+    if (scene->friction.law == BR_FRICTIONLESS || !(bound > 0))
+        return BR_REGIME_NONE;
+    if (fabsl(force) < bound)
+        return BR_REGIME_STICK;
+    return force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
 }
 
 /* ---- element matrices ---- */

@@ -4,7 +4,7 @@
 #ifndef BR_REFERENCE_TEXTBOOK_H
 #define BR_REFERENCE_TEXTBOOK_H
 
-#include <stddef.h>
+#include "solver/march.h"
 
 enum { BR_TEXTBOOK_ROWS = 6 };
 
@@ -21,6 +21,11 @@ struct br_textbook {
 /* The step of a scheme by its name, `since` steps after t = 0 or after the last switch. NULL: a
  * scheme that is not known here. */
 const struct br_textbook *br_textbook_step(const char *scheme, size_t since);
+
+/* The branch of its law that a tip is on: force, N, of the contact or of friction, whose bound is
+ * told. */
+enum br_regime br_textbook_regime(const struct br_scene *scene, enum br_field_kind kind,
+                                  long double force, long double bound);
 
 /* Element matrices. The unknowns are u at the nodes of a rod, from begin to end, and (w, h w_x) at
  * both of a beam. */

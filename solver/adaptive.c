@@ -47,16 +47,17 @@ struct br_adaptive {
     size_t found_count; /* also of those that are not kept */
 };
 
-void br_adaptive_free(struct br_adaptive *a)
-{
-    free(a);
-}
-
 static void recall_all(struct br_march *m, int known)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (m->part[kind].modelled)
             br_field_march_recall(&m->part[kind], known);
+}
+
+static void take_back(struct br_march *m, const struct br_tip *tip)
+{
+    recall_all(m, BR_NOW);
+    m->tip = *tip;
 }
 
 /* ---- a trial ---- */
@@ -88,15 +89,14 @@ static enum br_status find_branches(struct br_march *m, const struct br_stages *
     first.count = 1;
     const struct br_tip tip = m->tip;
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         m->held[kind] = false;
         if (!m->part[kind].modelled)
             continue;
-        status = br_march_stages(m, (enum br_field_kind)kind, &first, step, m->path, err);
-        m->regime[kind] = br_march_regime(m, (enum br_field_kind)kind);
+        status = br_march_stages(m, kind, &first, step, m->path, err);
+        m->regime[kind] = br_march_regime(m, kind);
     }
-    recall_all(m, BR_NOW);
-    m->tip = tip;
+    take_back(m, &tip);
     a->known = true;
     return status;
 }
@@ -128,20 +128,20 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
                                  struct trial *trial, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         struct br_field_march *part = &m->part[kind];
         if (!part->modelled)
             continue;
-        m->held[kind] = !m->adaptive->free && has_branches(m, (enum br_field_kind)kind);
+        m->held[kind] = !m->adaptive->free && has_branches(m, kind);
         m->margins[kind].count = 0;
         if (m->held[kind] && m->adaptive->since > 0) /* else it is that of another branch */
-            br_margins_add(&m->margins[kind], 0, br_march_margin(m, (enum br_field_kind)kind));
-        status = br_march_stages(m, (enum br_field_kind)kind, &trial->stages, step, m->path, err);
+            br_margins_add(&m->margins[kind], 0, br_march_margin(m, kind));
+        status = br_march_stages(m, kind, &trial->stages, step, m->path, err);
         if (status)
             break;
         double error;
         br_field_march_estimate(part, &trial->stages, &error, &trial->strain[kind]);
-        see_error(m, (enum br_field_kind)kind, error, trial);
+        see_error(m, kind, error, trial);
     }
     return status;
 }
@@ -158,12 +158,6 @@ static enum br_status try_step(struct br_march *m, double k, struct trial *trial
     if (!m->adaptive->known)
         status = find_branches(m, &trial->stages, &step, err);
     return status ? status : try_fields(m, &step, trial, err);
-}
-
-static void take_back(struct br_march *m, const struct br_tip *tip)
-{
-    recall_all(m, BR_NOW);
-    m->tip = *tip;
 }
 
 /* ---- switches ---- */
@@ -234,12 +228,12 @@ static enum br_status find_switch(struct search *s, double longest)
 static void tell_switches(struct br_march *m)
 {
     struct br_adaptive *a = m->adaptive;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         if (!m->part[kind].modelled || m->regime[kind] == a->old[kind])
             continue;
         if (a->found_count < BR_MOST_SWITCHES)
             a->found[a->found_count] =
-                (struct br_switch){a->now, (enum br_field_kind)kind, a->old[kind], m->regime[kind]};
+                (struct br_switch){a->now, kind, a->old[kind], m->regime[kind]};
         a->found_count++;
     }
 }
@@ -256,10 +250,10 @@ static void accept(struct br_march *m, const struct trial *trial, bool switched)
     if (a->since == 0 && a->now > 0)
         tell_switches(m);
     memcpy(a->old, m->regime, sizeof a->old);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
         if (m->part[kind].modelled)
-            br_march_accept(m, (enum br_field_kind)kind, &trial->stages, switched);
+            br_march_accept(m, kind, &trial->stages, switched);
     }
     a->known = !switched;
     a->since = switched ? 0 : a->since + 1;
@@ -275,16 +269,6 @@ static double next_length(const struct br_march *m, const struct trial *trial)
     if (factor > 1 && factor < idle_growth)
         return trial->k;
     return fmin(factor, most_growth) * trial->k;
-}
-
-static enum br_status too_small(const struct br_march *m, const struct trial *trial,
-                                struct br_error *err)
-{
-    return br_fail(
-        err, BR_NOT_FINITE,
-        "scheme %s: at t = %.17g s no step is small enough: with %g s the estimated error "
-        "is %g times the tolerance of %g",
-        m->method.scheme->name, m->adaptive->now, trial->k, trial->error, m->method.tolerance);
 }
 
 /* A step of at most k, s, that the estimate passes. */
@@ -306,7 +290,11 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
         take_back(m, &tip);
         a->known = !fresh;
         if (!(k > least))
-            return too_small(m, trial, err);
+            return br_fail(err, BR_NOT_FINITE,
+                           "scheme %s: at t = %.17g s no step is small enough: with %g s the "
+                           "estimated error is %g times the tolerance of %g",
+                           m->method.scheme->name, a->now, trial->k, trial->error,
+                           m->method.tolerance);
         k = a->next = fmax(next_length(m, trial), least);
     }
 }
@@ -348,9 +336,9 @@ static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *
                                        struct trial *trial, bool *switched, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         if (m->held[kind]) {
-            status = stop_at_switch(m, tip, (enum br_field_kind)kind, trial, switched, err);
+            status = stop_at_switch(m, tip, kind, trial, switched, err);
             *switched |= meets_switch(&m->margins[kind]);
         }
     return status;
@@ -392,17 +380,14 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     const double wanted = a->next;
     const double k = wanted >= longest ? longest : fmin(wanted, longest / 2);
     struct trial trial;
-    bool switched = false;
     enum br_status status = check_going_on(m, err);
     if (!status)
         status = estimated_step(m, k, &trial, err);
     if (status)
         return status;
     const double whole = trial.k;
-    if (!status && !(trial.error <= 1))
-        switched = true; /* a jump */
-    if (!status)
-        status = stop_at_switches(m, &tip, &trial, &switched, err);
+    bool switched = !(trial.error <= 1); /* a jump */
+    status = stop_at_switches(m, &tip, &trial, &switched, err);
     if (status)
         return status;
     if (switched)
@@ -416,13 +401,68 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
     return check_progress(m, &trial, switched, err);
 }
 
+/* ---- a rough size ---- */
+
+/* The size of a solution that is not known yet. One that starts at rest has none of its own that
+ * its first errors could be compared with.
+ *
+ * Of two rough marches without common times the smaller size counts, since a short blow that one of
+ * them meets acts on it for a whole step; but not that of a march that meets the zeros of a load.
+ */
+
+/* The largest strains (out) of a few Euler steps to the end. */
+static enum br_status rough_march(struct br_march *m, int steps, double largest[2],
+                                  struct br_error *err)
+{
+    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
+    const double T = m->scene->duration;
+    const struct br_tip tip = m->tip;
+    enum br_status status = BR_OK;
+    largest[0] = largest[1] = 0;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (m->part[kind].modelled)
+            br_field_march_keep(&m->part[kind], BR_STAGE);
+    for (int n = 0; n < steps && !status; n++) {
+        const struct br_step step = {T * n / steps, T * (n + 1) / steps, T / steps};
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+            struct br_field_march *part = &m->part[kind];
+            double size[2];
+            if (!part->modelled)
+                continue;
+            status = br_march_stages(m, kind, &euler, &step, m->path, err);
+            part->solver->size(part->state, 0, size);
+            largest[kind] = fmax(largest[kind], size[0]);
+        }
+    }
+    recall_all(m, BR_STAGE);
+    m->tip = tip;
+    return status;
+}
+
+/* About the largest strains (out) until the end; the march is then where it was. */
+static enum br_status rough_size(struct br_march *m, double largest[2], struct br_error *err)
+{
+    const double nothing = 1e-10;
+    double one[2], other[2];
+    enum br_status status = rough_march(m, 16, one, err);
+    if (!status)
+        status = rough_march(m, 11, other, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        const double larger = fmax(one[kind], other[kind]), smaller = fmin(one[kind], other[kind]);
+        largest[kind] = smaller > nothing * larger ? smaller : larger;
+    }
+    return status;
+}
+
+/* ---- a march ---- */
+
 enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
 {
     m->adaptive = br_allocate(1, sizeof *m->adaptive);
     if (!m->adaptive)
         return br_no_memory(err, "a march");
     m->adaptive->next = first_step * m->scene->duration;
-    return br_rough_size(m, m->adaptive->largest, err);
+    return rough_size(m, m->adaptive->largest, err);
 }
 
 enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)
@@ -433,75 +473,13 @@ enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)
     const double least = least_step * m->scene->duration;
     while (end - a->now > least) {
         enum br_status status = adaptive_step(m, end - a->now, err);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-            status = br_march_check_finite(m, (enum br_field_kind)kind, a->now, err);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+            status = br_march_check_finite(m, kind, a->now, err);
         if (status)
             return status;
     }
     a->now = end;
     return BR_OK;
-}
-
-/* ---- a rough size ---- */
-
-/* The size of a solution that is not known yet. One that starts at rest has none of its own that
- * its first errors could be compared with.
- *
- * Of two rough marches without common times the smaller size counts, since a short blow that one of
- * them meets acts on it for a whole step; but not that of a march that meets the zeros of a load.
- */
-
-static enum br_status rough_step(struct br_march *m, const struct br_step *step, double largest[2],
-                                 struct br_error *err)
-{
-    static const struct br_stages euler = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
-    enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_field_march *part = &m->part[kind];
-        double size[2];
-        if (!part->modelled)
-            continue;
-        status = br_march_stages(m, (enum br_field_kind)kind, &euler, step, m->path, err);
-        part->solver->size(part->state, 0, size);
-        largest[kind] = fmax(largest[kind], size[0]);
-    }
-    return status;
-}
-
-/* The largest strains (out) of a few Euler steps to the end. */
-static enum br_status rough_march(struct br_march *m, int steps, double largest[2],
-                                  struct br_error *err)
-{
-    const double T = m->scene->duration;
-    const struct br_tip tip = m->tip;
-    enum br_status status = BR_OK;
-    largest[0] = largest[1] = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_field_march_keep(&m->part[kind], BR_STAGE);
-    for (int n = 0; n < steps && !status; n++) {
-        const struct br_step step = {T * n / steps, T * (n + 1) / steps, T / steps};
-        status = rough_step(m, &step, largest, err);
-    }
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_field_march_recall(&m->part[kind], BR_STAGE);
-    m->tip = tip;
-    return status;
-}
-
-enum br_status br_rough_size(struct br_march *m, double largest[2], struct br_error *err)
-{
-    const double nothing = 1e-10;
-    double one[2], other[2];
-    enum br_status status = rough_march(m, 16, one, err);
-    if (!status)
-        status = rough_march(m, 11, other, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        const double larger = fmax(one[kind], other[kind]), smaller = fmin(one[kind], other[kind]);
-        largest[kind] = smaller > nothing * larger ? smaller : larger;
-    }
-    return status;
 }
 
 /* ---- margins ---- */
@@ -526,21 +504,14 @@ static double interpolate(const struct br_margins *m, double time)
     return sum;
 }
 
-static double first_negative(const struct br_margins *m)
-{
-    double first = 0;
-    for (size_t i = 0; i < m->count; i++)
-        if (m->time[i] > 0 && m->margin[i] < 0 && (first == 0 || m->time[i] < first))
-            first = m->time[i];
-    return first;
-}
-
 double br_margins_dip(const struct br_margins *m)
 {
     enum { PLACES = 64 };
     const double round_off = 1e-13;
-    double first = first_negative(m), begin = 1, largest = 0;
+    double first = 0, begin = 1, largest = 0;
     for (size_t i = 0; i < m->count; i++) {
+        if (m->time[i] > 0 && m->margin[i] < 0 && (first == 0 || m->time[i] < first))
+            first = m->time[i];
         begin = fmin(begin, m->time[i]);
         largest = fmax(largest, fabs(m->margin[i]));
     }

@@ -159,48 +159,41 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
     return status;
 }
 
-/* What the middle of each element lacks of its chord, four times. nodal: in/out, nodes are there.
- */
-static enum br_status interpolate_middles(const struct br_field *field,
-                                          const struct br_function *value, double *nodal,
-                                          struct br_error *err)
-{
-    double *x = br_allocate(2 * field->n, sizeof *x);
-    if (!x)
-        return br_no_memory(err, "the initial data");
-    double *f = x + field->n;
-    for (size_t e = 0; e < field->n; e++)
-        x[e] = field->h * ((double)e + 0.5);
-    const enum br_status status = evaluate_finite(value, field->n, x, 0, f, err);
-    for (size_t e = 0; e < field->n && !status; e++)
-        nodal[2 * e + 3] = 2 * ((nodal[2 * e] - f[e]) + (nodal[2 * e + 2] - f[e]));
-    free(x);
-    return status;
-}
-
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err)
 {
-    const size_t unknowns = br_field_unknowns(field);
-    const size_t nodes = field->n + 1;
+    const size_t unknowns = br_field_unknowns(field), nodes = field->n + 1;
+    struct br_function own = {0}, own_slope = {0};
     double *x = br_allocate(2 * nodes, sizeof *x);
     if (!x)
         return br_no_memory(err, "the initial data");
     double *f = x + nodes;
     for (size_t i = 0; i < nodes; i++)
         x[i] = field->h * (double)i;
-    enum br_status status = evaluate_finite(value, nodes, x, 0, f, err);
+    enum br_status status = br_function_clone(value, &own, err);
+    if (!status && slope)
+        status = br_function_clone(slope, &own_slope, err);
+    if (!status)
+        status = evaluate_finite(&own, nodes, x, 0, f, err);
     for (size_t i = 0; i < nodes && !status; i++)
         nodal[i * unknowns] = f[i];
-    if (!status && field->kind == BR_BENDING) {
-        status = evaluate_finite(slope, nodes, x, 0, f, err);
+    if (!status && slope) {
+        status = evaluate_finite(&own_slope, nodes, x, 0, f, err);
         for (size_t i = 0; i < nodes && !status; i++)
             nodal[2 * i + 1] = field->h * f[i];
     }
     for (size_t a = 0; a < unknowns; a++)
         nodal[a] = 0;
+    /* what the middle of each element lacks of its chord, four times */
+    if (!status && br_field_is_quadratic(field)) {
+        for (size_t e = 0; e < field->n; e++)
+            x[e] = field->h * ((double)e + 0.5);
+        status = evaluate_finite(&own, field->n, x, 0, f, err);
+        for (size_t e = 0; e < field->n && !status; e++)
+            nodal[2 * e + 3] = 2 * ((nodal[2 * e] - f[e]) + (nodal[2 * e + 2] - f[e]));
+    }
+    br_function_free(&own);
+    br_function_free(&own_slope);
     free(x);
-    if (!status && br_field_is_quadratic(field))
-        status = interpolate_middles(field, value, nodal, err);
     return status;
 }

@@ -73,8 +73,9 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
                                 double t, double *vector, struct br_error *err);
 
 /* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s,
- * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending only. The
- * clamped node is set to zero. Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
+ * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending; else
+ * NULL. The clamped node is set to zero. Other threads may use the functions: clones are evaluated.
+ * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err);
 

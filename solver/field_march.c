@@ -6,22 +6,6 @@
 
 /* ---- initial data ---- */
 
-/* Evaluated by clones: marches of one scene may be created in different threads. */
-static enum br_status interpolate(const struct br_field_march *part,
-                                  const struct br_function *value, const struct br_function *slope,
-                                  double *nodal, struct br_error *err)
-{
-    struct br_function own = {0}, own_slope = {0};
-    enum br_status status = br_function_clone(value, &own, err);
-    if (!status && slope)
-        status = br_function_clone(slope, &own_slope, err);
-    if (!status)
-        status = br_interpolate(&part->field, &own, slope ? &own_slope : NULL, nodal, err);
-    br_function_free(&own);
-    br_function_free(&own_slope);
-    return status;
-}
-
 static enum br_status set_initial(struct br_field_march *part,
                                   const struct br_function *displacement,
                                   const struct br_function *displacement_slope,
@@ -34,9 +18,10 @@ static enum br_status set_initial(struct br_field_march *part,
     double *nodal = br_allocate(2 * size, sizeof *nodal);
     if (!nodal)
         return br_no_memory(err, "the initial data");
-    enum br_status status = interpolate(part, displacement, displacement_slope, nodal, err);
+    enum br_status status =
+        br_interpolate(&part->field, displacement, displacement_slope, nodal, err);
     if (!status)
-        status = interpolate(part, velocity, velocity_slope, nodal + size, err);
+        status = br_interpolate(&part->field, velocity, velocity_slope, nodal + size, err);
     for (size_t i = 0; i < size && !status; i++)
         part->started_with =
             fmax(part->started_with, fmax(fabs(nodal[i]), part->field.k * fabs(nodal[size + i])));
@@ -61,22 +46,17 @@ static bool starts_now(const struct br_stage *stage)
     return true;
 }
 
-static void mark(const double weight[BR_KNOWN], bool needed[BR_KNOWN])
-{
-    for (int i = 0; i < BR_KNOWN; i++)
-        needed[i] |= weight[i] != 0;
-}
-
 /* Which states the steps of a scheme use. */
 static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOWN])
 {
     for (size_t since = 0; since < 3; since++) {
         struct br_stages s;
         scheme->stages(since, &s);
-        for (int i = 0; i < s.count; i++)
-            if (i > 0 || !starts_now(&s.stage[i]))
-                mark(s.stage[i].weight, needed);
-        mark(s.error, needed);
+        for (int known = 0; known < BR_KNOWN; known++) {
+            needed[known] |= s.error[known] != 0;
+            for (int i = 0; i < s.count; i++)
+                needed[known] |= s.stage[i].weight[known] != 0 && (i > 0 || !starts_now(s.stage));
+        }
     }
     needed[BR_NOW] |= scheme->adaptive; /* to go back to */
     needed[BR_NOW] |= needed[BR_BEFORE];
@@ -117,17 +97,6 @@ double br_time_scheme_sums(const struct br_time_scheme *scheme)
     return sum / s.count;
 }
 
-static enum br_status make_room(struct br_field_march *part, const struct br_time_scheme *scheme,
-                                struct br_error *err)
-{
-    bool needed[BR_KNOWN] = {false};
-    find_needed(scheme, needed);
-    for (int i = 0; i < BR_KNOWN; i++)
-        if (needed[i])
-            part->slot[i] = ++part->kept;
-    return part->kept ? part->solver->keep(part->state, part->kept, err) : BR_OK;
-}
-
 enum br_status br_field_march_create(struct br_field_march *part, const struct br_scene *s,
                                      const struct br_field *field, const struct br_method *method,
                                      struct br_error *err)
@@ -140,11 +109,15 @@ enum br_status br_field_march_create(struct br_field_march *part, const struct b
     const struct br_linear_solver *row = br_method_solver(method, field);
     part->solver = br_linear_solver_for(row, field);
     enum br_status status = part->solver->create(row, field, &method->linear, &part->state, err);
-    const struct br_forces forces = br_forces_of_scene(s, field->kind);
     if (!status)
-        status = br_step_load_init(&part->load, &forces, field, err);
-    if (!status)
-        status = make_room(part, method->scheme, err);
+        status = br_step_load_init(&part->load, s, field, err);
+    bool needed[BR_KNOWN] = {false};
+    find_needed(method->scheme, needed);
+    for (int i = 0; i < BR_KNOWN; i++)
+        if (needed[i])
+            part->slot[i] = ++part->kept;
+    if (!status && part->kept)
+        status = part->solver->keep(part->state, part->kept, err);
     if (status)
         return status;
     if (axial)
@@ -191,13 +164,6 @@ static void add_weights(const struct br_field_march *part, double factor,
                 factor * weight[i] * (i == BR_RATE ? part->field.k / part->rate_tau : 1);
 }
 
-static void combine(struct br_field_march *part, const double weight[BR_KNOWN])
-{
-    double by_slot[BR_MOST_STATES] = {0};
-    add_weights(part, 1, weight, by_slot);
-    part->solver->combine(part->state, 0, part->kept + 1, by_slot);
-}
-
 enum br_status br_field_march_start_stage(struct br_field_march *part,
                                           const struct br_stages *stages, int i, double k,
                                           struct br_error *err)
@@ -217,7 +183,9 @@ enum br_status br_field_march_start_stage(struct br_field_march *part,
     }
     /* What the solver has becomes a state that is kept, without a copy. */
     part->solver->exchange(part->state, 0, part->slot[i == 0 ? BR_NOW : BR_STAGE + i - 1]);
-    combine(part, stage->weight);
+    double by_slot[BR_MOST_STATES] = {0};
+    add_weights(part, 1, stage->weight, by_slot);
+    part->solver->combine(part->state, 0, part->kept + 1, by_slot);
     return BR_OK;
 }
 
@@ -288,21 +256,16 @@ enum br_status br_field_march_predict(struct br_field_march *part, double t, dou
     return predicted;
 }
 
-/* tau Y' at the end of the step: what its last stage has added to where it started. */
-static void keep_rate(struct br_field_march *part, const struct br_stages *stages)
-{
-    double by_slot[BR_MOST_STATES] = {1};
-    add_weights(part, -1, stages->stage[stages->count - 1].weight, by_slot);
-    part->solver->combine(part->state, part->slot[BR_RATE], part->kept + 1, by_slot);
-    part->rate_tau = part->field.k;
-}
-
 void br_field_march_accept(struct br_field_march *part, const struct br_stages *stages,
                            bool switched)
 {
     static const int history[] = {BR_NOW, BR_BEFORE, BR_BEFORE_THAT};
-    if (part->slot[BR_RATE] && !switched)
-        keep_rate(part, stages);
+    if (part->slot[BR_RATE] && !switched) { /* tau Y': what its last stage has added to its start */
+        double by_slot[BR_MOST_STATES] = {1};
+        add_weights(part, -1, stages->stage[stages->count - 1].weight, by_slot);
+        part->solver->combine(part->state, part->slot[BR_RATE], part->kept + 1, by_slot);
+        part->rate_tau = part->field.k;
+    }
     for (int i = 2; i > 0; i--) { /* the oldest makes room for what begins the next step */
         size_t *newer = &part->slot[history[i - 1]], *older = &part->slot[history[i]], old = *older;
         if (old) {

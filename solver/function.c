@@ -18,6 +18,13 @@ void br_function_evaluate(const struct br_function *f, size_t count, const doubl
         value[i] = f->constant;
 }
 
+double br_function_at(const struct br_function *f, double x, double t)
+{
+    double value;
+    br_function_evaluate(f, 1, &x, t, &value);
+    return value;
+}
+
 enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
                                  struct br_error *err)
 {

@@ -82,6 +82,8 @@ struct br_function {
 void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
                           double *value);
 
+double br_function_at(const struct br_function *f, double x, double t);
+
 /* out becomes an independent copy of f. Fails with BR_NO_MEMORY. */
 enum br_status br_function_clone(const struct br_function *f, struct br_function *out,
                                  struct br_error *err);

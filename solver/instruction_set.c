@@ -4,27 +4,20 @@
 #include <string.h>
 
 #if defined __x86_64__ && !defined BR_NO_FMA
-bool br_has_avx512(void)
-{
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512vl");
-}
-
-bool br_has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
+#define SUPPORTS(feature) __builtin_cpu_supports(feature)
 #else
+#define SUPPORTS(feature) false
+#endif
+
 bool br_has_avx512(void)
 {
-    return false;
+    return SUPPORTS("avx512f") && SUPPORTS("avx512dq") && SUPPORTS("avx512vl");
 }
 
 bool br_has_avx2(void)
 {
-    return false;
+    return SUPPORTS("avx2") && SUPPORTS("fma");
 }
-#endif
 
 bool br_has_portable(void)
 {

@@ -137,46 +137,6 @@ static const struct br_friction_rule regularised = {
  * Neither P nor 2 P - I takes points apart, so an iteration leaves |1 - a| of an error at most:
  * Uzawa converges for 0 < rho z < 2, penalty-duality for all omega z > 0, both at once for 1. */
 
-/* The projection onto [-1, 1]; NaN stays NaN, and raises no flag. */
-static double project(double g)
-{
-    if (isgreater(g, 1))
-        return 1;
-    return isless(g, -1) ? -1 : g;
-}
-
-struct iteration {
-    double a;
-    bool reflects;
-    double x; /* where it starts */
-    double f;
-};
-
-/* An upper bound of |g - its limit| after an iteration by `change`, round-off included. */
-static double error_bound(const struct iteration *i, double g, double change)
-{
-    const double left = fabs(1 - i->a);
-    const double round_off = 4 * DBL_EPSILON * (fabs(g) + fabs(i->x) + fabs(i->a * i->f));
-    return (left * fabs(change) + round_off) / (1 - left);
-}
-
-/* lambda/b; it is exact where the slip is certain. */
-static double iterate(struct iteration *i, struct br_friction_state *s)
-{
-    if (!(fabs(1 - i->a) < 1) || isnan(i->f) || isnan(i->x))
-        return NAN;
-    for (size_t count = 0; count < s->iteration.most; count++) {
-        s->iterations++;
-        const double g = i->x + i->a * (i->f - i->x), lambda = project(g);
-        const double next = i->reflects ? 2 * lambda - g : lambda;
-        const double error = error_bound(i, g, next - i->x);
-        if (error <= s->iteration.tolerance || fabs(g) - error >= 1)
-            return lambda;
-        i->x = next;
-    }
-    return NAN;
-}
-
 /* f = v* / (z b), without a product or quotient on the way that is no double. Its limit, 1e50,
  * changes no lambda, and keeps what follows finite. */
 static double relative_force(const struct br_friction_state *s)
@@ -195,10 +155,35 @@ static double relative_last(const struct br_friction_state *s)
     return isgreaterequal(fabs(s->last), s->bound) ? copysign(1, s->last) : s->last / s->bound;
 }
 
-/* Without a bound there is no friction; what is not a number stays so. */
-static bool has_no_bound(const struct br_friction_state *s)
+/* lambda; it is exact where the slip is certain. Without a bound there is no friction; what is not
+ * a number stays so. */
+static double iterated_force(struct br_friction_state *s, bool reflects)
 {
-    return s->bound == 0 && !isnan(s->free_velocity) && !isnan(s->compliance);
+    if (s->bound == 0 && !isnan(s->free_velocity) && !isnan(s->compliance))
+        return 0;
+    const double parameter = s->iteration.parameter;
+    const double a = reflects ? 2 * parameter / (1 + parameter) : parameter, left = fabs(1 - a);
+    const double f = relative_force(s), last = relative_last(s);
+    double x = reflects ? last - parameter * (f - last) : last;
+    if (!(left < 1) || isnan(f) || isnan(x))
+        return NAN;
+    for (size_t count = 0; count < s->iteration.most; count++) {
+        s->iterations++;
+        const double g = x + a * (f - x), lambda = clamp(g, 1);
+        const double next = reflects ? 2 * lambda - g : lambda;
+        /* an upper bound of |g - its limit|, round-off included */
+        const double round_off = 4 * DBL_EPSILON * (fabs(g) + fabs(x) + fabs(a * f));
+        const double error = (left * fabs(next - x) + round_off) / (1 - left);
+        if (error <= s->iteration.tolerance || fabs(g) - error >= 1)
+            return s->bound * lambda;
+        x = next;
+    }
+    return NAN;
+}
+
+static double uzawa_force(struct br_friction_state *s)
+{
+    return iterated_force(s, false);
 }
 
 static double uzawa_contraction(double parameter)
@@ -206,36 +191,14 @@ static double uzawa_contraction(double parameter)
     return fabs(1 - parameter);
 }
 
-static double uzawa_force(struct br_friction_state *s)
+static double penalty_duality_force(struct br_friction_state *s)
 {
-    if (has_no_bound(s))
-        return 0;
-    struct iteration i = {
-        .a = s->iteration.parameter,
-        .x = relative_last(s),
-        .f = relative_force(s),
-    };
-    return s->bound * iterate(&i, s);
+    return iterated_force(s, true);
 }
 
 static double penalty_duality_contraction(double parameter)
 {
     return fabs(1 - parameter) / (1 + parameter);
-}
-
-static double penalty_duality_force(struct br_friction_state *s)
-{
-    if (has_no_bound(s))
-        return 0;
-    const double omega = s->iteration.parameter, f = relative_force(s);
-    const double lambda = relative_last(s);
-    struct iteration i = {
-        .a = 2 * omega / (1 + omega),
-        .reflects = true,
-        .x = lambda - omega * (f - lambda),
-        .f = f,
-    };
-    return s->bound * iterate(&i, s);
 }
 
 static const struct br_friction_rule penalty_duality = {
@@ -297,35 +260,25 @@ enum br_status br_friction_check(const struct br_friction_rule *rule, const stru
 /* ---- the limit of the lagged contact ---- */
 
 /* An element without its bubble: [d o; o d] works on its two nodes. What is needed, over N/m, is
- * d + o, which is inertia alone, and d - o. Neither subtracts anything. */
-struct element {
-    double sum, difference;
-};
-
-/* m = s^2 rho h, r = (c s + a)/h, N/m. */
-static struct element element_of(const struct br_field *field, double m, double r)
-{
-    struct element e = {m / 2, 2 * r + m / 6};
-    if (br_field_is_quadratic(field)) /* the bubble has r/3 + m/30, and couples with -m/12 */
-        e.sum = m * ((r / 6 + m / 360) / (r / 3 + m / 30));
-    return e;
-}
-
-/* A chain of n such elements, clamped at one end: with tanh^2(theta/2) = (d + o)/(d - o),
- * displacements are sinh(i theta), and 1/G = (d - o) tanh(theta/2) coth(n theta). Where d + o
- * exceeds d - o neighbours alternate, and the ratio's inverse stands for it. */
+ * d + o, which is inertia alone, and d - o. Neither subtracts anything. A chain of n of them,
+ * clamped at one end: with tanh^2(theta/2) = (d + o)/(d - o), displacements are sinh(i theta), and
+ * 1/G = (d - o) tanh(theta/2) coth(n theta). Where d + o exceeds d - o neighbours alternate, and
+ * the ratio's inverse stands for it. */
 double br_tip_flexibility(const struct br_field *field, double s)
 {
     const double n = (double)field->n;
     const double m = s * s * field->density * field->h;
     const double r = (field->viscosity * s + field->stiffness) / field->h;
-    const struct element e = element_of(field, m, r);
-    if (!(e.sum > 0)) /* no inertia: springs in series */
-        return 2 * n / e.difference;
-    if (!isfinite(e.sum) || !isfinite(e.difference))
+    const double difference = 2 * r + m / 6;
+    const double sum = br_field_is_quadratic(field) /* the bubble has r/3 + m/30, and -m/12 */
+                           ? m * ((r / 6 + m / 360) / (r / 3 + m / 30))
+                           : m / 2;
+    if (!(sum > 0)) /* no inertia: springs in series */
+        return 2 * n / difference;
+    if (!isfinite(sum) || !isfinite(difference))
         return 0;
-    const double half = sqrt(e.sum / e.difference);
-    return tanh(2 * n * atanh(half < 1 ? half : 1 / half)) / (e.difference * half);
+    const double half = sqrt(sum / difference);
+    return tanh(2 * n * atanh(half < 1 ? half : 1 / half)) / (difference * half);
 }
 
 double br_contact_limit_stiffness(const struct br_field *field)

@@ -88,21 +88,12 @@ double br_friction_bound(const struct br_scene *scene, double penetration);
 /* Where the lagged contact of (16) ceases to be stable: exactly, for the discretisation that is
  * marched, in closed form.
  *
- * While the contact is closed, a step with the force of u_{n-1} is linear. For u_n = z^n U, with
- * s = (1 - 1/z)/k, it reads
- *     (s^2 M + s C + K) U = -(c_H / z) U_tip e_tip,
- * so that the step's eigenvalues are the zeros of
- *     z + c_H G(s(z)),    G(s) = e_tip'(s^2 M + s C + K)^-1 e_tip,
- * the tip's displacement per unit of force. For c_H = 0 all of them lie inside the unit circle. As
- * c_H grows they leave it only where G(s)/z is real and negative on |z| = 1. With z = e^{i theta},
- * 0 < theta < pi, the argument of s^2 is pi - theta, and so that of every x'(s^2 M + s C + K)x lies
- * in [0, pi - theta], and not at its upper end, since K is definite. So the argument of G lies in
- * (theta - pi, 0] and that of G/z in (-pi, -theta]: never negative. At z = 1 it is positive. What
- * remains is z = -1, s = 2/k:
- *     stable if and only if    c_H G(2/k) <= 1,
- * whatever the inertia and the viscosity are. Beyond it exactly one eigenvalue is outside, real and
- * below -1, and the closed tip's error grows by it in every step, with alternating sign. Without
- * inertia this is c_H L <= a + 2c/k.
+ * While the contact is closed, it is stable if and only if
+ *     c_H G(2/k) <= 1,    G(s) = e_tip'(s^2 M + s C + K)^-1 e_tip,
+ * whatever the inertia and the viscosity are (solver/README.md has the proof). Beyond it exactly
+ * one eigenvalue of a step is outside of the unit circle, real and below -1, and the closed tip's
+ * error grows by it in every step, with alternating sign. Without inertia this is c_H L <= a +
+ * 2c/k.
  *
  * An opening and closing contact is another matter: multiply a step with its v_n, and the energies
  * with the contact's own do not grow, whatever the tip does, as long as

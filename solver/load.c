@@ -3,32 +3,21 @@
 
 #include <math.h>
 
-struct br_forces br_forces_of_scene(const struct br_scene *s, enum br_field_kind kind)
-{
-    if (kind == BR_AXIAL)
-        return (struct br_forces){&s->axial.load, &s->axial.tip_force, NULL, s->duration};
-    return (struct br_forces){&s->bending.load, &s->bending.tip_force, &s->bending.tip_moment,
-                              s->duration};
-}
-
-static enum br_status clone_functions(struct br_step_load *load, const struct br_forces *forces,
-                                      struct br_error *err)
-{
-    enum br_status status = br_load_clone(forces->load, &load->functions, err);
-    if (!status)
-        status = br_function_clone(forces->tip_force, &load->tip_force, err);
-    if (!status && forces->tip_moment)
-        status = br_function_clone(forces->tip_moment, &load->tip_moment, err);
-    while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
-        load->terms++;
-    return status;
-}
-
-enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_scene *scene,
                                  const struct br_field *field, struct br_error *err)
 {
     *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
-    enum br_status status = clone_functions(load, forces, err);
+    const bool axial = field->kind == BR_AXIAL;
+    const struct br_axial *rod = &scene->axial;
+    const struct br_bending *beam = &scene->bending;
+    enum br_status status = br_load_clone(axial ? &rod->load : &beam->load, &load->functions, err);
+    if (!status)
+        status =
+            br_function_clone(axial ? &rod->tip_force : &beam->tip_force, &load->tip_force, err);
+    if (!status && !axial)
+        status = br_function_clone(&beam->tip_moment, &load->tip_moment, err);
+    while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
+        load->terms++;
     for (size_t i = 0; i < load->terms && !status; i++) {
         const struct br_function *space = &load->functions.term[i].space;
         load->vector[i] = br_allocate(br_field_size(field), sizeof *load->vector[i]);
@@ -37,7 +26,7 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_forc
         else if (!space->uses_t)
             status = br_assemble_load(field, space, 0, load->vector[i], err);
         else if (space->uses_x)
-            status = br_load_fit_create(field, space, forces->duration, &load->fit[i], err);
+            status = br_load_fit_create(field, space, scene->duration, &load->fit[i], err);
     }
     if (load->terms > 1 && !status) {
         load->sum = br_allocate(br_field_size(field), sizeof *load->sum);
@@ -65,24 +54,10 @@ void br_step_load_clear(struct br_step_load *load)
 static enum br_status evaluate(const struct br_function *f, const char *name, double t,
                                double *value, struct br_error *err)
 {
-    const double x = 0;
-    br_function_evaluate(f, 1, &x, t, value);
+    *value = br_function_at(f, 0, t);
     if (!isfinite(*value))
         return br_fail(err, BR_NOT_FINITE, "the %s is %g at t = %.17g s", name, *value, t);
     return BR_OK;
-}
-
-/* The tip's force on its displacement and moment on its slope. */
-static enum br_status update_tip(struct br_step_load *load, const struct br_field *field, double t,
-                                 struct br_error *err)
-{
-    double moment;
-    enum br_status status = evaluate(&load->tip_force, "tip force", t, &load->drive.tip[0], err);
-    if (!status)
-        status = evaluate(&load->tip_moment, "tip moment", t, &moment, err);
-    if (!status)
-        load->drive.tip[1] = moment / field->h; /* the slope is scaled, s = h w_x */
-    return status;
 }
 
 /* sum = sum of factor_i * vector_i */
@@ -121,9 +96,14 @@ static enum br_status update(struct br_step_load *load, const struct br_field *f
         add_up(load, field);
         drive->changed = true;
     }
-    if (!status &&
-        !(br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment)))
-        status = update_tip(load, field, t, err);
+    if (br_function_is_zero(&load->tip_force) && br_function_is_zero(&load->tip_moment))
+        return status;
+    double moment = 0;
+    if (!status)
+        status = evaluate(&load->tip_force, "tip force", t, &load->drive.tip[0], err);
+    if (!status)
+        status = evaluate(&load->tip_moment, "tip moment", t, &moment, err);
+    load->drive.tip[1] = moment / field->h; /* the slope is scaled, s = h w_x */
     return status;
 }
 

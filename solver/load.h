@@ -1,23 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The load vector F_n of one field as a march steps through it. What a scene leaves
  * out costs nothing: terms F(x) G(t) are assembled once and summed every step, where there is more
- * than one; one of f(x, t) is a sum of such in cells (load_fit.h), or is assembled every step. */
+ * than one; one of f(x, t) is a sum of such in cells (load_fit.c), or is assembled every step. */
 #ifndef BR_SOLVER_LOAD_H
 #define BR_SOLVER_LOAD_H
 
 #include "solver/linear/linear_solver.h"
-#include "solver/load_fit.h"
 
-/* The forces on one field: per length and at the tip. Borrowed. */
-struct br_forces {
-    const struct br_load *load;           /* N/m */
-    const struct br_function *tip_force;  /* of t, N */
-    const struct br_function *tip_moment; /* of t, N m; NULL for axial */
-    double duration;                      /* s: for t in [0, duration] */
-};
+/* ---- a load f(x, t) that is no product, as a sum of few: load_fit.c ---- */
 
-/* Those of a scene. */
-struct br_forces br_forces_of_scene(const struct br_scene *scene, enum br_field_kind kind);
+struct br_load_fit;
+
+/* Fits f, N/m, on a field's mesh for t in [0, duration], s. *fit: out; NULL where f is not for it.
+ * Fails with BR_NO_MEMORY. */
+enum br_status br_load_fit_create(const struct br_field *field, const struct br_function *f,
+                                  double duration, struct br_load_fit **fit, struct br_error *err);
+void br_load_fit_free(struct br_load_fit *fit); /* accepts NULL */
+
+/* The load vector (out, as br_assemble_load has it) of f at time t, s, to the round-off of f's
+ * largest value there. False: that is not known of this t. f is the function that was fitted, or a
+ * clone. */
+bool br_load_fit_assemble(struct br_load_fit *fit, const struct br_function *f, double t,
+                          double *vector);
+
+/* ---- the load of a step ---- */
 
 struct br_step_load {
     struct br_drive drive;                    /* at the time of the last update */
@@ -30,9 +36,9 @@ struct br_step_load {
     struct br_function tip_force, tip_moment; /* clones */
 };
 
-/* Clones the functions of a field's forces. Fails with BR_NOT_FINITE or BR_NO_MEMORY;
- * clear it even then. */
-enum br_status br_step_load_init(struct br_step_load *load, const struct br_forces *forces,
+/* The forces of a scene on one field, per length and at the tip; their functions are cloned. Fails
+ * with BR_NOT_FINITE or BR_NO_MEMORY; clear it even then. */
+enum br_status br_step_load_init(struct br_step_load *load, const struct br_scene *scene,
                                  const struct br_field *field, struct br_error *err);
 void br_step_load_clear(struct br_step_load *load);
 

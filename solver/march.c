@@ -32,8 +32,8 @@ static enum br_status create_parts(struct br_march *m, size_t n, struct br_error
     m->method.scheme->stages(0, &stages);
     const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
     enum br_status status = br_march_allow_lead(m, 1, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_field field = br_field_of_scene(m->scene, (enum br_field_kind)kind, n, tau);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_field field = br_field_of_scene(m->scene, kind, n, tau);
         field.degree = m->method.axial_degree;
         status = br_field_march_create(&m->part[kind], m->scene, &field, &m->method, err);
     }
@@ -71,8 +71,8 @@ void br_march_free(struct br_march *m)
 {
     if (!m)
         return;
-    br_adaptive_free(m->adaptive);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    free(m->adaptive);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         br_field_march_clear(&m->part[kind]);
     free(m->path);
     free(m);
@@ -80,7 +80,7 @@ void br_march_free(struct br_march *m)
 
 enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_error *err)
 {
-    if (steps > 1 && br_fields_go_together(m))
+    if (steps > 1 && m->method.scheme->adaptive)
         return br_fail(err, BR_BAD_INPUT,
                        "scheme %s: its fields go together, expected a scheme of fixed steps",
                        m->method.scheme->name);
@@ -115,21 +115,13 @@ static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, st
     return BR_OK;
 }
 
-/* Both fields, whichever of them is asked for first. */
-static enum br_status common_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
-{
-    if (kind == BR_BENDING)
-        return BR_OK;
-    return br_adaptive_advance(m, err);
-}
-
 static enum br_status step_field(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
     struct br_field_march *part = &m->part[kind];
     enum br_status status = BR_OK;
-    if (br_fields_go_together(m))
-        status = common_step(m, kind, err);
-    else if (part->modelled)
+    if (m->adaptive && kind == BR_AXIAL) /* both fields */
+        status = br_adaptive_advance(m, err);
+    else if (!m->adaptive && part->modelled)
         status = fixed_step(m, kind, err);
     if (status)
         return status;
@@ -158,7 +150,7 @@ enum br_status br_march_step(struct br_march *m, struct br_error *err)
 struct br_counts br_march_counts(const struct br_march *m)
 {
     struct br_counts counts = m->counts;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_counts *own = &m->part[kind].counts;
         counts.steps = own->steps > counts.steps ? own->steps : counts.steps;
         counts.stages = own->stages > counts.stages ? own->stages : counts.stages;
@@ -298,26 +290,20 @@ bool br_march_contact_unstable(const struct br_march *m)
     return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
 }
 
-static double part_round_off(const struct br_march *m, const struct br_field_march *part)
-{
-    if (part->solver->round_off)
-        return part->solver->round_off(part->state, m->steps);
-    return br_method_round_off(&m->method, &part->field);
-}
-
-/* What equal steps gather is a random walk: a tip that sticks was seen to creep by up to 35 times
- * 2^-52 sqrt(N) (bdf2 with plain, 1e6 steps; riccati by 4 times), whatever n. */
-static double walk(const struct br_march *m)
-{
-    return 64 * DBL_EPSILON * sqrt((double)m->steps);
-}
-
 double br_march_round_off(const struct br_march *m)
 {
+    /* What equal steps gather is a random walk: a tip that sticks was seen to creep by up to 35
+     * times 2^-52 sqrt(N) (bdf2 with plain, 1e6 steps; riccati by 4 times), whatever n. */
+    const double walk = 64 * DBL_EPSILON * sqrt((double)m->steps);
     double largest = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].solver)
-            largest = fmax(largest, part_round_off(m, &m->part[kind]) + walk(m));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field_march *part = &m->part[kind];
+        if (!part->solver)
+            continue;
+        const double own = part->solver->round_off ? part->solver->round_off(part->state, m->steps)
+                                                   : br_method_round_off(&m->method, &part->field);
+        largest = fmax(largest, own + walk);
+    }
     return largest;
 }
 
@@ -354,20 +340,6 @@ enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kin
     return BR_OK;
 }
 
-/* A tip that is finite may have elements behind it that are not yet seen there. */
-static enum br_status check_elements(const struct br_march *m, enum br_field_kind kind,
-                                     struct br_error *err)
-{
-    const struct br_field_march *part = &m->part[kind];
-    double size[2];
-    part->solver->size(part->state, 0, size);
-    if (isfinite(size[0]) && isfinite(size[1]))
-        return BR_OK;
-    return br_fail(err, BR_NOT_FINITE,
-                   "the march blew up by t = %g s: the %s strain is %g, its rate %g 1/s",
-                   m->scene->duration, names[kind], size[0], size[1]);
-}
-
 /* What a field's own operator answers to a nodal displacement with, N/m: R of plain.h, and mass. */
 static long double resistance(const struct br_field *f)
 {
@@ -377,10 +349,20 @@ static long double resistance(const struct br_field *f)
     return stiff / volume + f->density * h / f->k;
 }
 
-/* Where nothing but forces and data far below the others' sizes moves a field, it has few digits,
- * or none. What only decays to there has them, relative to what it was. */
-static enum br_status check_underflow(const struct br_field_march *part, struct br_error *err)
+enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind kind,
+                                    struct br_error *err)
 {
+    const struct br_field_march *part = &m->part[kind];
+    double size[2];
+    if (!part->solver)
+        return BR_OK;
+    part->solver->size(part->state, 0, size);
+    if (!isfinite(size[0]) || !isfinite(size[1])) /* a tip that is finite may be in front of it */
+        return br_fail(err, BR_NOT_FINITE,
+                       "the march blew up by t = %g s: the %s strain is %g, its rate %g 1/s",
+                       m->scene->duration, names[kind], size[0], size[1]);
+    /* Where nothing but forces and data far below the others' sizes moves a field, it has few
+     * digits, or none. What only decays to there has them, relative to what it was. */
     const long double r = resistance(&part->field), force = part->moved_by;
     const long double motion = fmaxl(force / r * fminl(part->field.k, 1), part->started_with);
     const long double smaller = fminl(fmaxl(force, r * part->started_with), motion);
@@ -391,15 +373,6 @@ static enum br_status check_underflow(const struct br_field_march *part, struct 
                    "largest initial value %g m, which is to move an element by about %Lg m, "
                    "expected no less than %g: choose smaller units",
                    names[part->field.kind], force, part->started_with, motion, least_size);
-}
-
-enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind kind,
-                                    struct br_error *err)
-{
-    if (!m->part[kind].solver)
-        return BR_OK;
-    const enum br_status status = check_elements(m, kind, err);
-    return status ? status : check_underflow(&m->part[kind], err);
 }
 
 void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,

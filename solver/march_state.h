@@ -128,12 +128,6 @@ struct br_march {
     size_t watchers;
 };
 
-/* Whether a scheme takes both fields through its steps together. */
-static inline bool br_fields_go_together(const struct br_march *march)
-{
-    return march->method.scheme->adaptive;
-}
-
 /* All stages of a step of one field, with the contact or the friction law in each; path: of the
  * axial field in that step. Fails as br_march_step. */
 enum br_status br_march_stages(struct br_march *march, enum br_field_kind kind,
@@ -160,13 +154,8 @@ enum br_status br_march_check_finite(const struct br_march *march, enum br_field
 enum br_status br_march_check_range(const struct br_march *march, enum br_field_kind kind,
                                     struct br_error *err);
 
-/* About the largest strains (out) until the end, by a few Euler steps; the march is then where it
- * was. Fails as br_march_step. */
-enum br_status br_rough_size(struct br_march *march, double largest[2], struct br_error *err);
-
-/* What an adaptive scheme adds to a march. Fails with BR_NO_MEMORY. */
+/* What an adaptive scheme adds to a march; free releases it. Fails with BR_NO_MEMORY. */
 enum br_status br_adaptive_create(struct br_march *march, struct br_error *err);
-void br_adaptive_free(struct br_adaptive *adaptive); /* accepts NULL */
 
 size_t br_adaptive_switches(const struct br_adaptive *adaptive, const struct br_switch **first);
 

@@ -31,24 +31,26 @@ const struct br_linear_solver *br_method_solver(const struct br_method *m,
 
 double br_method_round_off(const struct br_method *m, const struct br_field *field)
 {
-    return br_method_solver(m, field)->round_off(field, &m->linear);
+    const struct br_linear_solver *solver = br_method_solver(m, field);
+    return solver->round_off(solver, field, &m->linear);
 }
 
 double br_method_residual(const struct br_method *m, const struct br_field *field)
 {
     const struct br_linear_solver *solver = br_method_solver(m, field);
-    return solver->residual ? solver->residual(field, &m->linear) : 0;
+    return solver->residual ? solver->residual(solver, field, &m->linear) : 0;
 }
 
 double br_method_cost(const struct br_method *m, const struct br_scene *scene, size_t n)
 {
     const double sums = br_time_scheme_sums(m->scheme);
     double cost = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(scene, (enum br_field_kind)kind, n, 1);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        struct br_field field = br_field_of_scene(scene, kind, n, 1);
         field.degree = m->axial_degree;
+        const struct br_linear_solver *solver = br_method_solver(m, &field);
         if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
-            cost += br_method_solver(m, &field)->cost(&field, sums);
+            cost += solver->cost(solver, &field, sums);
     }
     return cost * br_time_scheme_stages(m->scheme);
 }
@@ -60,45 +62,6 @@ const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *sc
         rule++;
     return *rule;
 }
-
-static enum br_status check_contact(const struct br_method *m, struct br_error *err)
-{
-    if (m->scheme->may_lag || m->contact->at_new_step)
-        return BR_OK;
-    return br_fail(err, BR_BAD_INPUT,
-                   "contact rule '%s' does not go with time scheme '%s', expected '%s'",
-                   m->contact->name, m->scheme->name, br_contact_rule_of(m->scheme)->name);
-}
-
-/* Smaller tolerances are round-off's, larger ones are none. */
-static enum br_status check_tolerance(const struct br_method *m, struct br_error *err)
-{
-    if (!m->scheme->adaptive || (m->tolerance > 1e-14 && m->tolerance < 1))
-        return BR_OK;
-    return br_fail(err, BR_BAD_INPUT,
-                   "the tolerance of time scheme '%s' is %g, expected a number above 1e-14 and "
-                   "below 1",
-                   m->scheme->name, m->tolerance);
-}
-
-static enum br_status check_degree(const struct br_method *m, struct br_error *err)
-{
-    if (m->axial_degree == 1 || m->axial_degree == 2)
-        return BR_OK;
-    return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2", m->axial_degree);
-}
-
-enum br_status br_method_check(const struct br_method *m, struct br_error *err)
-{
-    enum br_status status = check_degree(m, err);
-    if (!status)
-        status = check_contact(m, err);
-    if (!status)
-        status = check_tolerance(m, err);
-    return status ? status : br_friction_check(m->friction, &m->iteration, err);
-}
-
-/* ---- with a scene ---- */
 
 /* Names the solvers that have what this one lacks. */
 static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
@@ -114,61 +77,60 @@ static enum br_status refuse_degree(const struct br_linear_solver *solver, struc
                    names);
 }
 
-static enum br_status check_elements(const struct br_method *m, struct br_error *err)
-{
-    if (m->axial_degree == 1)
-        return BR_OK;
-    const struct br_field field = {.kind = BR_AXIAL, .n = 1, .h = 1, .degree = m->axial_degree};
-    return br_linear_solver_for(m->solver, &field) ? BR_OK : refuse_degree(m->solver, err);
-}
-
-static enum br_status check_friction(const struct br_method *m, const struct br_scene *scene,
-                                     struct br_error *err)
-{
-    if (m->scheme->adaptive && m->friction->iterates)
-        return br_fail(err, BR_BAD_INPUT,
-                       "friction rule '%s' with scheme %s, expected exact or regularised: stick "
-                       "and slip are held between switches, so that nothing is iterated",
-                       m->friction->name, m->scheme->name);
-    if (m->friction->needs_regularisation && !(scene->friction.regularisation > 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "friction rule '%s' needs the scene's regularisation, mu > 0",
-                       m->friction->name);
-    return br_friction_check(m->friction, &m->iteration, err);
-}
-
 static bool vibrates_undamped(const struct br_scene *s)
 {
     return s->density > 0 && ((s->axial.modelled && s->axial.viscosity == 0) ||
                               (s->bending.modelled && s->bending.viscosity == 0));
 }
 
-static enum br_status check_damping(const struct br_method *m, const struct br_scene *scene,
-                                    struct br_error *err)
+/* scene: NULL: any. */
+static enum br_status check(const struct br_method *m, const struct br_scene *scene,
+                            struct br_error *err)
 {
-    if (!m->scheme->needs_damping || !vibrates_undamped(scene))
+    const struct br_field rod = {.kind = BR_AXIAL, .n = 1, .h = 1, .degree = m->axial_degree};
+    if (m->axial_degree != 1 && m->axial_degree != 2)
+        return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
+                       m->axial_degree);
+    /* Smaller tolerances are round-off's, larger ones are none. */
+    if (m->scheme->adaptive && !(m->tolerance > 1e-14 && m->tolerance < 1))
+        return br_fail(err, BR_BAD_INPUT,
+                       "the tolerance of time scheme '%s' is %g, expected a number above 1e-14 and "
+                       "below 1",
+                       m->scheme->name, m->tolerance);
+    if (scene && m->scheme->needs_damping && vibrates_undamped(scene))
+        return br_fail(err, BR_BAD_INPUT,
+                       "scheme %s with a viscosity of 0, expected more than 0 or another scheme: "
+                       "it lets undamped vibration grow",
+                       m->scheme->name);
+    if (scene && scene->axial.modelled && rod.degree == 2 && !br_linear_solver_for(m->solver, &rod))
+        return refuse_degree(m->solver, err);
+    if ((!scene || scene->contact.modelled) && !m->scheme->may_lag && !m->contact->at_new_step)
+        return br_fail(err, BR_BAD_INPUT,
+                       "contact rule '%s' does not go with time scheme '%s', expected '%s'",
+                       m->contact->name, m->scheme->name, br_contact_rule_of(m->scheme)->name);
+    if (scene && scene->friction.law == BR_FRICTIONLESS)
         return BR_OK;
-    return br_fail(err, BR_BAD_INPUT,
-                   "scheme %s with a viscosity of 0, expected more than 0 or another scheme: it "
-                   "lets undamped vibration grow",
-                   m->scheme->name);
+    if (scene && m->scheme->adaptive && m->friction->iterates)
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' with scheme %s, expected exact or regularised: stick "
+                       "and slip are held between switches, so that nothing is iterated",
+                       m->friction->name, m->scheme->name);
+    if (scene && m->friction->needs_regularisation && !(scene->friction.regularisation > 0))
+        return br_fail(err, BR_BAD_INPUT,
+                       "friction rule '%s' needs the scene's regularisation, mu > 0",
+                       m->friction->name);
+    return br_friction_check(m->friction, &m->iteration, err);
+}
+
+enum br_status br_method_check(const struct br_method *m, struct br_error *err)
+{
+    return check(m, NULL, err);
 }
 
 enum br_status br_method_check_scene(const struct br_method *m, const struct br_scene *scene,
                                      struct br_error *err)
 {
-    enum br_status status = check_degree(m, err);
-    if (!status)
-        status = check_tolerance(m, err);
-    if (!status)
-        status = check_damping(m, scene, err);
-    if (!status && scene->axial.modelled)
-        status = check_elements(m, err);
-    if (!status && scene->contact.modelled)
-        status = check_contact(m, err);
-    if (!status && scene->friction.law != BR_FRICTIONLESS)
-        status = check_friction(m, scene, err);
-    return status;
+    return check(m, scene, err);
 }
 
 /* ---- damping ---- */
@@ -221,9 +183,10 @@ static bool beyond_lobes(const struct br_field *f)
 enum br_status br_damping_check(const struct br_method *method, const struct br_scene *scene,
                                 size_t n, double k, struct br_error *err)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && method->scheme->needs_damping; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && method->scheme->needs_damping;
+         kind++) {
         const bool axial = kind == BR_AXIAL;
-        struct br_field field = br_field_of_scene(scene, (enum br_field_kind)kind, n, k);
+        struct br_field field = br_field_of_scene(scene, kind, n, k);
         field.degree = method->axial_degree;
         const double most = br_damping_largest_step(&field, axial && scene->contact.modelled);
         if (!(axial ? scene->axial.modelled : scene->bending.modelled) || k <= most ||

@@ -28,38 +28,26 @@ void br_view_modes(struct br_view *view, size_t modes)
         view->scale[i] = 1;
 }
 
-/* The two highest of bending from the curvature: P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1).
- */
-static void scale_nodes(struct br_view *view, const struct br_field *field)
-{
-    const double root = sqrt(field->h);
-    view->layout = BR_BY_NODE;
-    view->scale[0] = root / 2;
-    if (field->kind == BR_AXIAL) {
-        view->scale[1] = root / (2 * sqrt(3));
-        view->scale[2] = root / (6 * sqrt(5)); /* of a bubble, b (P_2/6 - 1/6) */
-        return;
-    }
-    view->scale[1] = root * sqrt(3) / 5;
-    view->scale[2] = root / (12 * sqrt(5));
-    view->scale[3] = root / (20 * sqrt(7));
-}
-
-/* u_x = (elongation + b (2 xi - 1))/h;  w_xx = (kappa0 + kappa1 (2 xi - 1))/h^2,
- * P_1 = sqrt(3) (2 xi - 1). */
-static void scale_strain(struct br_view *view, const struct br_field *field)
-{
-    const double root = sqrt(field->h), h = field->h;
-    view->scale[0] = field->kind == BR_AXIAL ? root / h : root / (h * h);
-    view->scale[1] = view->scale[0] / sqrt(3);
-}
-
 void br_view_field(struct br_view *view, const struct br_field *field, enum br_measure measure)
 {
+    const bool axial = field->kind == BR_AXIAL;
+    const double h = field->h, root = sqrt(h);
     const struct br_elements elements = {field->kind, field->degree};
     br_view_modes(view, measure == BR_TIP ? 0 : br_mode_count(elements, measure));
-    if (measure == BR_STRAIN_RATE)
-        scale_strain(view, field);
-    else if (measure != BR_TIP)
-        scale_nodes(view, field);
+    if (measure == BR_TIP)
+        return;
+    /* u_x = (elongation + b (2 xi - 1))/h;  w_xx = (kappa0 + kappa1 (2 xi - 1))/h^2,
+     * P_1 = sqrt(3) (2 xi - 1). */
+    if (measure == BR_STRAIN_RATE) {
+        view->scale[0] = axial ? root / h : root / (h * h);
+        view->scale[1] = view->scale[0] / sqrt(3);
+        return;
+    }
+    /* Of a bubble, b (P_2/6 - 1/6). The two highest of bending from the curvature:
+     * P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1). */
+    view->layout = BR_BY_NODE;
+    view->scale[0] = root / 2;
+    view->scale[1] = axial ? root / (2 * sqrt(3)) : root * sqrt(3) / 5;
+    view->scale[2] = axial ? root / (6 * sqrt(5)) : root / (12 * sqrt(5));
+    view->scale[3] = axial ? 1 : root / (20 * sqrt(7));
 }

@@ -1,12 +1,81 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a function is finite, and its values; breaks.c finds its breaks and meshes. */
 #include "solver/proof.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "solver/boxes.h"
+enum { MOST_BOXES = 20000, MOST_LOOKS = 400000, MOST_BREAKS = 20000, MOST_CELLS = 20000 };
 
-enum { MOST_BOXES = 20000 };
+/* ---- intervals and boxes ---- */
+
+typedef struct br_interval iv;
+
+static iv point(double a)
+{
+    return (iv){a, a};
+}
+
+static double width(iv a)
+{
+    return a.high - a.low;
+}
+
+static double middle(iv a)
+{
+    return a.low + (a.high - a.low) / 2;
+}
+
+/* Whether a number is between both ends. */
+static bool is_divisible(iv a)
+{
+    return a.low < middle(a) && middle(a) < a.high;
+}
+
+static iv *side(struct br_box *box, enum br_variable v)
+{
+    return v == BR_X ? &box->x : &box->t;
+}
+
+static struct br_box with(struct br_box box, enum br_variable v, iv a)
+{
+    *side(&box, v) = a;
+    return box;
+}
+
+static double magnitude(iv a)
+{
+    return fmax(fabs(a.low), fabs(a.high));
+}
+
+/* Both halves of a box; or, where no number is between, both of its faces. */
+static void split(struct br_box box, enum br_variable v, struct br_box half[2])
+{
+    const iv a = *side(&box, v);
+    const bool divisible = is_divisible(a);
+    half[0] = with(box, v, divisible ? (iv){a.low, middle(a)} : point(a.low));
+    half[1] = with(box, v, divisible ? (iv){middle(a), a.high} : point(a.high));
+}
+
+/* A side that f does not use is a point. */
+static struct br_box used_box(const struct br_function *f, struct br_box box)
+{
+    return (struct br_box){f->uses_x ? box.x : point(box.x.low),
+                           f->uses_t ? box.t : point(box.t.low)};
+}
+
+/* "x = 0.3333 m, t = 1 s", the middle of a box, of the variables that f uses. */
+static void name_place(const struct br_function *f, struct br_box box, char text[80])
+{
+    const char *between = f->uses_x && f->uses_t ? ", " : "";
+    char x[40] = "", t[40] = "";
+    if (f->uses_x)
+        snprintf(x, sizeof x, "x = %.10g m", middle(box.x));
+    if (f->uses_t)
+        snprintf(t, sizeof t, "t = %.10g s", middle(box.t));
+    snprintf(text, 80, "%s%s%s", x, between, t);
+}
 
 /* ---- finite everywhere ---- */
 
@@ -114,7 +183,7 @@ static bool is_steep(const struct proof *p, struct br_box box, enum br_variable 
     double value[3];
     for (int k = 0; k < 3; k++) {
         const struct br_box place = with(box, v, point(at + (k - 1) * away));
-        br_function_evaluate(p->f, 1, &place.x.low, place.t.low, &value[k]);
+        value[k] = br_function_at(p->f, place.x.low, place.t.low);
     }
     return !(fabs(value[1]) <= 1000 * fmin(fabs(value[0]), fabs(value[2])));
 }
@@ -213,9 +282,7 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
         *value = (iv){piece[bottom].value.low, piece[top].value.high};
         for (int k = 0; k < 2; k++) {
             const struct br_box *at = &piece[k ? top : bottom].box;
-            const double x = middle(at->x);
-            double found;
-            br_function_evaluate(f, 1, &x, middle(at->t), &found);
+            const double x = middle(at->x), found = br_function_at(f, x, middle(at->t));
             if (!(fabs(found) <= magnitude(seen)) || count == 1)
                 *peak = (struct br_box){point(x), point(middle(at->t))};
             seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
@@ -252,8 +319,7 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
     name_place(f, where, place);
     if (found == BR_POLE)
         return br_fail(err, BR_BAD_INPUT, "it has a pole at %s", place);
-    double at;
-    br_function_evaluate(f, 1, &where.x.low, where.t.low, &at);
+    const double at = br_function_at(f, where.x.low, where.t.low);
     if (found == BR_UNBOUNDED)
         return br_fail(err, BR_BAD_INPUT, "it cannot be proved to be finite near %s (found %g)",
                        place, at);
@@ -261,4 +327,364 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
                    isnan(at) && is_lonely(f, where)
                        ? " alone; if it has a limit there, write it as in x == 0 ? 1 : sin(x)/x"
                        : "");
+}
+
+/* ---- breaks ---- */
+
+void br_breaks_free(struct br_breaks *b)
+{
+    free(b->at);
+    *b = (struct br_breaks){0};
+}
+
+/* The sign of a guard where it has one. Zero: everywhere. */
+enum sign { NEGATIVE = -1, ZERO, POSITIVE, UNDECIDED };
+
+struct zero_search {
+    const struct br_function *guard;
+    enum br_variable along;
+    struct br_box box;
+    struct br_breaks *out;
+    size_t looked;
+    enum sign before; /* on what was settled last */
+    enum br_status status;
+    struct br_error *err;
+};
+
+static enum sign sign_of(bool bounded, iv a)
+{
+    return !bounded                    ? UNDECIDED
+           : a.low > 0                 ? POSITIVE
+           : a.high < 0                ? NEGATIVE
+           : a.low == 0 && a.high == 0 ? ZERO
+                                       : UNDECIDED;
+}
+
+static enum sign sign_on(const struct zero_search *s, iv part)
+{
+    iv value;
+    const bool bounded = br_function_bound(s->guard, with(s->box, s->along, part), &value);
+    return sign_of(bounded, value);
+}
+
+/* Also where the doubling of the list fails. */
+static bool make_room(struct br_breaks *b)
+{
+    if (b->count < b->capacity)
+        return true;
+    const size_t capacity = b->capacity ? 2 * b->capacity : 16;
+    iv *at = br_allocate(capacity, sizeof *at);
+    if (!at)
+        return false;
+    if (b->count)
+        memcpy(at, b->at, b->count * sizeof *at);
+    free(b->at);
+    b->at = at;
+    b->capacity = capacity;
+    return true;
+}
+
+static void refuse(struct zero_search *s, iv part, const char *what)
+{
+    char place[80];
+    name_place(s->guard, with(s->box, s->along, part), place);
+    s->status = br_fail(s->err, BR_BAD_INPUT, "%s near %s", what, place);
+}
+
+/* The state behind it is not known. */
+static void add_break(struct zero_search *s, iv at)
+{
+    const iv all = *side(&s->box, s->along);
+    s->before = UNDECIDED;
+    if (at.high <= all.low || at.low >= all.high)
+        return;
+    if (!make_room(s->out))
+        s->status = br_no_memory(s->err, "the breaks of a function");
+    else if (s->out->count == 2 * MOST_BREAKS)
+        refuse(s, at, "it changes its form too often (20,000 times)");
+    else
+        s->out->at[s->out->count++] = at;
+}
+
+/* The guard has this sign in the part that follows. */
+static void settle(struct zero_search *s, iv part, enum sign sign)
+{
+    if (sign != s->before && s->before != UNDECIDED)
+        add_break(s, point(part.low));
+    else if (sign == ZERO && s->before == UNDECIDED)
+        add_break(s, point(part.low));
+    s->before = sign;
+}
+
+/* The last number of the part that is known to have the sign of its first one; or, backward, the
+ * first one that has the sign of its last. */
+static double last_with(const struct zero_search *s, double from, double to, enum sign sign)
+{
+    for (double m = from + (to - from) / 2; m != from && m != to; m = from + (to - from) / 2)
+        if (sign_on(s, point(m)) == sign)
+            from = m;
+        else
+            to = m;
+    return from;
+}
+
+/* The one zero, if any, of a guard that rises or falls (up) everywhere in the part. */
+static void find_zero(struct zero_search *s, iv part, bool up)
+{
+    const enum sign left = up ? NEGATIVE : POSITIVE, right = up ? POSITIVE : NEGATIVE;
+    const enum sign first = sign_on(s, point(part.low)), last = sign_on(s, point(part.high));
+    if (first == right || last == left) {
+        settle(s, part, first == right ? right : left);
+        return;
+    }
+    iv root = part;
+    if (first == left)
+        root.low = last_with(s, part.low, part.high, left);
+    if (last == right)
+        root.high = last_with(s, part.high, root.low, right);
+    /* Both ends have a sign; what is between has none. */
+    const double low = first == left ? nextafter(root.low, INFINITY) : root.low,
+                 high = last == right ? nextafter(root.high, -INFINITY) : root.high;
+    add_break(s, low <= high ? (iv){low, high} : root);
+    if (last == right)
+        s->before = right;
+}
+
+/* Whether the guard is no larger in the part than the round-off in its middle. */
+static bool is_noise(const struct zero_search *s, iv part, iv value)
+{
+    iv at;
+    return br_function_bound(s->guard, with(s->box, s->along, point(middle(part))), &at) &&
+           at.low <= 0 && at.high >= 0 && width(at) > 0 && width(value) <= 8 * width(at);
+}
+
+static void locate(struct zero_search *s, iv part)
+{
+    const struct br_box box = with(s->box, s->along, part);
+    iv value, slope[2];
+    if (s->status)
+        return;
+    if (++s->looked > MOST_LOOKS) {
+        refuse(s, part, "where it changes its form cannot be told");
+        return;
+    }
+    const bool bounded = br_function_bound(s->guard, box, &value);
+    const enum sign sign = sign_of(bounded, value);
+    if (sign != UNDECIDED) {
+        settle(s, part, sign);
+    } else if (br_function_taylor(s->guard, s->along, box, 1, slope) &&
+               (slope[1].low > 0 || slope[1].high < 0)) {
+        find_zero(s, part, slope[1].low > 0);
+    } else if (!is_divisible(part) || (bounded && is_noise(s, part, value))) {
+        add_break(s, part);
+    } else {
+        locate(s, (iv){part.low, middle(part)});
+        locate(s, (iv){middle(part), part.high});
+    }
+}
+
+static int compare_breaks(const void *a, const void *b)
+{
+    const iv *p = a, *q = b;
+    return p->low < q->low ? -1 : p->low > q->low;
+}
+
+/* Sorts, and makes one of those that touch. */
+static void merge(struct br_breaks *b)
+{
+    size_t kept = 0;
+    if (b->count)
+        qsort(b->at, b->count, sizeof *b->at, compare_breaks);
+    for (size_t i = 0; i < b->count; i++)
+        if (kept && b->at[i].low <= nextafter(b->at[kept - 1].high, INFINITY))
+            b->at[kept - 1].high = fmax(b->at[kept - 1].high, b->at[i].high);
+        else
+            b->at[kept++] = b->at[i];
+    b->count = kept;
+}
+
+static enum br_status search(const struct br_function *guard, enum br_variable along,
+                             struct br_box box, struct br_breaks *out, struct br_error *err)
+{
+    struct zero_search s = {
+        .guard = guard, .along = along, .box = box, .out = out, .err = err, .before = UNDECIDED};
+    iv *all = side(&box, along);
+    s.before = sign_on(&s, point(all->low)); /* so that zero from the start on is no break */
+    locate(&s, *all);
+    merge(out);
+    return s.status;
+}
+
+/* A guard of both variables that may be zero in the box, where neither is a point. */
+static bool is_moving(const struct br_function *g, struct br_box box)
+{
+    iv value;
+    return g->uses_x && g->uses_t && width(box.x) > 0 && width(box.t) > 0 &&
+           sign_of(br_function_bound(g, box, &value), value) == UNDECIDED;
+}
+
+enum br_status br_breaks_add(const struct br_function *f, enum br_variable along, struct br_box box,
+                             struct br_breaks *out, struct br_error *err)
+{
+    const struct br_function *g;
+    enum br_status status = BR_OK;
+    for (size_t i = 0; (g = br_function_guard(f, i)) && !status; i++)
+        if (is_moving(g, box))
+            out->moving = true;
+        else if (along == BR_X ? g->uses_x : g->uses_t)
+            status = search(g, along, used_box(g, box), out, err);
+    if (!status && out->count > MOST_BREAKS)
+        status = br_fail(err, BR_BAD_INPUT, "it changes its form %zu times, expected at most %d",
+                         out->count, MOST_BREAKS);
+    return status;
+}
+
+/* Whether a guard's derivative by x is not zero wherever it may be zero itself. */
+static bool has_single_front(const struct br_function *g, struct br_box box, int depth)
+{
+    iv value, slope[2];
+    if (sign_of(br_function_bound(g, box, &value), value) != UNDECIDED)
+        return true;
+    if (br_function_taylor(g, BR_X, box, 1, slope) && (slope[1].low > 0 || slope[1].high < 0))
+        return true;
+    struct br_box half[2];
+    split(box, depth % 2 ? BR_X : BR_T, half);
+    return depth > 0 && has_single_front(g, half[0], depth - 1) &&
+           has_single_front(g, half[1], depth - 1);
+}
+
+enum br_status br_front_times(const struct br_function *f, struct br_box box, struct br_breaks *out,
+                              bool *complete, struct br_error *err)
+{
+    enum { DEPTH = 12 };
+    const struct br_function *g;
+    enum br_status status = BR_OK;
+    *complete = true;
+    for (size_t i = 0; (g = br_function_guard(f, i)) && !status; i++) {
+        if (!is_moving(g, box))
+            continue;
+        *complete = *complete && has_single_front(g, box, DEPTH);
+        status = search(g, BR_T, with(box, BR_X, point(box.x.low)), out, err);
+        if (!status)
+            status = search(g, BR_T, with(box, BR_X, point(box.x.high)), out, err);
+    }
+    return status;
+}
+
+/* ---- a mesh ---- */
+
+void br_mesh_free(struct br_mesh *m)
+{
+    free(m->at);
+    free(m->rough);
+    *m = (struct br_mesh){0};
+}
+
+struct mesher {
+    const struct br_function *f;
+    enum br_variable along;
+    struct br_box box;
+    const struct br_mesh_aim *aim;
+    struct br_mesh *out;
+    double total; /* width of the box */
+    enum br_status status;
+    struct br_error *err;
+};
+
+static void add_cell(struct mesher *m, iv cell, bool rough, double range)
+{
+    struct br_mesh *out = m->out;
+    if (out->count == out->capacity) {
+        char place[80];
+        name_place(m->f, with(m->box, m->along, cell), place);
+        m->status = br_fail(m->err, BR_BAD_INPUT,
+                            "it cannot be resolved: after %zu pieces it still changes near %s",
+                            out->count, place);
+        return;
+    }
+    out->at[out->count] = cell.low;
+    out->rough[out->count++] = rough;
+    out->at[out->count] = cell.high;
+    if (rough)
+        out->missed += width(cell) * range;
+}
+
+/* Its inside: what breaks at an end of the cell does so outside. */
+static iv inside(iv cell)
+{
+    const iv in = {nextafter(cell.low, INFINITY), nextafter(cell.high, -INFINITY)};
+    return in.low <= in.high ? in : cell;
+}
+
+/* |f - interpolant| <= |c_(d+1)| 2 (width / 4)^(d+1) at Chebyshev's nodes */
+static bool is_polynomial(const struct mesher *m, struct br_box box, iv cell)
+{
+    enum { MOST_ORDER = 16 };
+    const size_t order = m->aim->degree + 1;
+    iv c[MOST_ORDER + 1];
+    return br_function_taylor(m->f, m->along, box, order, c) &&
+           magnitude(c[order]) * 2 * pow(width(cell) / 4, (double)order) <= m->aim->tolerance;
+}
+
+static void refine(struct mesher *m, iv cell)
+{
+    if (m->status)
+        return;
+    const struct br_box box = with(m->box, m->along, inside(cell));
+    iv value;
+    const bool bounded = br_function_bound(m->f, box, &value);
+    const double range = width(value), tolerance = m->aim->tolerance;
+    /* Chebyshev's interpolants are not wider than 3 times that (degree 15) */
+    const bool flat = bounded && 4 * range <= tolerance;
+    if (flat || (bounded && is_polynomial(m, box, cell)))
+        add_cell(m, cell, false, range);
+    else if (bounded && width(cell) * range <= tolerance * m->total)
+        add_cell(m, cell, true, range);
+    else if (!is_divisible(cell)) {
+        m->out->capacity = m->out->count; /* no further */
+        add_cell(m, cell, true, range);
+    } else {
+        refine(m, (iv){cell.low, middle(cell)});
+        refine(m, (iv){middle(cell), cell.high});
+    }
+}
+
+/* From break to break. */
+static void refine_between(struct mesher *m, const struct br_breaks *breaks)
+{
+    const iv all = *side(&m->box, m->along);
+    double from = all.low;
+    for (size_t i = 0; i < breaks->count; i++) {
+        const iv at = {fmax(breaks->at[i].low, all.low), fmin(breaks->at[i].high, all.high)};
+        if (at.low > from)
+            refine(m, (iv){from, at.low});
+        if (at.high > at.low)
+            refine(m, at);
+        from = at.high;
+    }
+    if (from < all.high)
+        refine(m, (iv){from, all.high});
+}
+
+enum br_status br_resolve(const struct br_function *f, enum br_variable along, struct br_box box,
+                          const struct br_mesh_aim *aim, struct br_mesh *out, struct br_error *err)
+{
+    struct mesher m = {.f = f,
+                       .along = along,
+                       .box = box,
+                       .aim = aim,
+                       .out = out,
+                       .total = width(*side(&box, along)),
+                       .err = err};
+    struct br_breaks breaks = {0};
+    *out = (struct br_mesh){br_allocate(MOST_CELLS + 1, sizeof *out->at),
+                            br_allocate(MOST_CELLS, sizeof *out->rough), 0, MOST_CELLS, 0};
+    m.status = out->at && out->rough ? br_breaks_add(f, along, box, &breaks, err)
+                                     : br_no_memory(err, "a mesh for a function");
+    if (!m.status)
+        refine_between(&m, &breaks);
+    br_breaks_free(&breaks);
+    if (m.status)
+        br_mesh_free(out);
+    return m.status;
 }

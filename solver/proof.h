@@ -58,19 +58,16 @@ enum br_status br_front_times(const struct br_function *f, struct br_box box,
 struct br_mesh_aim {
     size_t degree;    /* of the interpolant at a cell's Chebyshev nodes, 1 to 15 */
     double tolerance; /* of |f - interpolant|, absolute, in f's unit */
-    double least;     /* cells that are narrower than this need no proof: 0 for what follows */
-    size_t most;      /* cells; 0: 20,000 */
 };
 
 /* Cells between count + 1 places, ascending. In a rough cell the function is bounded, but no
- * polynomial was proved: width * (range of values) is at most tolerance * (width of the box), or
- * it is narrower than `least`. Jumps and roots are there. */
+ * polynomial was proved: width * (range of values) is at most tolerance * (width of the box). Jumps
+ * and roots are there. */
 struct br_mesh {
     double *at;  /* count + 1; owned */
     bool *rough; /* count; owned */
     size_t count, capacity;
-    double
-        missed; /* sum of width * (range of values) over the rough cells, f's unit times along's */
+    double missed; /* sum of width * (range of values) over the rough cells */
 };
 void br_mesh_free(struct br_mesh *mesh);
 

@@ -10,12 +10,14 @@ struct range {
     bool zero_allowed;
 };
 
-static enum br_status check_range(const struct range *r, struct br_error *err)
+/* part: "axial: ", or "". */
+static enum br_status check_ranges(const char *part, const struct range *ranges, size_t count,
+                                   struct br_error *err)
 {
-    const bool fits = isfinite(r->value) && (r->zero_allowed ? r->value >= 0 : r->value > 0);
-    if (!fits)
-        return br_fail(err, BR_BAD_INPUT, "%s is %g, expected a finite number %s 0", r->name,
-                       r->value, r->zero_allowed ? ">=" : ">");
+    for (const struct range *r = ranges; r < ranges + count; r++)
+        if (!(isfinite(r->value) && (r->zero_allowed ? r->value >= 0 : r->value > 0)))
+            return br_fail(err, BR_BAD_INPUT, "%s%s is %g, expected a finite number %s 0", part,
+                           r->name, r->value, r->zero_allowed ? ">=" : ">");
     return BR_OK;
 }
 
@@ -27,12 +29,7 @@ static enum br_status check_material(const char *part, double stiffness, double 
         {"viscosity", viscosity, true},
         {"stiffness plus viscosity", stiffness + viscosity, false},
     };
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
-        struct br_error inner = {0};
-        if (check_range(&ranges[i], &inner))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s", part, inner.message);
-    }
-    return BR_OK;
+    return check_ranges(part, ranges, sizeof ranges / sizeof *ranges, err);
 }
 
 static enum br_status check_laws(const struct br_scene *s, struct br_error *err)
@@ -58,15 +55,13 @@ enum br_status br_scene_check(const struct br_scene *s, struct br_error *err)
         {"friction coefficient", s->friction.coefficient, true},
         {"friction regularisation", s->friction.regularisation, true},
     };
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof ranges / sizeof *ranges && !status; i++)
-        status = check_range(&ranges[i], err);
+    enum br_status status = check_ranges("", ranges, sizeof ranges / sizeof *ranges, err);
     if (!status && !s->axial.modelled && !s->bending.modelled)
         status = br_fail(err, BR_BAD_INPUT, "neither axial nor bending is modelled");
     if (!status && s->axial.modelled)
-        status = check_material("axial", s->axial.stiffness, s->axial.viscosity, err);
+        status = check_material("axial: ", s->axial.stiffness, s->axial.viscosity, err);
     if (!status && s->bending.modelled)
-        status = check_material("bending", s->bending.stiffness, s->bending.viscosity, err);
+        status = check_material("bending: ", s->bending.stiffness, s->bending.viscosity, err);
     if (!status)
         status = check_laws(s, err);
     return status;
@@ -88,12 +83,9 @@ bool br_load_is_zero(const struct br_load *load)
 double br_load_value(const struct br_load *load, double x, double t)
 {
     double sum = 0;
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        double space, time;
-        br_function_evaluate(&load->term[i].space, 1, &x, t, &space);
-        br_function_evaluate(&load->term[i].time, 1, &x, t, &time);
-        sum += space * time;
-    }
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
+        sum +=
+            br_function_at(&load->term[i].space, x, t) * br_function_at(&load->term[i].time, x, t);
     return sum;
 }
 

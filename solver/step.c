@@ -61,16 +61,6 @@ static double friction_force(struct br_march *m, struct br_friction_state *state
     return m->method.friction->force(state);
 }
 
-static enum br_status not_converged(const struct br_march *m, double t, struct br_error *err)
-{
-    const struct br_iteration *iteration = &m->method.iteration;
-    return br_fail(err, BR_NOT_FINITE,
-                   "friction rule %s did not reach its tolerance of %g in %zu iterations at t = %g "
-                   "s, with the parameter %g; --friction exact needs none",
-                   m->method.friction->name, iteration->tolerance, iteration->most, t,
-                   iteration->parameter);
-}
-
 /* ---- (16) and (17) ---- */
 
 /* Equation (16), with rho as in (27): find v_n in E^h with, for all q in E^h,
@@ -127,7 +117,11 @@ static enum br_status bending_stage(struct br_march *m, double depth, double t,
     m->counts.iterations += friction.iterations;
     if (m->method.friction->iterates && isnan(m->tip.friction_force) &&
         isfinite(friction.free_velocity) && isfinite(friction.bound))
-        return not_converged(m, t, err);
+        return br_fail(err, BR_NOT_FINITE,
+                       "friction rule %s did not reach its tolerance of %g in %zu iterations at "
+                       "t = %g s, with the parameter %g; --friction exact needs none",
+                       m->method.friction->name, friction.iteration.tolerance,
+                       friction.iteration.most, t, friction.iteration.parameter);
     m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
     return BR_OK;
 }
@@ -147,45 +141,22 @@ static enum br_status stage(struct br_march *m, enum br_field_kind kind,
     return status;
 }
 
-/* Who judges a march may meet a NaN, and says so; and rounds to nearest, whatever the march does.
- */
-struct outside {
-    int traps, rounding;
-};
-
-static struct outside step_outside(void)
+/* Tells those who watch of a stage, or, with NULL, of a step that is taken. Who judges a march may
+ * meet a NaN, and says so; and rounds to nearest, whatever the march does. */
+static void tell(const struct br_march *m, const struct br_march_stage *stage,
+                 enum br_field_kind kind, bool switched)
 {
-    const struct outside march = {br_traps_lift(), fegetround()};
-    if (march.rounding != FE_TONEAREST)
+    const int traps = br_traps_lift(), rounding = fegetround();
+    if (rounding != FE_TONEAREST)
         fesetround(FE_TONEAREST);
-    return march;
-}
-
-static void come_back(const struct outside *march)
-{
-    if (march->rounding != FE_TONEAREST)
-        fesetround(march->rounding);
-    br_traps_restore(march->traps);
-}
-
-static void tell(const struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
-                 const struct br_step *step, int i)
-{
-    if (m->watchers == 0)
-        return;
-    const struct br_march_stage told = {
-        .kind = kind,
-        .index = i,
-        .count = stages->count,
-        .from = step->from,
-        .k = step->k,
-        .time = br_step_time(step, stages->stage[i].time),
-        .tau = m->part[kind].field.k,
-    };
-    const struct outside march = step_outside();
-    for (size_t w = 0; w < m->watchers; w++)
-        m->watcher[w].stage(m->watcher[w].self, &told);
-    come_back(&march);
+    for (const struct br_march_watcher *w = m->watcher; w < m->watcher + m->watchers; w++)
+        if (stage)
+            w->stage(w->self, stage);
+        else
+            w->step(w->self, kind, switched);
+    if (rounding != FE_TONEAREST)
+        fesetround(rounding);
+    br_traps_restore(traps);
 }
 
 enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
@@ -206,7 +177,17 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
             return status;
         if (m->held[kind])
             br_margins_add(&m->margins[kind], stages->stage[i].time, br_march_margin(m, kind));
-        tell(m, kind, stages, step, i);
+        const struct br_march_stage told = {
+            .kind = kind,
+            .index = i,
+            .count = stages->count,
+            .from = step->from,
+            .k = step->k,
+            .time = br_step_time(step, stages->stage[i].time),
+            .tau = part->field.k,
+        };
+        if (m->watchers > 0)
+            tell(m, &told, kind, false);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;
@@ -219,12 +200,8 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
                      bool switched)
 {
     br_field_march_accept(&m->part[kind], stages, switched);
-    if (m->watchers == 0)
-        return;
-    const struct outside march = step_outside();
-    for (size_t w = 0; w < m->watchers; w++)
-        m->watcher[w].step(m->watcher[w].self, kind, switched);
-    come_back(&march);
+    if (m->watchers > 0)
+        tell(m, NULL, kind, switched);
 }
 
 /* Where the contact has a stiffness, the sign of its force decides: a difference of displacements

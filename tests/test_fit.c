@@ -282,7 +282,7 @@ static void test_round_off(void **state)
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             const struct br_field field =
                 br_field_of_scene(&g.scene, (enum br_field_kind)kind, c->at.n, k);
-            limit[kind] = 3 * br_umfpack.round_off(&field, &g.study.method.linear);
+            limit[kind] = 3 * br_umfpack.round_off(&br_umfpack, &field, &g.study.method.linear);
         }
         assert_true(limit[BR_BENDING] > 4 * limit[BR_AXIAL]);
         for (int part = 0; part < BR_PARTS; part++)

@@ -163,7 +163,7 @@ static void test_step_lengths(void **state)
 static double round_off_of(const struct br_linear_solver *solver, const struct problem *p)
 {
     const struct br_linear_solver *taken = br_linear_solver_taken(solver, &p->field, 0);
-    return taken->round_off(&p->field, &br_linear_defaults);
+    return taken->round_off(taken, &p->field, &br_linear_defaults);
 }
 
 static bool is_assembled(const struct br_linear_solver *solver)
@@ -551,7 +551,7 @@ static void check_least(enum br_field_kind kind, size_t n, int degree,
         EACH_SOLVER(s)
         {
             if ((*s)->cost && br_linear_solver_for(*s, &field))
-                AT_MOST(best->cost(&field, sums), (*s)->cost(&field, sums));
+                AT_MOST(best->cost(best, &field, sums), (*s)->cost(*s, &field, sums));
         }
 }
 

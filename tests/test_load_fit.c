@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "solver/load_fit.h"
+#include "solver/load.h"
 #include "tests/support.h"
 
 static const double duration = 2;

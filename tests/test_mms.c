@@ -151,10 +151,9 @@ static void test_projection(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct br_error err = {0};
         struct br_projection *p;
-        const struct br_projection_mesh mesh = {2, 3};
         const size_t kept = cases[i].what.kept;
         struct br_function f = br_test_function("exp(x)*t^2");
-        MUST(br_projection_create(&p, &f, &cases[i].what, &mesh, &err));
+        MUST(br_projection_create(&p, &f, &cases[i].what, 2, 3, &err));
         br_function_free(&f);
         double modes[24], sum = 0;
         const struct br_projection_rest rest = br_projection_apply(p, 3, modes);
@@ -170,8 +169,8 @@ static void test_projection(void **state)
     struct br_error err = {0};
     struct br_projection *p;
     const struct br_projected many = {{0, 0}, 9};
-    REFUSED(br_projection_create(&p, NULL, &many, &(struct br_projection_mesh){1, 1}, &err),
-            BR_BAD_INPUT, "9 modes are to be kept, expected at most 8");
+    REFUSED(br_projection_create(&p, NULL, &many, 1, 1, &err), BR_BAD_INPUT,
+            "9 modes are to be kept, expected at most 8");
     br_projection_free(NULL);
 }
 

@@ -40,7 +40,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
 static double tolerance_of(const struct br_linear_solver *s, const struct br_field *field)
 {
     const struct br_linear_solver *taken = br_linear_solver_taken(s, field, 0);
-    return br_test_slack() * (1e-13 + taken->round_off(field, &br_linear_defaults));
+    return br_test_slack() * (1e-13 + taken->round_off(taken, field, &br_linear_defaults));
 }
 
 /* A uniform load: nodal values of the exact solution, u = f x (2L - x) / (2a) and

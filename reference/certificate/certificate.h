@@ -117,10 +117,7 @@ struct br_certificate br_step_checker_step(struct br_step_checker *checker);
 /* ---- what a certificate is made of, for this folder alone ---- */
 
 /* Branches of a law: contact has two, open and closed; friction three, stick, slip up and down. */
-enum { BR_CONTACT_BRANCHES = 2, BR_FRICTION_BRANCHES = 3, BR_MOST_BRANCHES = 3 };
-
-/* A stage adds up to six velocities, by weights up to 8, of steps that grow by 5. */
-enum { BR_MOST_WEIGHT = 240 };
+enum { BR_MOST_BRANCHES = 3 };
 
 /* Nodal unknowns of a field's elements. */
 static inline size_t br_step_unknowns(const struct br_method *method, enum br_field_kind kind)
@@ -128,16 +125,8 @@ static inline size_t br_step_unknowns(const struct br_method *method, enum br_fi
     return kind == BR_AXIAL && method->axial_degree != 2 ? 1 : 2;
 }
 
-/* a over a size, or over the last bit of the largest such size so far (in/out: in the step) where
- * that is more; 0 for 0. */
-double br_over_scale(const struct br_step *step, enum br_field_kind kind, enum br_scale scale,
-                     double a, double size);
-
 /* The larger of two numbers; NaN where one is. */
 double br_worse_of(double a, double b);
-
-/* The residual of (27) or (28), relative; 0 where the field is not modelled. */
-double br_step_residual(const struct br_step *step, enum br_field_kind kind);
 
 /* What a certificate says of one field alone: the other's entries are 0. */
 struct br_certificate br_certify_field(const struct br_step *step, enum br_field_kind kind);

@@ -28,7 +28,6 @@ struct trial {
 enum { REMEMBERED = 8 };
 
 struct br_step_checker {
-    struct br_march *march;
     struct br_watched seen;
     struct trial trial[2]; /* by br_field_kind */
     struct tip_path path;
@@ -101,19 +100,13 @@ static double hold(struct trial *f, const double *distance, int count, bool last
     return f->law < held ? f->law : held;
 }
 
-static struct br_step_field around(const struct br_watched_field *f)
+/* A field's last stage, after Z or another state. */
+static struct br_step_field stage_after(const struct br_nodal *before,
+                                        const struct br_watched_field *f)
 {
     const struct br_nodal *now = &f->y.row[f->last < 0 ? 0 : f->last];
-    return (struct br_step_field){f->y.start.displacement, now->displacement, f->y.start.velocity,
+    return (struct br_step_field){before->displacement, now->displacement, before->velocity,
                                   now->velocity, f->load};
-}
-
-/* The same of a field whose step may have been taken already: its last states, for their size. */
-static struct br_step_field lately(const struct br_watched_field *f)
-{
-    const struct br_nodal *a = &f->y.past[0], *b = &f->y.row[f->last < 0 ? 0 : f->last];
-    return (struct br_step_field){a->displacement, b->displacement, a->velocity, b->velocity,
-                                  f->load};
 }
 
 /* ---- what was before ---- */
@@ -145,8 +138,8 @@ static struct br_certificate excess_of(const struct br_step_checker *w, enum br_
     const struct br_method *method = w->seen.method;
     struct br_certificate then = w->limits;
     struct br_certificate now =
-        br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->march));
-    const double own = br_method_residual(method, br_march_field(w->march, kind));
+        br_certificate_limits(method->scheme, w->seen.n, br_march_round_off(w->seen.march));
+    const double own = br_method_residual(method, br_march_field(w->seen.march, kind));
     now.axial_residual += own;
     now.bending_residual += own;
     double *excess = br_certificate_entries(&now), *first = br_certificate_entries(&then);
@@ -159,7 +152,7 @@ static struct br_certificate excess_of(const struct br_step_checker *w, enum br_
 static double inertia_round_off(const struct br_step_checker *w, enum br_field_kind kind)
 {
     const struct br_method *method = w->seen.method;
-    const struct br_field *field = br_march_field(w->march, kind);
+    const struct br_field *field = br_march_field(w->seen.march, kind);
     struct br_field massless = *field;
     massless.density = 0;
     return br_method_round_off(method, field) - br_method_round_off(method, &massless);
@@ -175,19 +168,20 @@ static struct br_certificate certify(struct br_step_checker *w, const struct br_
         .method = seen->method,
         .n = seen->n,
         .k = told->tau,
-        .compliance = {br_march_compliance(w->march, BR_AXIAL),
-                       br_march_compliance(w->march, BR_BENDING)},
+        .compliance = {br_march_compliance(w->seen.march, BR_AXIAL),
+                       br_march_compliance(w->seen.march, BR_BENDING)},
         .axial_tip = axial_tip,
-        .tip = *br_march_tip(w->march),
+        .tip = *br_march_tip(w->seen.march),
         .largest = w->largest,
         .speed = {largest_of(w->speed[BR_AXIAL]), largest_of(w->speed[BR_BENDING])},
         .size = {largest_of(w->size[BR_AXIAL]), largest_of(w->size[BR_BENDING])},
         .size_now = size_now,
         .inertia_round_off = inertia_round_off(w, told->kind)};
-    step.field[told->kind] = around(&seen->field[told->kind]);
-    /* The axial field lends its size to the bound's round-off. */
+    const struct br_watched_field *own = &seen->field[told->kind], *rod = &seen->field[BR_AXIAL];
+    step.field[told->kind] = stage_after(&own->y.start, own);
+    /* The axial field lends its size to the bound's round-off. Its step may have been taken. */
     if (told->kind == BR_BENDING)
-        step.field[BR_AXIAL] = lately(&seen->field[BR_AXIAL]);
+        step.field[BR_AXIAL] = stage_after(&rod->y.past[0], rod);
     struct br_certificate excess = excess_of(w, told->kind);
     struct br_certificate c = br_certify_field(&step, told->kind);
     double *size = &w->size[told->kind][seen->field[told->kind].steps % REMEMBERED];
@@ -256,13 +250,10 @@ enum br_status br_step_checker_create(struct br_step_checker **out, struct br_ma
     struct br_step_checker *w = *out = br_allocate(1, sizeof *w);
     if (!w)
         return br_no_memory(err, "a certificate");
-    w->march = march;
     w->limits = br_certificate_limits(method->scheme, br_march_field(march, BR_AXIAL)->n,
                                       br_march_round_off(march));
-    enum br_status status = br_watched_init(&w->seen, march, scene, method, err);
-    if (!status && !br_march_watch(march, &(struct br_march_watcher){w, watch_stage, watch_step}))
-        status = br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
-                         BR_MOST_WATCHERS);
+    const struct br_march_watcher watcher = {w, watch_stage, watch_step};
+    const enum br_status status = br_watched_init(&w->seen, march, scene, method, &watcher, err);
     if (status) {
         br_step_checker_free(w);
         *out = NULL;
@@ -274,7 +265,6 @@ void br_step_checker_free(struct br_step_checker *w)
 {
     if (!w)
         return;
-    br_march_unwatch(w->march, w);
     br_watched_clear(&w->seen);
     free(w);
 }

@@ -45,20 +45,6 @@ static real start_of_row(struct br_past_states *f, const struct br_textbook *t, 
     return k * (t->rows == 0 ? t->beta : t->a[row][row]);
 }
 
-static enum br_watched_regime regime_of(const struct br_watched *w, enum br_field_kind kind)
-{
-    const struct br_tip *tip = br_march_tip(w->march);
-    if (kind == BR_AXIAL)
-        return !w->scene->contact.modelled ? BR_WATCHED_NONE
-               : tip->contact_force > 0    ? BR_WATCHED_CLOSED
-                                           : BR_WATCHED_OPEN;
-    if (w->scene->friction.law == BR_FRICTIONLESS || !(tip->friction_bound > 0))
-        return BR_WATCHED_NONE;
-    if (fabs(tip->friction_force) < tip->friction_bound)
-        return BR_WATCHED_STICKS;
-    return tip->friction_force > 0 ? BR_WATCHED_UP : BR_WATCHED_DOWN;
-}
-
 /* ---- a stage ---- */
 
 static void sample(struct br_watched *w, enum br_field_kind kind, struct br_nodal *into)
@@ -111,8 +97,11 @@ static void swap(struct br_nodal *a, struct br_nodal *b)
 void br_watched_step(struct br_watched *w, enum br_field_kind kind, bool switched)
 {
     struct br_watched_field *f = &w->field[kind];
-    const enum br_watched_regime before = f->regime;
-    f->regime = regime_of(w, kind);
+    const enum br_regime before = f->regime;
+    const struct br_tip *tip = br_march_tip(w->march);
+    f->regime = br_textbook_regime(w->scene, kind,
+                                   kind == BR_AXIAL ? tip->contact_force : tip->friction_force,
+                                   tip->friction_bound);
     if (!w->method->scheme->adaptive)
         switched = f->steps > 0 && f->regime != before;
     f->since = switched ? 0 : f->since + 1;
@@ -155,9 +144,9 @@ static double *place_field(struct br_watched *w, enum br_field_kind kind, double
     return memory + 3 * f->y.size;
 }
 
-enum br_status br_watched_init(struct br_watched *w, const struct br_march *march,
+enum br_status br_watched_init(struct br_watched *w, struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
-                               struct br_error *err)
+                               const struct br_march_watcher *watcher, struct br_error *err)
 {
     *w = (struct br_watched){.march = march, .scene = scene, .method = method};
     if (!br_textbook_step(method->scheme->name, 0))
@@ -173,15 +162,21 @@ enum br_status br_watched_init(struct br_watched *w, const struct br_march *marc
     if (!w->memory)
         return br_no_memory(err, "a certificate");
     double *memory = w->memory;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        memory = place_field(w, (enum br_field_kind)kind, memory);
-        sample(w, (enum br_field_kind)kind, &w->field[kind].y.past[0]);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        memory = place_field(w, kind, memory);
+        sample(w, kind, &w->field[kind].y.past[0]);
     }
+    if (!br_march_watch(march, watcher))
+        return br_fail(err, BR_BAD_INPUT, "the march has %d watchers, and room for no more",
+                       BR_MOST_WATCHERS);
+    w->watcher = watcher->self;
     return BR_OK;
 }
 
 void br_watched_clear(struct br_watched *w)
 {
+    if (w->watcher)
+        br_march_unwatch(w->march, w->watcher);
     free(w->memory);
-    w->memory = NULL;
+    *w = (struct br_watched){0};
 }

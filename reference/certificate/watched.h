@@ -23,27 +23,18 @@ struct br_past_states {
     struct br_nodal start;                 /* Z; without acceleration */
 };
 
-/* What decides where a step starts anew. */
-enum br_watched_regime {
-    BR_WATCHED_NONE,
-    BR_WATCHED_OPEN,
-    BR_WATCHED_CLOSED,
-    BR_WATCHED_STICKS,
-    BR_WATCHED_UP,
-    BR_WATCHED_DOWN
-};
-
 struct br_watched_field {
-    struct br_past_states y;       /* what the step starts from, and its rows so far */
-    size_t steps, since;           /* steps so far, and since the last start */
-    double began, now;             /* this step, and its last stage so far, s */
-    enum br_watched_regime regime; /* then */
-    int last;                      /* of the rows, the step's end; -1: not in the textbook */
-    double *load;                  /* of the last stage, N */
+    struct br_past_states y; /* what the step starts from, and its rows so far */
+    size_t steps, since;     /* steps so far, and since the last start */
+    double began, now;       /* this step, and its last stage so far, s */
+    enum br_regime regime;   /* then, which decides where a step starts anew */
+    int last;                /* of the rows, the step's end; -1: not in the textbook */
+    double *load;            /* of the last stage, N */
 };
 
 struct br_watched {
-    const struct br_march *march;
+    struct br_march *march;
+    void *watcher; /* who looks at it stage by stage */
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n;
@@ -52,11 +43,12 @@ struct br_watched {
     double *memory;
 };
 
-/* Samples a march at t = 0; it, its scene and the method must outlive the watched. Fails with
- * BR_BAD_INPUT where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
-enum br_status br_watched_init(struct br_watched *watched, const struct br_march *march,
+/* Samples a march at t = 0, which the watcher then looks at (br_march_watch) until the watched is
+ * cleared. The march, its scene and the method must outlive the watched. Fails with BR_BAD_INPUT
+ * where the scheme is not in textbook.h, with BR_NO_MEMORY; clear it even then. */
+enum br_status br_watched_init(struct br_watched *watched, struct br_march *march,
                                const struct br_scene *scene, const struct br_method *method,
-                               struct br_error *err);
+                               const struct br_march_watcher *watcher, struct br_error *err);
 void br_watched_clear(struct br_watched *watched);
 
 /* The textbook's step that a field is in. */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "reference/certificate/certificate.h"
+#include "reference/certificate/watched.h"
 #include "reference/textbook.h"
 
 typedef long double real;
@@ -89,12 +91,13 @@ static real sum_form(form f, const struct br_field *field, const double *a, cons
     return sum;
 }
 
-real br_mass_product(const struct br_field *f, const double *a, const double *b)
+/* a'Mb, and a'Kb of the stiffness without its coefficient. */
+static real mass_product(const struct br_field *f, const double *a, const double *b)
 {
     return (real)f->density * (real)f->h * sum_form(mass_form, f, a, b);
 }
 
-real br_bend_product(const struct br_field *f, const double *a, const double *b)
+static real bend_product(const struct br_field *f, const double *a, const double *b)
 {
     const real h = (real)f->h;
     return sum_form(stiffness_form, f, a, b) / (f->kind == BR_AXIAL ? h : h * h * h);
@@ -104,28 +107,39 @@ real br_bend_product(const struct br_field *f, const double *a, const double *b)
 
 double br_energy_kinetic(const struct br_field *field, const double *velocity)
 {
-    return (double)(br_mass_product(field, velocity, velocity) / 2);
+    return (double)(mass_product(field, velocity, velocity) / 2);
 }
 
 double br_energy_stored(const struct br_field *field, const double *displacement)
 {
-    return (double)((real)field->stiffness * br_bend_product(field, displacement, displacement) /
-                    2);
+    return (double)((real)field->stiffness * bend_product(field, displacement, displacement) / 2);
 }
 
-struct br_field_energy br_energy_of_field(const struct br_field *f,
-                                          const struct br_contact *contact,
-                                          const double *displacement, const double *velocity)
+/* Of one field's state, J, with the contact's potential of an axial one. */
+struct field_energy {
+    real kinetic, stored, contact;
+};
+
+static struct field_energy energy_of_field(const struct br_field *f,
+                                           const struct br_contact *contact,
+                                           const double *displacement, const double *velocity)
 {
-    struct br_field_energy e = {
-        .kinetic = br_mass_product(f, velocity, velocity) / 2,
-        .stored = (real)f->stiffness * br_bend_product(f, displacement, displacement) / 2,
+    struct field_energy e = {
+        .kinetic = mass_product(f, velocity, velocity) / 2,
+        .stored = (real)f->stiffness * bend_product(f, displacement, displacement) / 2,
     };
     if (f->kind != BR_AXIAL || !contact->modelled)
         return e;
     const real depth = (real)displacement[f->n * br_field_unknowns(f)] - contact->gap;
     e.contact = depth <= 0 ? 0 : contact->stiffness * depth * depth / 2;
     return e;
+}
+
+static void put(struct br_energy *to, enum br_field_kind kind, const struct field_energy *e)
+{
+    to->kinetic[kind] = (double)e->kinetic;
+    to->stored[kind] = (double)e->stored;
+    to->contact += (double)e->contact;
 }
 
 enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
@@ -136,15 +150,13 @@ enum br_status br_energy_sample(const struct br_march *march, const struct br_sc
     double *y = br_allocate(2 * size, sizeof *y);
     if (!y)
         return br_no_memory(err, "the energies");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field *f = br_march_field(march, (enum br_field_kind)kind);
-        if (!br_march_models(march, (enum br_field_kind)kind))
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field *f = br_march_field(march, kind);
+        if (!br_march_models(march, kind))
             continue;
-        br_march_get(march, (enum br_field_kind)kind, y, y + size);
-        const struct br_field_energy e = br_energy_of_field(f, &scene->contact, y, y + size);
-        energy->kinetic[kind] = (double)e.kinetic;
-        energy->stored[kind] = (double)e.stored;
-        energy->contact += (double)e.contact;
+        br_march_get(march, kind, y, y + size);
+        const struct field_energy e = energy_of_field(f, &scene->contact, y, y + size);
+        put(energy, kind, &e);
     }
     free(y);
     return BR_OK;
@@ -195,4 +207,383 @@ double br_energy_limit(size_t n, double round_off)
 {
     const double nodes = (double)n + 1, noise = 64 * DBL_EPSILON * nodes * nodes;
     return fmin(64 * DBL_EPSILON * nodes + 16 * round_off + noise * noise, br_energy_useless);
+}
+
+/* ---- the works of a march, summed over stages as its scheme sums rates of change ---- */
+
+/* Rates of work at one time, W. */
+struct power {
+    real load, viscous, tip; /* tip: of the contact or the friction force, which resists */
+    real load_size;          /* the sum of the sizes of the nodes' shares */
+    real residual;           /* of what a sound stage's residual may do, over its relative size */
+};
+
+/* Since t = 0, J. */
+struct field_work {
+    real load, viscous, tip, scheme, contact, noise, gained;
+    size_t steps, gaining;
+};
+
+struct meter_field {
+    struct br_field field; /* as the scene has it */
+    struct field_energy start, now;
+    struct power before, row[BR_TEXTBOOK_ROWS]; /* at the step's beginning, and its stages */
+    struct field_work work;
+    real k;             /* of the step, s */
+    real largest;       /* sum of the sizes of a step's terms so far, J */
+    double *scratch[2]; /* displacement and velocity, br_field_size values each */
+};
+
+struct br_energy_meter {
+    struct br_watched seen;
+    struct meter_field field[2]; /* by br_field_kind */
+    double limit, worst;         /* of the imbalance; worst: since the last call */
+    double update;               /* what a certificate allows the displacement's update */
+    bool any;
+};
+
+/* ---- a stage ---- */
+
+/* c'v, and the sum of the sizes of its terms (out). */
+static real nodal_product(const double *c, const double *v, size_t size, real *sizes)
+{
+    real sum = 0;
+    *sizes = 0;
+    for (size_t i = 0; i < size; i++) {
+        const real term = (real)c[i] * v[i];
+        sum += term;
+        *sizes += fabsl(term);
+    }
+    return sum;
+}
+
+/* The norms of K, without its coefficient, and of M. */
+static real bend_norm(const struct br_field *f, const double *y)
+{
+    return sqrtl(bend_product(f, y, y));
+}
+
+static real mass_norm(const struct br_field *f, const double *y)
+{
+    return f->density > 0 ? sqrtl(mass_product(f, y, y)) : 0;
+}
+
+/* A stage goes from Z to Y in tau, and its residual r is relative to the sum of its terms, those of
+ * Z among them (certificate.c): where a velocity stops or a displacement decays in one step, Z's
+ * are far larger than Y's. By Schwarz' inequality |v'r| is at most that relative size times
+ *     |v| (a (|w| + |Z_w| + tau |v| + tau |Z_v|) + c (|v| + |Z_v|) + |r_tip|)  in the norms of K,
+ *     |v - Z_v| (|v| + |Z_v|) / tau                                            in those of M,
+ * and so is what rounding the stage's update does to <v, w> and <v', v>; |Z_w| <= |w| + tau |v|. */
+static real residual_power(const struct br_field *f, const struct br_watched_field *seen, real tau,
+                           real bent_speed, real tip_force)
+{
+    const real length = (real)f->h * f->n;
+    const real tip = tip_force * sqrtl(f->kind == BR_AXIAL ? length : length * length * length / 3);
+    const struct br_nodal *y = &seen->y.row[seen->last], *z = &seen->y.start;
+    const real w = bend_norm(f, y->displacement), v = bent_speed,
+               before = bend_norm(f, z->velocity);
+    const real moving = mass_norm(f, y->velocity) + mass_norm(f, z->velocity);
+    return v * ((real)f->stiffness * (2 * w + 2 * tau * v + tau * before) +
+                (real)f->viscosity * (v + before) + fabsl(tip)) +
+           moving * moving / tau;
+}
+
+/* How far a stage's own round-off is above the march's: it depends on tau, and some solvers leave a
+ * residual beyond it. */
+static real excess_of(const struct br_energy_meter *m, const struct br_field *f)
+{
+    const struct br_method *method = m->seen.method;
+    const double own = br_method_residual(method, f);
+    const double now = br_energy_limit(f->n, br_march_round_off(m->seen.march)) + own;
+    return fmax(1, now / m->limit);
+}
+
+static struct power power_of(const struct br_energy_meter *m, enum br_field_kind kind, real tau)
+{
+    const struct meter_field *f = &m->field[kind];
+    const struct br_watched_field *seen = &m->seen.field[kind];
+    const struct br_tip *tip = br_march_tip(m->seen.march);
+    const double *v = seen->y.row[seen->last].velocity;
+    const real bent = bend_product(&f->field, v, v);
+    const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
+    struct power p = {
+        .viscous = (real)f->field.viscosity * bent,
+        .residual =
+            excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
+        .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
+    };
+    p.load = nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
+    return p;
+}
+
+static void watch_stage(void *self, const struct br_march_stage *told)
+{
+    struct br_energy_meter *m = self;
+    const real tau = br_watched_stage(&m->seen, told);
+    const int row = m->seen.field[told->kind].last;
+    if (row >= 0)
+        m->field[told->kind].row[row] = power_of(m, told->kind, tau);
+    m->field[told->kind].k = told->k;
+}
+
+/* ---- what a scheme takes ---- */
+
+/* <Y, Z> of displacements and velocities. */
+static real product(const struct br_field *f, const double *const y[2], const double *const z[2])
+{
+    return (real)f->stiffness * bend_product(f, y[0], z[0]) + mass_product(f, y[1], z[1]);
+}
+
+/* A sum and the sum of its terms' sizes, J. */
+struct sum {
+    real value, size;
+};
+
+static void add(struct sum *s, real term)
+{
+    s->value += term;
+    s->size += fabsl(term);
+}
+
+/* Row i's Y' = (w', v'); a row with c = 0 is the step's beginning. */
+static const struct br_nodal *row_of(const struct br_watched_field *seen,
+                                     const struct br_textbook *t, int i)
+{
+    return t->c[i] == 0 ? &seen->y.past[0] : &seen->y.row[i];
+}
+
+/* k^2/2 sum_i <Y'_i, sum_j m_ij Y'_j>,  m_ij = b_i a_ij + b_j a_ji - b_i b_j */
+static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watched_field *seen,
+                                    const struct br_textbook *t)
+{
+    struct sum taken = {0, 0};
+    const long double *b = t->a[t->rows - 1];
+    const size_t size = br_field_size(&m->field);
+    for (int i = 0; i < t->rows; i++) {
+        for (size_t x = 0; x < size; x++) {
+            real z[2] = {0, 0};
+            for (int j = 0; j < t->rows; j++) {
+                const struct br_nodal *y = row_of(seen, t, j);
+                const real weight = b[i] * t->a[i][j] + b[j] * t->a[j][i] - b[i] * b[j];
+                z[0] += weight * y->velocity[x];
+                z[1] += weight * y->acceleration[x];
+            }
+            m->scratch[0][x] = (double)z[0];
+            m->scratch[1][x] = (double)z[1];
+        }
+        const struct br_nodal *y = row_of(seen, t, i);
+        const double *const rate[2] = {y->velocity, y->acceleration};
+        add(&taken, m->k * m->k / 2 * product(&m->field, rate, (const double *const *)m->scratch));
+    }
+    return taken;
+}
+
+/* The backward difference d^order of the displacement or the velocity. */
+static void difference(const struct br_watched_field *seen, int order, bool velocity, double *out)
+{
+    static const int binomial[4][4] = {{1}, {1, -1}, {1, -2, 1}, {1, -3, 3, -1}};
+    const struct br_nodal *now = &seen->y.row[0], *past = seen->y.past;
+    for (size_t x = 0; x < seen->y.size; x++) {
+        real sum = velocity ? now->velocity[x] : now->displacement[x];
+        for (int i = 1; i <= order; i++)
+            sum += binomial[order][i] *
+                   (real)(velocity ? past[i - 1].velocity[x] : past[i - 1].displacement[x]);
+        out[x] = (double)sum;
+    }
+}
+
+/* 1/2 |d Y|^2 + sum <Y_n, d^j Y / j>, j = 2, ... */
+static struct sum differences_take(struct meter_field *m, const struct br_watched_field *seen,
+                                   const struct br_textbook *t)
+{
+    struct sum taken = {0, 0};
+    const struct br_nodal *y = &seen->y.row[0];
+    const double *const now[2] = {y->displacement, y->velocity};
+    const double *const *d = (const double *const *)m->scratch;
+    for (int order = 1; order <= t->back; order++) {
+        difference(seen, order, false, m->scratch[0]);
+        difference(seen, order, true, m->scratch[1]);
+        add(&taken, product(&m->field, order == 1 ? d : now, d) / (order == 1 ? 2 : order));
+    }
+    return taken;
+}
+
+/* ---- a step ---- */
+
+/* The works of a step by the scheme's weights, J. */
+static struct sum add_works(struct meter_field *m, const struct br_textbook *t)
+{
+    struct field_work *w = &m->work;
+    struct sum all = {0, 0};
+    for (int i = 0; i < (t->rows > 0 ? t->rows : 1); i++) {
+        const real weight = m->k * (t->rows > 0 ? t->a[t->rows - 1][i] : 1);
+        const struct power *p = t->rows > 0 && t->c[i] == 0 ? &m->before : &m->row[i];
+        w->load += weight * p->load;
+        w->viscous += weight * p->viscous;
+        w->tip += weight * p->tip;
+        add(&all, weight * p->load);
+        add(&all, -weight * p->viscous);
+        add(&all, -weight * p->tip);
+        all.size += fabsl(weight) * (p->load_size + p->residual);
+    }
+    return all;
+}
+
+static real total(const struct field_energy *e)
+{
+    return e->kinetic + e->stored;
+}
+
+static double relative(real a, real size)
+{
+    return a == 0 ? 0 : (double)(fabsl(a) / size);
+}
+
+/* Displacements are sums of ways k v, and as good as these, also where a step annihilates the
+ * velocity it begins with: with what the certificate allows their update, relative to |w| + k |v|,
+ * stored energy has that times |k v| |w|, J, in the norms of K. */
+static real noise_of_ways(const struct br_energy_meter *m, const struct meter_field *f,
+                          const struct br_watched_field *seen)
+{
+    const real ways = bend_norm(&f->field, seen->y.past[0].velocity) +
+                      bend_norm(&f->field, seen->y.start.velocity);
+    const real size = bend_norm(&f->field, seen->y.row[seen->last].displacement);
+    return (real)m->update * (real)f->field.stiffness * f->k * ways * size;
+}
+
+/* What an imbalance is relative to, J: what has decayed below the last bit of the largest so far
+ * counts as nothing. */
+static real scale_of(struct br_energy_meter *m, struct meter_field *f, real size, real noise)
+{
+    size += noise / m->limit;
+    f->largest = f->largest > size ? f->largest : size;
+    const real least = (real)DBL_EPSILON * f->largest;
+    return size > least ? size : least;
+}
+
+/* Takes the energies at the step's end into the sums. Returns the imbalance. */
+static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
+{
+    struct meter_field *f = &m->field[kind];
+    const struct br_watched_field *seen = &m->seen.field[kind];
+    const struct br_textbook *t = br_watched_textbook(&m->seen, kind);
+    const struct br_nodal *y = &seen->y.row[seen->last];
+    const struct field_energy before = f->now;
+    const real tip_before = f->work.tip;
+    const struct sum works = add_works(f, t);
+    const struct sum taken =
+        t->rows > 0 ? runge_kutta_takes(f, seen, t) : differences_take(f, seen, t);
+    f->now = energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
+    const real contact =
+        kind == BR_BENDING ? 0 : f->work.tip - tip_before - (f->now.contact - before.contact);
+    const real size = scale_of(m, f,
+                               works.size + taken.size + total(&f->now) + total(&before) +
+                                   f->now.contact + before.contact,
+                               noise_of_ways(m, f, seen));
+    f->work.scheme += taken.value;
+    f->work.contact += contact;
+    f->work.noise += m->limit * size;
+    f->work.steps++;
+    if (taken.value + contact < -m->limit * size) {
+        f->work.gaining++;
+        f->work.gained -= taken.value + contact;
+    }
+    f->before = f->row[seen->last];
+    return relative(total(&f->now) - total(&before) - works.value + taken.value, size);
+}
+
+static void watch_step(void *self, enum br_field_kind kind, bool switched)
+{
+    struct br_energy_meter *m = self;
+    const double imbalance = m->seen.field[kind].last < 0 ? NAN : add_step(m, kind);
+    if (isnan(imbalance) || imbalance > m->worst)
+        m->worst = imbalance;
+    m->any = true;
+    br_watched_step(&m->seen, kind, switched);
+}
+
+/* ---- setting up ---- */
+
+/* A field by the scene, not by the solver, and its energies at t = 0. */
+static enum br_status set_up(struct br_energy_meter *m, enum br_field_kind kind,
+                             struct br_error *err)
+{
+    struct meter_field *f = &m->field[kind];
+    const struct br_nodal *y = &m->seen.field[kind].y.past[0];
+    f->field = br_field_of_scene(m->seen.scene, kind, m->seen.n, NAN);
+    if (kind == BR_AXIAL)
+        f->field.degree = m->seen.method->axial_degree;
+    const size_t size = br_field_size(&f->field);
+    f->scratch[0] = br_allocate(2 * size, sizeof *f->scratch[0]);
+    if (!f->scratch[0])
+        return br_no_memory(err, "the energies");
+    f->scratch[1] = f->scratch[0] + size;
+    if (br_march_models(m->seen.march, kind))
+        f->start = f->now =
+            energy_of_field(&f->field, &m->seen.scene->contact, y->displacement, y->velocity);
+    return BR_OK;
+}
+
+enum br_status br_energy_meter_create(struct br_energy_meter **out, struct br_march *march,
+                                      const struct br_scene *scene, const struct br_method *method,
+                                      struct br_error *err)
+{
+    const size_t n = br_march_field(march, BR_AXIAL)->n;
+    const double round_off = br_march_round_off(march);
+    struct br_energy_meter *m = *out = br_allocate(1, sizeof *m);
+    if (!m)
+        return br_no_memory(err, "the energies");
+    m->limit = br_energy_limit(n, round_off);
+    m->update = br_certificate_limits(method->scheme, n, round_off).update;
+    const struct br_march_watcher watcher = {m, watch_stage, watch_step};
+    enum br_status status = br_watched_init(&m->seen, march, scene, method, &watcher, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        status = set_up(m, kind, err);
+    if (status) {
+        br_energy_meter_free(m);
+        *out = NULL;
+    }
+    return status;
+}
+
+void br_energy_meter_free(struct br_energy_meter *m)
+{
+    if (!m)
+        return;
+    br_watched_clear(&m->seen);
+    free(m->field[BR_AXIAL].scratch[0]);
+    free(m->field[BR_BENDING].scratch[0]);
+    free(m);
+}
+
+/* ---- reading ---- */
+
+double br_energy_meter_step(struct br_energy_meter *m)
+{
+    const double worst = m->any ? m->worst : NAN;
+    m->worst = 0;
+    m->any = false;
+    return worst;
+}
+
+void br_energy_meter_read(const struct br_energy_meter *m, struct br_energy *start,
+                          struct br_energy *now, struct br_work *work)
+{
+    *start = *now = (struct br_energy){0};
+    *work = (struct br_work){0};
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct meter_field *f = &m->field[kind];
+        const struct field_work *w = &f->work;
+        put(start, kind, &f->start);
+        put(now, kind, &f->now);
+        work->loads[kind] = (double)w->load;
+        work->viscous[kind] = (double)w->viscous;
+        work->scheme[kind] = (double)w->scheme;
+        work->noise[kind] = (double)w->noise;
+        work->steps[kind] = w->steps;
+        work->gaining[kind] = w->gaining;
+        work->gained[kind] = (double)w->gained;
+    }
+    work->friction = (double)m->field[BR_BENDING].work.tip;
+    work->scheme_contact = (double)m->field[BR_AXIAL].work.contact;
 }

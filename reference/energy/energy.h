@@ -96,18 +96,4 @@ double br_energy_meter_step(struct br_energy_meter *meter);
 void br_energy_meter_read(const struct br_energy_meter *meter, struct br_energy *start,
                           struct br_energy *now, struct br_work *work);
 
-/* ---- for the meter ---- */
-
-/* a'Mb, and a'Kb of the stiffness without its coefficient; in: br_field_size values each. */
-long double br_mass_product(const struct br_field *field, const double *a, const double *b);
-long double br_bend_product(const struct br_field *field, const double *a, const double *b);
-
-/* Of one field's state, J, with the contact's potential of an axial one. */
-struct br_field_energy {
-    long double kinetic, stored, contact;
-};
-struct br_field_energy br_energy_of_field(const struct br_field *field,
-                                          const struct br_contact *contact,
-                                          const double *displacement, const double *velocity);
-
 #endif

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "solver/laws.h"
 #include "solver/proof.h"
 
 /* The derivatives that the equations (3), (4), (8), (9), (11) use. */
@@ -26,13 +27,6 @@ static const char *name_of(enum br_field_kind kind, struct br_partial order, cha
         text[length++] = 't';
     text[length] = '\0';
     return text;
-}
-
-static double value_at(const struct br_function *f, double x, double t)
-{
-    double value;
-    br_function_evaluate(f, 1, &x, t, &value);
-    return value;
 }
 
 /* ---- finite, and clamped ---- */
@@ -86,7 +80,7 @@ static enum br_status check_clamp(const struct br_given *s, const struct br_func
     char name[16];
     for (int j = 0; j < T_SAMPLES; j++) {
         const double t = sample(s->duration, j, T_SAMPLES);
-        const double value = value_at(d, 0, t);
+        const double value = br_function_at(d, 0, t);
         if (!(fabs(value) <= 1e-12 * scale))
             return br_fail(err, BR_BAD_INPUT,
                            "%s is %g at x = 0, t = %g s, expected 0 where the beam is clamped",
@@ -113,7 +107,8 @@ static double end_of(const struct br_given *s, enum br_variable v)
 
 static double along(const struct derived *d, double at, double other)
 {
-    return d->by == BR_X ? value_at(&d->function, at, other) : value_at(&d->function, other, at);
+    return d->by == BR_X ? br_function_at(&d->function, at, other)
+                         : br_function_at(&d->function, other, at);
 }
 
 /* Its breaks on a line, where `other` is fixed. */
@@ -211,10 +206,11 @@ enum br_status br_stick_check(const struct br_scene *scene, const struct br_func
 {
     for (int j = 0; j < T_SAMPLES; j++) {
         const double t = sample(scene->duration, j, T_SAMPLES);
-        if (value_at(velocity, 0, t) != 0)
+        if (br_function_at(velocity, 0, t) != 0)
             continue;
-        const double stick = value_at(&scene->bending.stick_force, 0, t);
-        const double bound = br_tip_bound(&scene->contact, &scene->friction, value_at(u, 0, t));
+        const double stick = br_function_at(&scene->bending.stick_force, 0, t);
+        const double bound =
+            br_friction_bound(scene, br_penetration(&scene->contact, br_function_at(u, 0, t)));
         if (!(fabs(stick) <= bound * (1 + 1e-12)))
             return br_fail(err, BR_BAD_INPUT,
                            "stick_force is %g N at t = %g s, where the tip rests, expected at most "

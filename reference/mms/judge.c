@@ -21,56 +21,37 @@ struct br_projection {
     double *value;                /* there */
 };
 
-static enum br_status fill_points(struct br_projection *p, struct br_error *err)
-{
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
-    if (!table)
-        return br_no_memory(err, "a Gauss rule");
-    for (size_t q = 0; q < POINTS; q++) {
-        double xi, weight, legendre[MODES];
-        gsl_integration_glfixed_point(0, 1, q, &xi, &weight, table);
-        br_legendre(MODES, xi, legendre);
-        for (size_t m = 0; m < MODES; m++)
-            p->weight[q][m] = weight * legendre[m];
-        for (size_t e = 0; e < p->n; e++)
-            p->x[e * POINTS + q] = p->h * ((double)e + xi);
-    }
-    gsl_integration_glfixed_table_free(table);
-    return BR_OK;
-}
-
-static enum br_status set_up(struct br_projection *p, const struct br_function *solution,
-                             struct br_partial order, struct br_error *err)
-{
-    p->x = br_allocate(2 * p->n * POINTS, sizeof *p->x);
-    if (!p->x)
-        return br_no_memory(err, "a projection");
-    p->value = p->x + p->n * POINTS;
-    const enum br_status status = fill_points(p, err);
-    return status ? status : br_function_derivative(solution, order, &p->derivative, err);
-}
-
 enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
-                                    const struct br_projected *what,
-                                    const struct br_projection_mesh *mesh, struct br_error *err)
+                                    const struct br_projected *what, double length, size_t n,
+                                    struct br_error *err)
 {
     *out = NULL;
     if (what->kept > BR_PROJECTION_MOST_KEPT)
         return br_fail(err, BR_BAD_INPUT, "%zu modes are to be kept, expected at most %d",
                        what->kept, BR_PROJECTION_MOST_KEPT);
-    struct br_projection *p = br_allocate(1, sizeof *p);
+    struct br_projection *p = *out = br_allocate(1, sizeof *p);
     if (!p)
         return br_no_memory(err, "a projection");
     p->kept = what->kept;
-    p->n = mesh->n;
-    p->h = mesh->length / (double)mesh->n;
-    const enum br_status status = set_up(p, solution, what->order, err);
-    if (status) {
-        br_projection_free(p);
-        return status;
+    p->n = n;
+    p->h = length / (double)n;
+    p->x = br_allocate(2 * n * POINTS, sizeof *p->x);
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
+    for (size_t q = 0; q < POINTS && p->x && table; q++) {
+        double xi, weight, legendre[MODES];
+        gsl_integration_glfixed_point(0, 1, q, &xi, &weight, table);
+        br_legendre(MODES, xi, legendre);
+        for (size_t m = 0; m < MODES; m++)
+            p->weight[q][m] = weight * legendre[m];
+        for (size_t e = 0; e < n; e++)
+            p->x[e * POINTS + q] = p->h * ((double)e + xi);
     }
-    *out = p;
-    return BR_OK;
+    const bool room = p->x && table;
+    gsl_integration_glfixed_table_free(table);
+    if (!room)
+        return br_no_memory(err, "a projection");
+    p->value = p->x + n * POINTS;
+    return br_function_derivative(solution, what->order, &p->derivative, err);
 }
 
 void br_projection_free(struct br_projection *p)
@@ -82,22 +63,15 @@ void br_projection_free(struct br_projection *p)
     free(p);
 }
 
-/* All modes of an element from its values. */
-static void element_modes(const struct br_projection *p, const double *value, double mode[MODES])
-{
-    memset(mode, 0, MODES * sizeof *mode);
-    for (size_t q = 0; q < POINTS; q++)
-        for (size_t m = 0; m < MODES; m++)
-            mode[m] += sqrt(p->h) * value[q] * p->weight[q][m];
-}
-
 struct br_projection_rest br_projection_apply(struct br_projection *p, double t, double *modes)
 {
     struct br_projection_rest sums = {0};
     br_function_evaluate(&p->derivative, p->n * POINTS, p->x, t, p->value);
     for (size_t e = 0; e < p->n; e++) {
-        double mode[MODES];
-        element_modes(p, p->value + e * POINTS, mode);
+        double mode[MODES] = {0};
+        for (size_t q = 0; q < POINTS; q++)
+            for (size_t m = 0; m < MODES; m++)
+                mode[m] += sqrt(p->h) * p->value[e * POINTS + q] * p->weight[q][m];
         memcpy(modes + e * p->kept, mode, p->kept * sizeof *mode);
         for (size_t m = p->kept; m < MODES; m++)
             sums.rest += mode[m] * mode[m];
@@ -112,10 +86,9 @@ struct br_projection_rest br_projection_apply(struct br_projection *p, double t,
 struct mms_judge {
     struct br_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
     struct br_function tip[2];                         /* the solution itself */
-    char *solution[2];                                 /* NULL: not modelled */
+    const struct br_scene *scene;
     size_t meshes, levels;
     int axial_degree;
-    double length, duration;     /* m, s */
     double time[2];              /* by br_field_kind, s */
     double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
     double seconds[2];           /* by br_field_kind */
@@ -126,7 +99,7 @@ static void mms_free(void *self)
     struct mms_judge *j = self;
     if (!j)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         for (int measure = 0; measure < BR_MEASURES; measure++) {
             struct br_projection **projection = j->projection[kind][measure];
             for (size_t i = 0; projection && i < j->meshes; i++)
@@ -134,49 +107,35 @@ static void mms_free(void *self)
             free(projection);
         }
         br_function_free(&j->tip[kind]);
-        free(j->solution[kind]);
     }
     free(j);
-}
-
-static enum br_status create_projections(struct mms_judge *j, enum br_field_kind kind,
-                                         enum br_measure measure, const struct br_judge_request *r,
-                                         struct br_error *err)
-{
-    struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
-    j->projection[kind][measure] = projection;
-    if (!projection)
-        return br_no_memory(err, "the manufactured solution");
-    const struct br_projected what = {
-        .order = {.x = measure != BR_STRAIN_RATE ? 0
-                       : kind == BR_AXIAL        ? 1
-                                                 : 2,
-                  .t = measure != BR_DISPLACEMENT},
-        .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
-    };
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < r->mesh_count && !status; i++) {
-        const struct br_projection_mesh mesh = {r->scene->length, r->mesh[i]};
-        status = br_projection_create(&projection[i], &j->tip[kind], &what, &mesh, err);
-    }
-    return status;
 }
 
 static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
                                   const struct br_judge_request *r, struct br_error *err)
 {
-    const char *text = kind == BR_AXIAL ? r->scene->axial.solution : r->scene->bending.solution;
-    if (!text)
+    const bool axial = kind == BR_AXIAL;
+    const struct br_scene *s = r->scene;
+    if (!(axial ? s->axial.solution : s->bending.solution))
         return BR_OK;
-    j->solution[kind] = br_allocate(strlen(text) + 1, 1);
-    if (!j->solution[kind])
-        return br_no_memory(err, "the manufactured solution");
-    strcpy(j->solution[kind], text);
-    enum br_status status = br_function_clone(
-        kind == BR_AXIAL ? &r->scene->axial.given : &r->scene->bending.given, &j->tip[kind], err);
-    for (int measure = 0; measure < BR_TIP && !status; measure++)
-        if (r->measured[kind][measure])
-            status = create_projections(j, kind, (enum br_measure)measure, r, err);
+    enum br_status status =
+        br_function_clone(axial ? &s->axial.given : &s->bending.given, &j->tip[kind], err);
+    for (enum br_measure measure = 0; measure < BR_TIP && !status; measure++) {
+        const int derived = axial ? 1 : 2;
+        const struct br_projected what = {
+            .order = {measure == BR_STRAIN_RATE ? derived : 0, measure != BR_DISPLACEMENT},
+            .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
+        };
+        if (!r->measured[kind][measure])
+            continue;
+        struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
+        j->projection[kind][measure] = projection;
+        if (!projection)
+            return br_no_memory(err, "the manufactured solution");
+        for (size_t i = 0; i < r->mesh_count && !status; i++)
+            status = br_projection_create(&projection[i], &j->tip[kind], &what, s->length,
+                                          r->mesh[i], err);
+    }
     return status;
 }
 
@@ -197,8 +156,7 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
     j->meshes = r->mesh_count;
     j->levels = r->levels;
     j->axial_degree = r->axial_degree;
-    j->length = scene->length;
-    j->duration = scene->duration;
+    j->scene = scene;
     const enum br_status status = create_part(j, BR_AXIAL, r, err);
     return status ? status : create_part(j, BR_BENDING, r, err);
 }
@@ -208,7 +166,7 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
 {
     struct mms_judge *j = self;
     (void)err;
-    j->time[kind] = j->duration * (double)i / (double)j->levels;
+    j->time[kind] = j->scene->duration * (double)i / (double)j->levels;
     return BR_OK;
 }
 
@@ -219,7 +177,7 @@ static void mms_sample(void *self, const struct br_sample_at *at, struct br_view
     struct br_projection_rest sums = {0};
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        br_function_evaluate(&j->tip[at->kind], 1, &j->length, j->time[at->kind], view->values);
+        *view->values = br_function_at(&j->tip[at->kind], j->scene->length, j->time[at->kind]);
     } else {
         br_view_modes(view,
                       br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
@@ -237,7 +195,7 @@ static struct br_judge_report mms_report(const void *self)
 {
     const struct mms_judge *j = self;
     struct br_judge_report report = {.seconds = j->seconds[BR_AXIAL] + j->seconds[BR_BENDING]};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_MEASURES; measure++)
             report.own_error[kind][measure] = sqrt(j->tail[kind][measure]);
     return report;
@@ -246,7 +204,7 @@ static struct br_judge_report mms_report(const void *self)
 static void mms_tell(const void *self, FILE *out)
 {
     const struct mms_judge *j = self;
-    const char *u = j->solution[BR_AXIAL], *w = j->solution[BR_BENDING];
+    const char *u = j->scene->axial.solution, *w = j->scene->bending.solution;
     fprintf(out, "Manufactured solution: %s%s%s%s%s.\n", u ? "u = " : "", u ? u : "",
             u && w ? ", " : "", w ? "w = " : "", w ? w : "");
 }

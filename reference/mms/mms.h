@@ -37,34 +37,6 @@ enum br_status br_given_check(const struct br_given *solution, struct br_error *
 enum br_status br_stick_check(const struct br_scene *scene, const struct br_function *u,
                               const struct br_function *velocity, struct br_error *err);
 
-/* ---- the tip forces that make a given solution fulfil the laws (8), (10), (11), (12) ---- */
-
-/* What a tip force is made of: functions of t. */
-struct br_tip_parts {
-    struct br_function stress;   /* N: a1 u_x + c1 u_xt, or -(a2 w_xxx + c2 w_xxxt) */
-    struct br_function u;        /* u(L, t), m */
-    struct br_function velocity; /* w_t(L, t), m/s; bending only */
-    struct br_function stick;    /* lambda while that is zero, N; bending only */
-    struct br_contact contact;
-    struct br_friction friction;
-    struct br_function above_gap; /* u - g, m; made from u, owns nothing */
-};
-
-void br_tip_parts_clear(struct br_tip_parts *parts);
-
-/* stress + c_H (u - g)_+, N, from (8) and (10). The parts are taken over, even where it
- * fails (BR_NO_MEMORY). */
-enum br_status br_tip_axial(struct br_tip_parts *parts, struct br_function *f,
-                            struct br_error *err);
-
-/* lambda + stress, N, from (11) and (12): lambda is b sign(w_t), or the stick force where
- * w_t is zero. The parts are taken over, even where it fails (BR_NO_MEMORY). */
-enum br_status br_tip_bending(struct br_tip_parts *parts, struct br_function *f,
-                              struct br_error *err);
-
-/* The friction bound b(t), N, of a solution whose tip is at u, m. */
-double br_tip_bound(const struct br_contact *contact, const struct br_friction *friction, double u);
-
 /* ---- its derivatives in the orthonormal Legendre modes of solver/modes.h ---- */
 
 enum { BR_PROJECTION_MOST_KEPT = 8 };
@@ -82,20 +54,15 @@ struct br_projection_rest {
     double tail; /* of the last two degrees of it: how well that is known */
 };
 
-/* n equal elements of [0, length], m. */
-struct br_projection_mesh {
-    double length;
-    size_t n;
-};
-
 struct br_projection;
 
-/* Of a solution. Fails with BR_BAD_INPUT (not kept <= BR_PROJECTION_MOST_KEPT, or as
- * br_function_derive) or BR_NO_MEMORY; *projection is then NULL. */
+/* Of a solution, on n equal elements of [0, length], m. Fails with BR_BAD_INPUT (not kept <=
+ * BR_PROJECTION_MOST_KEPT, or as br_function_derive) or BR_NO_MEMORY; free *projection even then.
+ */
 enum br_status br_projection_create(struct br_projection **projection,
                                     const struct br_function *solution,
-                                    const struct br_projected *what,
-                                    const struct br_projection_mesh *mesh, struct br_error *err);
+                                    const struct br_projected *what, double length, size_t n,
+                                    struct br_error *err);
 void br_projection_free(struct br_projection *projection); /* accepts NULL */
 
 /* At t, s: modes out, n * kept values. */

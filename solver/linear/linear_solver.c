@@ -50,7 +50,7 @@ const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_sol
     double least = INFINITY;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         const double cost =
-            (*s)->cost && own_solver(*s, field) ? (*s)->cost(field, sums) : INFINITY;
+            (*s)->cost && own_solver(*s, field) ? (*s)->cost(*s, field, sums) : INFINITY;
         if (cost < least) {
             least = cost;
             best = *s;

@@ -77,7 +77,8 @@ struct br_field_solver {
      * bending, whose laws do not need it. */
     double (*tip_displacement)(const void *self);
 
-    /* ---- for schemes of more than an Euler step (scheme.h) ---- */
+    /* ---- for schemes of more than an Euler step (scheme.h); states.h has keep, exchange and
+     * combine for a solver whose states are rows of numbers ---- */
 
     /* Another length of the steps, s; the state stays. Fails as create does. */
     enum br_status (*set_step)(void *self, double k, struct br_error *err);
@@ -117,12 +118,14 @@ struct br_linear_solver {
 
     /* Predicted round-off of a march's displacement relative to the exact discrete
      * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
-    double (*round_off)(const struct br_field *field, const struct br_linear_options *options);
+    double (*round_off)(const struct br_linear_solver *row, const struct br_field *field,
+                        const struct br_linear_options *options);
 
     /* What its solves leave of the equations (27) and (28) beyond the rounding of nodal values:
      * the norm of the normal force or the moment that is missing, relative to the terms' sum.
      * NULL: nothing. */
-    double (*residual)(const struct br_field *field, const struct br_linear_options *options);
+    double (*residual)(const struct br_linear_solver *row, const struct br_field *field,
+                       const struct br_linear_options *options);
 
     /* Bytes an element at most, as measured: with one state, while it is set up and after; and of
      * each state more that a scheme keeps. tests/test_resources.c compares. */
@@ -132,7 +135,8 @@ struct br_linear_solver {
      * measured; sums: passes over the states that the scheme adds to a stage
      * (br_time_scheme_sums). NULL: the row is no solver but a choice: it stands for the one of the
      * others that costs least. */
-    double (*cost)(const struct br_field *field, double sums);
+    double (*cost)(const struct br_linear_solver *row, const struct br_field *field, double sums);
+    struct br_by_element element_cost; /* ns, of an element without sums */
 };
 
 extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack, br_cholmod,

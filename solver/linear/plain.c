@@ -13,24 +13,22 @@
 #include <string.h>
 
 #include "solver/instruction_set.h"
+#include "solver/linear/block.h"
 #include "solver/linear/plain.h"
 #include "solver/linear/states.h"
-
-typedef long double real; /* of the tables, which are computed once */
 
 #define INLINE static inline __attribute__((always_inline))
 
 struct plain {
+    struct br_states states; /* of each element the controls of the displacement, m, and of the
+                                velocity, m/s, which do not know the step, 2 m; then at 0 and m the
+                                tip's own: see tip_displacement */
     struct br_field field;
     int d, m;
     double alpha, r[2]; /* a / (c + ka); R, diagonal */
     double compliance;  /* z_tip */
     double *gain;       /* n of gain_size: A, K, S^-1, zeta, each by rows */
     double *drive;      /* m n, workspace: S^-1 s, m/s */
-    double *state;      /* of each element the controls of the displacement, m, and of the velocity,
-                         m/s, which do not know the step, 2 m; then at 0 and m the tip's own: see
-                         tip_displacement */
-    struct br_states states; /* the first is `state` */
 };
 
 INLINE int gain_size(int d, int m)
@@ -62,43 +60,6 @@ INLINE double transposed_control(int d, int c, const double *p)
 }
 
 /* ---- tables ---- */
-
-struct block {
-    real e[2][2];
-};
-
-static struct block times(struct block a, struct block b)
-{
-    struct block c;
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++)
-            c.e[i][j] = a.e[i][0] * b.e[0][j] + a.e[i][1] * b.e[1][j];
-    return c;
-}
-
-static struct block plus(struct block a, struct block b)
-{
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++)
-            a.e[i][j] += b.e[i][j];
-    return a;
-}
-
-static struct block transpose(struct block a)
-{
-    return (struct block){{{a.e[0][0], a.e[1][0]}, {a.e[0][1], a.e[1][1]}}};
-}
-
-/* S^-1; false where S is not positive definite. */
-static bool invert(struct block s, struct block *inverse)
-{
-    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
-    if (!(s.e[0][0] > 0 && det > 0 && isfinite(det)))
-        return false;
-    *inverse =
-        (struct block){{{s.e[1][1] / det, -s.e[0][1] / det}, {-s.e[1][0] / det, s.e[0][0] / det}}};
-    return true;
-}
 
 /* The Riccati recursion, from the tip to the clamp. */
 struct recursion {
@@ -145,13 +106,13 @@ static bool quadratic_gain(struct recursion *rec)
     const real m = rec->mass, *r = rec->r, p = rec->p.e[0][0];
     const struct block s = {{{r[0] + m / 3 + p, -m / 12}, {-m / 12, r[1] + m / 30}}};
     const struct block h = {{{m / 2 + p}, {-m / 6}}};
-    if (!invert(s, &rec->inverse))
+    if (!is_positive_definite(s))
         return false;
+    rec->inverse = inverse_of(s);
     rec->k = times(rec->inverse, h);
     const real k0 = rec->k.e[0][0], k1 = rec->k.e[1][0];
-    const real det = s.e[0][0] * s.e[1][1] - s.e[0][1] * s.e[1][0];
     /* 1 - K_0, whose P cancels */
-    const real closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / det;
+    const real closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / determinant(s);
     rec->p.e[0][0] =
         mass_square(m, closed, k0, -k1) + r[0] * k0 * k0 + r[1] * k1 * k1 + closed * closed * p;
     for (int c = 0; c < 2; c++)
@@ -193,8 +154,9 @@ static bool beam_gain(struct recursion *rec)
     struct block s = times(gt, times(q, control)); /* S = R + G'QG */
     for (int c = 0; c < 2; c++)
         s.e[c][c] += rec->r[c];
-    if (!invert(s, &rec->inverse))
+    if (!is_positive_definite(s))
         return false;
+    rec->inverse = inverse_of(s);
     const struct block h = times(gt, plus(times(q, t), transpose(mab))); /* H = G'(QT + Mab') */
     const struct block k = times(rec->inverse, h);                       /* K = S^-1 H */
     const struct block a = plus(t, times(minus_control, k));             /* A = T - GK */
@@ -257,7 +219,7 @@ INLINE double sweep_left(int d, int m, struct plain *s, const struct br_drive *d
     const size_t n = s->field.n, stride = drive->vector ? (size_t)m : 0;
     const double *load = drive->vector ? drive->vector : none;
     const double factor = drive->factor, alpha = s->alpha, r[2] = {s->r[0], s->r[1]};
-    const double *restrict gain = s->gain, *restrict state = s->state;
+    const double *restrict gain = s->gain, *restrict state = s->states.of[0];
     double *restrict out = s->drive;
     double p[2], tip[2] = {0};
     for (int a = 0; a < d; a++)
@@ -306,7 +268,7 @@ INLINE void sweep_right(int d, int m, struct plain *s, double force)
     const double k = s->field.k;
     double y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of the increment, and of the state */
     const double *restrict gain = s->gain, *restrict drive = s->drive;
-    double *restrict e = s->state;
+    double *restrict e = s->states.of[0];
     for (size_t i = 0; i < n; i++, e += 2 * m) {
         const double *closed = gain + i * (size_t)gain_size(d, m), *feedback = closed + d * d;
         const double *zeta = feedback + m * d + m * m;
@@ -335,15 +297,18 @@ INLINE void sweep_right(int d, int m, struct plain *s, double force)
 }
 
 /* d and m become constants. */
+#define WITH_SIZES(s, sweep, ...)             \
+    ((s)->d == 2   ? sweep(2, 2, __VA_ARGS__) \
+     : (s)->m == 2 ? sweep(1, 2, __VA_ARGS__) \
+                   : sweep(1, 1, __VA_ARGS__))
+
 BR_SWEEP
 static enum br_status predict(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err)
 {
     (void)err;
     struct plain *s = self;
-    *velocity = s->d == 2   ? sweep_left(2, 2, s, drive)
-                : s->m == 2 ? sweep_left(1, 2, s, drive)
-                            : sweep_left(1, 1, s, drive);
+    *velocity = WITH_SIZES(s, sweep_left, s, drive);
     return BR_OK;
 }
 
@@ -351,13 +316,8 @@ BR_SWEEP
 static double finish(void *self, double force)
 {
     struct plain *s = self;
-    if (s->d == 2)
-        sweep_right(2, 2, s, force);
-    else if (s->m == 2)
-        sweep_right(1, 2, s, force);
-    else
-        sweep_right(1, 1, s, force);
-    return s->state[2 * (size_t)s->m * s->field.n + (size_t)s->m];
+    WITH_SIZES(s, sweep_right, s, force);
+    return s->states.of[0][2 * (size_t)s->m * s->field.n + (size_t)s->m];
 }
 
 static double tip_displacement(const void *self)
@@ -365,10 +325,10 @@ static double tip_displacement(const void *self)
     const struct plain *s = self;
     const size_t m = (size_t)s->m, n = s->field.n;
     if (s->d == 1)
-        return s->state[2 * m * n];
+        return s->states.of[0][2 * m * n];
     double w[2] = {0};
     for (size_t i = 0; i < n; i++)
-        cross(2, s->state + 2 * m * i, w);
+        cross(2, s->states.of[0] + 2 * m * i, w);
     return w[0];
 }
 
@@ -410,7 +370,6 @@ static enum br_status create(const struct br_linear_solver *row, const struct br
         return br_no_memory(err, what);
     const enum br_status status =
         br_states_add(&s->states, 2 * (size_t)s->m * (field->n + 1), 1, err);
-    s->state = s->states.of[0];
     return status ? status : fill_tables(s, err);
 }
 
@@ -425,8 +384,7 @@ static enum br_status set_step(void *self, double k, struct br_error *err)
 static void control_of(const struct plain *s, const double *node, double *kappa)
 {
     if (s->d == 2) {
-        kappa[0] = node[3] - node[1];
-        kappa[1] = 3 * (node[1] + node[3]) - 6 * (node[2] - node[0]);
+        br_curvature(node, kappa);
         return;
     }
     kappa[0] = node[s->m] - node[0];
@@ -441,8 +399,8 @@ static void set(void *self, const double *displacement, const double *velocity)
     const size_t m = (size_t)s->m, n = s->field.n;
     for (size_t j = 0; j < 2; j++) {
         for (size_t i = 0; i < n; i++)
-            control_of(s, nodal[j] + m * i, s->state + (2 * i + j) * m);
-        memcpy(s->state + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(double));
+            control_of(s, nodal[j] + m * i, s->states.of[0] + (2 * i + j) * m);
+        memcpy(s->states.of[0] + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(double));
     }
 }
 
@@ -457,7 +415,7 @@ static void get(const void *self, double *displacement, double *velocity)
             continue;
         memcpy(to, y, m * sizeof *to);
         for (size_t i = 0; i < s->field.n; i++) {
-            const double *kappa = s->state + (2 * i + j) * m;
+            const double *kappa = s->states.of[0] + (2 * i + j) * m;
             to += m;
             cross(s->d, kappa, y);
             if (s->m > s->d)
@@ -472,26 +430,7 @@ static void strain_rate(const void *self, double *rate)
     const struct plain *s = self;
     const size_t m = (size_t)s->m;
     for (size_t i = 0; i < s->field.n; i++)
-        memcpy(rate + m * i, s->state + (2 * i + 1) * m, m * sizeof *rate);
-}
-
-static enum br_status keep(void *self, size_t count, struct br_error *err)
-{
-    struct plain *s = self;
-    return br_states_add(&s->states, s->states.size, count, err);
-}
-
-static void exchange(void *self, size_t a, size_t b)
-{
-    struct plain *s = self;
-    br_states_exchange(&s->states, a, b);
-    s->state = s->states.of[0];
-}
-
-static void combine(void *self, size_t into, size_t count, const double *weight)
-{
-    struct plain *s = self;
-    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
+        memcpy(rate + m * i, s->states.of[0] + (2 * i + 1) * m, m * sizeof *rate);
 }
 
 /* The square of u_x over an element is (kappa_0^2 + kappa_1^2 / 3) / h, of w_xx the same over h^3;
@@ -524,27 +463,29 @@ const struct br_field_solver br_plain_form = {
     .finish = finish,
     .tip_displacement = tip_displacement,
     .set_step = set_step,
-    .keep = keep,
-    .exchange = exchange,
-    .combine = combine,
+    .keep = br_keep_states,
+    .exchange = br_exchange_states,
+    .combine = br_combine_states,
     .size = size_of,
 };
 
 /* An upper estimate; the benchmark and tests/ measure less. A tip that sticks gathers round-off of
  * its own, whatever the mesh. */
-static double round_off(const struct br_field *field, const struct br_linear_options *options)
+static double round_off(const struct br_linear_solver *row, const struct br_field *field,
+                        const struct br_linear_options *options)
 {
+    (void)row;
     (void)options;
     return 4 * DBL_EPSILON * ((double)field->n + 1024);
 }
 
 /* See linear_solver.h; of an AMD EPYC with AVX-512 at about 3 GHz. */
-static double cost(const struct br_field *field, double sums)
+static double cost(const struct br_linear_solver *row, const struct br_field *field, double sums)
 {
-    static const struct br_by_element element = {2.5, 7.1, 3.9}, sum = {0.65, 1.3, 1.3};
+    static const struct br_by_element sum = {0.65, 1.3, 1.3};
     return 120 + 42 * sums +
            (double)field->n *
-               (br_by_element_of(&element, field) + sums * br_by_element_of(&sum, field));
+               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
 }
 
 const struct br_linear_solver br_plain = {
@@ -559,4 +500,5 @@ const struct br_linear_solver br_plain = {
     .bytes = {92, 218, 140},
     .state_bytes = {16, 32, 32},
     .cost = cost,
+    .element_cost = {2.5, 7.1, 3.9},
 };

@@ -25,13 +25,6 @@ void br_states_clear(struct br_states *states)
     *states = (struct br_states){0};
 }
 
-void br_states_exchange(struct br_states *states, size_t a, size_t b)
-{
-    double *of_a = states->of[a];
-    states->of[a] = states->of[b];
-    states->of[b] = of_a;
-}
-
 BR_SWEEP
 static void add_block(double *restrict sum, size_t size, double weight, const double *from)
 {
@@ -68,4 +61,24 @@ void br_add_states(double *to, size_t size, size_t count, double *const *from, c
         for (size_t i = 0; i < width; i++)
             to[first + i] = sum[i];
     }
+}
+
+enum br_status br_keep_states(void *self, size_t count, struct br_error *err)
+{
+    struct br_states *states = self;
+    return br_states_add(states, states->size, count, err);
+}
+
+void br_exchange_states(void *self, size_t a, size_t b)
+{
+    struct br_states *states = self;
+    double *of_a = states->of[a];
+    states->of[a] = states->of[b];
+    states->of[b] = of_a;
+}
+
+void br_combine_states(void *self, size_t into, size_t count, const double *weight)
+{
+    struct br_states *states = self;
+    br_add_states(states->of[into], states->size, count, states->of, weight);
 }

@@ -17,11 +17,15 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
                              struct br_error *err);
 void br_states_clear(struct br_states *states);
 
-void br_states_exchange(struct br_states *states, size_t a, size_t b);
-
 /* to[i] = sum over j of weight[j] from[j][i], i < size; from[j] may be `to`. Weights of 0 are
  * skipped. */
 void br_add_states(double *to, size_t size, size_t count, double *const *from,
                    const double *weight);
+
+/* keep, exchange and combine of a br_field_solver (linear_solver.h) whose record begins with its
+ * states. */
+enum br_status br_keep_states(void *self, size_t count, struct br_error *err);
+void br_exchange_states(void *self, size_t a, size_t b);
+void br_combine_states(void *self, size_t into, size_t count, const double *weight);
 
 #endif

@@ -92,51 +92,56 @@ static void add_elements(const struct br_field *f, double mass, const double *v,
         add_bending(f, mass * f->h, v, stiffness, w, out);
 }
 
+/* ---- the matrix ---- */
+
+/* The first row of a column, of the lower triangle or of both. */
+static size_t first_row(const struct br_band *a, bool both, size_t column)
+{
+    return !both ? column : column > a->band ? column - a->band : 0;
+}
+
+void br_band_pattern(const struct br_band *a, bool both, int *column, int *row)
+{
+    int count = 0;
+    for (size_t j = 0; j < a->order; j++) {
+        column[j] = count;
+        for (size_t i = first_row(a, both, j); i <= j + a->band && i < a->order; i++)
+            row[count++] = (int)i;
+    }
+    column[a->order] = count;
+}
+
+void br_band_values(const struct br_band *a, bool both, double *value)
+{
+    for (size_t j = 0; j < a->order; j++)
+        for (size_t i = first_row(a, both, j); i <= j + a->band && i < a->order; i++) {
+            const size_t low = i < j ? i : j, high = i < j ? j : i;
+            *value++ = a->value[low * (a->band + 1) + high - low];
+        }
+}
+
 /* ---- the system A x = b ---- */
 
-struct system {
+struct assembled {
+    struct br_states states; /* nodal: displacement, and behind it velocity */
     struct br_field field;
     size_t unknowns; /* a node */
     size_t nodal;    /* length of a nodal array, clamped node included */
+    size_t tip;      /* index of the tip's displacement in one */
     const struct br_factoriser *factoriser;
     void *factor;
     int refinement; /* steps a solve, at most, where the factoriser does not do it */
     struct br_band matrix;
-    double *residual, *correction; /* workspace, nodal */
+    double *free_velocity;               /* v* */
+    double *tip_response;                /* z = A^-1 e_tip, nodal */
+    double *rhs, *residual, *correction; /* workspace, nodal */
+    double loss;   /* of a solve, relative, as check_digits has it: the largest of all steps */
+    double safety; /* how much more a march may lose, see round_off */
+    double usual;  /* loss of a march as usual_loss has it */
 };
 
-/* Prepares what does not depend on the values; clear it even where it fails. */
-static enum br_status system_init(struct system *s, const struct br_field *field,
-                                  const struct br_linear_options *options,
-                                  const struct br_factoriser *factoriser, struct br_error *err)
-{
-    s->field = *field;
-    s->unknowns = br_field_unknowns(field);
-    s->nodal = br_field_size(field);
-    s->factoriser = factoriser;
-    s->refinement = factoriser->refines ? 0 : options->refinement;
-    s->matrix = (struct br_band){.order = s->unknowns * field->n, .band = 2 * s->unknowns - 1};
-    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
-        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
-                       field->n);
-    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
-    s->residual = br_allocate(2 * s->nodal, sizeof *s->residual);
-    if (!s->matrix.value || !s->residual)
-        return br_no_memory(err, "the stiffness form");
-    s->correction = s->residual + s->nodal;
-    return factoriser->create(&s->matrix, options, &s->factor, err);
-}
-
-static void system_clear(struct system *s)
-{
-    if (s->factoriser)
-        s->factoriser->free(s->factor);
-    free(s->matrix.value);
-    free(s->residual);
-}
-
 /* Assembles and factorises A for s->field. */
-static enum br_status system_factorise(struct system *s, struct br_error *err)
+static enum br_status factorise_matrix(struct assembled *s, struct br_error *err)
 {
     const size_t count = s->matrix.order * (s->matrix.band + 1);
     memset(s->matrix.value, 0, count * sizeof *s->matrix.value);
@@ -160,45 +165,46 @@ static double largest(const double *x, size_t count)
     return most;
 }
 
-static enum br_status solve_once(struct system *s, const double *rhs, double *x,
+static enum br_status solve_once(struct assembled *s, const double *rhs, double *x,
                                  struct br_error *err)
 {
     return s->factoriser->solve(s->factor, rhs + s->unknowns, x + s->unknowns, err);
 }
 
-/* residual = rhs - A x */
-static void form_residual(struct system *s, const double *rhs, const double *x)
+/* correction = A^-1 (rhs - A x) */
+static enum br_status correct(struct assembled *s, const double *x, struct br_error *err)
 {
     const struct br_field *f = &s->field;
-    memcpy(s->residual, rhs, s->nodal * sizeof *rhs);
+    memcpy(s->residual, s->rhs, s->nodal * sizeof *s->rhs);
     add_elements(f, -f->density / f->k, x, f->viscosity + f->k * f->stiffness, x, s->residual);
+    return solve_once(s, s->residual, s->correction, err);
 }
 
-static enum br_status no_digits(const struct system *s, struct br_error *err)
+/* x = A^-1 rhs; nodal (out), and the clamped node of x stays as it is, zero. Then x += A^-1 (rhs -
+ * A x), in double, until a correction is no longer half of the one before, or the next one would be
+ * round-off. The residual is formed element by element from what deforms them, so that it is as
+ * exact as one of more digits, and the error itself shrinks, not just the residual (N. J. Higham,
+ * Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1). The march
+ * reports what is not finite. */
+static enum br_status solve(struct assembled *s, double *x, struct br_error *err)
 {
-    return br_fail(err, BR_SINGULAR,
-                   "%s: the refinement does not converge, since the matrix of n = %zu elements is "
-                   "too ill-conditioned for a solution with any right digit",
-                   s->factoriser->name, s->field.n);
-}
-
-/* x += A^-1 (rhs - A x), in double, until a correction is no longer half of the one before, or the
- * next one would be round-off. The residual is formed element by element from what deforms them, so
- * that it is as exact as one of more digits, and the error itself shrinks, not just the residual
- * (N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1).
- * The march reports what is not finite. */
-static enum br_status refine(struct system *s, const double *rhs, double *x, struct br_error *err)
-{
+    enum br_status status = solve_once(s, s->rhs, x, err);
+    if (status || s->refinement == 0)
+        return status;
     double last = largest(x, s->nodal);
     const double enough = DBL_EPSILON * last;
     for (int step = 0; step < s->refinement; step++) {
-        form_residual(s, rhs, x);
-        const enum br_status status = solve_once(s, s->residual, s->correction, err);
+        status = correct(s, x, err);
         if (status)
             return status;
         const double size = largest(s->correction, s->nodal);
+        if (!(size <= last / 2) && step == 0 && isfinite(size))
+            return br_fail(err, BR_SINGULAR,
+                           "%s: the refinement does not converge, since the matrix of n = %zu "
+                           "elements is too ill-conditioned for a solution with any right digit",
+                           s->factoriser->name, s->field.n);
         if (!(size <= last / 2))
-            return step == 0 && isfinite(size) ? no_digits(s, err) : BR_OK;
+            break;
         for (size_t i = 0; i < s->nodal; i++)
             x[i] += s->correction[i];
         if (size == 0 || size / last * size <= enough)
@@ -206,26 +212,6 @@ static enum br_status refine(struct system *s, const double *rhs, double *x, str
         last = size;
     }
     return BR_OK;
-}
-
-/* x = A^-1 rhs; both nodal (in, out), and the clamped node of x stays as it is, zero. */
-static enum br_status system_solve(struct system *s, const double *rhs, double *x,
-                                   struct br_error *err)
-{
-    const enum br_status status = solve_once(s, rhs, x, err);
-    return status ? status : refine(s, rhs, x, err);
-}
-
-/* How much of x = A^-1 rhs is wrong, relative to its largest value (out): the correction that one
- * more step of refinement would make. */
-static enum br_status system_loss(struct system *s, const double *rhs, const double *x,
-                                  double *loss, struct br_error *err)
-{
-    form_residual(s, rhs, x);
-    const enum br_status status = solve_once(s, s->residual, s->correction, err);
-    if (!status)
-        *loss = largest(s->correction, s->nodal) / largest(x, s->nodal);
-    return status;
 }
 
 /* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
@@ -257,62 +243,35 @@ static double usual_loss(const struct br_field *f, bool refines,
     return fmin(loss, 1);
 }
 
-double br_refining_library_round_off(const struct br_field *f,
-                                     const struct br_linear_options *options)
-{
-    return usual_loss(f, true, options);
-}
-
 /* No step of refinement repairs the round-off of nodal values. */
-double br_assembled_round_off(const struct br_field *f, const struct br_linear_options *options)
+double br_assembled_round_off(const struct br_linear_solver *row, const struct br_field *f,
+                              const struct br_linear_options *options)
 {
-    return usual_loss(f, false, options) +
-           (options->refinement > 0 ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
+    const bool refined = options->refinement > 0 && !row->factoriser->refines;
+    return usual_loss(f, row->factoriser->refines, options) +
+           (refined ? 8 * DBL_EPSILON * ((double)f->n + 1024) : 0);
 }
 
 /* Elimination is backward stable: each row is solved for a nodal force that is off by a few last
  * bits of its terms, 24 C/h^3 |v| for bending and 2 C/h |v| for the rod (Higham, chapter 10). Such
  * forces are at random, and what balances them is a sum of them and of their levers: of moments
  * C |v|/L^2 the relative error is 0.5 times 2^-52 n^3.5, of normal forces 0.3 times 2^-52 n^1.5.
- * Eight times as much. */
-double br_refining_library_residual(const struct br_field *f,
-                                    const struct br_linear_options *options)
+ * Eight times as much; a library's own refinement is of the rounded matrix. */
+double br_assembled_residual(const struct br_linear_solver *row, const struct br_field *f,
+                             const struct br_linear_options *options)
 {
-    (void)options; /* its own refinement is of the rounded matrix */
     const double n = (double)f->n;
+    if (options->refinement > 0 && !row->factoriser->refines)
+        return 0;
     return DBL_EPSILON * (f->kind == BR_AXIAL ? 3 * n : 4 * n * n * n) * sqrt(n);
-}
-
-double br_assembled_residual(const struct br_field *f, const struct br_linear_options *options)
-{
-    return options->refinement > 0 ? 0 : br_refining_library_residual(f, options);
 }
 
 /* ---- a field solver ---- */
 
-struct assembled {
-    struct system system;
-    struct br_states states; /* nodal: displacement, and behind it velocity */
-    double *displacement;    /* of the first of them */
-    double *velocity;
-    double *free_velocity; /* v* */
-    double *tip_response;  /* z = A^-1 e_tip, nodal */
-    double *rhs;           /* workspace, nodal */
-    double loss;   /* of a solve, relative, as system_loss has it: the largest of all steps */
-    double safety; /* how much more a march may lose, see round_off */
-    double usual;  /* loss of a march as usual_loss has it */
-};
-
-/* Index of the tip's displacement in a nodal array. */
-static size_t tip_index(const struct assembled *s)
-{
-    return s->system.field.n * s->system.unknowns;
-}
-
 /* Each step's velocity is off by what a solve loses, which inertia keeps for so many steps. */
 static double kept(const struct assembled *s, double steps)
 {
-    return fmin(1 + br_field_inertia(&s->system.field), steps);
+    return fmin(1 + br_field_inertia(&s->field), steps);
 }
 
 /* A march that is more than a twentieth off has next to no digit left; near 1 the mass, or what the
@@ -321,14 +280,15 @@ static const double most_loss = 0.05, few_steps = 10;
 
 /* What is lost is measured, not predicted: it depends on n, k, damping and the order of elimination
  * by factors of thousands, and only sometimes makes a pivot negative. A force at the tip asks for
- * the softest motion there is, which loses most. */
+ * the softest motion there is, which loses most: of that, relative to its largest value, the
+ * correction is that one more step of refinement would make. */
 static enum br_status check_digits(struct assembled *s, struct br_error *err)
 {
-    const struct br_field *f = &s->system.field;
-    double loss = NAN;
-    const enum br_status status = system_loss(&s->system, s->rhs, s->tip_response, &loss, err);
+    const struct br_field *f = &s->field;
+    const enum br_status status = correct(s, s->tip_response, err);
     if (status)
         return status;
+    const double loss = largest(s->correction, s->nodal) / largest(s->tip_response, s->nodal);
     s->loss = fmax(s->loss, loss);
     const double lost = loss * kept(s, few_steps);
     if (lost <= most_loss)
@@ -338,50 +298,39 @@ static enum br_status check_digits(struct assembled *s, struct br_error *err)
         "%s: the %s matrix of n = %zu elements and k = %g s is too ill-conditioned: %.2g "
         "of the velocity is lost in %g steps, expected at most %g; solver riccati has no "
         "such matrix",
-        s->system.factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost,
-        few_steps, most_loss);
-}
-
-static enum br_status find_tip_response(struct assembled *s, struct br_error *err)
-{
-    memset(s->rhs, 0, s->system.nodal * sizeof *s->rhs);
-    s->rhs[tip_index(s)] = 1;
-    const enum br_status status = system_solve(&s->system, s->rhs, s->tip_response, err);
-    if (status)
-        return status;
-    const double compliance = s->tip_response[tip_index(s)];
-    if (compliance > 0 && isfinite(compliance))
-        return check_digits(s, err);
-    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
-                   s->system.factoriser->name, compliance);
+        s->factoriser->name, f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost, few_steps,
+        most_loss);
 }
 
 /* All that depends on the step's length. */
 static enum br_status factorise(struct assembled *s, struct br_error *err)
 {
-    const enum br_status status = system_factorise(&s->system, err);
-    return status ? status : find_tip_response(s, err);
-}
-
-static void point_at_first(struct assembled *s)
-{
-    s->displacement = s->states.of[0];
-    s->velocity = s->displacement + s->system.nodal;
+    enum br_status status = factorise_matrix(s, err);
+    memset(s->rhs, 0, s->nodal * sizeof *s->rhs);
+    s->rhs[s->tip] = 1;
+    if (!status)
+        status = solve(s, s->tip_response, err);
+    if (status)
+        return status;
+    const double compliance = s->tip_response[s->tip];
+    if (compliance > 0 && isfinite(compliance))
+        return check_digits(s, err);
+    return br_fail(err, BR_SINGULAR, "%s: the tip's compliance is %g, expected > 0",
+                   s->factoriser->name, compliance);
 }
 
 static enum br_status allocate(struct assembled *s, struct br_error *err)
 {
-    const size_t nodal = s->system.nodal;
-    const enum br_status status = br_states_add(&s->states, 2 * nodal, 1, err);
-    if (status)
-        return status;
-    point_at_first(s);
-    s->free_velocity = br_allocate(3 * nodal, sizeof *s->free_velocity);
-    if (!s->free_velocity)
+    const size_t nodal = s->nodal;
+    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
+    s->free_velocity = br_allocate(5 * nodal, sizeof *s->free_velocity);
+    if (!s->matrix.value || !s->free_velocity)
         return br_no_memory(err, "the stiffness form");
     s->tip_response = s->free_velocity + nodal;
     s->rhs = s->tip_response + nodal;
-    return BR_OK;
+    s->residual = s->rhs + nodal;
+    s->correction = s->residual + nodal;
+    return br_states_add(&s->states, 2 * nodal, 1, err);
 }
 
 static enum br_status assembled_create(const struct br_linear_solver *row,
@@ -390,15 +339,28 @@ static enum br_status assembled_create(const struct br_linear_solver *row,
                                        struct br_error *err)
 {
     const struct br_factoriser *factoriser = row->factoriser;
+    const size_t unknowns = br_field_unknowns(field), order = unknowns * field->n;
     struct assembled *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, "the stiffness form");
-    s->safety = factoriser->refines && options->refinement > 0 ? 15 : 3;
-    s->usual = usual_loss(field, factoriser->refines, options);
-    enum br_status status = system_init(&s->system, field, options, factoriser, err);
+    *s = (struct assembled){
+        .field = *field,
+        .unknowns = unknowns,
+        .nodal = br_field_size(field),
+        .tip = order,
+        .factoriser = factoriser,
+        .refinement = factoriser->refines ? 0 : options->refinement,
+        .matrix = {.order = order, .band = 2 * unknowns - 1},
+        .safety = factoriser->refines && options->refinement > 0 ? 15 : 3,
+        .usual = usual_loss(field, factoriser->refines, options),
+    };
+    if (field->n > 100 * 1000 * 1000) /* the libraries count entries in int */
+        return br_fail(err, BR_BAD_INPUT, "%s: n is %zu, expected at most 1e8", factoriser->name,
+                       field->n);
+    enum br_status status = allocate(s, err);
     if (!status)
-        status = allocate(s, err);
+        status = factoriser->create(&s->matrix, options, &s->factor, err);
     return status ? status : factorise(s, err);
 }
 
@@ -407,7 +369,8 @@ static void assembled_free(void *self)
     struct assembled *s = self;
     if (!s)
         return;
-    system_clear(&s->system);
+    s->factoriser->free(s->factor);
+    free(s->matrix.value);
     br_states_clear(&s->states);
     free(s->free_velocity);
     free(s);
@@ -416,7 +379,7 @@ static void assembled_free(void *self)
 static enum br_status assembled_set_step(void *self, double k, struct br_error *err)
 {
     struct assembled *s = self;
-    s->system.field.k = k;
+    s->field.k = k;
     return factorise(s, err);
 }
 
@@ -428,7 +391,7 @@ static enum br_status assembled_set_step(void *self, double k, struct br_error *
 static double march_round_off(const void *self, size_t steps)
 {
     const struct assembled *s = self;
-    const struct br_field *f = &s->system.field;
+    const struct br_field *f = &s->field;
     const double sums = 16 * DBL_EPSILON, scatter = 3;
     const double usual = fmin(scatter * s->usual, 1) / (1 + br_field_inertia(f)) + sums;
     return fmax(s->safety * s->loss, usual) * kept(s, (double)steps) +
@@ -438,30 +401,30 @@ static double march_round_off(const void *self, size_t steps)
 static double assembled_compliance(const void *self)
 {
     const struct assembled *s = self;
-    return s->tip_response[tip_index(s)];
+    return s->tip_response[s->tip];
 }
 
 static void assembled_set(void *self, const double *displacement, const double *velocity)
 {
     struct assembled *s = self;
-    memcpy(s->displacement, displacement, s->system.nodal * sizeof *displacement);
-    memcpy(s->velocity, velocity, s->system.nodal * sizeof *velocity);
+    memcpy(s->states.of[0], displacement, s->nodal * sizeof *displacement);
+    memcpy(s->states.of[0] + s->nodal, velocity, s->nodal * sizeof *velocity);
 }
 
 static void assembled_get(const void *self, double *displacement, double *velocity)
 {
     const struct assembled *s = self;
-    const size_t bytes = s->system.nodal * sizeof *displacement;
+    const size_t bytes = s->nodal * sizeof *displacement;
     if (displacement)
-        memcpy(displacement, s->displacement, bytes);
+        memcpy(displacement, s->states.of[0], bytes);
     if (velocity)
-        memcpy(velocity, s->velocity, bytes);
+        memcpy(velocity, s->states.of[0] + s->nodal, bytes);
 }
 
 /* What deforms element i, from nodal values: its elongation or its two curvatures. */
 static void strain(const struct assembled *s, const double *nodal, size_t i, double *out)
 {
-    if (s->system.field.kind == BR_AXIAL)
+    if (s->field.kind == BR_AXIAL)
         out[0] = nodal[i + 1] - nodal[i];
     else
         br_curvature(nodal + 2 * i, out);
@@ -470,28 +433,24 @@ static void strain(const struct assembled *s, const double *nodal, size_t i, dou
 static void assembled_strain_rate(const void *self, double *rate)
 {
     const struct assembled *s = self;
-    for (size_t i = 0; i < s->system.field.n; i++)
-        strain(s, s->velocity, i, rate + i * s->system.unknowns);
+    for (size_t i = 0; i < s->field.n; i++)
+        strain(s, s->states.of[0] + s->nodal, i, rate + i * s->unknowns);
 }
 
 /* rhs = factor F + tip + M v/k - K w */
-static void form_rhs(struct assembled *s, const struct br_drive *drive)
-{
-    const struct br_field *f = &s->system.field;
-    for (size_t i = 0; i < s->system.nodal; i++)
-        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
-    for (size_t c = 0; c < s->system.unknowns; c++)
-        s->rhs[tip_index(s) + c] += drive->tip[c];
-    add_elements(f, f->density / f->k, s->velocity, f->stiffness, s->displacement, s->rhs);
-}
-
 static enum br_status assembled_predict(void *self, const struct br_drive *drive, double *velocity,
                                         struct br_error *err)
 {
     struct assembled *s = self;
-    form_rhs(s, drive);
-    const enum br_status status = system_solve(&s->system, s->rhs, s->free_velocity, err);
-    *velocity = s->free_velocity[tip_index(s)];
+    const struct br_field *f = &s->field;
+    const double *w = s->states.of[0], *v = w + s->nodal;
+    for (size_t i = 0; i < s->nodal; i++)
+        s->rhs[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
+    for (size_t c = 0; c < s->unknowns; c++)
+        s->rhs[s->tip + c] += drive->tip[c];
+    add_elements(f, f->density / f->k, v, f->stiffness, w, s->rhs);
+    const enum br_status status = solve(s, s->free_velocity, err);
+    *velocity = s->free_velocity[s->tip];
     return status;
 }
 
@@ -499,53 +458,32 @@ static enum br_status assembled_predict(void *self, const struct br_drive *drive
 static double assembled_finish(void *self, double force)
 {
     struct assembled *s = self;
-    for (size_t i = 0; i < s->system.nodal; i++) {
-        s->velocity[i] = s->free_velocity[i] - force * s->tip_response[i];
-        s->displacement[i] += s->system.field.k * s->velocity[i];
+    double *w = s->states.of[0], *v = w + s->nodal;
+    for (size_t i = 0; i < s->nodal; i++) {
+        v[i] = s->free_velocity[i] - force * s->tip_response[i];
+        w[i] += s->field.k * v[i];
     }
-    return s->velocity[tip_index(s)];
+    return v[s->tip];
 }
 
 static double assembled_tip_displacement(const void *self)
 {
     const struct assembled *s = self;
-    return s->displacement[tip_index(s)];
-}
-
-/* ---- more states ---- */
-
-static enum br_status assembled_keep(void *self, size_t count, struct br_error *err)
-{
-    struct assembled *s = self;
-    return br_states_add(&s->states, s->states.size, count, err);
-}
-
-static void assembled_exchange(void *self, size_t a, size_t b)
-{
-    struct assembled *s = self;
-    br_states_exchange(&s->states, a, b);
-    point_at_first(s);
-}
-
-static void assembled_combine(void *self, size_t into, size_t count, const double *weight)
-{
-    struct assembled *s = self;
-    br_add_states(s->states.of[into], s->states.size, count, s->states.of, weight);
+    return s->states.of[0][s->tip];
 }
 
 static void assembled_size(void *self, size_t which, double size[2])
 {
     const struct assembled *s = self;
     struct br_view view;
-    br_view_field(&view, &s->system.field,
-                  BR_STRAIN_RATE); /* the modes of a strain: the same scales */
+    br_view_field(&view, &s->field, BR_STRAIN_RATE); /* the modes of a strain: the same scales */
     for (int part = 0; part < 2; part++) {
-        const double *nodal = s->states.of[which] + (part ? s->system.nodal : 0);
+        const double *nodal = s->states.of[which] + (part ? s->nodal : 0);
         long double squares = 0; /* those of small numbers are lost in double */
         double modes[2];
-        for (size_t i = 0; i < s->system.field.n; i++) {
+        for (size_t i = 0; i < s->field.n; i++) {
             strain(s, nodal, i, modes);
-            for (size_t c = 0; c < s->system.unknowns; c++) {
+            for (size_t c = 0; c < s->unknowns; c++) {
                 const long double mode = (long double)view.scale[c] * modes[c];
                 squares += mode * mode;
             }
@@ -555,13 +493,13 @@ static void assembled_size(void *self, size_t which, double size[2])
 }
 
 /* A step has the solve's own start in it; a pass over the states costs what it does in plain.c. */
-double br_assembled_cost(const struct br_by_element *element, const struct br_field *field,
+double br_assembled_cost(const struct br_linear_solver *row, const struct br_field *field,
                          double sums)
 {
     static const struct br_by_element sum = {0.65, 1.3, 0};
     return 170 + 42 * sums +
            (double)field->n *
-               (br_by_element_of(element, field) + sums * br_by_element_of(&sum, field));
+               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
 }
 
 const struct br_field_solver br_assembled = {
@@ -576,8 +514,8 @@ const struct br_field_solver br_assembled = {
     .finish = assembled_finish,
     .tip_displacement = assembled_tip_displacement,
     .set_step = assembled_set_step,
-    .keep = assembled_keep,
-    .exchange = assembled_exchange,
-    .combine = assembled_combine,
+    .keep = br_keep_states,
+    .exchange = br_exchange_states,
+    .combine = br_combine_states,
     .size = assembled_size,
 };

@@ -17,6 +17,11 @@ struct br_band {
     double *value;
 };
 
+/* The whole band, with its zeros, by compressed columns, of the lower triangle or of both: a
+ * pattern that holds for any values, and the values (out). */
+void br_band_pattern(const struct br_band *a, bool both, int *column, int *row);
+void br_band_values(const struct br_band *a, bool both, double *value);
+
 /* How a library factorises and solves. */
 struct br_factoriser {
     const char *name;
@@ -39,19 +44,14 @@ struct br_factoriser {
 /* The functions of a br_field_solver, for both fields: `create` takes the row's factoriser. */
 extern const struct br_field_solver br_assembled;
 
-/* A row's round_off and residual, where the assembled form refines: what solves usually make a
- * march lose, relative to the largest displacement, by measurements, and what elimination without
- * refinement leaves of the equations; and where a library refines by itself. */
-double br_assembled_round_off(const struct br_field *field,
+/* For a row: what solves usually make a march lose, relative to the largest displacement, and what
+ * elimination without refinement leaves of the equations, by measurements; and what a step costs by
+ * what the row says of an element without refinement. */
+double br_assembled_round_off(const struct br_linear_solver *row, const struct br_field *field,
                               const struct br_linear_options *options);
-double br_assembled_residual(const struct br_field *field, const struct br_linear_options *options);
-double br_refining_library_round_off(const struct br_field *field,
-                                     const struct br_linear_options *options);
-double br_refining_library_residual(const struct br_field *field,
-                                    const struct br_linear_options *options);
-
-/* A row's cost by what an element costs without refinement, ns. */
-double br_assembled_cost(const struct br_by_element *element, const struct br_field *field,
+double br_assembled_residual(const struct br_linear_solver *row, const struct br_field *field,
+                             const struct br_linear_options *options);
+double br_assembled_cost(const struct br_linear_solver *row, const struct br_field *field,
                          double sums);
 
 #endif

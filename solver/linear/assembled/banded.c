@@ -84,12 +84,6 @@ static const struct br_factoriser banded = {
     .solve = banded_solve,
 };
 
-static double cost(const struct br_field *field, double sums)
-{
-    static const struct br_by_element element = {22.1, 39, 0};
-    return br_assembled_cost(&element, field, sums);
-}
-
 const struct br_linear_solver br_banded = {
     .name = "banded",
     .title = "assembled stiffness form, factorised once by LAPACK's banded Cholesky",
@@ -102,5 +96,6 @@ const struct br_linear_solver br_banded = {
     .residual = br_assembled_residual,
     .bytes = {135, 310, 0},
     .state_bytes = {16, 32, 0},
-    .cost = cost,
+    .cost = br_assembled_cost,
+    .element_cost = {22.1, 39, 0},
 };

@@ -27,26 +27,6 @@ static enum br_status failed(const struct cholmod *c, struct br_error *err)
     return br_fail(err, BR_SINGULAR, "cholmod: status %d", c->common.status);
 }
 
-/* The pattern of the whole band, with zeros too: it holds for any values. */
-static void fill_pattern(const struct br_band *a, cholmod_sparse *matrix)
-{
-    int *column = matrix->p, *row = matrix->i, count = 0;
-    for (size_t j = 0; j < a->order; j++) {
-        column[j] = count;
-        for (size_t i = j; i <= j + a->band && i < a->order; i++)
-            row[count++] = (int)i;
-    }
-    column[a->order] = count;
-}
-
-static void fill_values(const struct br_band *a, cholmod_sparse *matrix)
-{
-    double *value = matrix->x;
-    for (size_t j = 0; j < a->order; j++)
-        for (size_t i = j; i <= j + a->band && i < a->order; i++)
-            *value++ = a->value[j * (a->band + 1) + i - j];
-}
-
 static enum br_status cholmod_create(const struct br_band *a,
                                      const struct br_linear_options *options, void **factor,
                                      struct br_error *err)
@@ -66,7 +46,7 @@ static enum br_status cholmod_create(const struct br_band *a,
                                         CHOLMOD_REAL, &c->common);
     if (!c->matrix)
         return failed(c, err);
-    fill_pattern(a, c->matrix);
+    br_band_pattern(a, false, c->matrix->p, c->matrix->i);
     c->factor = cholmod_analyze(c->matrix, &c->common);
     return c->factor ? BR_OK : failed(c, err);
 }
@@ -89,7 +69,7 @@ static enum br_status cholmod_refactorise(void *factor, const struct br_band *a,
                                           struct br_error *err)
 {
     struct cholmod *c = factor;
-    fill_values(a, c->matrix);
+    br_band_values(a, false, c->matrix->x);
     const int done = cholmod_factorize(c->matrix, c->factor, &c->common);
     return done && c->common.status == CHOLMOD_OK ? BR_OK : failed(c, err);
 }
@@ -121,12 +101,6 @@ static const struct br_factoriser cholmod = {
     .solve = cholmod_solve_it,
 };
 
-static double cost(const struct br_field *field, double sums)
-{
-    static const struct br_by_element element = {23.6, 44.8, 0};
-    return br_assembled_cost(&element, field, sums);
-}
-
 const struct br_linear_solver br_cholmod = {
     .name = "cholmod",
     .title = "assembled stiffness form, factorised once by SuiteSparse's CHOLMOD",
@@ -140,5 +114,6 @@ const struct br_linear_solver br_cholmod = {
     .residual = br_assembled_residual,
     .bytes = {260, 650, 0},
     .state_bytes = {16, 32, 0},
-    .cost = cost,
+    .cost = br_assembled_cost,
+    .element_cost = {23.6, 44.8, 0},
 };

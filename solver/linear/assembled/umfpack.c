@@ -7,12 +7,12 @@
 
 struct umfpack {
     int order;
-    int *column, *row; /* both triangles, by columns */
+    int *column, *row; /* both triangles, by columns; order + 1 and as many as values */
+    int *iwork;        /* workspace: 2 * order, of which the solve needs one */
     double *value;
+    double *work; /* workspace for the solve: 5 * order */
     void *symbolic, *numeric;
     double control[UMFPACK_CONTROL], info[UMFPACK_INFO];
-    int *iwork;   /* workspace: 2 * order, of which the solve needs one */
-    double *work; /* workspace for the solve: 5 * order */
 };
 
 static enum br_status failed(struct br_error *err, const char *what, int status)
@@ -43,33 +43,6 @@ static enum br_status read_options(struct umfpack *u, const struct br_linear_opt
                    options->scaling);
 }
 
-static size_t first_row(const struct br_band *a, size_t column)
-{
-    return column > a->band ? column - a->band : 0;
-}
-
-/* The whole band of both triangles. */
-static void fill_pattern(const struct br_band *a, struct umfpack *u)
-{
-    int count = 0;
-    for (size_t j = 0; j < a->order; j++) {
-        u->column[j] = count;
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++)
-            u->row[count++] = (int)i;
-    }
-    u->column[a->order] = count;
-}
-
-static void fill_values(const struct br_band *a, struct umfpack *u)
-{
-    double *value = u->value;
-    for (size_t j = 0; j < a->order; j++)
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++) {
-            const size_t low = i < j ? i : j, high = i < j ? j : i;
-            *value++ = a->value[low * (a->band + 1) + high - low];
-        }
-}
-
 static enum br_status umfpack_create(const struct br_band *a,
                                      const struct br_linear_options *options, void **factor,
                                      struct br_error *err)
@@ -80,14 +53,14 @@ static enum br_status umfpack_create(const struct br_band *a,
         return br_no_memory(err, "umfpack's factor");
     u->order = (int)a->order;
     const size_t most = a->order * (2 * a->band + 1);
-    u->column = br_allocate(a->order + 1, sizeof *u->column);
-    u->row = br_allocate(most, sizeof *u->row);
-    u->value = br_allocate(most, sizeof *u->value);
-    u->iwork = br_allocate(2 * a->order, sizeof *u->iwork);
-    u->work = br_allocate(5 * a->order, sizeof *u->work);
-    if (!u->column || !u->row || !u->value || !u->iwork || !u->work)
+    u->column = br_allocate(3 * a->order + 1 + most, sizeof *u->column);
+    u->value = br_allocate(5 * a->order + most, sizeof *u->value);
+    if (!u->column || !u->value)
         return br_no_memory(err, "umfpack's factor");
-    fill_pattern(a, u);
+    u->iwork = u->column + a->order + 1;
+    u->row = u->iwork + 2 * a->order;
+    u->work = u->value + most;
+    br_band_pattern(a, true, u->column, u->row);
     const enum br_status status = read_options(u, options, err);
     if (status)
         return status;
@@ -106,10 +79,7 @@ static void umfpack_destroy(void *factor)
     if (u->numeric)
         umfpack_di_free_numeric(&u->numeric);
     free(u->column);
-    free(u->row);
     free(u->value);
-    free(u->iwork);
-    free(u->work);
     free(u);
 }
 
@@ -138,7 +108,7 @@ static enum br_status check_definite(struct umfpack *u, struct br_error *err)
 static enum br_status umfpack_factorise(void *factor, const struct br_band *a, struct br_error *err)
 {
     struct umfpack *u = factor;
-    fill_values(a, u);
+    br_band_values(a, true, u->value);
     if (u->numeric)
         umfpack_di_free_numeric(&u->numeric);
     const int result = umfpack_di_numeric(u->column, u->row, u->value, u->symbolic, &u->numeric,
@@ -164,12 +134,6 @@ static const struct br_factoriser umfpack = {
     .solve = umfpack_solve,
 };
 
-static double cost(const struct br_field *field, double sums)
-{
-    static const struct br_by_element element = {18.9, 36.2, 0};
-    return br_assembled_cost(&element, field, sums);
-}
-
 const struct br_linear_solver br_umfpack = {
     .name = "umfpack",
     .title = "assembled stiffness form, factorised once by SuiteSparse's UMFPACK",
@@ -178,9 +142,10 @@ const struct br_linear_solver br_umfpack = {
     .axial = &br_assembled,
     .bending = &br_assembled,
     .factoriser = &umfpack,
-    .round_off = br_refining_library_round_off,
-    .residual = br_refining_library_residual,
+    .round_off = br_assembled_round_off,
+    .residual = br_assembled_residual,
     .bytes = {410, 1110, 0},
     .state_bytes = {16, 32, 0},
-    .cost = cost,
+    .cost = br_assembled_cost,
+    .element_cost = {18.9, 36.2, 0},
 };

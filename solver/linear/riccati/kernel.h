@@ -91,11 +91,9 @@ struct br_kernel {
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
-    /* What the state adds to the ends of the pieces, q and z; advance leaves it, too. */
-    void (*weigh)(const struct br_strip *strip);
-
     /* The state becomes the sum over j < count of weight[j] times the states from[j], itself among
-     * them or not, and what it adds to the ends is found. */
+     * them or not; with count 0 it stays. What it adds to the ends of the pieces, q and z, is
+     * found: advance leaves that, too. */
     void (*blend)(const struct br_strip *strip, size_t count, const double *const *from,
                   const double *weight);
 
@@ -125,7 +123,7 @@ const struct br_kernel *br_kernel_find(const char *name);
 
 /* ---- cost ---- */
 
-/* What the element loops of sweep_march.c do for one element in each lane of a vector, for the
+/* What the element loops of sweep.c do for one element in each lane of a vector, for the
  * benchmark, which holds their time against the machine's limits. To be counted anew when the loops
  * change: element_left, element_right, element_state, strain, pass_on and the weights. Instructions
  * that only move values are not counted, nor are the joins. */

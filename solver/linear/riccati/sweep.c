@@ -1,7 +1,89 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A step of the pieces of a strip, element by element, and the kernel that it makes with
- * sweep_ends.c. */
-#include "solver/linear/riccati/sweep_lanes.h"
+/* The loops of a strip: a step of its pieces, their joins, and the way to the nodes. Compiled once
+ * for each instruction set, BR_SET (instruction_set.h), and contracted. Two vectors side by side
+ * hide the latency of the recursions. */
+#include "solver/linear/riccati/kernel.h"
+#include "solver/vectors.h"
+
+/* ---- the lanes of a strip in vectors ---- */
+
+enum { VECTORS = 2, GO = VECTORS * WIDTH };
+
+/* The entries of G that are not 0 or 1; see tables.c. */
+static const double half = 0.5, lever = 0.28867513459481288225;
+
+INLINE void load_all(int d, const double *from, vec *to)
+{
+    for (int i = 0; i < d; i++)
+        to[i] = load(from + i * BR_LANES);
+}
+
+INLINE void store_all(int d, const vec *from, double *to)
+{
+    for (int i = 0; i < d; i++)
+        store(from[i], to + i * BR_LANES);
+}
+
+/* sum += a x, sum -= a x, and so with a'; d by d */
+INLINE void add(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            sum[i] += a[i * d + j] * x[j];
+}
+
+INLINE void subtract(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            sum[i] -= a[i * d + j] * x[j];
+}
+
+INLINE void add_transposed(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = d; j-- > 0;)
+            sum[i] += a[j * d + i] * x[j];
+}
+
+INLINE void subtract_transposed(int d, const double *a, const vec *x, vec *sum)
+{
+    for (int i = 0; i < d; i++)
+        for (int j = d; j-- > 0;)
+            sum[i] -= a[j * d + i] * x[j];
+}
+
+/* y = T y + G kappa */
+INLINE void pass_on(int d, const vec *kappa, vec *y)
+{
+    if (d == 1) {
+        y[0] += kappa[0];
+        return;
+    }
+    y[0] = ((y[0] + y[1]) + half * kappa[0]) - lever * kappa[1];
+    y[1] += kappa[0];
+}
+
+/* Where a piece's lanes begin. */
+struct piece {
+    double *state, *end;
+    const double *load;
+};
+
+INLINE struct piece piece_at(int d, const struct br_strip *s, size_t j, size_t lane)
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    return (struct piece){
+        .state = s->state + j * s->length * 2 * entry + lane,
+        .end = s->end + j * BR_ENDS * entry + lane,
+        .load = s->load ? s->load + j * s->length * entry + lane : NULL,
+    };
+}
+
+INLINE const double *join_of(int d, const struct br_strip *s, size_t j)
+{
+    return s->join + j * (size_t)(BR_JOINS * d * d);
+}
 
 /* ---- an element ---- */
 
@@ -281,7 +363,165 @@ INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, si
     store_all(d, y, at.end + BR_END_LOAD_Z * entry);
 }
 
+/* ---- joins ---- */
+
+/* z or q of a piece with its load's */
+INLINE void load_end(int d, const double *end, int which, double factor, vec *value)
+{
+    const int entry = d * BR_LANES;
+    for (int i = 0; i < d; i++)
+        value[i] = load(end + which * entry + i * BR_LANES) +
+                   factor * load(end + (which + BR_END_LOAD_Q - BR_END_Q) * entry + i * BR_LANES);
+}
+
+/* One piece further to the left: h goes through its join, and the span's z gathers. */
+INLINE void gather_piece(int d, const double *join, double *end, double factor, vec *h, vec *sum)
+{
+    const int entry = d * BR_LANES;
+    vec next[2], drift[2];
+    load_end(d, end, BR_END_Q, factor, next);
+    load_end(d, end, BR_END_Z, factor, drift);
+    store_all(d, h, end + BR_END_H * entry);
+    store_all(d, drift, end + BR_END_DRIFT * entry);
+    add(d, join + BR_JOIN_LEAD * d * d, drift, sum);
+    add(d, join + BR_JOIN_LAG * d * d, h, sum);
+    add(d, join + BR_JOIN_TRANSFER * d * d, drift, next);
+    add_transposed(d, join + BR_JOIN_PASS * d * d, h, next);
+    for (int i = 0; i < d; i++)
+        h[i] = next[i];
+}
+
+/* A span ends free. */
+INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lane, double *q,
+                      double *z)
+{
+    vec h[VECTORS][2] = {{{0}}}, sum[VECTORS][2] = {{{0}}};
+    for (size_t j = s->pieces; j-- > 0;) {
+        double *end = piece_at(d, s, j, lane).end;
+        for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
+            __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
+        for (int v = 0; v < VECTORS; v++)
+            gather_piece(d, join_of(d, s, j), end + v * WIDTH, factor, h[v], sum[v]);
+    }
+    for (int v = 0; v < VECTORS; v++) {
+        store_all(d, h[v], q + lane + v * WIDTH);
+        store_all(d, sum[v], z + lane + v * WIDTH);
+    }
+}
+
+/* Lane by lane, but all that does not wait for the neighbour at once. */
+INLINE void add_lanewise(int d, const struct br_strip *s, int which, const double *x, double *sum)
+{
+    const double *a = s->span_join + which * d * d * BR_LANES;
+    for (int lane = 0; lane < BR_LANES; lane += WIDTH)
+        for (int i = 0; i < d; i++) {
+            vec total = load(sum + i * BR_LANES + lane);
+            for (int j = 0; j < d; j++)
+                total += load(a + (i * d + j) * BR_LANES + lane) * load(x + j * BR_LANES + lane);
+            store(total, sum + i * BR_LANES + lane);
+        }
+}
+
+INLINE void join_left_of(size_t d, const struct br_strip *s, const double *q, const double *z,
+                         double *h, double *right)
+{
+    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    _Alignas(64) double own[2 * BR_LANES];
+    memcpy(own, q, d * BR_LANES * sizeof *own);
+    add_lanewise((int)d, s, BR_JOIN_TRANSFER, z, own);
+    for (size_t lane = s->lanes; lane-- > 0;) {
+        double next[2];
+        for (size_t i = 0; i < d; i++) {
+            right[i * BR_LANES + lane] = h[i];
+            next[i] = own[i * BR_LANES + lane];
+            for (size_t j = 0; j < d; j++)
+                next[i] += pass[(j * d + i) * BR_LANES + lane] * h[j];
+        }
+        for (size_t i = 0; i < d; i++)
+            h[i] = next[i];
+    }
+}
+
+INLINE void join_right_of(size_t d, const struct br_strip *s, const double *z, double *y,
+                          double *left, double *right)
+{
+    const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
+    _Alignas(64) double own[2 * BR_LANES] = {0}, away[2 * BR_LANES];
+    for (size_t i = 0; i < d * BR_LANES; i++)
+        away[i] = -right[i];
+    add_lanewise((int)d, s, BR_JOIN_GAIN, z, own);
+    add_lanewise((int)d, s, BR_JOIN_YIELD, away, own);
+    for (size_t lane = 0; lane < s->lanes; lane++) {
+        double next[2];
+        for (size_t i = 0; i < d; i++) {
+            left[i * BR_LANES + lane] = y[i];
+            next[i] = own[i * BR_LANES + lane];
+            for (size_t j = 0; j < d; j++)
+                next[i] += pass[(i * d + j) * BR_LANES + lane] * y[j];
+            own[i * BR_LANES + lane] = next[i];
+        }
+        for (size_t i = 0; i < d; i++)
+            y[i] = next[i];
+    }
+    add_lanewise((int)d, s, BR_JOIN_COSTATE, own, right);
+}
+
+/* ---- to the nodes ---- */
+
+/* kappa_w or kappa_v, carried from the left ends of the spans. */
+INLINE void carry_of(int d, const struct br_strip *s, bool rate, size_t lane, double *across)
+{
+    const size_t entry = (size_t)d * BR_LANES;
+    const double *state = s->state + lane + (rate ? entry : 0);
+    vec y[VECTORS][2] = {{{0}}};
+    for (size_t e = 0; e < s->pieces * s->length; e++)
+        for (int v = 0; v < VECTORS; v++) {
+            vec kappa[2];
+            load_all(d, state + e * 2 * entry + v * WIDTH, kappa);
+            pass_on(d, kappa, y[v]);
+        }
+    for (int v = 0; v < VECTORS; v++)
+        store_all(d, y[v], across + lane + v * WIDTH);
+}
+
+/* Block after block of WIDTH values of each lane: rows of lanes become lanes of rows. */
+INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, const double *left,
+                      double *nodal)
+{
+    const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+    const size_t together = (size_t)(WIDTH / d); /* elements of a block */
+    const double *state = s->state + lane + (rate ? entry : 0);
+    vec y[VECTORS][2], row[VECTORS][WIDTH];
+    for (int v = 0; v < VECTORS; v++)
+        load_all(d, left + lane + v * WIDTH, y[v]);
+    for (size_t e = 0; e < length; e += together) {
+        const size_t live = length - e < together ? length - e : together;
+        for (size_t i = 0; i < together; i++)
+            for (int v = 0; v < VECTORS; v++) {
+                vec kappa[2] = {{0}};
+                if (i < live)
+                    load_all(d, state + (e + i) * 2 * entry + v * WIDTH, kappa);
+                pass_on(d, kappa, y[v]);
+                for (int c = 0; c < d; c++)
+                    row[v][i * (size_t)d + (size_t)c] = y[v][c];
+            }
+        for (int v = 0; v < VECTORS; v++) {
+            transpose(row[v]);
+            const size_t first = lane + (size_t)(v * WIDTH);
+            for (size_t l = 0; l < WIDTH && first + l < s->lanes; l++) {
+                double *to = nodal + ((first + l) * length + e) * (size_t)d;
+                if (live == together)
+                    store(row[v][l], to);
+                else
+                    memcpy(to, &row[v][l], live * (size_t)d * sizeof *to);
+            }
+        }
+    }
+}
+
 /* ---- the kernel: d becomes a constant ---- */
+
+#define WITH_D(s, loops, ...) ((s)->d == 1 ? loops(1, __VA_ARGS__) : loops(2, __VA_ARGS__))
 
 /* The odd rest, one lane, has no use for a second vector. */
 INLINE void advance_lanes(int d, bool loaded, const struct br_strip *s,
@@ -296,59 +536,70 @@ INLINE void advance_lanes(int d, bool loaded, const struct br_strip *s,
 static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
                     const struct br_strip_ends *ends)
 {
-    if (s->d == 1 && !s->load)
-        advance_lanes(1, false, s, drive, ends);
-    else if (s->d == 1)
-        advance_lanes(1, true, s, drive, ends);
-    else if (!s->load)
-        advance_lanes(2, false, s, drive, ends);
+    if (s->load)
+        WITH_D(s, advance_lanes, true, s, drive, ends);
     else
-        advance_lanes(2, true, s, drive, ends);
+        WITH_D(s, advance_lanes, false, s, drive, ends);
 }
 
 static void charge(const struct br_strip *s, const double uniform[2])
 {
     for (size_t j = 0; j < s->pieces; j++)
         for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
-            if (s->d == 1)
-                charge_of(1, s, uniform, j, lane);
-            else
-                charge_of(2, s, uniform, j, lane);
+            WITH_D(s, charge_of, s, uniform, j, lane);
 }
 
 static void blend(const struct br_strip *s, size_t count, const double *const *from,
                   const double *weight)
 {
-    if (s->d == 1)
-        blend_of(1, s, count, from, weight);
-    else
-        blend_of(2, s, count, from, weight);
-}
-
-static void weigh(const struct br_strip *s)
-{
-    blend(s, 0, NULL, NULL);
+    WITH_D(s, blend_of, s, count, from, weight);
 }
 
 static void square(const struct br_strip *s, const double *state, double sum[2])
 {
-    if (s->d == 1)
-        square_of(1, s, state, sum);
-    else
-        square_of(2, s, state, sum);
+    WITH_D(s, square_of, s, state, sum);
+}
+
+static void gather(const struct br_strip *s, double factor, double *q, double *z)
+{
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
+        WITH_D(s, gather_of, s, factor, lane, q, z);
+}
+
+static void join_left(const struct br_strip *s, const double *q, const double *z, double *h,
+                      double *right)
+{
+    WITH_D(s, join_left_of, s, q, z, h, right);
+}
+
+static void join_right(const struct br_strip *s, const double *z, double *y, double *left,
+                       double *right)
+{
+    WITH_D(s, join_right_of, s, z, y, left, right);
+}
+
+static void carry(const struct br_strip *s, bool rate, double *across)
+{
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
+        WITH_D(s, carry_of, s, rate, lane, across);
+}
+
+static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
+{
+    for (size_t lane = 0; lane < s->lanes; lane += GO)
+        WITH_D(s, expand_of, s, rate, lane, left, nodal);
 }
 
 const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
     .name = BR_QUOTE(BR_SET),
     .available = BR_JOIN(br_has_, BR_SET),
-    .gather = SWEEP(gather),
-    .join_left = SWEEP(join_left),
-    .join_right = SWEEP(join_right),
+    .gather = gather,
+    .join_left = join_left,
+    .join_right = join_right,
     .advance = advance,
     .charge = charge,
-    .weigh = weigh,
     .blend = blend,
     .square = square,
-    .carry = SWEEP(carry),
-    .expand = SWEEP(expand),
+    .carry = carry,
+    .expand = expand,
 };
