@@ -422,6 +422,12 @@ void br_hide(struct br_document *d, const char *key, const char *unit, struct br
     BR_PUT(d, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);
 }
 
+void br_put_cells(struct br_document *d, size_t count, const struct br_value *values)
+{
+    for (size_t i = 0; i < count; i++)
+        BR_PUT(d, values[i], .key = NULL);
+}
+
 void br_put_blank(struct br_document *d, bool blank)
 {
     d->blank = blank;

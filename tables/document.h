@@ -265,8 +265,15 @@ void br_put_rule(struct br_document *d);
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value);
 #define BR_PUT(d, value, ...) br_put_cell((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* The same of a column that has a key alone (NULL: of the next column), and of a column for
- * programs (unit: NULL, none). */
+/* Puts values under the next columns, in their order; of a new row, or of the one that is there. */
+void br_put_cells(struct br_document *d, size_t count, const struct br_value *values);
+#define BR_CELLS(d, ...)                                                                  \
+    br_put_cells((d), sizeof((struct br_value[]){__VA_ARGS__}) / sizeof(struct br_value), \
+                 (const struct br_value[]){__VA_ARGS__})
+#define BR_ROW(d, ...) (br_put_row(d), BR_CELLS(d, __VA_ARGS__))
+
+/* The same as BR_PUT of a column that has a key alone, and of a column for programs (unit: NULL,
+ * none). */
 void br_put(struct br_document *d, const char *key, struct br_value value);
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
 

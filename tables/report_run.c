@@ -63,21 +63,20 @@ static const char *with_error(double value, double error, char text[VALUE])
 
 /* A number of the march with as many digits as its predicted error allows, three where that is not
  * known; error: its own, if that is known better than the march's. */
-static void put_number(struct br_document *d, const struct br_run_findings *f,
-                       const struct br_column *what, struct br_value value, double error)
+static void put_number(struct br_document *d, const struct br_run_findings *f, const char *key,
+                       const char *heading, const char *unit, struct br_value value, double error)
 {
     const struct br_prediction *p = f->prediction;
     const double digits = p->known ? 1 - floor(log10(p->whole.error)) : 3;
     char text[VALUE];
-    br_put_fact(d, what, value);
+    BR_FACT(d, value, .key = key, .heading = heading, .unit = unit);
     if (value.kind != BR_NUMBER || !isfinite(value.number))
         return;
     if (error > 0 || value.number == 0)
-        br_put_shown(d, "%s", with_error(value.number, error, text));
+        with_error(value.number, error, text);
     else
-        br_put_shown(
-            d, "%s",
-            br_digits_text(value.number, (int)fmax(2, fmin(digits, 6)), text, sizeof text));
+        br_digits_text(value.number, (int)fmax(2, fmin(digits, 6)), text, sizeof text);
+    br_put_shown(d, "%s", text);
 }
 
 static void answer_tip(struct br_document *d, const struct br_run_findings *f)
@@ -129,17 +128,6 @@ static void answer_prediction(struct br_document *d, const struct br_prediction 
                       p->round_off);
 }
 
-/* Their texts stand below, and were on the terminal before the march. */
-static void answer_warnings(struct br_document *d, const struct br_warnings *w)
-{
-    if (!w->count)
-        return;
-    br_put_answer(d, "%zu warning%s before the march: ", w->count, w->count == 1 ? "" : "s");
-    for (size_t i = 0; i < w->count; i++)
-        br_put_more(d, "%s%s", i ? ", " : "", br_warning_word(w->list[i].kind));
-    br_put_more(d, ".");
-}
-
 /* What the scheme has added in all. */
 static void answer_gain(struct br_document *d, const struct br_run_report *r, int kind)
 {
@@ -159,6 +147,7 @@ static void answer_gain(struct br_document *d, const struct br_run_report *r, in
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
+    const struct br_warnings *w = f->warnings;
     if (r->failure.status)
         br_put_answer(d, "STOPPED: %s", r->failure.message);
     answer_tip(d, f);
@@ -171,7 +160,12 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->contact_unstable)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
                          "chatter at the step's rate. --contact implicit has no such limit.");
-    answer_warnings(d, f->warnings);
+    for (size_t i = 0; i < w->count; i++) {
+        if (i == 0) /* their texts stand below, and were on the terminal before the march */
+            br_put_answer(d, "%zu warning%s before the march: ", w->count,
+                          w->count == 1 ? "" : "s");
+        br_put_more(d, "%s%s", br_warning_word(w->list[i].kind), i + 1 < w->count ? ", " : ".");
+    }
 }
 
 /* ---- the march ---- */
@@ -279,8 +273,7 @@ static void put_extreme(struct br_document *d, const struct br_run_findings *f, 
     char value[KEY], time[KEY];
     snprintf(value, sizeof value, "events.%s.value", key);
     snprintf(time, sizeof time, "events.%s.t", key);
-    put_number(d, f, &(struct br_column){.key = value, .heading = label, .unit = "N"},
-               br_if(known, br_number(e->value)), NAN);
+    put_number(d, f, value, label, "N", br_if(known, br_number(e->value)), NAN);
     BR_FACT(d, br_if(known, br_number(e->time)), .key = time, .heading = "  at t", .unit = "s");
 }
 
@@ -289,70 +282,50 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_friction *law = &r->marched.friction;
-    const struct br_history_row *row = &r->end.last;
-    const double force = row->friction_force, bound = row->friction_bound;
-    const bool friction = has_friction(r);
-    const bool coulomb = law->law == BR_COULOMB && bound > 0;
+    const struct br_tip_watch *w = &r->watch;
+    const double force = r->end.last.friction_force, bound = r->end.last.friction_bound;
+    const bool friction = has_friction(r), coulomb = law->law == BR_COULOMB && bound > 0;
     const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
-    const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.friction_force", .heading = "friction force", .unit = "N"},
-        br_if(friction, br_number(force)), fabs(force) == bound ? error : NAN);
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.friction_bound", .heading = "  its bound", .unit = "N"},
-        br_if(friction, br_number(bound)), error);
+    put_number(d, f, "tip.friction_force", "friction force", "N", br_if(friction, br_number(force)),
+               fabs(force) == bound ? error : NAN);
+    put_number(d, f, "tip.friction_bound", "  its bound", "N", br_if(friction, br_number(bound)),
+               error);
     BR_FACT(d, br_if(friction, br_number(100 * fabs(force) / bound)), .key = "tip.friction_share",
             .heading = "  of the bound", .unit = "%", .format = "%.4g");
-    BR_FACT(d, br_if(friction && r->watch.steps, regime), .key = "tip.regime",
-            .heading = "friction");
-    br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
+    BR_FACT(d, br_if(friction && w->steps, br_text(br_tip_regime_word(w->regime))),
+            .key = "tip.regime", .heading = "friction");
+    br_put_mark(d, w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
     put_extreme(d, f, friction, "largest_friction_force", "largest friction force",
-                &r->watch.friction_force);
-}
-
-static void put_displacement(struct br_document *d, const struct br_run_findings *f, int kind)
-{
-    const double value = f->report->end.last.displacement[kind];
-    const bool axial = kind == BR_AXIAL;
-    char text[VALUE];
-    BR_FACT(d, br_if(is_marched(f->report, kind), br_number(value)),
-            .key = axial ? "tip.displacement.axial" : "tip.displacement.bending",
-            .heading = axial ? "axial displacement u" : "bending displacement w", .unit = "m");
-    br_put_shown(d, "%s", with_error(value, tip_error(f, kind), text));
-}
-
-static void put_velocity(struct br_document *d, const struct br_run_findings *f, int kind)
-{
-    const double velocity = f->report->end.last.velocity[kind];
-    const bool axial = kind == BR_AXIAL;
-    put_number(d, f,
-               &(struct br_column){.key = axial ? "tip.velocity.axial" : "tip.velocity.bending",
-                                   .heading = axial ? "velocity, axial" : "velocity, bending",
-                                   .unit = "m/s"},
-               br_if(is_marched(f->report, kind), br_number(velocity)), NAN);
+                &w->friction_force);
 }
 
 static void put_tip(struct br_document *d, const struct br_run_findings *f)
 {
+    static const char *const displacements[] = {"axial displacement u", "bending displacement w"};
     const struct br_run_report *r = f->report;
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
+    char key[KEY], heading[KEY], text[VALUE];
     br_put_section(d, "The tip");
     BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
     br_hide_fact(d, br_count(row->step), NULL, "tip.step");
-    put_displacement(d, f, BR_AXIAL);
-    put_displacement(d, f, BR_BENDING);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        snprintf(key, sizeof key, "tip.displacement.%s", field_names[kind]);
+        BR_FACT(d, br_if(is_marched(r, kind), br_number(row->displacement[kind])), .key = key,
+                .heading = displacements[kind], .unit = "m");
+        br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
+    }
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
-    put_velocity(d, f, BR_AXIAL);
-    put_velocity(d, f, BR_BENDING);
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.contact_force", .heading = "contact force", .unit = "N"},
-        br_if(contact, br_number(row->contact_force)),
-        row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        snprintf(key, sizeof key, "tip.velocity.%s", field_names[kind]);
+        snprintf(heading, sizeof heading, "velocity, %s", field_names[kind]);
+        put_number(d, f, key, heading, "m/s",
+                   br_if(is_marched(r, kind), br_number(row->velocity[kind])), NAN);
+    }
+    put_number(d, f, "tip.contact_force", "contact force", "N",
+               br_if(contact, br_number(row->contact_force)),
+               row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN);
     BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
             .heading = "contact");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
@@ -362,12 +335,6 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
 }
 
 /* ---- events ---- */
-
-static void put_regime(struct br_document *d, const char *key, enum br_regime regime)
-{
-    br_put(d, key, br_text(br_regime_name(regime)));
-    br_put_shown(d, "%s", regime == BR_REGIME_NONE ? "no bound" : br_regime_name(regime));
-}
 
 static void put_switches(struct br_document *d, const struct br_run_report *r)
 {
@@ -383,11 +350,13 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
              columns);
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
         const struct br_switch *s = &r->switched[i];
-        br_put_row(d);
-        br_put(d, "t", br_number(s->time));
-        br_put(d, "law", br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
-        put_regime(d, "from", s->from);
-        put_regime(d, "to", s->to);
+        const enum br_regime regime[] = {s->from, s->to};
+        BR_ROW(d, br_number(s->time), br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
+        for (int j = 0; j < 2; j++) {
+            BR_CELLS(d, br_text(br_regime_name(regime[j])));
+            if (regime[j] == BR_REGIME_NONE)
+                br_put_shown(d, "no bound");
+        }
     }
 }
 
@@ -403,12 +372,10 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
     for (size_t i = 0; i < w->events; i++) {
         const struct br_tip_event *e = &w->event[i];
         const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        br_put_row(d);
-        br_put(d, "t", br_number(e->time));
-        br_put(d, "event", br_text(br_tip_event_word(e->kind)));
-        br_put(d, "direction", br_if(e->direction, sign));
+        BR_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
+               br_if(e->direction, sign));
         br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
-        br_put(d, "step", br_count(e->step));
+        BR_CELLS(d, br_count(e->step));
     }
 }
 
@@ -458,32 +425,16 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
 static void put_state(struct br_document *d, const struct br_run_report *r, bool end,
                       const struct br_energy *e)
 {
-    char key[4][KEY];
-    static const char *const terms[] = {"kinetic", "stored", "contact", "total"};
-    for (size_t i = 0; i < 4; i++)
-        snprintf(key[i], KEY, "energies.%s.%s", end ? "end" : "start", terms[i]);
-    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J", key[0]);
-    put_two(d, r, e->stored, end ? "stored" : NULL, "J", key[1]);
-    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(e->contact)), .key = key[2],
+    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J",
+            end ? "energies.end.kinetic" : "energies.start.kinetic");
+    put_two(d, r, e->stored, end ? "stored" : NULL, "J",
+            end ? "energies.end.stored" : "energies.start.stored");
+    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
+            .key = end ? "energies.end.contact" : "energies.start.contact",
             .heading = end ? "of the contact" : NULL, .unit = "J");
-    BR_FACT(d, br_number(br_energy_total(e)), .key = key[3],
+    BR_FACT(d, br_number(br_energy_total(e)),
+            .key = end ? "energies.end.total" : "energies.start.total",
             .heading = end ? "total" : "total at t = 0", .unit = "J");
-}
-
-static void put_added(struct br_document *d, const struct br_run_report *r)
-{
-    const struct br_work *w = &r->work;
-    const double all[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
-    const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
-                             br_energy_put_in(&r->energy_start, w, BR_BENDING)};
-    const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
-    const bool any = steps[BR_AXIAL] + steps[BR_BENDING] > 0;
-    put_two(d, r, all, NULL, "J", "energies.added_by_scheme.in_all");
-    put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
-    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
-            "energies.added_by_scheme.steps_that_add");
-    put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
-            "energies.added_by_scheme.by_these_steps");
 }
 
 static void put_works(struct br_document *d, const struct br_run_report *r)
@@ -498,11 +449,21 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
         {"energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
          br_number(r->energy_worst)},
     };
+    const double added[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
+    const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
+                             br_energy_put_in(&r->energy_start, w, BR_BENDING)};
+    const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
+    const bool any = steps[BR_AXIAL] + steps[BR_BENDING] > 0;
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
     BR_FACTS(d, facts);
-    put_added(d, r);
+    put_two(d, r, added, NULL, "J", "energies.added_by_scheme.in_all");
+    put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
+    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
+            "energies.added_by_scheme.steps_that_add");
+    put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
+            "energies.added_by_scheme.by_these_steps");
 }
 
 static void put_energies(struct br_document *d, const struct br_run_report *r)
@@ -622,9 +583,6 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
     const char *of_march = r->checked  ? "  of the march, the check included"
                            : r->summed ? "  of the march, the energies included"
                                        : "  of the march";
-    const char *taken_back = r->method.scheme->adaptive ? "  taken back" : NULL;
-    const char *changes = c->set_ups ? "changes of the step" : NULL;
-    const char *iterations = iterates ? "friction iterations" : NULL;
     const struct br_fact facts[] = {
         {"seconds.wall", "time", "s", br_number(f->wall_seconds)},
         {"seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds)},
@@ -632,10 +590,13 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
         {"seconds.per_step", "  a step", "s", br_number(a_step)},
         {"seconds.per_element_step", "  an element-step", "s", br_number(a_step / (double)r->n)},
         {"work.steps", "steps of the scheme", NULL, br_count(c->steps)},
-        {"work.steps_taken_back", taken_back, NULL, br_count(c->rejected)},
+        {"work.steps_taken_back", r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
+         br_count(c->rejected)},
         {"work.solves_a_field", "solves a field", NULL, br_count(c->stages)},
-        {"work.changes_of_the_step", changes, NULL, br_count(c->set_ups)},
-        {"work.friction_iterations", iterations, NULL, br_count(c->iterations)},
+        {"work.changes_of_the_step", c->set_ups ? "changes of the step" : NULL, NULL,
+         br_count(c->set_ups)},
+        {"work.friction_iterations", iterates ? "friction iterations" : NULL, NULL,
+         br_count(c->iterations)},
     };
     br_put_section(d, "Time and work");
     BR_FACTS(d, facts);
