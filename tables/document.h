@@ -267,10 +267,10 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
 
 /* Puts values under the next columns, in their order; of a new row, or of the one that is there. */
 void br_put_cells(struct br_document *d, size_t count, const struct br_value *values);
-#define BR_CELLS(d, ...)                                                                  \
+#define BR_PUT_CELLS(d, ...)                                                              \
     br_put_cells((d), sizeof((struct br_value[]){__VA_ARGS__}) / sizeof(struct br_value), \
                  (const struct br_value[]){__VA_ARGS__})
-#define BR_ROW(d, ...) (br_put_row(d), BR_CELLS(d, __VA_ARGS__))
+#define BR_PUT_ROW(d, ...) (br_put_row(d), BR_PUT_CELLS(d, __VA_ARGS__))
 
 /* The same as BR_PUT of a column that has a key alone, and of a column for programs (unit: NULL,
  * none). */

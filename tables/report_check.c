@@ -155,18 +155,18 @@ static void put_orders(struct br_document *d, const struct br_check_findings *f)
         for (size_t j = 0; j < check->count; j++) {
             const struct br_case *c = &check->cases[j];
             const struct br_expectation *e = &c->expected;
-            BR_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]), br_text(c->measure),
-                   br_text(c->part), br_number(e->order));
+            BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]),
+                       br_text(c->measure), br_text(c->part), br_number(e->order));
             br_put_shown(d, "%g +- %g", e->order, e->tolerance);
-            BR_CELLS(d, br_number(e->tolerance), br_number(c->order.value));
+            BR_PUT_CELLS(d, br_number(e->tolerance), br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
-            BR_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_number(c->margin),
-                     br_number(c->constant), br_number(e->floor), br_number(e->ceiling));
+            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_number(c->margin),
+                         br_number(c->constant), br_number(e->floor), br_number(e->ceiling));
             if (isfinite(e->floor))
                 br_put_shown(d, "%g to %g", e->floor, e->ceiling);
             else if (isfinite(e->ceiling))
                 br_put_shown(d, "at most %g", e->ceiling);
-            BR_CELLS(d, br_text(br_verdict_names[c->verdict]));
+            BR_PUT_CELLS(d, br_text(br_verdict_names[c->verdict]));
             put_verdict(d, check, c);
         }
     }
@@ -176,12 +176,12 @@ static void put_orders(struct br_document *d, const struct br_check_findings *f)
 static void put_points(struct br_document *d, const struct br_check *check, const struct br_case *c)
 {
     for (const struct br_point *p = c->point; p < c->point + c->points; p++)
-        BR_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]), br_text(c->measure),
-               br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
-               br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
-               br_count(p->against.steps), br_number(p->error), br_number(p->constant),
-               br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
-               br_text(p->label));
+        BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]), br_text(c->measure),
+                   br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
+                   br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
+                   br_count(p->against.steps), br_number(p->error), br_number(p->constant),
+                   br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
+                   br_text(p->label));
 }
 
 /* ---- scenes ---- */
@@ -227,9 +227,10 @@ static void put_scenes(struct br_document *d, const struct br_check_findings *f)
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, columns);
     for (const struct br_check *c = f->checks; c < f->checks + f->count; c++)
-        BR_ROW(d, br_text(c->name), br_text(c->path), br_truth(c->verify && c->verify->by_default),
-               br_number(c->seconds), br_number(c->element_steps), br_failure_text(&c->failure),
-               br_text(*c->problem ? c->problem : NULL));
+        BR_PUT_ROW(d, br_text(c->name), br_text(c->path),
+                   br_truth(c->verify && c->verify->by_default), br_number(c->seconds),
+                   br_number(c->element_steps), br_failure_text(&c->failure),
+                   br_text(*c->problem ? c->problem : NULL));
     for (size_t i = 0; i < f->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
             const struct br_verify_study *s = &f->checks[i].verify->study[kind];
@@ -256,8 +257,8 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
     BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
-        BR_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
-               br_number(x->before), br_number(x->now), br_text(*x->remark ? x->remark : NULL));
+        BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
+                   br_number(x->before), br_number(x->now), br_text(*x->remark ? x->remark : NULL));
         br_put_shown(d, "%s", x->remark);
     }
 }

@@ -188,12 +188,12 @@ static void put_orders(struct br_document *d, const struct br_orders *o)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
             const struct br_case *c = &line->observed;
-            BR_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                   br_text(br_axis_letters[line->axis]), br_text(line->at),
-                   br_number(c->order.value));
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
-            BR_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
-                     br_count(c->used), br_text(c->note));
+            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
+                         br_count(c->used), br_text(c->note));
         }
 }
 
@@ -218,12 +218,12 @@ static void put_joint_fits(struct br_document *d, const struct br_orders *o)
         const struct br_joint_fit *f = &o->of[i].joint;
         if (!f->converged)
             continue;
-        BR_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
+        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
         br_put_shown(d, "%s", br_order_text(&f->p, text, sizeof text));
-        BR_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
+        BR_PUT_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
         br_put_shown(d, "%s", br_order_text(&f->q, text, sizeof text));
-        BR_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
-                 br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
+        BR_PUT_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
+                     br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
     }
 }
 
@@ -257,15 +257,16 @@ static void put_limits(struct br_document *d, const struct br_orders *o)
             const struct br_orders_line *line = &o->of[i].line[l];
             const struct br_grid_limit *limit = &line->limit;
             const struct br_gci *g = &line->gci;
-            BR_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                   br_text(br_axis_letters[line->axis]), br_text(line->at),
-                   br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
-                   br_number(limit->value.low), br_number(limit->value.high),
-                   br_text(limit_methods[limit->method]), br_number(g->order),
-                   br_number(g->fine.ratio), br_number(g->coarse.ratio), br_number(g->fine.limit),
-                   br_number(g->fine.relative), br_number(g->fine.relative_extrapolated),
-                   br_number(g->fine.index), br_number(g->coarse.index), br_number(g->asymptotic),
-                   br_text(br_sequence_text(g->sequence)));
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
+                       br_number(limit->value.low), br_number(limit->value.high),
+                       br_text(limit_methods[limit->method]), br_number(g->order),
+                       br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                       br_number(g->fine.limit), br_number(g->fine.relative),
+                       br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
+                       br_number(g->coarse.index), br_number(g->asymptotic),
+                       br_text(br_sequence_text(g->sequence)));
         }
 }
 

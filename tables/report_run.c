@@ -351,9 +351,9 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
         const struct br_switch *s = &r->switched[i];
         const enum br_regime regime[] = {s->from, s->to};
-        BR_ROW(d, br_number(s->time), br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
+        BR_PUT_ROW(d, br_number(s->time), br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
         for (int j = 0; j < 2; j++) {
-            BR_CELLS(d, br_text(br_regime_name(regime[j])));
+            BR_PUT_CELLS(d, br_text(br_regime_name(regime[j])));
             if (regime[j] == BR_REGIME_NONE)
                 br_put_shown(d, "no bound");
         }
@@ -372,10 +372,10 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
     for (size_t i = 0; i < w->events; i++) {
         const struct br_tip_event *e = &w->event[i];
         const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        BR_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
-               br_if(e->direction, sign));
+        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
+                   br_if(e->direction, sign));
         br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
-        BR_CELLS(d, br_count(e->step));
+        BR_PUT_CELLS(d, br_count(e->step));
     }
 }
 

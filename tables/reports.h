@@ -70,7 +70,7 @@ void br_history_csv_stopped(FILE *out, const char *message);
 
 /* What a command would march, on so many threads. */
 void br_report_foreseen(const struct br_foreseen *work, const char *command, int threads,
-                    struct br_document *d);
+                        struct br_document *d);
 
 /* ---- orders ---- */
 
