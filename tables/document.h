@@ -89,7 +89,7 @@ enum {
     BR_MAIN = 8,         /* the table whose CSV file is NAME.csv; others are NAME-TABLE.csv */
     BR_WRAP = 16,        /* a column of long texts, which people get on several lines */
     BR_FILLED = 32,      /* a column with a value; set by br_put */
-    BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
+    BR_TEXTUAL = 64,     /* a column with a text or a truth, set to the left; set by br_put */
     BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
 enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show more, a page folds them */ };
@@ -272,8 +272,7 @@ void br_put_cells(struct br_document *d, size_t count, const struct br_value *va
                  (const struct br_value[]){__VA_ARGS__})
 #define BR_PUT_ROW(d, ...) (br_put_row(d), BR_PUT_CELLS(d, __VA_ARGS__))
 
-/* The same as BR_PUT of a column that has a key alone, and of a column for programs (unit: NULL,
- * none). */
+/* BR_PUT of a column that has a key alone, and of a column for programs (unit: NULL, none). */
 void br_put(struct br_document *d, const char *key, struct br_value value);
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
 
@@ -360,12 +359,12 @@ static inline const struct br_document_cell *br_document_cell_at(
     return &table->row[row].cell[column];
 }
 
-/* Whether people see a block, or a column: it is for them, and not without any row or value. */
-bool br_document_has(const struct br_block *block);
-bool br_document_is_seen(const struct br_document_table *table, size_t column);
-
-/* Whether the cells of a column are texts, to be set to the left: any of them is. */
-bool br_document_is_text(const struct br_document_table *table, size_t column);
+/* Whether people see a column: it is for them, and not without any value. */
+static inline bool br_document_is_seen(const struct br_document_table *table, size_t column)
+{
+    const unsigned flags = table->column[column].flags;
+    return br_for_people(flags) && flags & BR_FILLED;
+}
 
 /* What people see of a cell, without its mark. */
 enum { BR_SHOWN = 400 };
@@ -376,12 +375,5 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
 struct br_quoting;
 void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
                              const struct br_value *value);
-
-/* Each line as it is, quoted, between two texts. */
-void br_document_print_lines(FILE *out, const struct br_quoting *target, const char *before,
-                             const char *lines, const char *after);
-
-/* Whether a person should hear of a verdict. */
-bool br_document_verdict_matters(const struct br_document_verdict *verdict);
 
 #endif

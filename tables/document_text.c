@@ -90,7 +90,7 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
     struct layout l = {
         .column = &t->column[c],
         .shown = br_document_is_seen(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
-        .left = br_document_is_text(t, c),
+        .left = flags & BR_TEXTUAL,
     };
     for (size_t r = 0; r < t->rows; r++) {
         const struct br_document_cell *cell = br_document_cell_at(t, r, c);
@@ -150,28 +150,24 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
                       struct layout *l, size_t r)
 {
     char buffer[BR_SHOWN];
-    bool more = false;
+    bool first = true, more;
     const size_t last = last_shown(t, l);
-    for (size_t c = 0; c < last; c++) {
-        const struct br_document_cell *cell = br_document_cell_at(t, r, c);
-        if (!l[c].shown)
-            continue;
-        l[c].rest = br_document_shown(l[c].column, cell, buffer);
-        print_piece(p, &l[c], cell->mark ? cell->mark : "", c + 1 == last);
-        if (!*l[c].rest)
-            l[c].rest = ""; /* not what the buffer will have */
-        more |= *l[c].rest != '\0';
-    }
-    fputc('\n', p->out);
-    while (more) {
+    do {
         more = false;
-        for (size_t c = 0; c < last; c++)
-            if (l[c].shown) {
-                print_piece(p, &l[c], "", c + 1 == last);
-                more |= *l[c].rest != '\0';
-            }
+        for (size_t c = 0; c < last; c++) {
+            const struct br_document_cell *cell = br_document_cell_at(t, r, c);
+            if (!l[c].shown)
+                continue;
+            if (first)
+                l[c].rest = br_document_shown(l[c].column, cell, buffer);
+            print_piece(p, &l[c], first && cell->mark ? cell->mark : "", c + 1 == last);
+            if (!*l[c].rest)
+                l[c].rest = ""; /* not what the buffer will have */
+            more |= *l[c].rest != '\0';
+        }
         fputc('\n', p->out);
-    }
+        first = false;
+    } while (more);
 }
 
 static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,

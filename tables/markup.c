@@ -53,12 +53,28 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
     fprintf(p->out, p->markup->heading.after, level);
 }
 
+/* Each line as it is, quoted, in pieces of whole characters. */
 void br_markup_lines(const struct br_markup_page *p, const char *lines)
 {
     const struct br_markup *m = p->markup;
     say(p, m->lines.before);
-    br_document_print_lines(p->out, m->of_lines, m->line.before ? m->line.before : "", lines,
-                            m->line.after);
+    while (*lines) {
+        size_t rest = strcspn(lines, "\n");
+        say(p, m->line.before);
+        while (rest) {
+            char piece[1024];
+            size_t size = rest < sizeof piece ? rest : sizeof piece - 8;
+            for (int i = 0; i < 3 && size < rest && ((unsigned char)lines[size] & 0xc0) == 0x80;
+                 i++)
+                size++;
+            snprintf(piece, sizeof piece, "%.*s", (int)size, lines);
+            br_quote(p->out, m->of_lines, piece);
+            lines += size;
+            rest -= size;
+        }
+        say(p, m->line.after);
+        lines += *lines == '\n';
+    }
     say(p, m->lines.after);
 }
 
@@ -86,24 +102,15 @@ static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
     fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
 }
 
-/* Whether a text is a verdict's word, which it then prints. */
-static bool print_if_word(const struct br_markup_page *p, const char *text)
-{
-    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
-        if (strcmp(text, br_outcome_names[i]) == 0) {
-            print_word(p, (enum br_outcome)i);
-            return true;
-        }
-    return false;
-}
-
 /* ---- tables ---- */
 
-enum br_alignment br_markup_alignment(const struct br_document_table *t, size_t column)
+/* How a column is set, in the order of what a format says of each. */
+enum alignment { RIGHT, LEFT, WRAPPED };
+
+static enum alignment alignment_of(const struct br_document_table *t, size_t column)
 {
-    return t->column[column].flags & BR_WRAP ? BR_WRAPPED
-           : br_document_is_text(t, column)  ? BR_LEFT
-                                             : BR_RIGHT;
+    const unsigned flags = t->column[column].flags;
+    return flags & BR_WRAP ? WRAPPED : flags & BR_TEXTUAL ? LEFT : RIGHT;
 }
 
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
@@ -111,7 +118,7 @@ void br_markup_columns(const struct br_markup_page *p, const struct br_document_
 {
     for (size_t c = 0; c < t->columns; c++)
         if (br_document_is_seen(t, c))
-            fputs(word[br_markup_alignment(t, c)], p->out);
+            fputs(word[alignment_of(t, c)], p->out);
 }
 
 static void print_value(const struct br_markup_page *p, const struct br_column *column,
@@ -119,9 +126,14 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
 {
     char buffer[BR_SHOWN];
     const char *text = br_document_shown(column, cell, buffer);
+    int word = BR_OUTCOME_PASS; /* of a verdict */
+    while (word <= BR_OUTCOME_SKIPPED && strcmp(text, br_outcome_names[word]) != 0)
+        word++;
     if (cell->value.kind != BR_TEXT || cell->shown)
         print_number(p, text);
-    else if (!print_if_word(p, text))
+    else if (word <= BR_OUTCOME_SKIPPED)
+        print_word(p, (enum br_outcome)word);
+    else
         br_markup_text(p, text);
     if (cell->mark)
         put(p, &p->markup->mark, cell->mark);
@@ -133,7 +145,7 @@ static void open_cell(const struct br_markup_page *p, const struct br_around *a,
 {
     const char *const *classes = p->markup->classes;
     if (a->before)
-        fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
+        fprintf(p->out, a->before, classes ? classes[alignment_of(t, column)] : "");
 }
 
 static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
@@ -189,15 +201,6 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
 
 /* ---- blocks ---- */
 
-static void print_fact(const struct br_markup_page *p, const struct br_block *b)
-{
-    say(p, p->markup->fact.before);
-    put(p, &p->markup->label, b->what.heading);
-    print_value(p, &b->what, &b->cell);
-    print_unit(p, " ", b->what.unit);
-    say(p, p->markup->fact.after);
-}
-
 static void print_command(const struct br_markup_page *p, const struct br_block *b)
 {
     put(p, &p->markup->command, b->what.heading);
@@ -218,7 +221,11 @@ static enum br_status print_block(struct br_markup_page *p, const struct br_bloc
         put_paragraph(p, &p->markup->note, b->text);
         break;
     case BR_BLOCK_FACT:
-        print_fact(p, b);
+        say(p, p->markup->fact.before);
+        put(p, &p->markup->label, b->what.heading);
+        print_value(p, &b->what, &b->cell);
+        print_unit(p, " ", b->what.unit);
+        say(p, p->markup->fact.after);
         break;
     case BR_BLOCK_COMMAND:
         print_command(p, b);
@@ -233,8 +240,9 @@ static enum br_status print_block(struct br_markup_page *p, const struct br_bloc
 static bool is_shown(const struct br_markup_page *p, size_t block)
 {
     const struct br_block *b = &p->d->block[block];
-    const bool table = b->kind == BR_BLOCK_TABLE, has = br_document_has(b);
+    const bool table = b->kind == BR_BLOCK_TABLE;
     const unsigned flags = table ? b->table->flags : b->what.flags;
+    const bool has = br_for_people(flags) && (!table || b->table->rows > 0);
     if (!p->terminal || !has)
         return has;
     if (b->kind == BR_BLOCK_SECTION) {
@@ -316,12 +324,14 @@ static void print_verdicts(const struct br_markup_page *p)
     bool any = false;
     if (p->d->verdicts && !p->terminal)
         count_verdicts(p);
-    for (size_t i = 0; i < p->d->verdicts; i++)
-        if (br_document_verdict_matters(&p->d->verdict[i])) {
-            say(p, any ? NULL : m->verdicts.before);
-            print_verdict(p, &p->d->verdict[i]);
-            any = true;
-        }
+    for (size_t i = 0; i < p->d->verdicts; i++) {
+        const struct br_document_verdict *v = &p->d->verdict[i];
+        if (v->outcome == BR_OUTCOME_PASS && !v->message)
+            continue;
+        say(p, any ? NULL : m->verdicts.before);
+        print_verdict(p, v);
+        any = true;
+    }
     say(p, any ? m->verdicts.after : NULL);
 }
 
