@@ -887,7 +887,7 @@ static const struct planted_bug planted_bugs[] = {
     {"unstable_values_are_answers", "left out", "tables/report_variation.c", "golden run_vary",
      "if (s->unstable[i] || !isfinite(x))", "if (!isfinite(x))"},
     {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
-     "return fabs(is - was) <= allowed;", "return fabs(is - was) >= 0;"},
+     "!(fabs(b - a) <= allowed)", "!(fabs(b - a) >= 0)"},
     {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
      "add(r, *r->scene ? r->scene : r->options.word[i]);", "add(r, r->options.word[i]);"},
     {"repeated_report_writes_elsewhere", "option", "cli/repeat.c", "golden repeat_elsewhere",
