@@ -33,23 +33,19 @@ static bool read_word(const json_t *o, char *word, size_t size)
     return true;
 }
 
-static bool read_verdict(const json_t *o, enum br_verdict *verdict)
-{
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE && json_is_string(o); v++)
-        if (strcmp(json_string_value(o), br_verdict_names[v]) == 0) {
-            *verdict = (enum br_verdict)v;
-            return true;
-        }
-    return false;
-}
-
 static bool read_case(const json_t *o, const char *scene_name, struct br_old_case *c)
 {
     const json_t *order = json_object_get(o, "order");
+    const char *word = json_string_value(json_object_get(o, "verdict"));
+    int verdict = BR_PASS;
     if (json_is_object(order)) /* of format 1 */
         order = json_object_get(order, "value");
     strcpy(c->scene, scene_name);
-    return read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
+    while (verdict <= BR_INCONCLUSIVE && (!word || strcmp(word, br_verdict_names[verdict]) != 0))
+        verdict++;
+    c->verdict = (enum br_verdict)verdict;
+    return verdict <= BR_INCONCLUSIVE &&
+           read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
            read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
            read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
            read_number(order, -INFINITY, &c->order) &&
@@ -57,8 +53,7 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
            read_number(json_object_get(o, "expected"), 0, &c->expected) &&
            read_number(json_object_get(o, "tolerance"), 0, &c->tolerance) &&
            read_number(json_object_get(o, "floor"), 0, &c->floor) &&
-           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling) &&
-           read_verdict(json_object_get(o, "verdict"), &c->verdict);
+           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling);
 }
 
 /* A value of a method as br_method_field_text has it. */
@@ -100,23 +95,17 @@ static bool read_method(const json_t *o, struct br_old_method *m)
     return good;
 }
 
-static bool read_methods(const json_t *o, struct br_old_cost *cost)
-{
-    bool good = true;
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        good &= read_method(json_object_get(o, br_verify_names[kind]), &cost->method[kind]);
-    return good;
-}
-
 static enum br_status read_scene(const char *path, const json_t *o, struct br_old_check *old,
                                  struct br_error *err)
 {
     struct br_old_cost *cost = &old->costs[old->scenes++];
-    const json_t *list = json_object_get(o, "cases");
-    if (!read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
+    const json_t *list = json_object_get(o, "cases"), *methods = json_object_get(o, "methods");
+    bool good = json_is_array(list);
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        good &= read_method(json_object_get(methods, br_verify_names[kind]), &cost->method[kind]);
+    if (!good || !read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
         !read_number(json_object_get(o, "seconds"), 0, &cost->seconds) ||
-        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps) ||
-        !read_methods(json_object_get(o, "methods"), cost) || !json_is_array(list))
+        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps))
         return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
     const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
     if (json_is_string(problem) && !read_word(problem, cost->problem, sizeof cost->problem))

@@ -69,18 +69,6 @@ static json_t *number(const struct br_scene_key *key)
     return o;
 }
 
-static json_t *shape(void)
-{
-    return matching(NULL, "^(circle +" LENGTH "|(rectangle|tube) +" LENGTH " x +" LENGTH ")$");
-}
-
-static json_t *load(void)
-{
-    return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf", expression(NULL),
-                     "type", "object", "additionalProperties", 0, "required", "shape", "history",
-                     "properties", "shape", expression("t"), "history", expression("x"));
-}
-
 static json_t *law(void)
 {
     json_t *names = json_array();
@@ -181,7 +169,10 @@ static json_t *value(const struct br_scene_key *key)
     case BR_KEY_NOT_NEGATIVE:
         return number(key);
     case BR_KEY_LOAD:
-        return load();
+        return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf", expression(NULL),
+                         "type", "object", "additionalProperties", 0, "required", "shape",
+                         "history", "properties", "shape", expression("t"), "history",
+                         expression("x"));
     case BR_KEY_INITIAL:
         return expression("t");
     case BR_KEY_HISTORY:
@@ -191,7 +182,7 @@ static json_t *value(const struct br_scene_key *key)
     case BR_KEY_LAW:
         return law();
     case BR_KEY_SHAPE:
-        return shape();
+        return matching(NULL, "^(circle +" LENGTH "|(rectangle|tube) +" LENGTH " x +" LENGTH ")$");
     case BR_KEY_VERIFY:
         break;
     }

@@ -768,7 +768,7 @@ static const struct planted_bug planted_bugs[] = {
      "l->floor ? l->floor[part]", "l->floor ? l->floor[0]"},
     {"plan_predicts_what_it_achieved", "printed", "tables/report_plan.c", "golden plan",
      "br_number(p->forecast[i].error), .key", "br_number(error_of(p, i)), .key"},
-    {"x_off_by_one_element", "printed", "tables/fields_csv.c", "tests/test_printed_values",
+    {"x_off_by_one_element", "printed", "tables/fields_file.c", "tests/test_printed_values",
      "row->time, f->h * (double)i);", "row->time, f->h * (double)(i + 1));"},
     {"x_in_elements", "units", "tables/fields_hdf5.c", "tests/test_printed_values",
      "f->work[i] = h * (double)i;", "f->work[i] = (double)i;"},
