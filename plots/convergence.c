@@ -243,7 +243,7 @@ static void add_both(const struct br_report *r, enum axis axis, struct br_figure
     }
 }
 
-/* Says what a mark is in a panel: which entry of the other axis' list. */
+/* Which entry of the other axis' list a mark is in a panel; "": none. */
 static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char name[40])
 {
     size_t count;
@@ -254,9 +254,12 @@ static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char
             name_curve(r, axis, list[i], name);
 }
 
-/* A key of the marks: over k they are meshes, over h time steps. */
-static void add_signs(const struct br_report *r, struct br_figure *f)
+/* With a key of the marks: over k they are meshes, over h time steps. */
+static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
+    f->one_y = true;
+    add_both(r, OVER_K, f);
+    add_both(r, OVER_H, f);
     for (size_t hue = 1; hue <= BR_HUES; hue++) {
         char mesh[40], step[40];
         say_mark(r, OVER_K, hue, mesh);
@@ -266,14 +269,6 @@ static void add_signs(const struct br_report *r, struct br_figure *f)
                           *mesh && *step ? ", " : "", *step ? "right " : "", step)
                 ->mark = hue;
     }
-}
-
-static void fill_printed(const struct br_report *r, struct br_figure *f)
-{
-    f->one_y = true;
-    add_both(r, OVER_K, f);
-    add_both(r, OVER_H, f);
-    add_signs(r, f);
 }
 
 static const struct br_convergence_picture

@@ -83,20 +83,15 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
         const double order = round(order_of(&o->of[i], finest));
-        bool known = slopes == 3 || !(order >= 1);
-        for (size_t s = 0; s < slopes; s++)
-            known |= slope[s] == order;
-        if (!known)
-            slope[slopes++] = order;
+        size_t at = 0; /* ascending */
+        while (at < slopes && slope[at] < order)
+            at++;
+        if (slopes == 3 || !(order >= 1) || (at < slopes && slope[at] == order))
+            continue;
+        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
+        slope[at] = order;
     }
-    for (size_t i = 1; i < slopes; i++)
-        for (size_t j = i; j > 0 && slope[j] < slope[j - 1]; j--) {
-            const double larger = slope[j - 1];
-            slope[j - 1] = slope[j];
-            slope[j] = larger;
-        }
-    if (slopes)
-        br_slopes_add(f, slopes, slope);
+    br_slopes_add(f, slopes, slope);
 }
 
 /* Where runs were timed: errors over processor time. */
@@ -127,15 +122,6 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     }
 }
 
-static bool has_line(const struct br_orders *o, enum br_axis axis)
-{
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++)
-            if (o->of[i].line[l].axis == axis)
-                return true;
-    return false;
-}
-
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)
 {
     struct br_figure f = {0};
@@ -143,9 +129,13 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     BR_SAY(f.title, "%s", caption);
     BR_SAY(f.about, "errors over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
-    for (int axis = 0; axis < BR_AXES; axis++)
-        if (has_line(orders, (enum br_axis)axis))
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        bool any = false;
+        for (size_t i = 0; i < orders->count; i++)
+            any |= br_orders_finest(&orders->of[i], (enum br_axis)axis) != NULL;
+        if (any)
             add_panel(&f, orders, (enum br_axis)axis);
+    }
     add_costs(&f, orders);
     return f;
 }
