@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/scene/quote.h"
+#include "tables/markup.h"
 
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
 
@@ -531,8 +531,11 @@ enum br_status br_document_print(FILE *out, const struct br_document_format *for
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
 {
+    struct br_markup_page page = {.out = out, .markup = format->markup, .d = d, .err = err};
     const enum br_status status = br_document_status(d, err);
-    return status ? status : format->write(out, d, table, err);
+    if (status)
+        return status;
+    return format->markup ? br_markup_print(&page) : format->write(out, d, table, err);
 }
 
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block)

@@ -298,11 +298,13 @@ void br_put_provenance(struct br_document *d, const struct br_provenance *proven
 /* ---- printing ---- */
 
 /* A format: one const record. */
+struct br_markup;
 struct br_document_format {
-    const char *name;      /* as on the command line */
-    const char *extension; /* of its files, with the dot */
-    const char *title;     /* one line for a person */
-    bool by_table;         /* a file has one table */
+    const char *name;               /* as on the command line */
+    const char *extension;          /* of its files, with the dot */
+    const char *title;              /* one line for a person */
+    bool by_table;                  /* a file has one table */
+    const struct br_markup *markup; /* of tables/markup.h; NULL: it has a function of its own */
     /* Of a sound document, through br_document_print. The table is NULL unless by_table. */
     enum br_status (*write)(FILE *out, const struct br_document *d,
                             const struct br_document_table *table, struct br_error *err);

@@ -170,12 +170,13 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
     } while (more);
 }
 
-static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
-                                  struct br_error *err)
+static void print_table(struct br_markup_page *p, const struct br_document_table *t)
 {
     struct layout *l = br_allocate(t->columns + 1, sizeof *l);
-    if (!l)
-        return br_no_memory(err, "the columns of a table");
+    if (!l) {
+        p->status = br_no_memory(p->err, "the columns of a table");
+        return;
+    }
     for (size_t c = 0; c < t->columns; c++)
         l[c] = lay_out(p, t, c);
     br_markup_put(p, "\n", t->title, "\n");
@@ -192,18 +193,14 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, l, r);
     free(l);
-    return BR_OK;
 }
 
 /* ---- the format ---- */
 
-static enum br_status print_picture(struct br_markup_page *p, const struct br_block *b,
-                                    struct br_error *err)
+static void print_picture(struct br_markup_page *p, const struct br_block *b)
 {
-    (void)err;
     br_markup_put(p, "Picture ", b->what.key, ": ");
     br_markup_put(p, "", b->text, "\n");
-    return BR_OK;
 }
 
 static const struct br_markup text = {
@@ -230,12 +227,12 @@ static enum br_status print_page(FILE *out, const struct br_document *d, bool te
 {
     struct buffers b = {.size = 4 * d->longest + BR_SHOWN}; /* \xff for a byte; heading and unit */
     struct br_markup_page p = {
-        .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b};
+        .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b, .err = err};
     b.visible = br_allocate(2, b.size);
     if (!b.visible)
         return br_no_memory(err, "the text of a report");
     b.piece = b.visible + b.size;
-    const enum br_status status = br_markup_print(&p, err);
+    const enum br_status status = br_markup_print(&p);
     free(b.visible);
     return status;
 }

@@ -78,23 +78,21 @@ void br_markup_lines(const struct br_markup_page *p, const char *lines)
     say(p, m->lines.after);
 }
 
-static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
+/* By a function of the format's own; NULL: as any text. */
+static void print_by(const struct br_markup_page *p, void (*own)(FILE *out, const char *text),
+                     const char *text)
 {
-    if (!unit)
-        return;
-    fputs(before, p->out);
-    if (p->markup->unit)
-        p->markup->unit(p->out, unit);
-    else
-        br_markup_text(p, unit);
-}
-
-static void print_number(const struct br_markup_page *p, const char *text)
-{
-    if (p->markup->number)
-        p->markup->number(p->out, text);
+    if (own)
+        own(p->out, text);
     else
         br_markup_text(p, text);
+}
+
+static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
+{
+    say(p, unit ? before : NULL);
+    if (unit)
+        print_by(p, p->markup->unit, unit);
 }
 
 static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
@@ -130,7 +128,7 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
     while (word <= BR_OUTCOME_SKIPPED && strcmp(text, br_outcome_names[word]) != 0)
         word++;
     if (cell->value.kind != BR_TEXT || cell->shown)
-        print_number(p, text);
+        print_by(p, p->markup->number, text);
     else if (word <= BR_OUTCOME_SKIPPED)
         print_word(p, (enum br_outcome)word);
     else
@@ -139,64 +137,48 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
         put(p, &p->markup->mark, cell->mark);
 }
 
-/* What a cell begins with: its alignment may be a part of that. */
-static void open_cell(const struct br_markup_page *p, const struct br_around *a,
-                      const struct br_document_table *t, size_t column)
-{
-    const char *const *classes = p->markup->classes;
-    if (a->before)
-        fprintf(p->out, a->before, classes ? classes[alignment_of(t, column)] : "");
-}
-
-static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
+/* row: NULL, the head. What a cell begins with may have its alignment as a part. */
+static void print_row(const struct br_markup_page *p, const struct br_document_table *t,
+                      const struct br_document_row *row)
 {
     const struct br_markup *m = p->markup;
-    const char *between = "";
+    const struct br_around *cell = row ? &m->cell : &m->head;
+    const char *between = !row ? "" : row->rule ? m->rule : m->row.before;
     for (size_t c = 0; c < t->columns; c++) {
         if (!br_document_is_seen(t, c))
             continue;
         say(p, between);
-        open_cell(p, &m->head, t, c);
-        print_number(p, t->column[c].heading);
-        print_unit(p, ", ", t->column[c].unit);
-        say(p, m->head.after);
+        if (cell->before)
+            fprintf(p->out, cell->before, m->classes ? m->classes[alignment_of(t, c)] : "");
+        if (row) {
+            print_value(p, &t->column[c], &row->cell[c]);
+        } else {
+            print_by(p, m->number, t->column[c].heading);
+            print_unit(p, ", ", t->column[c].unit);
+        }
+        say(p, cell->after);
         between = m->between;
     }
+    say(p, row ? m->row.after : NULL);
 }
 
-static void print_row(const struct br_markup_page *p, const struct br_document_table *t, size_t r)
+static void print_table(struct br_markup_page *p, const struct br_document_table *t, int level)
 {
     const struct br_markup *m = p->markup;
-    const char *between = t->row[r].rule ? m->rule : m->row.before;
-    for (size_t c = 0; c < t->columns; c++) {
-        if (!br_document_is_seen(t, c))
-            continue;
-        say(p, between);
-        open_cell(p, &m->cell, t, c);
-        print_value(p, &t->column[c], br_document_cell_at(t, r, c));
-        say(p, m->cell.after);
-        between = m->between;
+    if (m->table) {
+        m->table(p, t);
+        return;
     }
-    say(p, m->row.after);
-}
-
-static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
-                                  int level, struct br_error *err)
-{
-    if (p->markup->table)
-        return p->markup->table(p, t, err);
-    const struct br_markup *m = p->markup;
     m->open_table(p, t, level);
-    print_head(p, t);
+    print_row(p, t, NULL);
     if (m->open_rows)
         m->open_rows(p, t);
     say(p, m->rows.before);
     for (size_t r = 0; r < t->rows; r++)
-        print_row(p, t, r);
+        print_row(p, t, &t->row[r]);
     say(p, m->rows.after);
     if (m->close_table)
         m->close_table(p, t);
-    return BR_OK;
 }
 
 /* ---- blocks ---- */
@@ -208,12 +190,12 @@ static void print_command(const struct br_markup_page *p, const struct br_block 
 }
 
 /* level: of a section; the tables below one are a level lower. */
-static enum br_status print_block(struct br_markup_page *p, const struct br_block *b, int level,
-                                  bool under, struct br_error *err)
+static void print_block(struct br_markup_page *p, const struct br_block *b, int level, bool under)
 {
     switch (b->kind) {
     case BR_BLOCK_TABLE:
-        return print_table(p, b->table, level + under, err);
+        print_table(p, b->table, level + under);
+        break;
     case BR_BLOCK_SECTION:
         br_markup_heading(p, level, b->text);
         break;
@@ -231,9 +213,9 @@ static enum br_status print_block(struct br_markup_page *p, const struct br_bloc
         print_command(p, b);
         break;
     case BR_BLOCK_PICTURE:
-        return p->markup->picture(p, b, err);
+        p->markup->picture(p, b);
+        break;
     }
-    return BR_OK;
 }
 
 /* A terminal has short tables and facts, and the titles that are needed for these. */
@@ -256,13 +238,12 @@ static bool is_shown(const struct br_markup_page *p, size_t block)
 }
 
 /* Facts that follow each other are one list. */
-static enum br_status print_blocks(struct br_markup_page *p, struct br_error *err)
+static void print_blocks(struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
-    enum br_status status = BR_OK;
     enum br_block_kind before = BR_BLOCK_TABLE;
     bool under = false;
-    for (size_t i = 0; i < p->d->blocks && !status; i++) {
+    for (size_t i = 0; i < p->d->blocks && !p->status; i++) {
         const struct br_block *b = &p->d->block[i];
         const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
         if (!is_shown(p, i))
@@ -274,11 +255,10 @@ static enum br_status print_blocks(struct br_markup_page *p, struct br_error *er
         if (b->kind == BR_BLOCK_FACT && before != b->kind)
             say(p, m->facts.before);
         under |= b->kind == BR_BLOCK_SECTION;
-        status = print_block(p, b, p->level + 1, under, err);
+        print_block(p, b, p->level + 1, under);
         before = b->kind;
     }
     say(p, before == BR_BLOCK_FACT ? m->facts.after : NULL);
-    return status;
 }
 
 /* ---- verdicts ---- */
@@ -355,7 +335,7 @@ static void print_end(const struct br_markup_page *p)
             print_command(p, &p->d->block[i]);
 }
 
-enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
+enum br_status br_markup_print(struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
     if (m->begin)
@@ -366,10 +346,10 @@ enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
         print_answer(p);
         print_verdicts(p);
     }
-    const enum br_status status = print_blocks(p, err);
+    print_blocks(p);
     if (p->terminal)
         print_end(p);
     else if (m->end)
         m->end(p);
-    return status;
+    return p->status;
 }

@@ -17,6 +17,8 @@ struct br_markup_page {
     size_t pictures;    /* so far */
     bool terminal;      /* it gets what is short, and the answer last */
     void *own;          /* the format's */
+    struct br_error *err;
+    enum br_status status; /* of all until now: what cannot be printed is left out */
 };
 
 struct br_around {
@@ -38,10 +40,8 @@ struct br_markup {
                        int level);
     void (*open_rows)(const struct br_markup_page *p, const struct br_document_table *t);
     void (*close_table)(const struct br_markup_page *p, const struct br_document_table *t);
-    enum br_status (*table)(const struct br_markup_page *p, const struct br_document_table *t,
-                            struct br_error *err);
-    enum br_status (*picture)(struct br_markup_page *p, const struct br_block *b,
-                              struct br_error *err);
+    void (*table)(struct br_markup_page *p, const struct br_document_table *t);
+    void (*picture)(struct br_markup_page *p, const struct br_block *b);
     /* NULL: nothing. */
     void (*begin)(const struct br_markup_page *p);
     void (*end)(const struct br_markup_page *p);
@@ -67,6 +67,6 @@ void br_markup_lines(const struct br_markup_page *p, const char *lines);
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
                        const char *const word[3]);
 
-enum br_status br_markup_print(struct br_markup_page *page, struct br_error *err);
+enum br_status br_markup_print(struct br_markup_page *page);
 
 #endif
