@@ -13,14 +13,6 @@ static const char *field_name(enum br_field_kind kind)
     return kind == BR_AXIAL ? "axial" : "bending";
 }
 
-static double worst_of(const struct br_vibration_row *row)
-{
-    double worst = 0;
-    for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-        worst = fmax(worst, row->at[r][SHOWN].worst);
-    return row->at[0][SHOWN].end == BR_VIBRATION_DONE ? worst : NAN;
-}
-
 static void put_loss(struct br_document *d, const struct br_vibration *v, size_t rate)
 {
     char heading[32];
@@ -45,50 +37,56 @@ static void put_loss_grid(struct br_document *d, const struct br_energy_behaviou
                  BR_FOR_PEOPLE);
     for (size_t i = 0; i < b->vibrations; i++) {
         const struct br_vibration_row *row = &b->vibration[i];
+        const bool done = row->at[0][SHOWN].end == BR_VIBRATION_DONE;
+        double worst = 0;
         if (row->scheme->adaptive != adaptive)
             continue;
         br_put_row(d);
         BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
         BR_PUT(d, br_text(field_name(row->kind)), .key = "field");
         BR_PUT(d, br_number(row->damping), .key = "damping", .format = "%g");
-        for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
+        for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
             put_loss(d, &row->at[r][SHOWN], r);
+            worst = fmax(worst, row->at[r][SHOWN].worst);
+        }
         if (!adaptive)
             BR_PUT(d, br_number(br_vibration_difference(row)), .key = "off",
                    .heading = "off theory", .format = "%.1e");
-        BR_PUT(d, br_number(worst_of(row)), .key = "imbalance", .format = "%.1e");
+        BR_PUT(d, br_if(done, br_number(worst)), .key = "imbalance", .format = "%.1e");
     }
-}
-
-static void put_vibration(struct br_document *d, const struct br_vibration *v)
-{
-    static const char *const ends[] = {"done", "refused", "failed"};
-    const bool done = v->end == BR_VIBRATION_DONE, adaptive = v->scheme->adaptive;
-    br_put_row(d);
-    BR_PUT(d, br_text(v->scheme->name), .key = "scheme");
-    BR_PUT(d, br_text(field_name(v->kind)), .key = "field");
-    BR_PUT(d, br_number(v->damping), .key = "damping");
-    BR_PUT(d, br_number(v->density), .key = "density", .unit = "kg/m");
-    BR_PUT(d, br_if(!adaptive, br_count(v->per_period)), .key = "steps_per_period");
-    BR_PUT(d, br_if(adaptive, br_number(v->tolerance)), .key = "tolerance");
-    br_put_blank(d, !done);
-    BR_PUT(d, br_number(v->steps), .key = "steps");
-    BR_PUT(d, br_number(v->measured), .key = "lost");
-    BR_PUT(d, br_number(v->predicted), .key = "predicted");
-    BR_PUT(d, br_number(v->worst), .key = "imbalance");
-    br_put_blank(d, false);
-    BR_PUT(d, br_text(ends[v->end]), .key = "end");
-    BR_PUT(d, br_text(done ? NULL : v->failure.message), .key = "message");
 }
 
 static void put_vibrations(struct br_document *d, const struct br_energy_behaviour *b)
 {
-    br_put_table(d, "vibration", "Share of the energy of a free vibration lost a period",
-                 BR_FOR_PROGRAMS);
-    for (size_t i = 0; i < b->vibrations; i++)
-        for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-            for (size_t density = 0; density < BR_VIBRATION_DENSITIES; density++)
-                put_vibration(d, &b->vibration[i].at[r][density]);
+    enum { EACH = BR_VIBRATION_RATES * BR_VIBRATION_DENSITIES };
+    static const char *const ends[] = {"done", "refused", "failed"};
+    static const struct br_column columns[] = {
+        {.key = "scheme"},
+        {.key = "field"},
+        {.key = "damping"},
+        {.key = "density", .unit = "kg/m"},
+        {.key = "steps_per_period"},
+        {.key = "tolerance"},
+        {.key = "steps"},
+        {.key = "lost"},
+        {.key = "predicted"},
+        {.key = "imbalance"},
+        {.key = "end"},
+        {.key = "message"},
+    };
+    BR_TABLE(d, "vibration", "Share of the energy of a free vibration lost a period",
+             BR_FOR_PROGRAMS, columns);
+    for (size_t i = 0; i < b->vibrations * EACH; i++) {
+        const size_t rate = i % EACH / BR_VIBRATION_DENSITIES, density = i % BR_VIBRATION_DENSITIES;
+        const struct br_vibration *v = &b->vibration[i / EACH].at[rate][density];
+        const bool done = v->end == BR_VIBRATION_DONE, adaptive = v->scheme->adaptive;
+        BR_PUT_ROW(d, br_text(v->scheme->name), br_text(field_name(v->kind)), br_number(v->damping),
+                   br_number(v->density), br_if(!adaptive, br_count(v->per_period)),
+                   br_if(adaptive, br_number(v->tolerance)), br_if(done, br_number(v->steps)),
+                   br_if(done, br_number(v->measured)), br_if(done, br_number(v->predicted)),
+                   br_if(done, br_number(v->worst)), br_text(ends[v->end]),
+                   br_text(done ? NULL : v->failure.message));
+    }
 }
 
 static double put_in(const struct br_balance_row *row)
@@ -118,29 +116,24 @@ static void put_share(struct br_document *d, const char *key, const char *headin
            .key = key, .heading = heading, .unit = "%", .format = "%.3g");
 }
 
-static void put_outcome(struct br_document *d, const struct br_balance_row *row)
-{
-    char text[64];
-    snprintf(text, sizeof text, "ended after step %zu", row->marched);
-    BR_PUT(d,
-           br_text(row->end == BR_VIBRATION_REFUSED  ? "refused"
-                   : row->end == BR_VIBRATION_FAILED ? text
-                   : br_balance_row_is_right(row)    ? "closes"
-                                                     : "WRONG"),
-           .key = "balance");
-}
-
 static void put_balances(struct br_document *d, const struct br_energy_behaviour *b)
 {
     br_put_table(d, "balance", "Balances of scenes, 20 elements and 400 steps", BR_FILES_ONLY);
     for (size_t i = 0; i < b->balances; i++) {
         const struct br_balance_row *row = &b->balance[i];
         const struct br_work *w = &row->work;
+        char ended[64];
         const double in = put_in(row), gaining = (double)(w->gaining[0] + w->gaining[1]);
+        snprintf(ended, sizeof ended, "ended after step %zu", row->marched);
         br_put_row(d);
         BR_PUT(d, br_text(br_balance_scenes[row->scene]), .key = "scene");
         BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
-        put_outcome(d, row);
+        BR_PUT(d,
+               br_text(row->end == BR_VIBRATION_REFUSED  ? "refused"
+                       : row->end == BR_VIBRATION_FAILED ? ended
+                       : br_balance_row_is_right(row)    ? "closes"
+                                                         : "WRONG"),
+               .key = "balance");
         br_put_blank(d, row->end == BR_VIBRATION_REFUSED);
         BR_PUT(d, br_number(in), .key = "put_in", .heading = "put in", .unit = "J",
                .format = "%.3g");
@@ -184,24 +177,20 @@ static void answer_energy(struct br_document *d, const struct br_energy_behaviou
                   off);
 }
 
-static void note_added(struct br_document *d, const struct br_energy_behaviour *b)
+static void put_notes(struct br_document *d, const struct br_energy_behaviour *b)
 {
+    const char *last = "";
+    br_put_section(d, "What was added or refused");
     for (size_t i = 0; i < b->balances; i++) {
         const struct br_balance_row *row = &b->balance[i];
         const double part = added(row) / put_in(row);
-        if (!(part > 1e-3))
-            continue;
-        br_put_note(d, "%s by %s: the scheme added %.3g J, %.3g %% of what was put in%s.",
-                    br_balance_scenes[row->scene], row->scheme->name, added(row), 100 * part,
-                    row->work.scheme_contact < 0 && row->scheme->may_lag
-                        ? "; it is the lagged contact's force, implicit contact adds nothing"
-                        : "");
+        if (part > 1e-3)
+            br_put_note(d, "%s by %s: the scheme added %.3g J, %.3g %% of what was put in%s.",
+                        br_balance_scenes[row->scene], row->scheme->name, added(row), 100 * part,
+                        row->work.scheme_contact < 0 && row->scheme->may_lag
+                            ? "; it is the lagged contact's force, implicit contact adds nothing"
+                            : "");
     }
-}
-
-static void note_refused(struct br_document *d, const struct br_energy_behaviour *b)
-{
-    const char *last = "";
     for (size_t i = 0; i < b->vibrations; i++) {
         const struct br_vibration *v = &b->vibration[i].at[0][SHOWN];
         if (v->end == BR_VIBRATION_DONE || strcmp(v->failure.message, last) == 0)
@@ -221,9 +210,7 @@ void br_report_energy(const struct br_energy_behaviour *b, struct br_document *d
     put_loss_grid(d, b, true);
     put_vibrations(d, b);
     put_balances(d, b);
-    br_put_section(d, "What was added or refused");
-    note_added(d, b);
-    note_refused(d, b);
+    put_notes(d, b);
     br_put_section(d, "What is measured");
     br_put_note(
         d, "Loss a period: the share of the energy of the lowest mode that is gone after one "

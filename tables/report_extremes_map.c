@@ -39,12 +39,9 @@ static void put_reasons(struct br_document *d, const struct br_extreme_counts *c
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
     for (size_t i = 0; i < counts->reasons; i++) {
         const struct br_extreme_reason *r = &counts->reason[i];
-        br_put_row(d);
-        br_put(d, "kind", br_text(br_extreme_word(r->which)));
+        BR_PUT_ROW(d, br_text(br_extreme_word(r->which)));
         br_put_shown(d, "%s", class_headings[r->which]);
-        br_put(d, "cases", br_count(r->cases));
-        br_put(d, "first", br_count(r->first));
-        br_put(d, "reason", br_text(r->text));
+        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
     }
 }
 
@@ -57,11 +54,8 @@ static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
     BR_TABLE(d, "wrong", "Silently wrong, made small", 0, columns);
     for (size_t i = 0; i < m->shrunks; i++) {
         const struct br_extreme_shrunk *s = &m->shrunk[i];
-        br_put_row(d);
-        br_put(d, "case", br_count(s->one.index));
-        br_put(d, "scene", br_text(s->file));
-        br_put(d, "why", br_text(s->verdict.why));
-        br_put(d, "command", br_text(s->command));
+        BR_PUT_ROW(d, br_count(s->one.index), br_text(s->file), br_text(s->verdict.why),
+                   br_text(s->command));
     }
 }
 
@@ -76,41 +70,39 @@ static void put_warnings(struct br_document *d, unsigned warned)
     BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
 }
 
-static void put_case(struct br_document *d, const struct br_extreme_case *c, size_t index,
-                     const struct br_extreme_verdict *v)
-{
-    br_put_row(d);
-    BR_PUT(d, br_count(index), .key = "case");
-    BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
-    BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)), .key = "judge");
-    BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
-    BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
-           .format = "%.2e");
-    BR_PUT(d, br_number(v->round_off), .key = "round_off", .heading = "round-off",
-           .format = "%.2e");
-    put_warnings(d, v->warned);
-    BR_PUT(d, br_text(c->method.scheme->name), .key = "scheme");
-    BR_PUT(d, br_text(c->method.solver->name), .key = "solver");
-    BR_PUT(d, br_text(c->method.contact->name), .key = "contact");
-    BR_PUT(d, br_text(c->method.friction->name), .key = "friction");
-    BR_PUT(d, br_count((size_t)c->method.axial_degree), .key = "degree");
-    BR_PUT(d, br_count(c->n), .key = "n");
-    BR_PUT(d, br_count(c->steps), .key = "steps");
-    BR_PUT(d, br_number(c->length), .key = "L", .unit = "m", .format = "%.4g");
-    BR_PUT(d, br_number(c->duration), .key = "T", .unit = "s", .format = "%.4g");
-    BR_PUT(d, br_number(c->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
-    BR_PUT(d, br_number(c->contact ? c->contact_stiffness : NAN), .key = "c_H", .unit = "N/m",
-           .format = "%.4g");
-    BR_PUT(d, br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction), .key = "c_V",
-           .format = "%.4g");
-    BR_PUT(d, br_text(*v->why ? v->why : NULL), .key = "why", .flags = BR_WRAP);
-}
-
 static void put_cases(struct br_document *d, const struct br_extreme_map *m)
 {
     br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN);
-    for (size_t i = 0; i < m->cases; i++)
-        put_case(d, &m->one[i], i, &m->verdict[i]);
+    for (size_t i = 0; i < m->cases; i++) {
+        const struct br_extreme_case *c = &m->one[i];
+        const struct br_extreme_verdict *v = &m->verdict[i];
+        br_put_row(d);
+        BR_PUT(d, br_count(i), .key = "case");
+        BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
+        BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)),
+               .key = "judge");
+        BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
+        BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
+               .format = "%.2e");
+        BR_PUT(d, br_number(v->round_off), .key = "round_off", .heading = "round-off",
+               .format = "%.2e");
+        put_warnings(d, v->warned);
+        BR_PUT(d, br_text(c->method.scheme->name), .key = "scheme");
+        BR_PUT(d, br_text(c->method.solver->name), .key = "solver");
+        BR_PUT(d, br_text(c->method.contact->name), .key = "contact");
+        BR_PUT(d, br_text(c->method.friction->name), .key = "friction");
+        BR_PUT(d, br_count((size_t)c->method.axial_degree), .key = "degree");
+        BR_PUT(d, br_count(c->n), .key = "n");
+        BR_PUT(d, br_count(c->steps), .key = "steps");
+        BR_PUT(d, br_number(c->length), .key = "L", .unit = "m", .format = "%.4g");
+        BR_PUT(d, br_number(c->duration), .key = "T", .unit = "s", .format = "%.4g");
+        BR_PUT(d, br_number(c->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+        BR_PUT(d, br_number(c->contact ? c->contact_stiffness : NAN), .key = "c_H", .unit = "N/m",
+               .format = "%.4g");
+        BR_PUT(d, br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction), .key = "c_V",
+               .format = "%.4g");
+        BR_PUT(d, br_text(*v->why ? v->why : NULL), .key = "why", .flags = BR_WRAP);
+    }
 }
 
 static void answer_map(struct br_document *d, const struct br_extreme_map *m)
@@ -142,30 +134,17 @@ static void answer_map(struct br_document *d, const struct br_extreme_map *m)
         r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }
 
-static size_t judged_by(const struct br_extreme_map *m, enum br_extreme_by by)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        count += m->verdict[i].by == by;
-    return count;
-}
-
-static double largest_units(const struct br_extreme_map *m, size_t *compared)
-{
-    double most = 0;
-    *compared = 0;
-    for (size_t i = 0; i < m->cases; i++)
-        if (!isnan(m->verdict[i].units)) {
-            most = fmax(most, m->verdict[i].units);
-            (*compared)++;
-        }
-    return most;
-}
-
 static void note_judging(struct br_document *d, const struct br_extreme_map *m)
 {
-    size_t compared;
-    const double units = largest_units(m, &compared);
+    size_t compared = 0, exact = 0, refined = 0;
+    double most = 0;
+    for (size_t i = 0; i < m->cases; i++) {
+        const struct br_extreme_verdict *v = &m->verdict[i];
+        exact += v->by == BR_BY_EXACT;
+        refined += v->by == BR_BY_REFINEMENT;
+        compared += isnan(v->units) ? 0 : 1;
+        most = fmax(most, v->units); /* not NaN */
+    }
     br_put_section(d, "How it was judged");
     br_put_note(
         d,
@@ -177,13 +156,13 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         "mean squares at eight times and up to 24 places), judged by the exact solution (%zu cases) "
         "or by another scheme on two to eight times the elements with up to 32 times the steps "
         "(%zu), and once more by a finer one before anything is called wrong.",
-        m->seed, judged_by(m, BR_BY_EXACT), judged_by(m, BR_BY_REFINEMENT));
+        m->seed, exact, refined);
     br_put_note(
         d,
         "%zu cases were marched in other units of length, time and mass, too. Their displacements "
         "agree to the predicted round-off, or to what a change of the data by 1e-12 does to them; "
         "the largest difference is %.1e.",
-        compared, units);
+        compared, most);
 }
 
 void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,

@@ -42,25 +42,6 @@ static void answer_missed(struct br_document *d, const struct br_plan *p)
                       p->seconds(&p->trial[best]));
 }
 
-/* How the goal was met. */
-static void answer_met(struct br_document *d, const struct br_plan *p)
-{
-    const double share = error_of(p, p->chosen) / p->goal.error;
-    if (!isfinite(p->goal.error))
-        br_put_answer(d, "Met: the least error that was found within %g CPU s.", p->goal.seconds);
-    else if (p->end == BR_PLAN_MET)
-        br_put_answer(d, "Met: the achieved error is %.2f of the goal, a relative error of %g.",
-                      share, p->goal.error);
-    else
-        br_put_answer(d,
-                      "Met, and better: the achieved error is %.2g of the goal, a relative error "
-                      "of %g; %s.",
-                      share, p->goal.error,
-                      p->end == BR_PLAN_COARSEST
-                          ? "the mesh is the coarsest, nothing costs less"
-                          : "nothing nearer to the goal was found that costs as little");
-}
-
 static void answer_work(struct br_document *d, const struct br_plan *p)
 {
     size_t cheap = 0, failed = 0;
@@ -98,19 +79,29 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
     br_put_command(d, "trade", "To measure it again", line);
 }
 
-/* The commands stand first: a file has them below the answer. */
-static void put_answer(struct br_document *d, const struct br_plan *p, const char *scene_word)
+static void put_answer(struct br_document *d, const struct br_plan *p)
 {
+    const double share = p->chosen < p->count ? error_of(p, p->chosen) / p->goal.error : NAN;
     if (p->end == BR_PLAN_MISSED)
         answer_missed(d, p);
+    else if (!isfinite(p->goal.error))
+        br_put_answer(d, "Met: the least error that was found within %g CPU s.", p->goal.seconds);
+    else if (p->end == BR_PLAN_MET)
+        br_put_answer(d, "Met: the achieved error is %.2f of the goal, a relative error of %g.",
+                      share, p->goal.error);
     else
-        answer_met(d, p);
+        br_put_answer(d,
+                      "Met, and better: the achieved error is %.2g of the goal, a relative error "
+                      "of %g; %s.",
+                      share, p->goal.error,
+                      p->end == BR_PLAN_COARSEST
+                          ? "the mesh is the coarsest, nothing costs less"
+                          : "nothing nearer to the goal was found that costs as little");
     if (p->chosen < p->count)
         answer_trial(d, p, "Proposal", p->chosen);
     if (p->first < p->count && p->first != p->chosen)
         answer_trial(d, p, "First proposal, by the cheap trials alone", p->first);
     answer_work(d, p);
-    put_commands(d, p, scene_word);
 }
 
 /* ---- tables ---- */
@@ -124,30 +115,6 @@ static const char *remark_on(const struct br_plan *p, size_t i)
     return i == p->first ? "first" : NULL;
 }
 
-static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
-{
-    const struct br_trial *t = &p->trial[i];
-    const struct br_counts *c = &t->cost.counts;
-    br_put_row(d);
-    BR_PUT(d, br_count(p->forecast[i].round), .key = "round");
-    br_put_trial(d, p->request.scene, t);
-    BR_PUT(d, br_number(p->forecast[i].error), .key = "predicted_error",
-           .heading = "predicted error", .format = "%.3e");
-    BR_PUT(d, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
-           .format = "%.3e");
-    BR_PUT(d, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
-           .heading = "predicted CPU", .unit = "s", .format = "%.3g");
-    BR_PUT(d, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
-           .format = "%.3g");
-    BR_PUT(d, br_count(c->steps), .key = "steps");
-    br_hide(d, "solves", NULL, br_count(c->stages));
-    br_hide(d, "set_ups", NULL, br_count(c->set_ups));
-    br_hide(d, "end", NULL, br_text(br_trial_end_name(t->end)));
-    br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
-    br_hide(d, "failure", NULL, br_failure_text(&t->failure));
-    BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
-}
-
 /* All of them, or those that were proposed, after the cheap trials of round 0. */
 static void put_trials(struct br_document *d, const struct br_plan *p, bool proposed)
 {
@@ -155,9 +122,30 @@ static void put_trials(struct br_document *d, const struct br_plan *p, bool prop
         br_put_table(d, "proposals", "What was proposed", BR_FOR_PEOPLE);
     else
         br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t i = 0; i < p->count; i++)
-        if (!proposed || p->forecast[i].round > 0)
-            put_trial(d, p, i);
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_trial *t = &p->trial[i];
+        const struct br_counts *c = &t->cost.counts;
+        if (proposed && p->forecast[i].round == 0)
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_count(p->forecast[i].round), .key = "round");
+        br_put_trial(d, p->request.scene, t);
+        BR_PUT(d, br_number(p->forecast[i].error), .key = "predicted_error",
+               .heading = "predicted error", .format = "%.3e");
+        BR_PUT(d, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
+               .format = "%.3e");
+        BR_PUT(d, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
+               .heading = "predicted CPU", .unit = "s", .format = "%.3g");
+        BR_PUT(d, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
+               .format = "%.3g");
+        BR_PUT(d, br_count(c->steps), .key = "steps");
+        br_hide(d, "solves", NULL, br_count(c->stages));
+        br_hide(d, "set_ups", NULL, br_count(c->set_ups));
+        br_hide(d, "end", NULL, br_text(br_trial_end_name(t->end)));
+        br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
+        br_hide(d, "failure", NULL, br_failure_text(&t->failure));
+        BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
+    }
 }
 
 /* A root mean square of logarithms, which people see in per cent; NaN: not known. */
@@ -190,31 +178,21 @@ static void put_models(struct br_document *d, const struct br_plan *p)
     }
 }
 
-static void put_curve(struct br_document *d, const char *method, const char *name,
-                      const struct br_plan_curve *c)
-{
-    for (size_t i = 0; i < c->count; i++) {
-        br_put_row(d);
-        br_put(d, "method", br_text(method));
-        br_put(d, "curve", br_text(name));
-        br_put(d, "at", br_number(c->at[i]));
-        br_put(d, "value", br_number(c->value[i]));
-    }
-}
-
 /* Logarithms: of n, steps or 1/tolerance; and of an error or solves. */
 static void put_curves(struct br_document *d, const struct br_plan *p)
 {
     static const struct br_column columns[] = {
         {.key = "method"}, {.key = "curve"}, {.key = "at"}, {.key = "value"}};
+    static const char *const names[] = {"log_space_error", "log_time_error", "log_solves"};
     BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, columns);
     for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_models *m = &p->model[i];
-        if (!m->known)
-            continue;
-        put_curve(d, p->methods.list[i].name, "log_space_error", &m->error.space);
-        put_curve(d, p->methods.list[i].name, "log_time_error", &m->error.time);
-        put_curve(d, p->methods.list[i].name, "log_solves", &m->cost.solves);
+        const struct br_plan_curve *const curves[] = {&m->error.space, &m->error.time,
+                                                      &m->cost.solves};
+        for (size_t c = 0; c < 3 && m->known; c++)
+            for (size_t j = 0; j < curves[c]->count; j++)
+                BR_PUT_ROW(d, br_text(p->methods.list[i].name), br_text(names[c]),
+                           br_number(curves[c]->at[j]), br_number(curves[c]->value[j]));
     }
 }
 
@@ -273,7 +251,8 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     snprintf(name, sizeof name, "%.500s-plan", scene->name);
     snprintf(caption, sizeof caption, "A plan: %.400s", scene->title);
     br_document_begin(d, name, "beamrate plan", 1, caption);
-    put_answer(d, p, scene_word);
+    put_answer(d, p);
+    put_commands(d, p, scene_word); /* first: a file has them below the answer */
     put_trials(d, p, true);
     put_models(d, p);
     put_trials(d, p, false);

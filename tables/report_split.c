@@ -89,42 +89,38 @@ static struct line line_of(const struct br_split *s, size_t norm, size_t i)
     };
 }
 
-/* An error and its floor. People see "< 3.4e-16" below the floor. */
-static void put_error(struct br_document *d, const struct br_split *s, const struct line *l,
-                      enum br_part part)
+/* People see "< 3.4e-16" for an error below its floor. */
+static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
 {
     static const char *const key[BR_PARTS] = {"error", "axial", "bending"},
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
-    const double error = models(s, part) ? l->error[part] : (double)NAN;
-    const double floor = l->floor ? l->floor[part] : (double)NAN;
-    br_hide(d, floor_key[part], NULL, br_number(floor));
-    BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part], .format = "%.3e");
-    if (isfinite(error) && floor > 0 && !(error > floor))
-        br_put_shown(d, "< %.1e", floor);
-}
-
-static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
-{
-    const struct line l = line_of(s, norm, i);
-    const bool told = i > s->shares || isfinite(l.share);
+    const struct line line = line_of(s, norm, i), *l = &line;
+    const bool told = i > s->shares || isfinite(l->share);
     br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
     br_hide(d, "unit", NULL, br_text(s->norm[norm]->unit));
-    BR_PUT(d, br_text(l.name), .key = "part");
-    br_hide(d, "applies", NULL, br_truth(!l.none));
-    br_put_blank(d, l.none);
-    for (int part = 0; part < BR_PARTS; part++)
-        put_error(d, s, &l, (enum br_part)part);
-    BR_PUT(d, br_number(l.share), .key = "share", .heading = "of the sum");
-    if (isfinite(l.share))
-        br_put_shown(d, share_format(l.share), 100 * l.share);
-    BR_PUT(d, br_number(told ? l.error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
+    BR_PUT(d, br_text(l->name), .key = "part");
+    br_hide(d, "applies", NULL, br_truth(!l->none));
+    br_put_blank(d, l->none);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        const double error = models(s, part) ? l->error[part] : (double)NAN;
+        const double floor = l->floor ? l->floor[part] : (double)NAN;
+        br_hide(d, floor_key[part], NULL, br_number(floor));
+        BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part],
+               .format = "%.3e");
+        if (isfinite(error) && floor > 0 && !(error > floor))
+            br_put_shown(d, "< %.1e", floor);
+    }
+    BR_PUT(d, br_number(l->share), .key = "share", .heading = "of the sum");
+    if (isfinite(l->share))
+        br_put_shown(d, share_format(l->share), 100 * l->share);
+    BR_PUT(d, br_number(told ? l->error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
            .heading = "of the solution", .format = "%.2e");
-    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l.tip[BR_AXIAL])), .key = "axial_tip",
+    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])), .key = "axial_tip",
            .heading = "axial tip", .unit = "m", .format = "%+.3e");
-    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l.tip[BR_BENDING])), .key = "bending_tip",
-           .heading = "bending tip", .unit = "m", .format = "%+.3e");
+    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l->tip[BR_BENDING])),
+           .key = "bending_tip", .heading = "bending tip", .unit = "m", .format = "%+.3e");
     br_put_blank(d, false);
-    br_hide(d, "none", NULL, br_text(l.none));
+    br_hide(d, "none", NULL, br_text(l->none));
 }
 
 /* ---- tables ---- */

@@ -114,15 +114,6 @@ static void say_flags(struct br_document *d, const struct br_study *s)
     br_put_more(d, ".");
 }
 
-static void answer_unstable(struct br_document *d, const struct br_study *s)
-{
-    if (s->judged_by.unstable)
-        br_put_answer(d,
-                      "The %s reference itself is beyond the stability limit of the lagged "
-                      "contact: do not trust it.",
-                      s->judge->name);
-}
-
 static void answer_printed(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
@@ -195,46 +186,41 @@ static void answer_tips(struct br_document *d, const struct br_report *r)
 }
 
 /* What the answers say, and the same of each part. */
-static void put_seen(struct br_document *d, const struct br_report *r, enum br_part part, int i)
-{
-    const struct br_seen_order *seen = &r->seen[part][i];
-    char text[64];
-    if (!seen->asked)
-        return;
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-    BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
-    BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)), .heading = "seen [95 %]");
-    BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
-    BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
-    BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
-}
-
-static void put_finest(struct br_document *d, const struct br_study *s)
-{
-    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
-    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[BR_PART_TOTAL]), .heading = "part");
-    BR_PUT(d, br_text(s->judge == &br_judge_none ? "difference" : "error"), .heading = "what");
-    BR_PUT(d, br_number(error), .heading = "seen [95 %]");
-    if (isfinite(error))
-        br_put_shown(d, "%.3e %s", error, s->norm->unit);
-    BR_PUT(d, br_number(relative), .heading = "it is");
-    if (isfinite(relative))
-        br_put_shown(d, "%.1e of the solution", relative);
-    BR_PUT(d, br_count(c->at.n), .heading = "by");
-    br_put_shown(d, "finest cell, n = %zu, k = %g s", c->at.n, step_of(s, c));
-}
-
 static void put_orders(struct br_document *d, const struct br_report *r)
 {
+    const struct br_study *s = br_report_fitted(r);
+    const struct br_cell *finest = &s->cell[s->n_count * s->k_count - 1];
+    const double error = finest->error[BR_PART_TOTAL];
+    const double relative = relative_of(s, finest, BR_PART_TOTAL);
+    char text[64];
     br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++)
-            put_seen(d, r, part, i);
-        if (part == BR_PART_TOTAL)
-            put_finest(d, br_report_fitted(r));
+        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
+            const struct br_seen_order *seen = &r->seen[part][i];
+            if (!seen->asked)
+                continue;
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+            BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
+                   .heading = "seen [95 %]");
+            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+            BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
+            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
+        }
+        if (part != BR_PART_TOTAL)
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+        BR_PUT(d, br_text(s->judge == &br_judge_none ? "difference" : "error"), .heading = "what");
+        BR_PUT(d, br_number(error), .heading = "seen [95 %]");
+        if (isfinite(error))
+            br_put_shown(d, "%.3e %s", error, s->norm->unit);
+        BR_PUT(d, br_number(relative), .heading = "it is");
+        if (isfinite(relative))
+            br_put_shown(d, "%.1e of the solution", relative);
+        BR_PUT(d, br_count(finest->at.n), .heading = "by");
+        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(s, finest));
     }
 }
 
@@ -247,9 +233,14 @@ static void put_answers(struct br_document *d, const struct br_report *r)
                   s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
     say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
     say_flags(d, s);
-    answer_unstable(d, s);
-    if (r->exact)
-        answer_unstable(d, r->study);
+    for (int i = 0; i < (r->exact ? 2 : 1); i++) {
+        const struct br_study *of = i ? r->study : s;
+        if (of->judged_by.unstable)
+            br_put_answer(d,
+                          "The %s reference itself is beyond the stability limit of the lagged "
+                          "contact: do not trust it.",
+                          of->judge->name);
+    }
     answer_tips(d, r);
     answer_printed(d, r);
 }
@@ -354,23 +345,17 @@ static void put_grids(struct br_document *d, const struct br_report *r)
 
 /* ---- lists ---- */
 
-/* The order that a cell and its coarser neighbour show; not finite where there is none. */
-static double rate_of(double coarse, double fine, size_t from, size_t to)
-{
-    return log(coarse / fine) / log((double)to / (double)from);
-}
-
-/* To the coarser mesh, or the longer step, before this one. */
+/* The order that a cell and its coarser neighbour show, which has the coarser mesh or the longer
+ * step before this one; not finite where there is none. */
 static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part,
                                bool over_h)
 {
     const size_t i = cell / s->k_count, j = cell % s->k_count;
     if (over_h ? i == 0 : j == 0)
         return br_nothing();
-    const double error = s->cell[cell].error[part];
     const double coarse = br_study_cell(s, i - over_h, j - !over_h)->error[part];
-    return br_number(over_h ? rate_of(coarse, error, s->n[i - 1], s->n[i])
-                            : rate_of(coarse, error, s->steps[j - 1], s->steps[j]));
+    const size_t from = over_h ? s->n[i - 1] : s->steps[j - 1], to = over_h ? s->n[i] : s->steps[j];
+    return br_number(log(coarse / s->cell[cell].error[part]) / log((double)to / (double)from));
 }
 
 static void put_cell(struct br_document *d, const struct br_report *r, const struct br_study *s,
@@ -440,82 +425,74 @@ static void put_estimate(struct br_document *d, const struct br_column *column,
 #define PUT_ESTIMATE(d, e, shown, ...) \
     put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
 
-/* n, or k; over: what the slope is over. */
-static void put_slope(struct br_document *d, enum br_part part, const char *over, struct br_value n,
-                      struct br_value k, const struct br_slope *slope)
-{
-    char text[64];
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-    BR_PUT(d, br_text(over), .key = "over");
-    BR_PUT(d, n, .key = "n");
-    BR_PUT(d, k, .key = "k", .unit = "s");
-    PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
-                 .heading = "slope [95 %]");
-    BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
-}
-
 static void put_slopes(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
+    char text[64];
     br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
                  r->rates ? BR_LONG : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++)
-            put_slope(d, part, "k", br_count(s->n[i]), br_nothing(), &r->fits[part].by_n[i]);
-        for (size_t j = 0; is_shown(r, part) && j < s->k_count; j++)
-            put_slope(d, part, "h", br_nothing(), br_number(br_time_step(s->scene, s->steps[j])),
-                      &r->fits[part].by_k[j]);
-    }
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
+            const bool row = i < s->n_count;
+            const size_t j = row ? i : i - s->n_count;
+            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
+            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
+            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
+                   .key = "k", .unit = "s");
+            PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
+                         .heading = "slope [95 %]");
+            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
+        }
 }
 
 /* Numbers of a fit that does not describe the errors are not claimed. */
-static void put_fit(struct br_document *d, const struct br_report *r, enum br_part part)
-{
-    static const char *const kinds[] = {"space and time", "time", "space"};
-    const struct br_joint_fit *j = &r->fits[part].joint;
-    const bool claims = br_joint_describes(j);
-    const char *constant = claims ? NULL : "-";
-    char p[64] = "not claimed", q[64] = "not claimed", both[64] = "-";
-    if (claims && br_order_determined(&j->p))
-        br_order_text(&j->p, p, sizeof p);
-    if (claims && br_order_determined(&j->q))
-        br_order_text(&j->q, q, sizeof q);
-    if (claims)
-        snprintf(both, sizeof both, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-    BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
-           .flags = BR_FILES_ONLY);
-    if (!j->converged)
-        br_put_shown(d, "none");
-    PUT_ESTIMATE(d, &j->p, p, .key = "p", .heading = "p [95 %]");
-    PUT_ESTIMATE(d, &j->c_h, constant, .key = "C_h", .format = "%.3g");
-    PUT_ESTIMATE(d, &j->q, q, .key = "q", .heading = "q [95 %]");
-    PUT_ESTIMATE(d, &j->c_k, constant, .key = "C_k", .format = "%.3g");
-    PUT_ESTIMATE(d, &j->r, both, .key = "r", .heading = "r [95 %]");
-    BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
-    BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
-           .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
-    br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
-    BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
-           .flags = BR_FILES_ONLY);
-    br_hide(d, "reference_error", r->study->norm->unit, br_number(r->fits[part].reference_error));
-}
-
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
+    static const char *const kinds[] = {"space and time", "time", "space"};
     bool told = r->rates;
     for (enum br_part part = 0; part < BR_PARTS; part++)
         told |= is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
                  told ? 0 : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        if (is_shown(r, part))
-            put_fit(d, r, part);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        const struct br_joint_fit *j = &r->fits[part].joint;
+        const bool claims = br_joint_describes(j);
+        const char *constant = claims ? NULL : "-";
+        char p[64] = "not claimed", q[64] = "not claimed", both[64] = "-";
+        if (!is_shown(r, part))
+            continue;
+        if (claims && br_order_determined(&j->p))
+            br_order_text(&j->p, p, sizeof p);
+        if (claims && br_order_determined(&j->q))
+            br_order_text(&j->q, q, sizeof q);
+        if (claims)
+            snprintf(both, sizeof both, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
+        br_put_row(d);
+        BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+        BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
+               .flags = BR_FILES_ONLY);
+        if (!j->converged)
+            br_put_shown(d, "none");
+        PUT_ESTIMATE(d, &j->p, p, .key = "p", .heading = "p [95 %]");
+        PUT_ESTIMATE(d, &j->c_h, constant, .key = "C_h", .format = "%.3g");
+        PUT_ESTIMATE(d, &j->q, q, .key = "q", .heading = "q [95 %]");
+        PUT_ESTIMATE(d, &j->c_k, constant, .key = "C_k", .format = "%.3g");
+        PUT_ESTIMATE(d, &j->r, both, .key = "r", .heading = "r [95 %]");
+        BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
+        BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
+               .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
+        br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
+        BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
+               .flags = BR_FILES_ONLY);
+        br_hide(d, "reference_error", r->study->norm->unit,
+                br_number(r->fits[part].reference_error));
+    }
 }
 
 static void put_tips(struct br_document *d, const struct br_report *r)
