@@ -17,7 +17,7 @@
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
-#include "tables/repeated.h"
+#include "tables/reports.h"
 
 enum { MOST_WORDS = 2 * BR_OPTIONS + 40, PATH = 1300 };
 

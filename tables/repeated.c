@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report's JSON beside that of its repetition. */
-#include "tables/repeated.h"
-
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "tables/reports.h"
 
 enum { PLACE = 300 };
 

@@ -775,7 +775,7 @@ static const struct planted_bug planted_bugs[] = {
     {"slope_times_h", "units", "tables/fields_file.c", "tests/test_printed_values",
      "values[3 * nodes + i] = displacement[2 * i + 1] / field->h;",
      "values[3 * nodes + i] = displacement[2 * i + 1];"},
-    {"history_velocities_exchanged", "printed", "tables/run_csv.c", "golden run",
+    {"history_velocities_exchanged", "printed", "tables/report_run.c", "golden run",
      "row->velocity[BR_AXIAL],\n        row->velocity[BR_BENDING],",
      "row->velocity[BR_BENDING],\n        row->velocity[BR_AXIAL],"},
     {"summary_has_viscosity_twice", "printed", "tables/report_run.c", "golden run",
