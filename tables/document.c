@@ -272,15 +272,15 @@ void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t coun
                 .unit = fact[i].unit);
 }
 
-void br_hide_fact(struct br_document *d, struct br_value value, const char *unit, const char *key,
-                  ...)
+void br_put_fact_as(struct br_document *d, struct br_value value, const char *heading,
+                    const char *unit, const char *key, ...)
 {
     va_list arguments;
     va_start(arguments, key);
     const char *name = formatted(d, key, arguments);
     va_end(arguments);
     if (name)
-        BR_FACT(d, value, .key = name, .unit = unit, .flags = BR_FOR_PROGRAMS);
+        BR_FACT(d, value, .key = name, .heading = heading, .unit = unit);
 }
 
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)

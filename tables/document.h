@@ -240,10 +240,12 @@ struct br_fact {
 void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
 #define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
 
-/* A fact for programs; the key is formatted. unit: NULL, none. */
-__attribute__((format(printf, 4, 5))) void br_hide_fact(struct br_document *d,
-                                                        struct br_value value, const char *unit,
-                                                        const char *key, ...);
+/* A fact whose key is formatted; for programs alone where there is no heading. unit: NULL, none. */
+__attribute__((format(printf, 5, 6))) void br_put_fact_as(struct br_document *d,
+                                                          struct br_value value,
+                                                          const char *heading, const char *unit,
+                                                          const char *key, ...);
+#define br_hide_fact(d, value, unit, ...) br_put_fact_as((d), (value), NULL, (unit), __VA_ARGS__)
 
 /* A command line, or several lines, to be copied; a fact of JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);

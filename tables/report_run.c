@@ -9,7 +9,7 @@
 #include "study/scene/quote.h"
 #include "tables/report_parts.h"
 
-enum { KEY = 80, VALUE = 80 };
+enum { VALUE = 80 };
 
 static const char *const field_names[2] = {"axial", "bending"};
 
@@ -30,11 +30,10 @@ static void put_two(struct br_document *d, const struct br_run_report *r, const 
                     const char *label, const char *unit, const char *key)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        char name[KEY], heading[KEY];
-        snprintf(name, sizeof name, "%s.%s", key, field_names[kind]);
+        char heading[80];
         snprintf(heading, sizeof heading, "%s, %s", label ? label : "", field_names[kind]);
-        BR_FACT(d, br_if(is_marched(r, kind), br_number(x[kind])), .key = name,
-                .heading = label ? heading : NULL, .unit = unit);
+        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(x[kind])), label ? heading : NULL,
+                       unit, "%s.%s", key, field_names[kind]);
     }
 }
 
@@ -64,19 +63,19 @@ static const char *with_error(double value, double error, char text[VALUE])
 
 /* A number of the march with as many digits as its predicted error allows, three where that is not
  * known; error: its own, if that is known better than the march's. */
-static void put_number(struct br_document *d, const struct br_run_findings *f, const char *key,
-                       const char *heading, const char *unit, struct br_value value, double error)
+static void put_number(struct br_document *d, const struct br_run_findings *f, double value,
+                       double error, const char *heading, const char *unit, const char *key)
 {
     const struct br_prediction *p = f->prediction;
     const double digits = p->known ? 1 - floor(log10(p->whole.error)) : 3;
     char text[VALUE];
-    BR_FACT(d, value, .key = key, .heading = heading, .unit = unit);
-    if (value.kind != BR_NUMBER || !isfinite(value.number))
+    BR_FACT(d, br_number(value), .key = key, .heading = heading, .unit = unit);
+    if (!isfinite(value))
         return;
-    if (error > 0 || value.number == 0)
-        with_error(value.number, error, text);
+    if (error > 0 || value == 0)
+        with_error(value, error, text);
     else
-        br_digits_text(value.number, (int)fmax(2, fmin(digits, 6)), text, sizeof text);
+        br_digits_text(value, (int)fmax(2, fmin(digits, 6)), text, sizeof text);
     br_put_shown(d, "%s", text);
 }
 
@@ -204,12 +203,11 @@ static void put_derived(struct br_document *d, const struct br_scene *scene)
         return;
     br_put_section(d, "Derived from what the scene gives");
     for (const struct br_derived *n = scene->derived; n->what; n++) {
-        char key[KEY], heading[KEY];
+        char heading[80];
         const char *dot = strchr(n->what, '.');
-        snprintf(key, sizeof key, "derived.%s", n->what);
         snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
                  dot ? " " : "", dot ? dot + 1 : n->what, n->from);
-        BR_FACT(d, br_number(n->value), .key = key, .heading = heading, .unit = n->unit);
+        br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
     }
 }
 
@@ -217,9 +215,8 @@ static void put_derived(struct br_document *d, const struct br_scene *scene)
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
 {
-    char name[KEY], interval[BR_PREDICTED_TEXT];
-    snprintf(name, sizeof name, "prediction.%s.error", key);
-    BR_FACT(d, br_if(known, br_number(e->error)), .key = name, .heading = label);
+    char interval[BR_PREDICTED_TEXT];
+    br_put_fact_as(d, br_if(known, br_number(e->error)), label, NULL, "prediction.%s.error", key);
     br_put_shown(d, "%s", br_predicted_interval(e, interval));
     br_hide_fact(d, br_if(known, br_number(e->low)), NULL, "prediction.%s.low", key);
     br_hide_fact(d, br_if(known, br_number(e->high)), NULL, "prediction.%s.high", key);
@@ -259,7 +256,7 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
         BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
     }
     for (size_t i = 0; i < w->count; i++) {
-        char key[KEY];
+        char key[80];
         snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->list[i].kind));
         br_put_note(d, "Warning: %s.", w->list[i].text);
         br_put_command(d, key, "Remedy", w->list[i].remedy);
@@ -271,11 +268,10 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
 static void put_extreme(struct br_document *d, const struct br_run_findings *f, bool known,
                         const char *key, const char *label, const struct br_extreme *e)
 {
-    char value[KEY], time[KEY];
-    snprintf(value, sizeof value, "events.%s.value", key);
-    snprintf(time, sizeof time, "events.%s.t", key);
-    put_number(d, f, value, label, "N", br_if(known, br_number(e->value)), NAN);
-    BR_FACT(d, br_if(known, br_number(e->time)), .key = time, .heading = "  at t", .unit = "s");
+    char name[80];
+    snprintf(name, sizeof name, "events.%s.value", key);
+    put_number(d, f, known ? e->value : NAN, NAN, label, "N", name);
+    br_put_fact_as(d, br_if(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
 /* The bound of Coulomb's law is as wrong as the penetration; that of Tresca's is given. */
@@ -287,10 +283,9 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
     const double force = r->end.last.friction_force, bound = r->end.last.friction_bound;
     const bool friction = has_friction(r), coulomb = law->law == BR_COULOMB && bound > 0;
     const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
-    put_number(d, f, "tip.friction_force", "friction force", "N", br_if(friction, br_number(force)),
-               fabs(force) == bound ? error : NAN);
-    put_number(d, f, "tip.friction_bound", "  its bound", "N", br_if(friction, br_number(bound)),
-               error);
+    put_number(d, f, friction ? force : NAN, fabs(force) == bound ? error : NAN, "friction force",
+               "N", "tip.friction_force");
+    put_number(d, f, friction ? bound : NAN, error, "  its bound", "N", "tip.friction_bound");
     BR_FACT(d, br_if(friction, br_number(100 * fabs(force) / bound)), .key = "tip.friction_share",
             .heading = "  of the bound", .unit = "%", .format = "%.4g");
     BR_FACT(d, br_if(friction && w->steps, br_text(br_tip_regime_word(w->regime))),
@@ -307,26 +302,23 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
-    char key[KEY], heading[KEY], text[VALUE];
+    char text[VALUE];
     br_put_section(d, "The tip");
     BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
     br_hide_fact(d, br_count(row->step), NULL, "tip.step");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        snprintf(key, sizeof key, "tip.displacement.%s", field_names[kind]);
-        BR_FACT(d, br_if(is_marched(r, kind), br_number(row->displacement[kind])), .key = key,
-                .heading = displacements[kind], .unit = "m");
+        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(row->displacement[kind])),
+                       displacements[kind], "m", "tip.displacement.%s", field_names[kind]);
         br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
     }
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        snprintf(key, sizeof key, "tip.velocity.%s", field_names[kind]);
-        snprintf(heading, sizeof heading, "velocity, %s", field_names[kind]);
-        put_number(d, f, key, heading, "m/s",
-                   br_if(is_marched(r, kind), br_number(row->velocity[kind])), NAN);
-    }
-    put_number(d, f, "tip.contact_force", "contact force", "N",
-               br_if(contact, br_number(row->contact_force)),
-               row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        put_number(d, f, is_marched(r, kind) ? row->velocity[kind] : NAN, NAN,
+                   kind == BR_AXIAL ? "velocity, axial" : "velocity, bending", "m/s",
+                   kind == BR_AXIAL ? "tip.velocity.axial" : "tip.velocity.bending");
+    put_number(d, f, contact ? row->contact_force : NAN,
+               row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN,
+               "contact force", "N", "tip.contact_force");
     BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
             .heading = "contact");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
@@ -383,10 +375,9 @@ static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
 /* How many steps, and what share that is. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
-    char label[KEY], key[KEY];
+    char label[80];
     snprintf(label, sizeof label, "steps: %s", word);
-    snprintf(key, sizeof key, "events.steps.%s", word);
-    BR_FACT(d, br_count(steps), .key = key, .heading = known && all ? label : NULL);
+    br_put_fact_as(d, br_count(steps), known && all ? label : NULL, NULL, "events.steps.%s", word);
     br_put_shown(d, "%zu (%.4g %%)", steps, all ? 100 * (double)steps / (double)all : 0);
 }
 
@@ -407,10 +398,8 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     br_put_mark(d, direction(w->direction_at_start));
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
-        char key[KEY];
-        snprintf(key, sizeof key, "events.counts.%s", word);
-        BR_FACT(d, br_count(w->count[kind]), .key = key,
-                .heading = w->contact || w->friction ? word : NULL);
+        br_put_fact_as(d, br_count(w->count[kind]), w->contact || w->friction ? word : NULL, NULL,
+                       "events.counts.%s", word);
     }
     put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
@@ -426,16 +415,15 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
 static void put_state(struct br_document *d, const struct br_run_report *r, bool end,
                       const struct br_energy *e)
 {
+    const char *of = end ? "end" : "start";
     put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J",
             end ? "energies.end.kinetic" : "energies.start.kinetic");
     put_two(d, r, e->stored, end ? "stored" : NULL, "J",
             end ? "energies.end.stored" : "energies.start.stored");
-    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
-            .key = end ? "energies.end.contact" : "energies.start.contact",
-            .heading = end ? "of the contact" : NULL, .unit = "J");
-    BR_FACT(d, br_number(br_energy_total(e)),
-            .key = end ? "energies.end.total" : "energies.start.total",
-            .heading = end ? "total" : "total at t = 0", .unit = "J");
+    br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
+                   end ? "of the contact" : NULL, "J", "energies.%s.contact", of);
+    br_put_fact_as(d, br_number(br_energy_total(e)), end ? "total" : "total at t = 0", "J",
+                   "energies.%s.total", of);
 }
 
 static void put_works(struct br_document *d, const struct br_run_report *r)
@@ -514,9 +502,8 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
                           : "Certificate of every step, stage by stage: the worst");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const double worst = rows[i].worst, most = rows[i].limit;
-        char key[KEY];
-        snprintf(key, sizeof key, "certificate.worst.%s", rows[i].key);
-        BR_FACT(d, br_number(worst), .key = key, .heading = rows[i].modelled ? rows[i].name : NULL);
+        br_put_fact_as(d, br_number(worst), rows[i].modelled ? rows[i].name : NULL, NULL,
+                       "certificate.worst.%s", rows[i].key);
         if (isfinite(most))
             br_put_shown(d, "%.3g of at most %.3g: %s", worst, most,
                          worst <= most ? "good" : "BAD");

@@ -740,7 +740,7 @@ static const struct planted_bug planted_bugs[] = {
     {"number_that_is_given_twice", "lost", "study/scene/engineering.c", "tests/test_scene",
      "return refuse_two(r, row, source[0]);", "return BR_OK;"},
     {"derived_value_of_another", "printed", "tables/report_run.c", "golden run_engineers",
-     "br_number(n->value), .key = key", "br_number(scene->derived->value), .key = key"},
+     "br_number(n->value), heading", "br_number(scene->derived->value), heading"},
 
     /* ---- what is printed, drawn and asked for ---- */
     {"check_floor_is_the_ceiling", "printed", "tables/report_check.c", "golden check",
