@@ -28,8 +28,6 @@ static double value_of(const struct br_report *r, enum axis axis, size_t entry)
     return axis == OVER_H ? br_mesh_size(scene, entry) : br_time_step(scene, entry);
 }
 
-/* ---- curves ---- */
-
 /* What is drawn of a cell; NaN: a gap. */
 typedef double of_cell(const struct br_report *r, size_t cell, enum br_part part);
 
@@ -108,8 +106,6 @@ static void add_curves(const struct br_report *r, enum axis axis, of_cell *value
                                  name_curve(r, axis, list[i], name)));
 }
 
-/* ---- panels ---- */
-
 static struct br_panel *add_panel(const struct br_report *r, enum axis axis, struct br_figure *f)
 {
     const struct br_norm *norm = br_report_fitted(r)->norm;
@@ -145,8 +141,6 @@ static void say_fit(const struct br_report *r, enum br_part part, char text[256]
         before = ",";
     }
 }
-
-/* ---- the pictures ---- */
 
 static bool always(const struct br_report *r)
 {

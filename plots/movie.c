@@ -34,8 +34,6 @@ void br_movie_file(const struct br_movie *m, size_t frame, char *file, size_t si
         snprintf(file, size, "%s%s", m->stem, m->format->extension);
 }
 
-/* ---- data ---- */
-
 /* The tip in all frames. The scheme has no friction force at t = 0. */
 static void write_tip(FILE *out, const struct br_history_record *r)
 {
@@ -71,8 +69,6 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
         }
     }
 }
-
-/* ---- the script ---- */
 
 /* How much larger things are drawn than they are: 1, 2 or 5 times a power of ten. */
 static const char scales[] =

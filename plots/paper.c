@@ -9,8 +9,6 @@ static const char horizontal[] = "horizontal displacement u (m)",
                   vertical[] = "vertical displacement w (m)", over_time[] = "time t (s)",
                   early_time[] = "time t (µs)", stress[] = "tangential stress σ_V(1,t)";
 
-/* ---- curves ---- */
-
 /* A panel of a field at the figure's times. */
 static void add_field(const struct br_example *e, enum br_field_kind kind, const char *title,
                       struct br_figure *f)
@@ -41,8 +39,6 @@ static void add_beam(const struct br_example *e, enum br_field_kind kind, struct
         f, "", &e->record,
         kind == BR_AXIAL ? BR_ROW(displacement[BR_AXIAL]) : BR_ROW(displacement[BR_BENDING]), 1);
 }
-
-/* ---- Example 1 ---- */
 
 /* Beside the exact line every 40th of the scheme's rows as circles. */
 static void fill2(const struct br_paper *paper, struct br_figure *f)
@@ -78,8 +74,6 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
         br_point_add(s[1], 1e6 * exact[i].time, exact[i].friction_bound, NULL);
     }
 }
-
-/* ---- Examples 2 to 4 ---- */
 
 /* When the tip lets go by the text, and by the exact solution. */
 static void mark_release(const struct br_example *e, struct br_figure *f)
@@ -148,8 +142,6 @@ static void fill10(const struct br_paper *paper, struct br_figure *f)
             br_mark_add(f, s->point[unstable].coefficient, "right of this amplifies, as printed");
     }
 }
-
-/* ---- the registry ---- */
 
 const struct br_paper_figure br_paper_figures[] = {
     {

@@ -5,8 +5,6 @@
 #include "plots/pictures.h"
 #include "study/trade/trade.h"
 
-/* ---- the registry ---- */
-
 /* With the exact law and the default solver: what is left are time schemes and elements. */
 static bool is_plain(const struct br_named_method *c)
 {
@@ -59,8 +57,6 @@ bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_
     return applies;
 }
 
-/* ---- which trials ---- */
-
 /* Errors beyond 10 say nothing, and widen no axis. */
 static bool has_place(const struct br_trade_picture *p, const struct br_trial *t)
 {
@@ -93,8 +89,6 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
     s->count = kept;
 }
 
-/* ---- what is marked besides ---- */
-
 static const struct {
     const char *title;
     enum br_pen pen;
@@ -125,8 +119,6 @@ static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t
         add_trial(p, trial, s);
     }
 }
-
-/* ---- the picture ---- */
 
 /* Who gets a hue first: the paper's own method, then those with most trials on the front of all. */
 static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,

@@ -52,8 +52,6 @@ static const char style[] =
     "figure, tr { break-inside: avoid; }\n"
     "::details-content { content-visibility: visible; } }\n";
 
-/* ---- tables ---- */
-
 static bool is_folded(const struct br_document_table *t)
 {
     return t->rows > BR_LONG_TABLE;
@@ -73,8 +71,6 @@ static void close_table(const struct br_markup_page *p, const struct br_document
 {
     fputs(is_folded(t) ? "</details>\n" : "", p->out);
 }
-
-/* ---- pictures ---- */
 
 /* STEM.svg as a text, to be freed; NULL: there is none. */
 static char *read_svg(struct br_markup_page *p, const char *stem)
@@ -148,8 +144,6 @@ static void print_picture(struct br_markup_page *p, const struct br_block *b)
     free(svg);
 }
 
-/* ---- the rest ---- */
-
 static void end(const struct br_markup_page *p)
 {
     const struct br_provenance *from = &p->d->provenance;
@@ -211,8 +205,6 @@ static const struct br_markup html = {
     .end = end,
     .classes = classes,
 };
-
-/* ---- the page ---- */
 
 /* "beamrate extremes" of "beamrate extremes map". */
 static void print_title(const struct br_markup_page *p, const struct br_document *d, size_t count)

@@ -60,8 +60,6 @@ static void print_paragraph(const struct br_markup_page *p, const char *paragrap
     }
 }
 
-/* ---- tables ---- */
-
 struct layout {
     const struct br_column *column;
     int width, mark; /* of values and of what stands behind them */
@@ -194,8 +192,6 @@ static void print_table(struct br_markup_page *p, const struct br_document_table
         print_row(p, t, l, r);
     free(l);
 }
-
-/* ---- the format ---- */
 
 static void print_picture(struct br_markup_page *p, const struct br_block *b)
 {

@@ -20,8 +20,6 @@ struct comparison {
     double error;    /* of the errors of a study, in their unit */
 };
 
-/* ---- what is no result ---- */
-
 /* Whether a key is one of the words of a list, which stand between blanks. */
 static bool is_one_of(const char *key, const char *words)
 {
@@ -46,8 +44,6 @@ static bool depends_on_clock(const char *format)
     return format &&
            (strcmp(format, "beamrate trade") == 0 || strcmp(format, "beamrate plan") == 0);
 }
-
-/* ---- differences ---- */
 
 /* One value as a text of a row; nothing where there is none. */
 static const char *text_of(const json_t *value, char text[PLACE])
@@ -167,8 +163,6 @@ static void compare(struct comparison *c, const char *place, const json_t *was, 
     }
 }
 
-/* ---- trials, which need not be the same ---- */
-
 static bool is_same_trial(const json_t *a, const json_t *b)
 {
     static const char *const keys[] = {"method", "n", "steps_or_levels", "tolerance"};
@@ -178,7 +172,7 @@ static bool is_same_trial(const json_t *a, const json_t *b)
     return same;
 }
 
-/* Errors of those that both have, where both came to their end. */
+/* Trials need not be the same: errors of those that both have, where both came to their end. */
 static void compare_trials(struct comparison *c, const json_t *was, const json_t *is)
 {
     static const char *const keys[] = {"relative_error", "error", "axial", "bending", "scale"};
@@ -193,8 +187,6 @@ static void compare_trials(struct comparison *c, const json_t *was, const json_t
                     compare_member(c, place, a, keys[k], json_object_get(b, keys[k]));
         }
 }
-
-/* ---- all ---- */
 
 /* The number at a place, or 0. */
 static double number_at(const json_t *root, const char *object, const char *key)

@@ -33,8 +33,6 @@ static const char *source_of(const struct br_check_findings *f)
     return "scene";
 }
 
-/* ---- the answer ---- */
-
 static void put_tally(struct br_document *d, const struct br_check_findings *f)
 {
     const struct br_check *first;
@@ -81,8 +79,6 @@ static void answer_failures(struct br_document *d, const struct br_check_finding
     if (failures > FIRST_FAILURES)
         br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
 }
-
-/* ---- orders ---- */
 
 /* Its points, and for the writers of verdicts what was found. */
 static void put_verdict(struct br_document *d, const struct br_check *check,
@@ -183,8 +179,6 @@ static void put_points(struct br_document *d, const struct br_check *check, cons
                    br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
                    br_text(p->label));
 }
-
-/* ---- scenes ---- */
 
 static void put_cells(struct br_document *d, const struct br_scene *scene,
                       const struct br_verify_study *v)

@@ -17,8 +17,6 @@ static const char *const limit_methods[] = {
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };
 
-/* ---- the answer ---- */
-
 enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities; others are left for the tables */
 
 /* Parts of a sentence: the first follows its colon. */
@@ -123,8 +121,6 @@ static void put_answers(struct br_document *d, const struct br_orders *o,
         br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
                       o->numbers->rows);
 }
-
-/* ---- tables ---- */
 
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
 {
@@ -269,8 +265,6 @@ static void put_limits(struct br_document *d, const struct br_orders *o)
                        br_text(br_sequence_text(g->sequence)));
         }
 }
-
-/* ---- what it costs ---- */
 
 static void put_costs(struct br_document *d, const struct br_numbers *numbers)
 {

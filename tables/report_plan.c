@@ -6,8 +6,6 @@
 #include "study/trade/plan.h"
 #include "tables/report_parts.h"
 
-/* ---- the answer ---- */
-
 static double error_of(const struct br_plan *p, size_t i)
 {
     return br_trial_bound(&p->trial[i], 0);
@@ -104,8 +102,6 @@ static void put_answer(struct br_document *d, const struct br_plan *p)
     answer_work(d, p);
 }
 
-/* ---- tables ---- */
-
 static const char *remark_on(const struct br_plan *p, size_t i)
 {
     if (p->trial[i].end != BR_TRIAL_DONE)
@@ -195,8 +191,6 @@ static void put_curves(struct br_document *d, const struct br_plan *p)
                            br_number(curves[c]->at[j]), br_number(curves[c]->value[j]));
     }
 }
-
-/* ---- facts and notes ---- */
 
 static void put_facts(struct br_document *d, const struct br_plan *p)
 {

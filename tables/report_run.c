@@ -128,22 +128,6 @@ static void answer_prediction(struct br_document *d, const struct br_prediction 
                       p->round_off);
 }
 
-/* What the scheme has added in all. */
-static void answer_gain(struct br_document *d, const struct br_run_report *r, int kind)
-{
-    const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
-    const double put_in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
-    if (!(added > 0))
-        return;
-    br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
-    if (put_in > 0)
-        br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
-                    100 * added / put_in);
-    br_put_more(d, ".");
-    if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
-        br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
-}
-
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -155,8 +139,19 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++)
-        answer_gain(d, r, kind);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++) { /* in all */
+        const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
+        const double in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
+        if (!(added > 0))
+            continue;
+        br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
+        if (in > 0)
+            br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
+                        100 * added / in);
+        br_put_more(d, ".");
+        if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
+            br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
+    }
     if (r->contact_unstable)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
                          "chatter at the step's rate. --contact implicit has no such limit.");
@@ -194,17 +189,11 @@ static void put_march(struct br_document *d, const struct br_run_findings *f)
     br_put_method_facts(d, "method", &r->method, &on);
     br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
     br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
-}
-
-/* What the scene does not give, but what makes it. */
-static void put_derived(struct br_document *d, const struct br_scene *scene)
-{
-    if (!scene->derived->what)
-        return;
-    br_put_section(d, "Derived from what the scene gives");
+    if (scene->derived->what)
+        br_put_section(d, "Derived from what the scene gives");
     for (const struct br_derived *n = scene->derived; n->what; n++) {
-        char heading[80];
         const char *dot = strchr(n->what, '.');
+        char heading[80];
         snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
                  dot ? " " : "", dot ? dot + 1 : n->what, n->from);
         br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
@@ -335,8 +324,6 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
                                                {.key = "law"},
                                                {.key = "from"},
                                                {.key = "to"}};
-    if (!r->method.scheme->adaptive)
-        return;
     BR_FACT(d, br_count(r->switches), .key = "events.switches",
             .heading = "switches that the scheme has found");
     BR_TABLE(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
@@ -353,25 +340,6 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
     }
 }
 
-static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
-{
-    static const struct br_column columns[] = {
-        {.key = "t", .unit = "s", .format = "%.10g"},
-        {.key = "event"},
-        {.key = "direction"},
-        {.key = "step"},
-    };
-    BR_TABLE(d, "events", "When", 0, columns);
-    for (size_t i = 0; i < w->events; i++) {
-        const struct br_tip_event *e = &w->event[i];
-        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
-                   br_if(e->direction, sign));
-        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
-        BR_PUT_CELLS(d, br_count(e->step));
-    }
-}
-
 /* How many steps, and what share that is. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
@@ -383,6 +351,10 @@ static void put_steps(struct br_document *d, bool known, const char *word, size_
 
 static void put_events(struct br_document *d, const struct br_run_report *r)
 {
+    static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.10g"},
+                                               {.key = "event"},
+                                               {.key = "direction"},
+                                               {.key = "step"}};
     const struct br_tip_watch *w = &r->watch;
     br_put_section(d, "Events at the tip");
     br_put_note(d,
@@ -405,8 +377,16 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
         put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime),
                   w->regime_steps[regime], w->steps);
-    put_event_list(d, w);
-    put_switches(d, r);
+    BR_TABLE(d, "events", "When", 0, columns);
+    for (const struct br_tip_event *e = w->event; e < w->event + w->events; e++) {
+        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
+        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
+                   br_if(e->direction, sign));
+        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
+        BR_PUT_CELLS(d, br_count(e->step));
+    }
+    if (r->method.scheme->adaptive)
+        put_switches(d, r);
 }
 
 /* ---- energies ---- */
@@ -595,7 +575,6 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
     put_answers(d, f);
     put_march(d, f);
-    put_derived(d, f->report->scene);
     put_warnings(d, f->warnings);
     put_prediction(d, f);
     put_tip(d, f);

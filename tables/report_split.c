@@ -47,14 +47,13 @@ static void answer_run(struct br_document *d, const struct br_split *s)
                        "chatter.");
 }
 
-/* ---- lines: a part of a run's error in one norm, the sum of the parts, or the whole ---- */
-
 static bool models(const struct br_split *s, enum br_part part)
 {
     return part == BR_PART_TOTAL ||
            (part == BR_PART_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled);
 }
 
+/* A part of a run's error in one norm, the sum of the parts, or the whole. */
 struct line {
     const char *name;
     const char *none;          /* why there is no such part; NULL: there is */
@@ -123,8 +122,6 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
     br_hide(d, "none", NULL, br_text(l->none));
 }
 
-/* ---- tables ---- */
-
 static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 {
     char taken[BR_METHOD_TEXT];
@@ -184,8 +181,6 @@ static void put_runs(struct br_document *d, const struct br_split *split, size_t
         br_hide(d, "refined", NULL, br_text(s->refined.name));
     }
 }
-
-/* ---- notes ---- */
 
 static void note_run(struct br_document *d, const struct br_split *s)
 {

@@ -5,8 +5,6 @@
 #include "study/trade/trade.h"
 #include "tables/report_parts.h"
 
-/* ---- the answer ---- */
-
 enum { TEXT = 1024 };
 
 /* "bdf2, n = 100, k = 0.01 s; 1.2e-05 CPU s, relative error 3.45e-04" */
@@ -58,10 +56,9 @@ static void answer_front(struct br_document *d, const struct br_trade *t)
     size_t best = fastest;
     for (size_t i = best; i < t->count; i = next_on_front(t, i))
         best = i;
-    if (best == t->count)
-        return;
-    br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
-                  describe(t, fastest, text));
+    if (best < t->count)
+        br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
+                      describe(t, fastest, text));
     if (best != fastest)
         br_put_answer(d, "Most accurate: %s.", describe(t, best, text));
 }
@@ -94,13 +91,11 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
 {
     const char *between = "";
     br_put_answer(d, "Trials: ");
-    for (int i = BR_TRIAL_DONE; i < BR_TRIAL_ENDS; i++) {
-        const enum br_trial_end end = (enum br_trial_end)i;
-        if (!br_trade_tally(t, end))
-            continue;
-        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_name(end));
-        between = ", ";
-    }
+    for (enum br_trial_end end = BR_TRIAL_DONE; end < BR_TRIAL_ENDS; end++)
+        if (br_trade_tally(t, end)) {
+            br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_name(end));
+            between = ", ";
+        }
     br_put_more(d, ".");
     if (t->outlook.left)
         br_put_answer(d,
@@ -109,8 +104,6 @@ static void answer_ends(struct br_document *d, const struct br_trade *t)
                       t->outlook.left, t->count, t->outlook.left_seconds,
                       br_trade_seconds_of_all(&t->outlook));
 }
-
-/* ---- tables ---- */
 
 /* A trial and what came of it. */
 static void put_outcome(struct br_document *d, const struct br_trade *t, size_t i)
@@ -210,8 +203,6 @@ static void put_failures(struct br_document *d, const struct br_trade *t)
     }
 }
 
-/* ---- what was measured ---- */
-
 static const struct br_judge *judge_of(const struct br_trade *t)
 {
     return t->request.judge ? t->request.judge : br_judge_best(t->request.scene);
@@ -292,8 +283,6 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     put_notes(d, t, provenance->machine);
     br_put_provenance(d, provenance);
 }
-
-/* ---- several scenes ---- */
 
 /* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
 static void answer_scene(struct br_document *d, const struct br_trade *t)

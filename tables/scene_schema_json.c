@@ -78,8 +78,6 @@ static json_t *law(void)
     return json_pack("{s:o}", "enum", names);
 }
 
-/* ---- verify ---- */
-
 /* The rows of a registry; a number of them may be written as one. */
 static json_t *method_words(const struct br_words *words)
 {
@@ -153,8 +151,6 @@ static json_t *verify(void)
     return json_pack("{s:s, s:i, s:b, s:o}", "type", "object", "minProperties", 1,
                      "additionalProperties", 0, "properties", properties);
 }
-
-/* ---- keys and sections ---- */
 
 static json_t *section(const char *name);
 
