@@ -56,39 +56,6 @@ static void put_loss_grid(struct br_document *d, const struct br_energy_behaviou
     }
 }
 
-static void put_vibrations(struct br_document *d, const struct br_energy_behaviour *b)
-{
-    enum { EACH = BR_VIBRATION_RATES * BR_VIBRATION_DENSITIES };
-    static const char *const ends[] = {"done", "refused", "failed"};
-    static const struct br_column columns[] = {
-        {.key = "scheme"},
-        {.key = "field"},
-        {.key = "damping"},
-        {.key = "density", .unit = "kg/m"},
-        {.key = "steps_per_period"},
-        {.key = "tolerance"},
-        {.key = "steps"},
-        {.key = "lost"},
-        {.key = "predicted"},
-        {.key = "imbalance"},
-        {.key = "end"},
-        {.key = "message"},
-    };
-    BR_TABLE(d, "vibration", "Share of the energy of a free vibration lost a period",
-             BR_FOR_PROGRAMS, columns);
-    for (size_t i = 0; i < b->vibrations * EACH; i++) {
-        const size_t rate = i % EACH / BR_VIBRATION_DENSITIES, density = i % BR_VIBRATION_DENSITIES;
-        const struct br_vibration *v = &b->vibration[i / EACH].at[rate][density];
-        const bool done = v->end == BR_VIBRATION_DONE, adaptive = v->scheme->adaptive;
-        BR_PUT_ROW(d, br_text(v->scheme->name), br_text(field_name(v->kind)), br_number(v->damping),
-                   br_number(v->density), br_if(!adaptive, br_count(v->per_period)),
-                   br_if(adaptive, br_number(v->tolerance)), br_if(done, br_number(v->steps)),
-                   br_if(done, br_number(v->measured)), br_if(done, br_number(v->predicted)),
-                   br_if(done, br_number(v->worst)), br_text(ends[v->end]),
-                   br_text(done ? NULL : v->failure.message));
-    }
-}
-
 static double put_in(const struct br_balance_row *row)
 {
     return br_energy_put_in(&row->start, &row->work, BR_AXIAL) +
@@ -114,36 +81,6 @@ static void put_share(struct br_document *d, const char *key, const char *headin
                      : part == 0 ? 0
                                  : NAN),
            .key = key, .heading = heading, .unit = "%", .format = "%.3g");
-}
-
-static void put_balances(struct br_document *d, const struct br_energy_behaviour *b)
-{
-    br_put_table(d, "balance", "Balances of scenes, 20 elements and 400 steps", BR_FILES_ONLY);
-    for (size_t i = 0; i < b->balances; i++) {
-        const struct br_balance_row *row = &b->balance[i];
-        const struct br_work *w = &row->work;
-        char ended[64];
-        const double in = put_in(row), gaining = (double)(w->gaining[0] + w->gaining[1]);
-        snprintf(ended, sizeof ended, "ended after step %zu", row->marched);
-        br_put_row(d);
-        BR_PUT(d, br_text(br_balance_scenes[row->scene]), .key = "scene");
-        BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
-        BR_PUT(d,
-               br_text(row->end == BR_VIBRATION_REFUSED  ? "refused"
-                       : row->end == BR_VIBRATION_FAILED ? ended
-                       : br_balance_row_is_right(row)    ? "closes"
-                                                         : "WRONG"),
-               .key = "balance");
-        br_put_blank(d, row->end == BR_VIBRATION_REFUSED);
-        BR_PUT(d, br_number(in), .key = "put_in", .heading = "put in", .unit = "J",
-               .format = "%.3g");
-        put_share(d, "lost", "lost to scheme", w->scheme[0] + w->scheme[1], in);
-        put_share(d, "contact", "its contact", w->scheme_contact, in);
-        put_share(d, "added", NULL, added(row), in);
-        put_share(d, "gaining", "steps that add", gaining, steps_of(row));
-        BR_PUT(d, br_number(row->worst), .key = "imbalance", .format = "%.1e");
-        BR_PUT(d, br_number(row->limit), .key = "limit", .format = "%.1e");
-    }
 }
 
 static void answer_energy(struct br_document *d, const struct br_energy_behaviour *b)
@@ -177,8 +114,72 @@ static void answer_energy(struct br_document *d, const struct br_energy_behaviou
                   off);
 }
 
-static void put_notes(struct br_document *d, const struct br_energy_behaviour *b)
+void br_report_energy(const struct br_energy_behaviour *b, struct br_document *d)
 {
+    br_document_begin(
+        d, "energy", "beamrate extremes energy", 1,
+        "Energy: what every scheme takes or adds, and whether every step's balance closes");
+    answer_energy(d, b);
+    put_loss_grid(d, b, false);
+    put_loss_grid(d, b, true);
+
+    enum { EACH = BR_VIBRATION_RATES * BR_VIBRATION_DENSITIES };
+    static const char *const ends[] = {"done", "refused", "failed"};
+    static const struct br_column vibration_columns[] = {
+        {.key = "scheme"},
+        {.key = "field"},
+        {.key = "damping"},
+        {.key = "density", .unit = "kg/m"},
+        {.key = "steps_per_period"},
+        {.key = "tolerance"},
+        {.key = "steps"},
+        {.key = "lost"},
+        {.key = "predicted"},
+        {.key = "imbalance"},
+        {.key = "end"},
+        {.key = "message"},
+    };
+    BR_TABLE(d, "vibration", "Share of the energy of a free vibration lost a period",
+             BR_FOR_PROGRAMS, vibration_columns);
+    for (size_t i = 0; i < b->vibrations * EACH; i++) {
+        const size_t rate = i % EACH / BR_VIBRATION_DENSITIES, density = i % BR_VIBRATION_DENSITIES;
+        const struct br_vibration *v = &b->vibration[i / EACH].at[rate][density];
+        const bool done = v->end == BR_VIBRATION_DONE, adaptive = v->scheme->adaptive;
+        BR_PUT_ROW(d, br_text(v->scheme->name), br_text(field_name(v->kind)), br_number(v->damping),
+                   br_number(v->density), br_if(!adaptive, br_count(v->per_period)),
+                   br_if(adaptive, br_number(v->tolerance)), br_if(done, br_number(v->steps)),
+                   br_if(done, br_number(v->measured)), br_if(done, br_number(v->predicted)),
+                   br_if(done, br_number(v->worst)), br_text(ends[v->end]),
+                   br_text(done ? NULL : v->failure.message));
+    }
+
+    br_put_table(d, "balance", "Balances of scenes, 20 elements and 400 steps", BR_FILES_ONLY);
+    for (size_t i = 0; i < b->balances; i++) {
+        const struct br_balance_row *row = &b->balance[i];
+        const struct br_work *w = &row->work;
+        char ended[64];
+        const double in = put_in(row), gaining = (double)(w->gaining[0] + w->gaining[1]);
+        snprintf(ended, sizeof ended, "ended after step %zu", row->marched);
+        br_put_row(d);
+        BR_PUT(d, br_text(br_balance_scenes[row->scene]), .key = "scene");
+        BR_PUT(d, br_text(row->scheme->name), .key = "scheme");
+        BR_PUT(d,
+               br_text(row->end == BR_VIBRATION_REFUSED  ? "refused"
+                       : row->end == BR_VIBRATION_FAILED ? ended
+                       : br_balance_row_is_right(row)    ? "closes"
+                                                         : "WRONG"),
+               .key = "balance");
+        br_put_blank(d, row->end == BR_VIBRATION_REFUSED);
+        BR_PUT(d, br_number(in), .key = "put_in", .heading = "put in", .unit = "J",
+               .format = "%.3g");
+        put_share(d, "lost", "lost to scheme", w->scheme[0] + w->scheme[1], in);
+        put_share(d, "contact", "its contact", w->scheme_contact, in);
+        put_share(d, "added", NULL, added(row), in);
+        put_share(d, "gaining", "steps that add", gaining, steps_of(row));
+        BR_PUT(d, br_number(row->worst), .key = "imbalance", .format = "%.1e");
+        BR_PUT(d, br_number(row->limit), .key = "limit", .format = "%.1e");
+    }
+
     const char *last = "";
     br_put_section(d, "What was added or refused");
     for (size_t i = 0; i < b->balances; i++) {
@@ -198,19 +199,7 @@ static void put_notes(struct br_document *d, const struct br_energy_behaviour *b
         last = v->failure.message;
         br_put_note(d, "Refused: %s.", last);
     }
-}
 
-void br_report_energy(const struct br_energy_behaviour *b, struct br_document *d)
-{
-    br_document_begin(
-        d, "energy", "beamrate extremes energy", 1,
-        "Energy: what every scheme takes or adds, and whether every step's balance closes");
-    answer_energy(d, b);
-    put_loss_grid(d, b, false);
-    put_loss_grid(d, b, true);
-    put_vibrations(d, b);
-    put_balances(d, b);
-    put_notes(d, b);
     br_put_section(d, "What is measured");
     br_put_note(
         d, "Loss a period: the share of the energy of the lowest mode that is gone after one "

@@ -16,49 +16,6 @@ static const char *const class_headings[BR_EXTREME_CLASSES] = {
     [BR_EXTREME_WRONG] = "silently wrong",
 };
 
-static void put_tallies(struct br_document *d, const struct br_extreme_counts *counts)
-{
-    br_put_table(d, "tally", "What was tried, and what came of it", 0);
-    for (size_t i = 0; i < counts->tallies; i++) {
-        const struct br_extreme_tally *t = &counts->tally[i];
-        br_put_row(d);
-        BR_PUT(d, br_text(t->axis ? t->axis->title : "all"), .key = "tried",
-               .heading = "what was tried");
-        BR_PUT(d, br_text(t->axis ? t->label : NULL), .key = "range");
-        BR_PUT(d, br_count(t->cases), .key = "cases");
-        for (int c = 0; c < BR_EXTREME_CLASSES; c++)
-            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
-                   .heading = class_headings[c]);
-    }
-}
-
-static void put_reasons(struct br_document *d, const struct br_extreme_counts *counts)
-{
-    static const struct br_column columns[] = {
-        {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
-    BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
-    for (size_t i = 0; i < counts->reasons; i++) {
-        const struct br_extreme_reason *r = &counts->reason[i];
-        BR_PUT_ROW(d, br_text(br_extreme_word(r->which)));
-        br_put_shown(d, "%s", class_headings[r->which]);
-        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
-    }
-}
-
-static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
-{
-    static const struct br_column columns[] = {{.key = "case"},
-                                               {.key = "scene"},
-                                               {.key = "why", .flags = BR_WRAP},
-                                               {.key = "command", .flags = BR_WRAP}};
-    BR_TABLE(d, "wrong", "Silently wrong, made small", 0, columns);
-    for (size_t i = 0; i < m->shrunks; i++) {
-        const struct br_extreme_shrunk *s = &m->shrunk[i];
-        BR_PUT_ROW(d, br_count(s->one.index), br_text(s->file), br_text(s->verdict.why),
-                   br_text(s->command));
-    }
-}
-
 static void put_warnings(struct br_document *d, unsigned warned)
 {
     char text[400] = "";
@@ -68,41 +25,6 @@ static void put_warnings(struct br_document *d, unsigned warned)
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
                                      br_warning_word((enum br_warning_kind)kind));
     BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
-}
-
-static void put_cases(struct br_document *d, const struct br_extreme_map *m)
-{
-    br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN);
-    for (size_t i = 0; i < m->cases; i++) {
-        const struct br_extreme_case *c = &m->one[i];
-        const struct br_extreme_verdict *v = &m->verdict[i];
-        br_put_row(d);
-        BR_PUT(d, br_count(i), .key = "case");
-        BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
-        BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)),
-               .key = "judge");
-        BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
-        BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
-               .format = "%.2e");
-        BR_PUT(d, br_number(v->round_off), .key = "round_off", .heading = "round-off",
-               .format = "%.2e");
-        put_warnings(d, v->warned);
-        BR_PUT(d, br_text(c->method.scheme->name), .key = "scheme");
-        BR_PUT(d, br_text(c->method.solver->name), .key = "solver");
-        BR_PUT(d, br_text(c->method.contact->name), .key = "contact");
-        BR_PUT(d, br_text(c->method.friction->name), .key = "friction");
-        BR_PUT(d, br_count((size_t)c->method.axial_degree), .key = "degree");
-        BR_PUT(d, br_count(c->n), .key = "n");
-        BR_PUT(d, br_count(c->steps), .key = "steps");
-        BR_PUT(d, br_number(c->length), .key = "L", .unit = "m", .format = "%.4g");
-        BR_PUT(d, br_number(c->duration), .key = "T", .unit = "s", .format = "%.4g");
-        BR_PUT(d, br_number(c->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
-        BR_PUT(d, br_number(c->contact ? c->contact_stiffness : NAN), .key = "c_H", .unit = "N/m",
-               .format = "%.4g");
-        BR_PUT(d, br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction), .key = "c_V",
-               .format = "%.4g");
-        BR_PUT(d, br_text(*v->why ? v->why : NULL), .key = "why", .flags = BR_WRAP);
-    }
 }
 
 static void answer_map(struct br_document *d, const struct br_extreme_map *m)
@@ -134,8 +56,81 @@ static void answer_map(struct br_document *d, const struct br_extreme_map *m)
         r.unstated, 100 * (double)r.unstated / (double)r.answers, r.unstated_unstable);
 }
 
-static void note_judging(struct br_document *d, const struct br_extreme_map *m)
+void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,
+                   struct br_document *d)
 {
+    char again[120];
+    br_document_begin(d, "map", "beamrate extremes map", 1,
+                      "The map of extremes: right, or refused; never silently wrong");
+    answer_map(d, m);
+
+    br_put_table(d, "tally", "What was tried, and what came of it", 0);
+    for (size_t i = 0; i < counts->tallies; i++) {
+        const struct br_extreme_tally *t = &counts->tally[i];
+        br_put_row(d);
+        BR_PUT(d, br_text(t->axis ? t->axis->title : "all"), .key = "tried",
+               .heading = "what was tried");
+        BR_PUT(d, br_text(t->axis ? t->label : NULL), .key = "range");
+        BR_PUT(d, br_count(t->cases), .key = "cases");
+        for (int c = 0; c < BR_EXTREME_CLASSES; c++)
+            BR_PUT(d, br_count(t->count[c]), .key = br_extreme_word((enum br_extreme_class)c),
+                   .heading = class_headings[c]);
+    }
+
+    static const struct br_column reasons_columns[] = {
+        {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
+    BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY,
+             reasons_columns);
+    for (size_t i = 0; i < counts->reasons; i++) {
+        const struct br_extreme_reason *r = &counts->reason[i];
+        BR_PUT_ROW(d, br_text(br_extreme_word(r->which)));
+        br_put_shown(d, "%s", class_headings[r->which]);
+        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
+    }
+
+    static const struct br_column wrong_columns[] = {{.key = "case"},
+                                                     {.key = "scene"},
+                                                     {.key = "why", .flags = BR_WRAP},
+                                                     {.key = "command", .flags = BR_WRAP}};
+    BR_TABLE(d, "wrong", "Silently wrong, made small", 0, wrong_columns);
+    for (size_t i = 0; i < m->shrunks; i++) {
+        const struct br_extreme_shrunk *s = &m->shrunk[i];
+        BR_PUT_ROW(d, br_count(s->one.index), br_text(s->file), br_text(s->verdict.why),
+                   br_text(s->command));
+    }
+
+    br_put_table(d, "cases", "All cases", BR_FILES_ONLY | BR_MAIN);
+    for (size_t i = 0; i < m->cases; i++) {
+        const struct br_extreme_case *c = &m->one[i];
+        const struct br_extreme_verdict *v = &m->verdict[i];
+        br_put_row(d);
+        BR_PUT(d, br_count(i), .key = "case");
+        BR_PUT(d, br_text(br_extreme_word(v->which)), .key = "verdict");
+        BR_PUT(d, br_text(v->by == BR_BY_NOBODY ? NULL : br_extreme_by_name(v->by)),
+               .key = "judge");
+        BR_PUT(d, br_number(v->error), .key = "error", .format = "%.2e");
+        BR_PUT(d, br_number(v->units), .key = "other_units", .heading = "other units",
+               .format = "%.2e");
+        BR_PUT(d, br_number(v->round_off), .key = "round_off", .heading = "round-off",
+               .format = "%.2e");
+        put_warnings(d, v->warned);
+        BR_PUT(d, br_text(c->method.scheme->name), .key = "scheme");
+        BR_PUT(d, br_text(c->method.solver->name), .key = "solver");
+        BR_PUT(d, br_text(c->method.contact->name), .key = "contact");
+        BR_PUT(d, br_text(c->method.friction->name), .key = "friction");
+        BR_PUT(d, br_count((size_t)c->method.axial_degree), .key = "degree");
+        BR_PUT(d, br_count(c->n), .key = "n");
+        BR_PUT(d, br_count(c->steps), .key = "steps");
+        BR_PUT(d, br_number(c->length), .key = "L", .unit = "m", .format = "%.4g");
+        BR_PUT(d, br_number(c->duration), .key = "T", .unit = "s", .format = "%.4g");
+        BR_PUT(d, br_number(c->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
+        BR_PUT(d, br_number(c->contact ? c->contact_stiffness : NAN), .key = "c_H", .unit = "N/m",
+               .format = "%.4g");
+        BR_PUT(d, br_number(c->law == BR_FRICTIONLESS ? NAN : c->friction), .key = "c_V",
+               .format = "%.4g");
+        BR_PUT(d, br_text(*v->why ? v->why : NULL), .key = "why", .flags = BR_WRAP);
+    }
+
     size_t compared = 0, exact = 0, refined = 0;
     double most = 0;
     for (size_t i = 0; i < m->cases; i++) {
@@ -163,20 +158,7 @@ static void note_judging(struct br_document *d, const struct br_extreme_map *m)
         "agree to the predicted round-off, or to what a change of the data by 1e-12 does to them; "
         "the largest difference is %.1e.",
         compared, most);
-}
 
-void br_report_map(const struct br_extreme_map *m, const struct br_extreme_counts *counts,
-                   struct br_document *d)
-{
-    char again[120];
-    br_document_begin(d, "map", "beamrate extremes map", 1,
-                      "The map of extremes: right, or refused; never silently wrong");
-    answer_map(d, m);
-    put_tallies(d, counts);
-    put_reasons(d, counts);
-    put_wrong(d, m);
-    put_cases(d, m);
-    note_judging(d, m);
     snprintf(again, sizeof again, "beamrate extremes map --cases %zu --seed %" PRIu64, m->cases,
              m->seed);
     br_put_command(d, "command", "To repeat this", again);

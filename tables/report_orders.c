@@ -89,39 +89,6 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit, 
         br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
 }
 
-static void put_answers(struct br_document *d, const struct br_orders *o,
-                        const struct br_estimate *growth)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
-        const struct br_quantity_orders *of = &o->of[i];
-        const struct br_orders_line *line =
-            of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
-        bool first = true;
-        br_put_answer(d, "%s:", quantity_of(o, of)->name);
-        if (!line)
-            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
-        if (line && quantity_of(o, of)->is_value)
-            say_limit(d, &line->limit, &first);
-        say_orders(d, of, &first);
-        br_put_more(d, ".");
-        say_left_out(d, of);
-    }
-    if (o->count > MOST_NAMED)
-        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
-    for (int axis = 0; axis < BR_AXES; axis++)
-        if (isfinite(growth[axis].value))
-            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                          br_order_text(&growth[axis], (char[64]){0}, 64));
-    if (o->tied)
-        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
-    for (size_t i = 0; i < o->numbers->rows; i++)
-        kept += o->numbers->row[i].kept;
-    if (kept) /* their numbers are of the program as it was when it ran */
-        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
-                      o->numbers->rows);
-}
-
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
 {
     for (int axis = 0; axis < BR_AXES; axis++)
@@ -163,107 +130,6 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
         BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
         BR_PUT(d, br_text(row->failure), .key = "failure", .flags = BR_FILES_ONLY);
     }
-}
-
-static void put_orders(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
-        {.key = "order", .heading = "order [95 %]"},
-        {.key = "low", .flags = BR_FOR_PROGRAMS},
-        {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "points"},
-        {.key = "used"},
-        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
-    };
-    char text[64];
-    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++) {
-            const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_case *c = &line->observed;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                       br_text(br_axis_letters[line->axis]), br_text(line->at),
-                       br_number(c->order.value));
-            br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
-            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
-                         br_count(c->used), br_text(c->note));
-        }
-}
-
-static void put_joint_fits(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "order_h", .heading = "order in h [95 %]"},
-        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k", .heading = "order in k [95 %]"},
-        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
-        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
-        {.key = "rows"},
-        {.key = "misfit", .format = "%.2e"},
-    };
-    char text[64];
-    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, columns);
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_joint_fit *f = &o->of[i].joint;
-        if (!f->converged)
-            continue;
-        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
-        br_put_shown(d, "%s", br_order_text(&f->p, text, sizeof text));
-        BR_PUT_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
-        br_put_shown(d, "%s", br_order_text(&f->q, text, sizeof text));
-        BR_PUT_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
-                     br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
-    }
-}
-
-/* What values tend to. The grid convergence index is that of the three finest rows, relative as
- * Celik et al. print it. */
-static void put_limits(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
-        {.key = "sequence"},
-        {.key = "limit", .format = "%.9g"},
-        {.key = "low", .format = "%.9g"},
-        {.key = "high", .format = "%.9g"},
-        {.key = "method", .flags = BR_FILES_ONLY},
-        {.key = "p", .heading = "p of three", .format = "%.4f"},
-        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
-        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
-        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
-    };
-    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
-            const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_grid_limit *limit = &line->limit;
-            const struct br_gci *g = &line->gci;
-            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                       br_text(br_axis_letters[line->axis]), br_text(line->at),
-                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
-                       br_number(limit->value.low), br_number(limit->value.high),
-                       br_text(limit_methods[limit->method]), br_number(g->order),
-                       br_number(g->fine.ratio), br_number(g->coarse.ratio),
-                       br_number(g->fine.limit), br_number(g->fine.relative),
-                       br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
-                       br_number(g->coarse.index), br_number(g->asymptotic),
-                       br_text(br_sequence_text(g->sequence)));
-        }
 }
 
 static void put_costs(struct br_document *d, const struct br_numbers *numbers)
@@ -315,10 +181,127 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
 {
     bool timed = false;
     br_document_begin(d, "orders", "beamrate orders", 1, caption);
-    put_answers(d, o, growth);
-    put_orders(d, o);
-    put_joint_fits(d, o);
-    put_limits(d, o);
+
+    size_t kept = 0;
+    for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
+        const struct br_quantity_orders *of = &o->of[i];
+        const struct br_orders_line *line =
+            of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
+        bool first = true;
+        br_put_answer(d, "%s:", quantity_of(o, of)->name);
+        if (!line)
+            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
+        if (line && quantity_of(o, of)->is_value)
+            say_limit(d, &line->limit, &first);
+        say_orders(d, of, &first);
+        br_put_more(d, ".");
+        say_left_out(d, of);
+    }
+    if (o->count > MOST_NAMED)
+        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (isfinite(growth[axis].value))
+            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                          br_order_text(&growth[axis], (char[64]){0}, 64));
+    if (o->tied)
+        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        kept += o->numbers->row[i].kept;
+    if (kept) /* their numbers are of the program as it was when it ran */
+        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
+                      o->numbers->rows);
+
+    static const struct br_column orders_columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "order", .heading = "order [95 %]"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
+        {.key = "points"},
+        {.key = "used"},
+        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
+    };
+    char text[64];
+    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, orders_columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines; l++) {
+            const struct br_orders_line *line = &o->of[i].line[l];
+            const struct br_case *c = &line->observed;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_number(c->order.value));
+            br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
+            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
+                         br_count(c->used), br_text(c->note));
+        }
+
+    static const struct br_column joint_columns[] = {
+        {.key = "quantity"},
+        {.key = "order_h", .heading = "order in h [95 %]"},
+        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k", .heading = "order in k [95 %]"},
+        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
+        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
+        {.key = "rows"},
+        {.key = "misfit", .format = "%.2e"},
+    };
+    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, joint_columns);
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_joint_fit *f = &o->of[i].joint;
+        if (!f->converged)
+            continue;
+        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
+        br_put_shown(d, "%s", br_order_text(&f->p, text, sizeof text));
+        BR_PUT_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
+        br_put_shown(d, "%s", br_order_text(&f->q, text, sizeof text));
+        BR_PUT_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
+                     br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
+    }
+
+    /* What values tend to. The grid convergence index is that of the three finest rows, relative as
+     * Celik et al. print it. */
+    static const struct br_column limits_columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "sequence"},
+        {.key = "limit", .format = "%.9g"},
+        {.key = "low", .format = "%.9g"},
+        {.key = "high", .format = "%.9g"},
+        {.key = "method", .flags = BR_FILES_ONLY},
+        {.key = "p", .heading = "p of three", .format = "%.4f"},
+        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
+        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
+        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
+    };
+    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
+            const struct br_orders_line *line = &o->of[i].line[l];
+            const struct br_grid_limit *limit = &line->limit;
+            const struct br_gci *g = &line->gci;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
+                       br_number(limit->value.low), br_number(limit->value.high),
+                       br_text(limit_methods[limit->method]), br_number(g->order),
+                       br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                       br_number(g->fine.limit), br_number(g->fine.relative),
+                       br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
+                       br_number(g->coarse.index), br_number(g->asymptotic),
+                       br_text(br_sequence_text(g->sequence)));
+        }
+
     for (size_t i = 0; i < o->numbers->rows; i++)
         timed |= isfinite(o->numbers->row[i].seconds);
     if (timed) {

@@ -108,26 +108,6 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
     br_put_more(d, *before == ',' ? "." : "");
 }
 
-static void answer_prediction(struct br_document *d, const struct br_prediction *p)
-{
-    char interval[BR_PREDICTED_TEXT];
-    if (p->known)
-        br_put_answer(d,
-                      "Predicted before the march, of each field relative to its largest (L2): "
-                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is what "
-                      "this may make at the tip, an estimate.",
-                      br_predicted_interval(&p->whole, interval), p->time.error, p->space.error,
-                      p->round_off);
-    else if (p->bounded)
-        br_put_answer(d,
-                      "The discretisation error is not known, between %.0e and %.0e: %s; "
-                      "round-off %.1e.",
-                      p->whole.low, p->whole.high, p->why, p->round_off);
-    else
-        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.", p->why,
-                      p->round_off);
-}
-
 static void put_answers(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -135,7 +115,26 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->failure.status)
         br_put_answer(d, "STOPPED: %s", r->failure.message);
     answer_tip(d, f);
-    answer_prediction(d, f->prediction);
+
+    char interval[BR_PREDICTED_TEXT];
+    if (f->prediction->known)
+        br_put_answer(d,
+                      "Predicted before the march, of each field relative to its largest (L2): "
+                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is what "
+                      "this may make at the tip, an estimate.",
+                      br_predicted_interval(&f->prediction->whole, interval),
+                      f->prediction->time.error, f->prediction->space.error,
+                      f->prediction->round_off);
+    else if (f->prediction->bounded)
+        br_put_answer(d,
+                      "The discretisation error is not known, between %.0e and %.0e: %s; "
+                      "round-off %.1e.",
+                      f->prediction->whole.low, f->prediction->whole.high, f->prediction->why,
+                      f->prediction->round_off);
+    else
+        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.",
+                      f->prediction->why, f->prediction->round_off);
+
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
@@ -231,25 +230,6 @@ static void put_prediction(struct br_document *d, const struct br_run_findings *
     BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
             .format = "%.1e");
     br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
-}
-
-/* Remedies are options that can be typed. */
-static void put_warnings(struct br_document *d, const struct br_warnings *w)
-{
-    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
-    for (size_t i = 0; i < w->count; i++) {
-        const char *remedy = w->list[i].remedy;
-        br_put_row(d);
-        BR_PUT(d, br_text(br_warning_word(w->list[i].kind)), .key = "warning");
-        BR_PUT(d, br_text(w->list[i].text), .key = "text");
-        BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
-    }
-    for (size_t i = 0; i < w->count; i++) {
-        char key[80];
-        snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->list[i].kind));
-        br_put_note(d, "Warning: %s.", w->list[i].text);
-        br_put_command(d, key, "Remedy", w->list[i].remedy);
-    }
 }
 
 /* ---- the tip ---- */
@@ -498,19 +478,6 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
 
 /* ---- what is modelled, and what it costs ---- */
 
-static void put_model(struct br_document *d, const struct br_run_report *r)
-{
-    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
-    for (size_t i = 0; i < r->model_rows; i++) {
-        br_put_row(d);
-        BR_PUT(d, br_text(r->model[i].key), .key = "part");
-        br_put_shown(d, "%s", r->model[i].part);
-        BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
-        br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
-        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
-    }
-}
-
 static void put_cost(struct br_document *d, const struct br_run_report *r)
 {
     const double steps = (double)r->end.last.step;
@@ -541,8 +508,46 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
     BR_FACTS(d, facts);
 }
 
-static void put_time(struct br_document *d, const struct br_run_findings *f)
+void br_report_run(const struct br_run_findings *f, struct br_document *d)
 {
+    br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
+    put_answers(d, f);
+    put_march(d, f);
+
+    /* Remedies are options that can be typed. */
+    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
+    for (size_t i = 0; i < f->warnings->count; i++) {
+        const char *remedy = f->warnings->list[i].remedy;
+        br_put_row(d);
+        BR_PUT(d, br_text(br_warning_word(f->warnings->list[i].kind)), .key = "warning");
+        BR_PUT(d, br_text(f->warnings->list[i].text), .key = "text");
+        BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
+    }
+    for (size_t i = 0; i < f->warnings->count; i++) {
+        char key[80];
+        snprintf(key, sizeof key, "remedies.%s", br_warning_word(f->warnings->list[i].kind));
+        br_put_note(d, "Warning: %s.", f->warnings->list[i].text);
+        br_put_command(d, key, "Remedy", f->warnings->list[i].remedy);
+    }
+
+    put_prediction(d, f);
+    put_tip(d, f);
+    put_events(d, f->report);
+    put_energies(d, f->report);
+    put_certificate(d, f->report);
+
+    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
+    for (size_t i = 0; i < f->report->model_rows; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(f->report->model[i].key), .key = "part");
+        br_put_shown(d, "%s", f->report->model[i].part);
+        BR_PUT(d, br_truth(f->report->model[i].modelled), .key = "modelled");
+        br_put_shown(d, "%s", f->report->model[i].modelled ? "modelled" : "skipped");
+        BR_PUT(d, br_text(f->report->model[i].why), .key = "why", .heading = "how, or why not");
+    }
+
+    put_cost(d, f->report);
+
     const struct br_run_report *r = f->report;
     const struct br_counts *c = &r->counts;
     const double march = r->end.march_seconds;
@@ -568,22 +573,7 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
     };
     br_put_section(d, "Time and work");
     BR_FACTS(d, facts);
-}
 
-void br_report_run(const struct br_run_findings *f, struct br_document *d)
-{
-    br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
-    put_answers(d, f);
-    put_march(d, f);
-    put_warnings(d, f->warnings);
-    put_prediction(d, f);
-    put_tip(d, f);
-    put_events(d, f->report);
-    put_energies(d, f->report);
-    put_certificate(d, f->report);
-    put_model(d, f->report);
-    put_cost(d, f->report);
-    put_time(d, f);
     br_put_provenance(d, f->provenance);
 }
 

@@ -153,35 +153,6 @@ static void put_run_tables(struct br_document *d, const struct br_split *s)
     }
 }
 
-/* For programs: all lines of all runs. */
-static void put_parts(struct br_document *d, const struct br_split *split, size_t count)
-{
-    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t r = 0; r < count; r++)
-        for (size_t m = 0; m < split[r].norms; m++)
-            for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
-                put_run(d, &split[r], r);
-                put_line(d, &split[r], m, i);
-            }
-}
-
-static void put_runs(struct br_document *d, const struct br_split *split, size_t count)
-{
-    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
-    for (size_t r = 0; r < count; r++) {
-        const struct br_split *s = &split[r];
-        put_run(d, s, r);
-        br_hide(d, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
-        br_hide(d, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
-        br_hide(d, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
-        br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
-        br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
-        br_hide(d, "unstable", NULL, br_truth(s->unstable));
-        br_hide(d, "reference", NULL, br_text(s->judge->name));
-        br_hide(d, "refined", NULL, br_text(s->refined.name));
-    }
-}
-
 static void note_run(struct br_document *d, const struct br_split *s)
 {
     for (size_t m = 0; m < s->norms; m++) {
@@ -199,22 +170,6 @@ static void note_run(struct br_document *d, const struct br_split *s)
              fabs(s->tip_sum[BR_BENDING] - s->whole.tip[BR_BENDING])));
 }
 
-static void put_notes(struct br_document *d, const struct br_split *s)
-{
-    br_put_section(d, "What is measured");
-    for (size_t m = 0; m < s->norms; m++)
-        br_put_note(d, "%s", s->norm[m]->title);
-    br_put_note(d,
-                "A part is the distance of two marches, or of a march from the solution (%s). The "
-                "second march has one source of error less. So the parts add up to the whole: as "
-                "functions, and at the tip (x = L, t = T) as numbers with signs.",
-                s->judge->name);
-    br_put_note(d, "<: below this floor a part cannot be told from round-off and from the errors "
-                   "of what it is measured by.");
-    if (s->scene->remark)
-        br_put_note(d, "%s", s->scene->remark);
-}
-
 void br_report_split(const struct br_split *split, size_t count,
                      const struct br_provenance *provenance, struct br_document *d)
 {
@@ -230,8 +185,42 @@ void br_report_split(const struct br_split *split, size_t count,
         put_run_tables(d, &split[r]);
         note_run(d, &split[r]);
     }
-    put_runs(d, split, count);
-    put_parts(d, split, count);
-    put_notes(d, split);
+
+    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
+    for (size_t r = 0; r < count; r++) {
+        const struct br_split *s = &split[r];
+        put_run(d, s, r);
+        br_hide(d, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
+        br_hide(d, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
+        br_hide(d, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
+        br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
+        br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
+        br_hide(d, "unstable", NULL, br_truth(s->unstable));
+        br_hide(d, "reference", NULL, br_text(s->judge->name));
+        br_hide(d, "refined", NULL, br_text(s->refined.name));
+    }
+
+    /* For programs: all lines of all runs. */
+    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
+    for (size_t r = 0; r < count; r++)
+        for (size_t m = 0; m < split[r].norms; m++)
+            for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
+                put_run(d, &split[r], r);
+                put_line(d, &split[r], m, i);
+            }
+
+    br_put_section(d, "What is measured");
+    for (size_t m = 0; m < split->norms; m++)
+        br_put_note(d, "%s", split->norm[m]->title);
+    br_put_note(d,
+                "A part is the distance of two marches, or of a march from the solution (%s). The "
+                "second march has one source of error less. So the parts add up to the whole: as "
+                "functions, and at the tip (x = L, t = T) as numbers with signs.",
+                split->judge->name);
+    br_put_note(d, "<: below this floor a part cannot be told from round-off and from the errors "
+                   "of what it is measured by.");
+    if (split->scene->remark)
+        br_put_note(d, "%s", split->scene->remark);
+
     br_put_provenance(d, provenance);
 }
