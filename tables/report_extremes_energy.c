@@ -83,8 +83,12 @@ static void put_share(struct br_document *d, const char *key, const char *headin
            .key = key, .heading = heading, .unit = "%", .format = "%.3g");
 }
 
-static void answer_energy(struct br_document *d, const struct br_energy_behaviour *b)
+void br_report_energy(const struct br_energy_behaviour *b, struct br_document *d)
 {
+    br_document_begin(
+        d, "energy", "beamrate extremes energy", 1,
+        "Energy: what every scheme takes or adds, and whether every step's balance closes");
+
     double steps = 0, worst = 0, off = 0;
     size_t marches = 0, wrong = 0;
     for (size_t i = 0; i < b->balances; i++) {
@@ -112,14 +116,7 @@ static void answer_energy(struct br_document *d, const struct br_energy_behaviou
                   "What the schemes take from a free vibration is what their stability functions "
                   "predict, to %.1e of the energy a period.",
                   off);
-}
 
-void br_report_energy(const struct br_energy_behaviour *b, struct br_document *d)
-{
-    br_document_begin(
-        d, "energy", "beamrate extremes energy", 1,
-        "Energy: what every scheme takes or adds, and whether every step's balance closes");
-    answer_energy(d, b);
     put_loss_grid(d, b, false);
     put_loss_grid(d, b, true);
 

@@ -164,41 +164,6 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
 
 /* ---- the march ---- */
 
-static void put_march(struct br_document *d, const struct br_run_findings *f)
-{
-    const struct br_run_report *r = f->report;
-    const struct br_scene *scene = r->scene;
-    char method[BR_METHOD_TEXT];
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(scene->name)},
-        {"scene.title", NULL, NULL, br_text(scene->title)},
-        {"scene.remark", "remark", NULL, br_text(scene->remark)},
-        {"scene.length", NULL, "m", br_number(scene->length)},
-        {"scene.duration", NULL, "s", br_number(scene->duration)},
-        {"n", "elements", NULL, br_count(r->n)},
-        {"h", "element size h", "m", br_number(r->h)},
-        {"steps", "steps", NULL, br_count(r->steps)},
-        {"k", "time step k", "s", br_number(r->k)},
-    };
-    br_put_section(d, "The march");
-    BR_FACTS(d, facts);
-    const struct br_meshes on = {&r->marched, &r->n, 1};
-    BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
-            .heading = "method", .flags = BR_FOR_PEOPLE);
-    br_put_method_facts(d, "method", &r->method, &on);
-    br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
-    br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
-    if (scene->derived->what)
-        br_put_section(d, "Derived from what the scene gives");
-    for (const struct br_derived *n = scene->derived; n->what; n++) {
-        const char *dot = strchr(n->what, '.');
-        char heading[80];
-        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
-                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
-        br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
-    }
-}
-
 /* "0.0014, between 0.00046 and 0.0042" */
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
@@ -510,45 +475,76 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
 
 void br_report_run(const struct br_run_findings *f, struct br_document *d)
 {
-    br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
+    const struct br_run_report *r = f->report;
+    const struct br_scene *scene = r->scene;
+    br_document_begin(d, "summary", "beamrate run", 2, scene->title);
     put_answers(d, f);
-    put_march(d, f);
+
+    char method[BR_METHOD_TEXT];
+    const struct br_fact march_facts[] = {
+        {"scene.name", NULL, NULL, br_text(scene->name)},
+        {"scene.title", NULL, NULL, br_text(scene->title)},
+        {"scene.remark", "remark", NULL, br_text(scene->remark)},
+        {"scene.length", NULL, "m", br_number(scene->length)},
+        {"scene.duration", NULL, "s", br_number(scene->duration)},
+        {"n", "elements", NULL, br_count(r->n)},
+        {"h", "element size h", "m", br_number(r->h)},
+        {"steps", "steps", NULL, br_count(r->steps)},
+        {"k", "time step k", "s", br_number(r->k)},
+    };
+    br_put_section(d, "The march");
+    BR_FACTS(d, march_facts);
+    const struct br_meshes on = {&r->marched, &r->n, 1};
+    BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
+            .heading = "method", .flags = BR_FOR_PEOPLE);
+    br_put_method_facts(d, "method", &r->method, &on);
+    br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
+    br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
+    if (scene->derived->what)
+        br_put_section(d, "Derived from what the scene gives");
+    for (const struct br_derived *n = scene->derived; n->what; n++) {
+        const char *dot = strchr(n->what, '.');
+        char heading[80];
+        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
+                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
+        br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
+    }
 
     /* Remedies are options that can be typed. */
     br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
     for (size_t i = 0; i < f->warnings->count; i++) {
-        const char *remedy = f->warnings->list[i].remedy;
+        const struct br_warning *w = &f->warnings->list[i];
         br_put_row(d);
-        BR_PUT(d, br_text(br_warning_word(f->warnings->list[i].kind)), .key = "warning");
-        BR_PUT(d, br_text(f->warnings->list[i].text), .key = "text");
-        BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
+        BR_PUT(d, br_text(br_warning_word(w->kind)), .key = "warning");
+        BR_PUT(d, br_text(w->text), .key = "text");
+        BR_PUT(d, br_text(*w->remedy ? w->remedy : NULL), .key = "remedy");
     }
     for (size_t i = 0; i < f->warnings->count; i++) {
+        const struct br_warning *w = &f->warnings->list[i];
         char key[80];
-        snprintf(key, sizeof key, "remedies.%s", br_warning_word(f->warnings->list[i].kind));
-        br_put_note(d, "Warning: %s.", f->warnings->list[i].text);
-        br_put_command(d, key, "Remedy", f->warnings->list[i].remedy);
+        snprintf(key, sizeof key, "remedies.%s", br_warning_word(w->kind));
+        br_put_note(d, "Warning: %s.", w->text);
+        br_put_command(d, key, "Remedy", w->remedy);
     }
 
     put_prediction(d, f);
     put_tip(d, f);
-    put_events(d, f->report);
-    put_energies(d, f->report);
-    put_certificate(d, f->report);
+    put_events(d, r);
+    put_energies(d, r);
+    put_certificate(d, r);
 
     br_put_table(d, "model", "What is modelled, and what is skipped", 0);
-    for (size_t i = 0; i < f->report->model_rows; i++) {
+    for (size_t i = 0; i < r->model_rows; i++) {
         br_put_row(d);
-        BR_PUT(d, br_text(f->report->model[i].key), .key = "part");
-        br_put_shown(d, "%s", f->report->model[i].part);
-        BR_PUT(d, br_truth(f->report->model[i].modelled), .key = "modelled");
-        br_put_shown(d, "%s", f->report->model[i].modelled ? "modelled" : "skipped");
-        BR_PUT(d, br_text(f->report->model[i].why), .key = "why", .heading = "how, or why not");
+        BR_PUT(d, br_text(r->model[i].key), .key = "part");
+        br_put_shown(d, "%s", r->model[i].part);
+        BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
+        br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
+        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
     }
 
-    put_cost(d, f->report);
+    put_cost(d, r);
 
-    const struct br_run_report *r = f->report;
     const struct br_counts *c = &r->counts;
     const double march = r->end.march_seconds;
     const double a_step = march / (double)r->end.last.step; /* NAN: none */

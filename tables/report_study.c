@@ -31,37 +31,6 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 static const char *const directions[BR_DIRECTIONS] = {"h", "k"};
 
-static void answer_orders(struct br_document *d, const struct br_report *r)
-{
-    char text[64];
-    for (int i = 0; i < BR_DIRECTIONS; i++) {
-        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
-        if (!seen->asked)
-            continue;
-        br_put_answer(d, "Order in %s: ", directions[i]);
-        if (isfinite(seen->order.value))
-            br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
-                        seen->theory, seen->remark, seen->by);
-        else
-            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
-    }
-}
-
-static void answer_error(struct br_document *d, const struct br_study *s)
-{
-    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
-    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
-                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
-    if (isfinite(error))
-        br_put_more(d, "%.3e %s", error, s->norm->unit);
-    else
-        br_put_more(d, "none, the march failed");
-    if (isfinite(relative))
-        br_put_more(d, ", relative %.2e", relative);
-    br_put_more(d, ".");
-}
-
 /* Says how well a reference is known. own: its own error; NaN: not known. */
 static void say_own_error(struct br_document *d, const struct br_study *s, double own)
 {
@@ -168,67 +137,34 @@ static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
     return kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
 }
 
-static void answer_tips(struct br_document *d, const struct br_report *r)
-{
-    char text[64];
-    const struct br_study *s = br_report_fitted(r);
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (is_modelled(r, kind) && is_outside(r, kind))
-            br_put_answer(d,
-                          "The cells alone (Richardson) give %s(L, T) = %s m, and the "
-                          "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
-                          "all of the solution, or one of the two is wrong.",
-                          kind == BR_AXIAL ? "u" : "w",
-                          br_uncertain_text(r->tip[kind].value,
-                                            (r->tip[kind].high - r->tip[kind].low) / 2, text,
-                                            sizeof text),
-                          s->judge->name, s->reference_tip[kind]);
-}
-
-/* What the answers say, and the same of each part. */
-static void put_orders(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = br_report_fitted(r);
-    const struct br_cell *finest = &s->cell[s->n_count * s->k_count - 1];
-    const double error = finest->error[BR_PART_TOTAL];
-    const double relative = relative_of(s, finest, BR_PART_TOTAL);
-    char text[64];
-    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
-            const struct br_seen_order *seen = &r->seen[part][i];
-            if (!seen->asked)
-                continue;
-            br_put_row(d);
-            BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
-            BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
-                   .heading = "seen [95 %]");
-            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
-            BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
-            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
-        }
-        if (part != BR_PART_TOTAL)
-            continue;
-        br_put_row(d);
-        BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-        BR_PUT(d, br_text(s->judge == &br_judge_none ? "difference" : "error"), .heading = "what");
-        BR_PUT(d, br_number(error), .heading = "seen [95 %]");
-        if (isfinite(error))
-            br_put_shown(d, "%.3e %s", error, s->norm->unit);
-        BR_PUT(d, br_number(relative), .heading = "it is");
-        if (isfinite(relative))
-            br_put_shown(d, "%.1e of the solution", relative);
-        BR_PUT(d, br_count(finest->at.n), .heading = "by");
-        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(s, finest));
-    }
-}
-
 static void put_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = br_report_fitted(r);
-    answer_orders(d, r);
-    answer_error(d, s);
+    char text[64];
+    for (int i = 0; i < BR_DIRECTIONS; i++) {
+        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
+        if (!seen->asked)
+            continue;
+        br_put_answer(d, "Order in %s: ", directions[i]);
+        if (isfinite(seen->order.value))
+            br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
+                        seen->theory, seen->remark, seen->by);
+        else
+            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
+    }
+
+    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
+    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
+    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
+                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
+    if (isfinite(error))
+        br_put_more(d, "%.3e %s", error, s->norm->unit);
+    else
+        br_put_more(d, "none, the march failed");
+    if (isfinite(relative))
+        br_put_more(d, ", relative %.2e", relative);
+    br_put_more(d, ".");
+
     br_put_answer(d, "Judged by: %s. ",
                   s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
     say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
@@ -241,7 +177,19 @@ static void put_answers(struct br_document *d, const struct br_report *r)
                           "contact: do not trust it.",
                           of->judge->name);
     }
-    answer_tips(d, r);
+
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (is_modelled(r, kind) && is_outside(r, kind))
+            br_put_answer(d,
+                          "The cells alone (Richardson) give %s(L, T) = %s m, and the "
+                          "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
+                          "all of the solution, or one of the two is wrong.",
+                          kind == BR_AXIAL ? "u" : "w",
+                          br_uncertain_text(r->tip[kind].value,
+                                            (r->tip[kind].high - r->tip[kind].low) / 2, text,
+                                            sizeof text),
+                          s->judge->name, s->reference_tip[kind]);
+
     answer_printed(d, r);
 }
 
@@ -425,29 +373,6 @@ static void put_estimate(struct br_document *d, const struct br_column *column,
 #define PUT_ESTIMATE(d, e, shown, ...) \
     put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
 
-static void put_slopes(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study;
-    char text[64];
-    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 r->rates ? BR_LONG : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
-            const bool row = i < s->n_count;
-            const size_t j = row ? i : i - s->n_count;
-            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
-            br_put_row(d);
-            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
-            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
-            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
-                   .key = "k", .unit = "s");
-            PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
-                         .heading = "slope [95 %]");
-            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
-        }
-}
-
 /* Numbers of a fit that does not describe the errors are not claimed. */
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
@@ -495,32 +420,6 @@ static void put_fits(struct br_document *d, const struct br_report *r)
     }
 }
 
-static void put_tips(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = br_report_fitted(r);
-    const bool judged = s->judge != &br_judge_none;
-    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
-    br_put_table(d, "tips",
-                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
-                       : "Tip at t = T (the cells alone cannot be extrapolated)",
-                 r->printed ? BR_FILES_ONLY : 0);
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_estimate *e = &r->tip[kind];
-        const bool compared = judged && isfinite(e->high - e->low);
-        char shown[64];
-        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
-        if (!is_modelled(r, kind))
-            continue;
-        br_put_row(d);
-        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
-        PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
-        BR_PUT(d, br_number(judged ? s->reference_tip[kind] : NAN), .key = "reference", .unit = "m",
-               .format = "%.10g");
-        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
-               .key = "reference_is", .heading = "it is");
-    }
-}
-
 /* ---- the printed table against itself ---- */
 
 static void put_triangles(struct br_document *d, const struct br_report *r)
@@ -554,20 +453,6 @@ static void put_triangles(struct br_document *d, const struct br_report *r)
 }
 
 /* ---- notes and facts ---- */
-
-static void put_events(struct br_document *d, const struct br_report *r)
-{
-    const char *line = br_report_fitted(r)->events, *remark = r->study->scene->remark;
-    if ((line && *line) || remark)
-        br_put_section(d, "Events");
-    while (line && *line) {
-        const size_t length = strcspn(line, "\n");
-        br_put_note(d, "%.*s", (int)length, line);
-        line += length + (line[length] == '\n');
-    }
-    if (remark)
-        br_put_note(d, "%s", remark);
-}
 
 /* Who judges. */
 static void put_judge(struct br_document *d, const char *label, const struct br_study *s)
@@ -678,14 +563,103 @@ void br_report_study(const struct br_report *r, struct br_document *d)
 {
     br_document_begin(d, r->name, "beamrate study", 2, r->caption);
     put_answers(d, r);
-    put_orders(d, r);
+
+    /* What the answers say, and the same of each part. */
+    const struct br_study *fitted = br_report_fitted(r);
+    const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
+    const double error = finest->error[BR_PART_TOTAL];
+    const double relative = relative_of(fitted, finest, BR_PART_TOTAL);
+    char text[64];
+    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
+            const struct br_seen_order *seen = &r->seen[part][i];
+            if (!seen->asked)
+                continue;
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+            BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
+                   .heading = "seen [95 %]");
+            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+            BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
+            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
+        }
+        if (part != BR_PART_TOTAL)
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+        BR_PUT(d, br_text(fitted->judge == &br_judge_none ? "difference" : "error"),
+               .heading = "what");
+        BR_PUT(d, br_number(error), .heading = "seen [95 %]");
+        if (isfinite(error))
+            br_put_shown(d, "%.3e %s", error, fitted->norm->unit);
+        BR_PUT(d, br_number(relative), .heading = "it is");
+        if (isfinite(relative))
+            br_put_shown(d, "%.1e of the solution", relative);
+        BR_PUT(d, br_count(finest->at.n), .heading = "by");
+        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(fitted, finest));
+    }
+
     put_grids(d, r);
     put_fits(d, r);
-    put_tips(d, r);
+
+    const bool judged = fitted->judge != &br_judge_none;
+    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
+    br_put_table(d, "tips",
+                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
+                       : "Tip at t = T (the cells alone cannot be extrapolated)",
+                 r->printed ? BR_FILES_ONLY : 0);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_estimate *e = &r->tip[kind];
+        const bool compared = judged && isfinite(e->high - e->low);
+        char shown[64];
+        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
+        if (!is_modelled(r, kind))
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
+        PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
+        BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
+               .unit = "m", .format = "%.10g");
+        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
+               .key = "reference_is", .heading = "it is");
+    }
+
     put_triangles(d, r);
-    put_slopes(d, r);
+
+    const struct br_study *s = r->study;
+    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
+                 r->rates ? BR_LONG : BR_FILES_ONLY);
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
+            const bool row = i < s->n_count;
+            const size_t j = row ? i : i - s->n_count;
+            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
+            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
+            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
+                   .key = "k", .unit = "s");
+            PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
+                         .heading = "slope [95 %]");
+            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
+        }
+
     put_cells(d, r);
     put_notes(d, r);
-    put_events(d, r);
+
+    const char *line = fitted->events, *remark = r->study->scene->remark;
+    if ((line && *line) || remark)
+        br_put_section(d, "Events");
+    while (line && *line) {
+        const size_t length = strcspn(line, "\n");
+        br_put_note(d, "%.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    if (remark)
+        br_put_note(d, "%s", remark);
+
     put_facts(d, r);
 }
