@@ -56,15 +56,6 @@ static void name_quantities(const struct br_numbers *numbers, char label[160])
              unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* As the joint fit has it, where that describes the errors: along a line the other axis bends it.
- */
-static double order_of(const struct br_quantity_orders *of, const struct br_orders_line *line)
-{
-    if (br_joint_describes(&of->joint))
-        return line->axis == BR_AXIS_SPACE ? of->joint.p.value : of->joint.q.value;
-    return line->observed.order.value;
-}
-
 /* The lines along one axis: of all quantities the one at the finest size of the other axis. */
 static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
@@ -82,7 +73,12 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         add_line(f, o, &o->of[i], finest);
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        const double order = round(order_of(&o->of[i], finest));
+        /* As the joint fit has it, where that describes the errors: along a line the other axis
+         * bends it. */
+        const struct br_joint_fit *joint = &o->of[i].joint;
+        const double order = round(!br_joint_describes(joint) ? finest->observed.order.value
+                                   : axis == BR_AXIS_SPACE    ? joint->p.value
+                                                              : joint->q.value);
         size_t at = 0; /* ascending */
         while (at < slopes && slope[at] < order)
             at++;

@@ -137,7 +137,7 @@ static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 }
 
 /* For people: a table a run and norm, with the parts that there are. */
-static void put_run_tables(struct br_document *d, const struct br_split *s)
+static void put_run_for_people(struct br_document *d, const struct br_split *s)
 {
     char title[TEXT + 64], run[TEXT];
     for (size_t m = 0; m < s->norms; m++) {
@@ -151,10 +151,6 @@ static void put_run_tables(struct br_document *d, const struct br_split *s)
             put_line(d, s, m, i);
         }
     }
-}
-
-static void note_run(struct br_document *d, const struct br_split *s)
-{
     for (size_t m = 0; m < s->norms; m++) {
         const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum[m][BR_PART_TOTAL];
         br_put_note(d, "The whole is %.3g of the sum of its parts%s (%s).", whole / sum,
@@ -181,10 +177,8 @@ void br_report_split(const struct br_split *split, size_t count,
     br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
     for (size_t r = 0; r < count; r++)
         answer_run(d, &split[r]);
-    for (size_t r = 0; r < count; r++) {
-        put_run_tables(d, &split[r]);
-        note_run(d, &split[r]);
-    }
+    for (size_t r = 0; r < count; r++)
+        put_run_for_people(d, &split[r]);
 
     br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
     for (size_t r = 0; r < count; r++) {
