@@ -257,8 +257,8 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
             const struct br_series *s = p->series[j];
             if (!s->count)
                 continue;
-            fprintf(out, "\n# index %zu: %s; %s\n# %s | %s | flag\n", index++, p->title, s->title,
-                    p->x_label, p->y_label);
+            fprintf(out, "\n# index %zu: %s; %s\n# %s | %s | flag\n", index++, p->title,
+                    p->series[j]->title, p->x_label, p->y_label);
             for (const struct br_figure_point *at = s->point; at < s->point + s->count; at++) {
                 write_number(out, at->x);
                 write_number(out, br_is_drawn(p, at) ? at->y : NAN); /* or a gap */

@@ -11,18 +11,17 @@ static enum br_status write(FILE *out, const struct br_document *d,
     for (size_t line = 0; line <= t->rows; line++) { /* the first is the head */
         const char *separator = "";
         for (size_t c = 0; c < t->columns; c++) {
-            const struct br_column *column = &t->column[c];
-            if (!br_for_programs(column->flags))
+            if (!br_for_programs(t->column[c].flags))
                 continue;
             fputs(separator, out);
             separator = ",";
             if (line > 0)
                 br_document_print_value(out, &br_for_csv, "",
                                         &br_document_cell_at(t, line - 1, c)->value);
-            else if (column->unit)
-                fprintf(out, "%s [%s]", column->key, column->unit);
+            else if (t->column[c].unit)
+                fprintf(out, "%s [%s]", t->column[c].key, t->column[c].unit);
             else
-                fputs(column->key, out);
+                fputs(t->column[c].key, out);
         }
         fputc('\n', out);
     }
