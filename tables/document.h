@@ -17,7 +17,7 @@
  *     br_put_provenance(d, &provenance);
  *
  * The first row brings the columns of its table; a table that may have no row begins with them
- * (BR_TABLE).
+ * (BR_TABLE), and its rows are values in their order (BR_PUT_ROW).
  *
  * Each call copies what it is given. None of them fails: the document remembers the first failure
  * (no memory, a key that no column has), does nothing from then on, and tells it when it is
