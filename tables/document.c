@@ -412,11 +412,6 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
         t->column[at].flags |= BR_TEXTUAL;
 }
 
-void br_put(struct br_document *d, const char *key, struct br_value value)
-{
-    BR_PUT(d, value, .key = key);
-}
-
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value)
 {
     BR_PUT(d, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);

@@ -88,8 +88,8 @@ enum {
     BR_FOR_PROGRAMS = 4, /* in CSV and JSON only */
     BR_MAIN = 8,         /* the table whose CSV file is NAME.csv; others are NAME-TABLE.csv */
     BR_WRAP = 16,        /* a column of long texts, which people get on several lines */
-    BR_FILLED = 32,      /* a column with a value; set by br_put */
-    BR_TEXTUAL = 64,     /* a column with a text or a truth, set to the left; set by br_put */
+    BR_FILLED = 32,      /* a column with a value; set by br_put_cell */
+    BR_TEXTUAL = 64,     /* a column with a text or a truth, set to the left; set by br_put_cell */
     BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
 enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show more, a page folds them */ };
@@ -274,8 +274,7 @@ void br_put_cells(struct br_document *d, size_t count, const struct br_value *va
                  (const struct br_value[]){__VA_ARGS__})
 #define BR_PUT_ROW(d, ...) (br_put_row(d), BR_PUT_CELLS(d, __VA_ARGS__))
 
-/* BR_PUT of a column that has a key alone, and of a column for programs (unit: NULL, none). */
-void br_put(struct br_document *d, const char *key, struct br_value value);
+/* BR_PUT of a column for programs. unit: NULL, none. */
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
 
 /* Whether what is put from now on is nothing, up to the end of the row. */
