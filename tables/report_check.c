@@ -72,18 +72,6 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
     }
 }
 
-/* People see them with the verdicts. */
-static void put_points(struct br_document *d, const struct br_check *check, const struct br_case *c)
-{
-    for (const struct br_point *p = c->point; p < c->point + c->points; p++)
-        BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]), br_text(c->measure),
-                   br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
-                   br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
-                   br_count(p->against.steps), br_number(p->error), br_number(p->constant),
-                   br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
-                   br_text(p->label));
-}
-
 static void put_cells(struct br_document *d, const struct br_scene *scene,
                       const struct br_verify_study *v)
 {
@@ -136,12 +124,6 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
 
 void br_report_check(const struct br_check_findings *f, struct br_document *d)
 {
-    static const struct br_column columns[] = {
-        {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
-        {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
-        {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
-        {.key = "failure"}, {.key = "at"},
-    };
     br_document_begin(d, "check", "beamrate check", 2, "Orders of convergence");
 
     const struct br_check *first;
@@ -233,10 +215,26 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
 
     if (f->comparison)
         put_comparison(d, f->comparison);
-    BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, columns);
+
+    /* People see them with the verdicts. */
+    static const struct br_column points_columns[] = {
+        {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
+        {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
+        {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
+        {.key = "failure"}, {.key = "at"},
+    };
+    BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, points_columns);
     for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->checks[i].count; j++)
-            put_points(d, &f->checks[i], &f->checks[i].cases[j]);
+        for (size_t j = 0; j < f->checks[i].count; j++) {
+            const struct br_case *c = &f->checks[i].cases[j];
+            for (const struct br_point *p = c->point; p < c->point + c->points; p++)
+                BR_PUT_ROW(d, br_text(f->checks[i].name), br_text(br_verify_names[c->kind]),
+                           br_text(c->measure), br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
+                           br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
+                           br_count(p->against.steps), br_number(p->error), br_number(p->constant),
+                           br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
+                           br_text(p->label));
+        }
 
     /* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
     static const struct br_column scenes_columns[] = {

@@ -175,28 +175,6 @@ static void put_predicted(struct br_document *d, bool known, const char *key, co
     br_hide_fact(d, br_if(known, br_number(e->high)), NULL, "prediction.%s.high", key);
 }
 
-static void put_prediction(struct br_document *d, const struct br_run_findings *f)
-{
-    static const char *const labels[] = {"  of the axial field", "  of the bending field"};
-    const struct br_prediction *p = f->prediction;
-    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
-    br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
-    br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
-    put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
-    put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
-    put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double most = br_predicted_most(p, (enum br_field_kind)kind);
-        const bool marched = is_marched(f->report, kind);
-        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
-        br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
-                     field_names[kind]);
-    }
-    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
-            .format = "%.1e");
-    br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
-}
-
 /* ---- the tip ---- */
 
 static void put_extreme(struct br_document *d, const struct br_run_findings *f, bool known,
@@ -527,7 +505,25 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
         br_put_command(d, key, "Remedy", w->remedy);
     }
 
-    put_prediction(d, f);
+    static const char *const labels[] = {"  of the axial field", "  of the bending field"};
+    const struct br_prediction *p = f->prediction;
+    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
+    br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
+    br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
+    put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
+    put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
+    put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double most = br_predicted_most(p, (enum br_field_kind)kind);
+        const bool marched = is_marched(f->report, kind);
+        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
+        br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
+                     field_names[kind]);
+    }
+    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
+            .format = "%.1e");
+    br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
+
     put_tip(d, f);
     put_events(d, r);
     put_energies(d, r);
