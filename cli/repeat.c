@@ -14,7 +14,7 @@
 #include "study/scene/file.h"
 #include "study/scene/quote.h"
 #include "tables/json_value.h"
-#include "tables/repeated.h"
+#include "tables/reports.h"
 
 enum { PATH = 1300 };
 

@@ -28,8 +28,6 @@ static double value_of(const struct br_report *r, enum axis axis, size_t entry)
     return axis == OVER_H ? br_mesh_size(scene, entry) : br_time_step(scene, entry);
 }
 
-/* ---- curves ---- */
-
 /* What is drawn of a cell; NaN: a gap. */
 typedef double of_cell(const struct br_report *r, size_t cell, enum br_part part);
 
@@ -108,8 +106,6 @@ static void add_curves(const struct br_report *r, enum axis axis, of_cell *value
                                  name_curve(r, axis, list[i], name)));
 }
 
-/* ---- panels ---- */
-
 static struct br_panel *add_panel(const struct br_report *r, enum axis axis, struct br_figure *f)
 {
     const struct br_norm *norm = br_report_fitted(r)->norm;
@@ -145,8 +141,6 @@ static void say_fit(const struct br_report *r, enum br_part part, char text[256]
         before = ",";
     }
 }
-
-/* ---- the pictures ---- */
 
 static bool always(const struct br_report *r)
 {
@@ -243,7 +237,7 @@ static void add_both(const struct br_report *r, enum axis axis, struct br_figure
     }
 }
 
-/* Says what a mark is in a panel: which entry of the other axis' list. */
+/* Which entry of the other axis' list a mark is in a panel; "": none. */
 static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char name[40])
 {
     size_t count;
@@ -254,9 +248,12 @@ static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char
             name_curve(r, axis, list[i], name);
 }
 
-/* A key of the marks: over k they are meshes, over h time steps. */
-static void add_signs(const struct br_report *r, struct br_figure *f)
+/* With a key of the marks: over k they are meshes, over h time steps. */
+static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
+    f->one_y = true;
+    add_both(r, OVER_K, f);
+    add_both(r, OVER_H, f);
     for (size_t hue = 1; hue <= BR_HUES; hue++) {
         char mesh[40], step[40];
         say_mark(r, OVER_K, hue, mesh);
@@ -266,14 +263,6 @@ static void add_signs(const struct br_report *r, struct br_figure *f)
                           *mesh && *step ? ", " : "", *step ? "right " : "", step)
                 ->mark = hue;
     }
-}
-
-static void fill_printed(const struct br_report *r, struct br_figure *f)
-{
-    f->one_y = true;
-    add_both(r, OVER_K, f);
-    add_both(r, OVER_H, f);
-    add_signs(r, f);
 }
 
 static const struct br_convergence_picture

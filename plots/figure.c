@@ -186,23 +186,19 @@ enum br_status br_figure_check(const struct br_figure *f, struct br_error *err)
     return failed ? br_no_memory(err, "a figure") : BR_OK;
 }
 
-static void clear_panel(struct br_panel *p)
-{
-    for (size_t j = 0; j < p->count; j++) {
-        free(p->series[j]->point);
-        free(p->series[j]);
-    }
-    free(p->series);
-    free(p->top.point);
-    free(p->cells.x);
-    free(p->cells.y);
-    free(p->cells.value);
-}
-
 void br_figure_clear(struct br_figure *f)
 {
-    for (size_t i = 0; i < f->panels; i++)
-        clear_panel(&f->panel[i]);
+    for (struct br_panel *p = f->panel; p < f->panel + f->panels; p++) {
+        for (size_t j = 0; j < p->count; j++) {
+            free(p->series[j]->point);
+            free(p->series[j]);
+        }
+        free(p->series);
+        free(p->top.point);
+        free(p->cells.x);
+        free(p->cells.y);
+        free(p->cells.value);
+    }
     *f = (struct br_figure){0};
 }
 
@@ -228,18 +224,6 @@ static void write_cells(FILE *out, const struct br_figure *f, const struct br_ce
             write_number(out, value);
             fprintf(out, "%.9g\n", br_colour_of(f, value));
         }
-    fputs("\n\n", out);
-}
-
-/* What cannot be drawn is a gap. */
-static void write_points(FILE *out, const struct br_panel *p, const struct br_series *s)
-{
-    for (size_t k = 0; k < s->count; k++) {
-        const struct br_figure_point *at = &s->point[k];
-        write_number(out, at->x);
-        write_number(out, br_is_drawn(p, at) ? at->y : NAN);
-        fprintf(out, "%s\n", at->flag ? at->flag : "-");
-    }
     fputs("\n\n", out);
 }
 
@@ -270,11 +254,17 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
             write_cells(out, f, &p->cells);
         }
         for (size_t j = 0; j < p->count; j++) {
-            if (!p->series[j]->count)
+            const struct br_series *s = p->series[j];
+            if (!s->count)
                 continue;
             fprintf(out, "\n# index %zu: %s; %s\n# %s | %s | flag\n", index++, p->title,
                     p->series[j]->title, p->x_label, p->y_label);
-            write_points(out, p, p->series[j]);
+            for (const struct br_figure_point *at = s->point; at < s->point + s->count; at++) {
+                write_number(out, at->x);
+                write_number(out, br_is_drawn(p, at) ? at->y : NAN); /* or a gap */
+                fprintf(out, "%s\n", at->flag ? at->flag : "-");
+            }
+            fputs("\n\n", out);
         }
     }
 }

@@ -34,11 +34,15 @@ void br_movie_file(const struct br_movie *m, size_t frame, char *file, size_t si
         snprintf(file, size, "%s%s", m->stem, m->format->extension);
 }
 
-/* ---- data ---- */
-
-/* The tip in all frames. The scheme has no friction force at t = 0. */
-static void write_tip(FILE *out, const struct br_history_record *r)
+void br_movie_write_data(FILE *out, const struct br_movie *m)
 {
+    enum { POINTS = 200 };
+    const struct br_history_record *r = m->record;
+    const size_t every = r->n > POINTS ? r->n / POINTS : 1;
+    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
+    br_write_comment(out, m->scene->title);
+
+    /* The tip in all frames. The scheme has no friction force at t = 0. */
     fputs("# index 0, the tip: t (s) | u (m) | w (m) | dw/dt (m/s) | contact force (N) | friction "
           "force (N) | its bound (N)\n",
           out);
@@ -48,16 +52,7 @@ static void write_tip(FILE *out, const struct br_history_record *r)
                 at->displacement[BR_BENDING], at->velocity[BR_BENDING], at->contact_force,
                 isnan(at->friction_force) ? 0 : at->friction_force, at->friction_bound);
     }
-}
 
-void br_movie_write_data(FILE *out, const struct br_movie *m)
-{
-    enum { POINTS = 200 };
-    const struct br_history_record *r = m->record;
-    const size_t every = r->n > POINTS ? r->n / POINTS : 1;
-    fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, m->scene->title);
-    write_tip(out, r);
     for (size_t look = 0; look < r->looks; look++) {
         const double *u = br_history_field(r, look, BR_AXIAL, false);
         const double *w = br_history_field(r, look, BR_BENDING, false);
@@ -71,8 +66,6 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
         }
     }
 }
-
-/* ---- the script ---- */
 
 /* How much larger things are drawn than they are: 1, 2 or 5 times a power of ten. */
 static const char scales[] =

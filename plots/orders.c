@@ -56,15 +56,6 @@ static void name_quantities(const struct br_numbers *numbers, char label[160])
              unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* As the joint fit has it, where that describes the errors: along a line the other axis bends it.
- */
-static double order_of(const struct br_quantity_orders *of, const struct br_orders_line *line)
-{
-    if (br_joint_describes(&of->joint))
-        return line->axis == BR_AXIS_SPACE ? of->joint.p.value : of->joint.q.value;
-    return line->observed.order.value;
-}
-
 /* The lines along one axis: of all quantities the one at the finest size of the other axis. */
 static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
@@ -82,21 +73,21 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         add_line(f, o, &o->of[i], finest);
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        const double order = round(order_of(&o->of[i], finest));
-        bool known = slopes == 3 || !(order >= 1);
-        for (size_t s = 0; s < slopes; s++)
-            known |= slope[s] == order;
-        if (!known)
-            slope[slopes++] = order;
+        /* As the joint fit has it, where that describes the errors: along a line the other axis
+         * bends it. */
+        const struct br_joint_fit *joint = &o->of[i].joint;
+        const double order = round(!br_joint_describes(joint) ? finest->observed.order.value
+                                   : axis == BR_AXIS_SPACE    ? joint->p.value
+                                                              : joint->q.value);
+        size_t at = 0; /* ascending */
+        while (at < slopes && slope[at] < order)
+            at++;
+        if (slopes == 3 || !(order >= 1) || (at < slopes && slope[at] == order))
+            continue;
+        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
+        slope[at] = order;
     }
-    for (size_t i = 1; i < slopes; i++)
-        for (size_t j = i; j > 0 && slope[j] < slope[j - 1]; j--) {
-            const double larger = slope[j - 1];
-            slope[j - 1] = slope[j];
-            slope[j] = larger;
-        }
-    if (slopes)
-        br_slopes_add(f, slopes, slope);
+    br_slopes_add(f, slopes, slope);
 }
 
 /* Where runs were timed: errors over processor time. */
@@ -127,15 +118,6 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     }
 }
 
-static bool has_line(const struct br_orders *o, enum br_axis axis)
-{
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++)
-            if (o->of[i].line[l].axis == axis)
-                return true;
-    return false;
-}
-
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption)
 {
     struct br_figure f = {0};
@@ -143,9 +125,13 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
     BR_SAY(f.title, "%s", caption);
     BR_SAY(f.about, "errors over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
-    for (int axis = 0; axis < BR_AXES; axis++)
-        if (has_line(orders, (enum br_axis)axis))
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        bool any = false;
+        for (size_t i = 0; i < orders->count; i++)
+            any |= br_orders_finest(&orders->of[i], (enum br_axis)axis) != NULL;
+        if (any)
             add_panel(&f, orders, (enum br_axis)axis);
+    }
     add_costs(&f, orders);
     return f;
 }

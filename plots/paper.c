@@ -7,9 +7,7 @@
 
 static const char horizontal[] = "horizontal displacement u (m)",
                   vertical[] = "vertical displacement w (m)", over_time[] = "time t (s)",
-                  stress[] = "tangential stress σ_V(1,t)";
-
-/* ---- curves ---- */
+                  early_time[] = "time t (µs)", stress[] = "tangential stress σ_V(1,t)";
 
 /* A panel of a field at the figure's times. */
 static void add_field(const struct br_example *e, enum br_field_kind kind, const char *title,
@@ -42,21 +40,13 @@ static void add_beam(const struct br_example *e, enum br_field_kind kind, struct
         kind == BR_AXIAL ? BR_ROW(displacement[BR_AXIAL]) : BR_ROW(displacement[BR_BENDING]), 1);
 }
 
-/* ---- Example 1 ---- */
-
-/* A panel of the first 100 microseconds. */
-static void add_early(struct br_figure *f, const char *label, const char *title)
-{
-    BR_SAY(br_panel_add(f, "time t (µs)", label)->title, "%s", title);
-}
-
 /* Beside the exact line every 40th of the scheme's rows as circles. */
 static void fill2(const struct br_paper *paper, struct br_figure *f)
 {
     const struct br_early *early = &paper->early;
     add_field(&paper->example[0], BR_AXIAL, "horizontal", f);
     add_field(&paper->example[0], BR_BENDING, "vertical", f);
-    add_early(f, "w(L,t) (nm)", "the tip at first");
+    BR_SAY(br_panel_add(f, early_time, "w(L,t) (nm)")->title, "the tip at first");
     struct br_series *exact = br_series_add(f, BR_PEN_GUIDE, "exact");
     for (size_t i = 0; i <= BR_EXACT_EARLY; i++)
         br_point_add(exact, 1e6 * early->exact[i].time,
@@ -76,20 +66,13 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
     BR_SAY(p->title, "the scheme");
     add_stress(&paper->example[0], f);
     br_rows_add(f, bound, &paper->example[0].record, BR_ROW(friction_bound), 1);
-    add_early(f, "force (N)", "the first instants, exact");
+    BR_SAY(br_panel_add(f, early_time, "force (N)")->title, "the first instants, exact");
     struct br_series *s[] = {br_series_add(f, BR_PEN_LINE, "%s", stress),
                              br_series_add(f, BR_PEN_LINE, "%s", bound)};
     for (size_t i = 0; i <= BR_EXACT_EARLY; i++) {
         br_point_add(s[0], 1e6 * exact[i].time, -exact[i].friction_force, NULL);
         br_point_add(s[1], 1e6 * exact[i].time, exact[i].friction_bound, NULL);
     }
-}
-
-/* ---- Examples 2 to 4 ---- */
-
-static void fill4(const struct br_paper *paper, struct br_figure *f)
-{
-    add_beam(&paper->example[1], BR_BENDING, f);
 }
 
 /* When the tip lets go by the text, and by the exact solution. */
@@ -104,24 +87,12 @@ static void mark_release(const struct br_example *e, struct br_figure *f)
         }
 }
 
-static void fill5(const struct br_paper *paper, struct br_figure *f)
-{
-    add_beam(&paper->example[2], BR_BENDING, f);
-    mark_release(&paper->example[2], f);
-}
-
 static void fill6(const struct br_paper *paper, struct br_figure *f)
 {
     const struct br_example *e = &paper->example[2];
     br_panel_add(f, over_time, "force (N)");
     add_stress(e, f);
     br_rows_add(f, "friction bound c_V", &e->record, BR_ROW(friction_bound), 1);
-    mark_release(e, f);
-}
-
-static void fill7(const struct br_paper *paper, struct br_figure *f)
-{
-    add_beam(&paper->example[3], BR_AXIAL, f);
 }
 
 /* When the exact tip begins to stick or to slip. */
@@ -130,12 +101,6 @@ static void mark_phases(const struct br_example *e, struct br_figure *f)
     for (size_t i = 0; i < e->events; i++)
         if (e->event[i].field == BR_EXACT_BENDING && e->event[i].time > 0)
             br_mark_add(f, e->event[i].time, br_phase_text(e->event[i].phase));
-}
-
-static void fill8(const struct br_paper *paper, struct br_figure *f)
-{
-    add_beam(&paper->example[3], BR_BENDING, f);
-    mark_phases(&paper->example[3], f);
 }
 
 static void fill9(const struct br_paper *paper, struct br_figure *f)
@@ -148,37 +113,35 @@ static void fill9(const struct br_paper *paper, struct br_figure *f)
     br_rows_add(f, bound, &e->record, BR_ROW(friction_bound), 1);
     br_rows_add(f, bound, &e->record, BR_ROW(friction_bound), -1);
     add_stress(e, f);
-    mark_phases(e, f);
-}
-
-static void add_sweep(const struct br_sweep *s, const char *label, struct br_figure *f)
-{
-    struct br_panel *p = br_panel_add(f, label, "|u| + |w| (m^{3/2})");
-    p->log_x = p->log_y = true;
-    struct br_series *most = br_series_add(f, BR_PEN_LINE, "largest of all times, contact at u_n");
-    struct br_series *last = br_series_add(f, BR_PEN_LINE, "at t = T, contact at u_n");
-    struct br_series *printed = br_series_add(f, BR_PEN_RINGS, "largest, as printed: at u_{n-1}");
-    for (size_t i = 0; i < s->points; i++) {
-        const struct br_sweep_point *at = &s->point[i];
-        br_point_add(most, at->coefficient, at->most[1], NULL);
-        br_point_add(last, at->coefficient, at->last[1], NULL);
-        br_point_add(printed, at->coefficient, at->most[0], NULL);
-    }
-    br_mark_add(f, s->paper, "the paper's coefficient");
-    for (size_t i = 0; i < s->points; i++)
-        if (s->point[i].unstable) {
-            br_mark_add(f, s->point[i].coefficient, "right of this amplifies, as printed");
-            return;
-        }
 }
 
 static void fill10(const struct br_paper *paper, struct br_figure *f)
 {
-    add_sweep(&paper->sweep[BR_SWEEP_CONTACT], "contact coefficient c_H (N/m)", f);
-    add_sweep(&paper->sweep[BR_SWEEP_FRICTION], "friction coefficient c_V (N/m)", f);
+    static const char *const labels[] = {[BR_SWEEP_CONTACT] = "contact coefficient c_H (N/m)",
+                                         [BR_SWEEP_FRICTION] = "friction coefficient c_V (N/m)"};
+    for (size_t sweep = 0; sweep < sizeof labels / sizeof *labels; sweep++) {
+        const struct br_sweep *s = &paper->sweep[sweep];
+        struct br_panel *p = br_panel_add(f, labels[sweep], "|u| + |w| (m^{3/2})");
+        p->log_x = p->log_y = true;
+        struct br_series *most =
+            br_series_add(f, BR_PEN_LINE, "largest of all times, contact at u_n");
+        struct br_series *last = br_series_add(f, BR_PEN_LINE, "at t = T, contact at u_n");
+        struct br_series *printed =
+            br_series_add(f, BR_PEN_RINGS, "largest, as printed: at u_{n-1}");
+        size_t unstable = s->points; /* the first */
+        for (size_t i = 0; i < s->points; i++) {
+            const struct br_sweep_point *at = &s->point[i];
+            br_point_add(most, at->coefficient, at->most[1], NULL);
+            br_point_add(last, at->coefficient, at->last[1], NULL);
+            br_point_add(printed, at->coefficient, at->most[0], NULL);
+            if (at->unstable && unstable == s->points)
+                unstable = i;
+        }
+        br_mark_add(f, s->paper, "the paper's coefficient");
+        if (unstable < s->points)
+            br_mark_add(f, s->point[unstable].coefficient, "right of this amplifies, as printed");
+    }
 }
-
-/* ---- the registry ---- */
 
 const struct br_paper_figure br_paper_figures[] = {
     {
@@ -209,7 +172,7 @@ const struct br_paper_figure br_paper_figures[] = {
         .says =
             "There is always movement of the contact node, since the tangential stress equals the "
             "friction bound.",
-        .fill = fill4,
+        .bending = true,
     },
     {
         .number = 5,
@@ -218,7 +181,8 @@ const struct br_paper_figure br_paper_figures[] = {
         .says =
             "The contact node is clamped until time t = 0.68 s, when the tangential stress reaches the "
             "friction bound.",
-        .fill = fill5,
+        .bending = true,
+        .mark = mark_release,
     },
     {
         .number = 6,
@@ -226,20 +190,21 @@ const struct br_paper_figure br_paper_figures[] = {
         .title = "Example 3: evolution in time of the tangential stress",
         .says = "At t = 0.68 s the tangential stress reaches the friction bound.",
         .fill = fill6,
+        .mark = mark_release,
     },
     {
         .number = 7,
         .example = 4,
         .title = "Example 4: horizontal displacements, and that of the contact node over time",
         .says = "There is always penetration of the beam into the obstacle.",
-        .fill = fill7,
     },
     {
         .number = 8,
         .example = 4,
         .title = "Example 4: vertical displacements, and that of the contact node over time",
         .says = "The text only names this figure.",
-        .fill = fill8,
+        .bending = true,
+        .mark = mark_phases,
     },
     {
         .number = 9,
@@ -248,6 +213,7 @@ const struct br_paper_figure br_paper_figures[] = {
         .says = "The friction bound is h(t) = c_V u(1,t).",
         .beside = "The bound is drawn beside the stress, too, with both signs.",
         .fill = fill9,
+        .mark = mark_phases,
     },
     {
         .number = 10,
@@ -266,9 +232,15 @@ const struct br_paper_figure br_paper_figures[] = {
 struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
                                       const struct br_paper *paper)
 {
+    const struct br_example *e = &paper->example[row->example - 1];
     struct br_figure f = {0};
     BR_SAY(f.stem, "figure%d", row->number);
     BR_SAY(f.title, "Figure %d. %s", row->number, row->title);
-    row->fill(paper, &f);
+    if (row->fill)
+        row->fill(paper, &f);
+    else
+        add_beam(e, row->bending ? BR_BENDING : BR_AXIAL, &f);
+    if (row->mark)
+        row->mark(e, &f);
     return f;
 }

@@ -10,6 +10,7 @@
 struct br_named_method;
 struct br_orders;
 struct br_energy_behaviour;
+struct br_example;
 struct br_extreme_map;
 struct br_floors;
 struct br_history_record;
@@ -93,7 +94,9 @@ struct br_paper_figure {
     const char *title;  /* the paper's caption */
     const char *says;   /* what the paper's text says of it */
     const char *beside; /* what we show besides; may be NULL */
+    bool bending;       /* the displacements of the beam: which they are; and NULL for fill */
     void (*fill)(const struct br_paper *paper, struct br_figure *figure);
+    void (*mark)(const struct br_example *example, struct br_figure *figure); /* may be NULL */
 };
 extern const struct br_paper_figure br_paper_figures[]; /* ends with number 0 */
 

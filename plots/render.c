@@ -156,20 +156,15 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
     return start(g, words, commands, missing, err);
 }
 
-/* A dot and a line end a picture. */
-static void tell(const struct br_gnuplot *g)
+/* Tells how far it is: a dot and a line end a picture. */
+static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
     struct stat said;
+    if (stops && stops())
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
     if (g->observer && g->observer->progress && fstat(fileno(g->said), &said) == 0)
         g->observer->progress(g->observer->self,
                               fmin(1, (double)said.st_size / 2 / (double)g->pictures));
-}
-
-static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
-{
-    if (stops && stops())
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    tell(g);
     if (now() - g->started < time_limit())
         return BR_OK;
     return br_fail(err, BR_IO, "%s did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",

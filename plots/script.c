@@ -253,11 +253,6 @@ static double decades(struct br_range r)
     return log10(r.high / r.low);
 }
 
-static struct br_range join(struct br_range a, struct br_range b)
-{
-    return (struct br_range){fmin(a.low, b.low), fmax(a.high, b.high)};
-}
-
 /* A little more than the points, but along a linear x, and not below 0 where they begin there. */
 static struct br_range axis_range(const struct br_figure *f, const struct br_panel *p, bool along_y)
 {
@@ -266,8 +261,10 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
         return along_y ? (struct br_range){c->y[0], c->y[c->rows]}
                        : (struct br_range){c->x[0], c->x[c->columns]};
     struct br_range r = br_extent(p, along_y);
-    for (size_t i = 0; i < f->panels && along_y && f->one_y; i++)
-        r = join(r, br_extent(&f->panel[i], true));
+    for (size_t i = 0; i < f->panels && along_y && f->one_y; i++) {
+        const struct br_range other = br_extent(&f->panel[i], true);
+        r = (struct br_range){fmin(r.low, other.low), fmax(r.high, other.high)};
+    }
     if (!(r.low <= r.high))
         return (struct br_range){0.1, 1};
     if (along_y ? p->log_y : p->log_x) {
@@ -330,19 +327,6 @@ static void write_text(FILE *out, const char *what, const char *text)
     fprintf(out, " font ',%d'\n", FONT);
 }
 
-static void write_axes(FILE *out, const struct br_figure *f, const struct br_panel *p, double width,
-                       double height)
-{
-    const struct br_range x = axis_range(f, p, false);
-    write_text(out, "title", p->title);
-    write_text(out, "xlabel", p->x_label);
-    write_text(out, "ylabel", p->y_label);
-    write_axis(out, 'x', x, p->log_x, 0.75 * width);
-    write_axis(out, 'y', axis_range(f, p, true), p->log_y, 0.7 * height);
-    write_top(out, p, x, 0.75 * width / decades(x));
-    fputs(p->cells.columns ? "unset grid\n" : "set grid xtics ytics ls 102\n", out);
-}
-
 /* ---- the script: what is plotted ---- */
 
 /* Lines over cells have a white ground. */
@@ -385,20 +369,11 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
     fputc('\n', out);
 }
 
-/* What stands at the ends of series. */
-static void write_ends(FILE *out, const struct br_panel *p)
-{
-    for (size_t j = 0; j < p->count; j++) {
-        const struct br_series *s = p->series[j];
-        if (s->end[0] && s->count)
-            fprintf(out, "set label '%s' at %.9g,%.9g left offset 0.4,0\n", s->end,
-                    s->point[s->count - 1].x, s->point[s->count - 1].y);
-    }
-}
-
 static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t index,
                         const struct page *l)
 {
+    const struct br_panel *p = &f->panel[i];
+    const struct br_range x = axis_range(f, p, false);
     const double width = (l->width - l->bar) / (double)l->across;
     const double height = (l->height - l->top - l->bottom) / (double)l->down;
     fprintf(out, "\nset origin %.4f,%.4f; set size %.4f,%.4f\nunset label; unset logscale xyx2\n",
@@ -413,9 +388,20 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
                 (l->height - l->top - l->bottom - 150) / l->height);
     else if (l->bar)
         fputs("unset colorbox\n", out);
-    write_axes(out, f, &f->panel[i], width, height);
-    write_ends(out, &f->panel[i]);
-    write_plot(out, &f->panel[i], index);
+    write_text(out, "title", p->title);
+    write_text(out, "xlabel", p->x_label);
+    write_text(out, "ylabel", p->y_label);
+    write_axis(out, 'x', x, p->log_x, 0.75 * width);
+    write_axis(out, 'y', axis_range(f, p, true), p->log_y, 0.7 * height);
+    write_top(out, p, x, 0.75 * width / decades(x));
+    fputs(p->cells.columns ? "unset grid\n" : "set grid xtics ytics ls 102\n", out);
+    for (size_t j = 0; j < p->count; j++) {
+        const struct br_series *s = p->series[j];
+        if (s->end[0] && s->count)
+            fprintf(out, "set label '%s' at %.9g,%.9g left offset 0.4,0\n", s->end,
+                    s->point[s->count - 1].x, s->point[s->count - 1].y);
+    }
+    write_plot(out, p, index);
 }
 
 /* Below all panels, in a plot of its own: gnuplot fits a key to the plot. */

@@ -5,8 +5,6 @@
 #include "plots/pictures.h"
 #include "study/trade/trade.h"
 
-/* ---- the registry ---- */
-
 /* With the exact law and the default solver: what is left are time schemes and elements. */
 static bool is_plain(const struct br_named_method *c)
 {
@@ -59,8 +57,6 @@ bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_
     return applies;
 }
 
-/* ---- which trials ---- */
-
 /* Errors beyond 10 say nothing, and widen no axis. */
 static bool has_place(const struct br_trade_picture *p, const struct br_trial *t)
 {
@@ -93,8 +89,6 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
     s->count = kept;
 }
 
-/* ---- what is marked besides ---- */
-
 static const struct {
     const char *title;
     enum br_pen pen;
@@ -104,29 +98,6 @@ static const struct {
     {"printed in the paper", BR_PEN_SQUARES},
     {"near the judge's own error", BR_PEN_STARS},
 };
-
-static bool is_in(size_t cloud, const struct br_trial *t)
-{
-    const bool in[] = {t->end != BR_TRIAL_UNSTABLE, t->end == BR_TRIAL_UNSTABLE, t->printed,
-                       t->end == BR_TRIAL_DOUBTFUL};
-    return in[cloud];
-}
-
-static void add_cloud(const struct br_trade_picture *p, const struct br_trade *t, size_t cloud,
-                      struct br_figure *f)
-{
-    struct br_series *s = NULL;
-    for (size_t i = 0; i < t->count; i++) {
-        const struct br_trial *trial = &t->trial[i];
-        if (!p->shows(t, trial->named) || !is_in(cloud, trial) || !has_place(p, trial))
-            continue;
-        if (!s)
-            s = br_series_add(f, clouds[cloud].pen, "%s", clouds[cloud].title);
-        add_trial(p, trial, s);
-    }
-}
-
-/* ---- the picture ---- */
 
 /* Who gets a hue first: the paper's own method, then those with most trials on the front of all. */
 static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
@@ -138,26 +109,6 @@ static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
             kept += front->point[k].x == p->work(&t->trial[i]) &&
                     front->point[k].y == br_trial_relative(&t->trial[i]);
     return br_trade_is_printed_method(c) ? t->count + 2 : kept;
-}
-
-/* The fronts of all methods that are shown, by merit. */
-static void add_fronts(const struct br_trade_picture *p, const struct br_trade *t,
-                       const struct br_series *front, struct br_figure *f)
-{
-    size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
-    for (size_t i = 0; i < t->methods.count; i++)
-        if (p->shows(t, &t->methods.list[i]))
-            left[i] = merit(p, t, &t->methods.list[i], front);
-    for (;;) {
-        size_t best = 0;
-        for (size_t i = 1; i < t->methods.count; i++)
-            best = left[i] > left[best] ? i : best;
-        if (!left[best])
-            return;
-        left[best] = 0;
-        const struct br_named_method *c = &t->methods.list[best];
-        add_front(p, t, c, br_series_add(f, BR_PEN_CURVE, "%s", c->name));
-    }
 }
 
 struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
@@ -176,8 +127,32 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
     BR_SAY(panel->y_label, "relative %s", trade->request.norm->symbol);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "Pareto front");
     add_front(picture, trade, NULL, front);
-    for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++)
-        add_cloud(picture, trade, i, f);
-    add_fronts(picture, trade, front, f);
+    for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++) {
+        struct br_series *s = NULL;
+        for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++) {
+            const bool in[] = {t->end != BR_TRIAL_UNSTABLE, t->end == BR_TRIAL_UNSTABLE, t->printed,
+                               t->end == BR_TRIAL_DOUBTFUL}; /* by clouds */
+            if (!picture->shows(trade, t->named) || !in[i] || !has_place(picture, t))
+                continue;
+            if (!s)
+                s = br_series_add(f, clouds[i].pen, "%s", clouds[i].title);
+            add_trial(picture, t, s);
+        }
+    }
+    /* The fronts of all methods that are shown, by merit. */
+    size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
+    for (size_t i = 0; i < trade->methods.count; i++)
+        if (picture->shows(trade, &trade->methods.list[i]))
+            left[i] = merit(picture, trade, &trade->methods.list[i], front);
+    for (;;) {
+        size_t best = 0;
+        for (size_t i = 1; i < trade->methods.count; i++)
+            best = left[i] > left[best] ? i : best;
+        if (!left[best])
+            break;
+        const struct br_named_method *c = &trade->methods.list[best];
+        left[best] = 0;
+        add_front(picture, trade, c, br_series_add(f, BR_PEN_CURVE, "%s", c->name));
+    }
     return figure;
 }

@@ -6,17 +6,6 @@
 #include "plots/pictures.h"
 #include "study/scene/vary.h"
 
-static void add_series(struct br_figure *f, const struct br_variation *variation, size_t column)
-{
-    const struct br_variation_column *c = &variation->column[column];
-    struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", c->heading);
-    for (size_t i = 0; i < variation->varied->count; i++)
-        if (!variation->unstable[i])
-            br_point_add(s, variation->varied->value[i], br_variation_value(variation, i, column),
-                         variation->remark[i]);
-    br_series_sort(s);
-}
-
 /* Columns of one axis, from the first one on, into one panel. */
 static void add_panel(struct br_figure *f, const struct br_variation *variation, size_t first)
 {
@@ -31,10 +20,17 @@ static void add_panel(struct br_figure *f, const struct br_variation *variation,
     struct br_panel *p = br_panel_add(f, label, variation->column[first].axis);
     p->log_x = v->logarithmic;
     p->log_y = variation->column[first].logarithmic;
-    for (size_t c = first; c < variation->columns; c++)
-        if (variation->column[c].axis &&
-            strcmp(variation->column[c].axis, variation->column[first].axis) == 0)
-            add_series(f, variation, c);
+    for (size_t c = first; c < variation->columns; c++) {
+        const struct br_variation_column *column = &variation->column[c];
+        if (column->axis && strcmp(column->axis, variation->column[first].axis) == 0) {
+            struct br_series *s = br_series_add(f, BR_PEN_CURVE, "%s", column->heading);
+            for (size_t i = 0; i < v->count; i++)
+                if (!variation->unstable[i])
+                    br_point_add(s, v->value[i], br_variation_value(variation, i, c),
+                                 variation->remark[i]);
+            br_series_sort(s);
+        }
+    }
 }
 
 static bool has_number(const struct br_variation *variation, size_t column)

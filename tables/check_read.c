@@ -33,23 +33,19 @@ static bool read_word(const json_t *o, char *word, size_t size)
     return true;
 }
 
-static bool read_verdict(const json_t *o, enum br_verdict *verdict)
-{
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE && json_is_string(o); v++)
-        if (strcmp(json_string_value(o), br_verdict_names[v]) == 0) {
-            *verdict = (enum br_verdict)v;
-            return true;
-        }
-    return false;
-}
-
 static bool read_case(const json_t *o, const char *scene_name, struct br_old_case *c)
 {
     const json_t *order = json_object_get(o, "order");
+    const char *word = json_string_value(json_object_get(o, "verdict"));
+    int verdict = BR_PASS;
     if (json_is_object(order)) /* of format 1 */
         order = json_object_get(order, "value");
     strcpy(c->scene, scene_name);
-    return read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
+    while (verdict <= BR_INCONCLUSIVE && (!word || strcmp(word, br_verdict_names[verdict]) != 0))
+        verdict++;
+    c->verdict = (enum br_verdict)verdict;
+    return verdict <= BR_INCONCLUSIVE &&
+           read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
            read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
            read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
            read_number(order, -INFINITY, &c->order) &&
@@ -57,8 +53,7 @@ static bool read_case(const json_t *o, const char *scene_name, struct br_old_cas
            read_number(json_object_get(o, "expected"), 0, &c->expected) &&
            read_number(json_object_get(o, "tolerance"), 0, &c->tolerance) &&
            read_number(json_object_get(o, "floor"), 0, &c->floor) &&
-           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling) &&
-           read_verdict(json_object_get(o, "verdict"), &c->verdict);
+           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling);
 }
 
 /* A value of a method as br_method_field_text has it. */
@@ -100,23 +95,19 @@ static bool read_method(const json_t *o, struct br_old_method *m)
     return good;
 }
 
-static bool read_methods(const json_t *o, struct br_old_cost *cost)
-{
-    bool good = true;
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        good &= read_method(json_object_get(o, br_verify_names[kind]), &cost->method[kind]);
-    return good;
-}
-
-static enum br_status read_scene(const char *path, const json_t *o, struct br_old_check *old,
+/* `first`: the scene has its methods and cases in format 1; else the cases are those of all scenes.
+ */
+static enum br_status read_scene(const char *path, const json_t *o, const json_t *methods,
+                                 const json_t *cases, bool first, struct br_old_check *old,
                                  struct br_error *err)
 {
     struct br_old_cost *cost = &old->costs[old->scenes++];
-    const json_t *list = json_object_get(o, "cases");
-    if (!read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
+    bool good = !first || json_is_array(cases);
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        good &= read_method(json_object_get(methods, br_verify_names[kind]), &cost->method[kind]);
+    if (!good || !read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
         !read_number(json_object_get(o, "seconds"), 0, &cost->seconds) ||
-        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps) ||
-        !read_methods(json_object_get(o, "methods"), cost) || !json_is_array(list))
+        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps))
         return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
     const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
     if (json_is_string(problem) && !read_word(problem, cost->problem, sizeof cost->problem))
@@ -124,39 +115,17 @@ static enum br_status read_scene(const char *path, const json_t *o, struct br_ol
     for (size_t i = 0; i + 1 < old->scenes; i++)
         if (strcmp(old->costs[i].scene, cost->scene) == 0)
             return refuse(path, cost->scene, "each scene once", err);
-    for (size_t i = 0; i < json_array_size(list); i++)
-        if (!read_case(json_array_get(list, i), cost->scene, &old->cases[old->count++]))
+    for (size_t i = 0; i < json_array_size(cases); i++) {
+        const json_t *row = json_array_get(cases, i);
+        if (!first && !json_equal(json_object_get(row, "scene"), json_object_get(o, "scene")))
+            continue;
+        if (!read_case(row, cost->scene, &old->cases[old->count++]))
             return refuse(path, cost->scene,
                           "cases with a study, a norm, a part, an order, a "
                           "constant and a verdict",
                           err);
-    return BR_OK;
-}
-
-/* The scenes as format 1 has them, each with its methods and a list of its cases. */
-static enum br_status gather(const json_t *root, json_t *scenes, struct br_error *err)
-{
-    const json_t *orders = json_object_get(json_object_get(root, "tables"), "orders");
-    const json_t *methods = json_object_get(root, "methods");
-    bool lacked = false;
-    for (size_t i = 0; i < json_array_size(scenes); i++) {
-        json_t *scene = json_array_get(scenes, i);
-        const json_t *name = json_object_get(scene, "scene");
-        char number[32];
-        if (!json_is_object(scene))
-            continue; /* read_scene refuses it */
-        json_t *cases = json_array();
-        for (size_t j = 0; j < json_array_size(orders); j++) {
-            json_t *row = json_array_get(orders, j);
-            if (json_equal(json_object_get(row, "scene"), name))
-                lacked |= json_array_append(cases, row) != 0;
-        }
-        snprintf(number, sizeof number, "%zu", i);
-        if (json_object_get(methods, number))
-            lacked |= json_object_set(scene, "methods", json_object_get(methods, number)) != 0;
-        lacked |= json_object_set_new(scene, "cases", cases) != 0;
     }
-    return lacked ? br_no_memory(err, "the earlier check") : BR_OK;
+    return BR_OK;
 }
 
 static enum br_status read_document(const char *path, const json_t *root, struct br_old_check *old,
@@ -166,21 +135,29 @@ static enum br_status read_document(const char *path, const json_t *root, struct
     const bool first = format && strcmp(format, "beamrate check 1") == 0;
     const bool present = format && strcmp(format, "beamrate check") == 0 &&
                          json_integer_value(json_object_get(root, "version")) == 2;
-    json_t *list = json_object_get(first ? root : json_object_get(root, "tables"), "scenes");
+    const json_t *tables = json_object_get(root, "tables");
+    const json_t *list = json_object_get(first ? root : tables, "scenes");
+    const json_t *orders = first ? NULL : json_object_get(tables, "orders");
     if (!first && !present)
         return refuse(path, "format", "beamrate check, version 2, or beamrate check 1", err);
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
-    enum br_status status = present ? gather(root, list, err) : BR_OK;
-    size_t count = 0;
+    enum br_status status = BR_OK;
+    size_t count = json_array_size(orders);
     for (size_t i = 0; i < json_array_size(list); i++)
         count += json_array_size(json_object_get(json_array_get(list, i), "cases"));
     old->costs = br_allocate(json_array_size(list) + 1, sizeof *old->costs);
     old->cases = br_allocate(count + 1, sizeof *old->cases);
     if (!old->costs || !old->cases)
         return br_no_memory(err, "the earlier check");
-    for (size_t i = 0; i < json_array_size(list) && !status; i++)
-        status = read_scene(path, json_array_get(list, i), old, err);
+    for (size_t i = 0; i < json_array_size(list) && !status; i++) {
+        const json_t *o = json_array_get(list, i), *methods = json_object_get(root, "methods");
+        char number[32];
+        snprintf(number, sizeof number, "%zu", i);
+        status =
+            read_scene(path, o, json_object_get(first ? o : methods, first ? "methods" : number),
+                       first ? json_object_get(o, "cases") : orders, first, old, err);
+    }
     return status;
 }
 

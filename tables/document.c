@@ -6,7 +6,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/scene/quote.h"
+#include "tables/markup.h"
 
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
 
@@ -272,15 +272,15 @@ void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t coun
                 .unit = fact[i].unit);
 }
 
-void br_hide_fact(struct br_document *d, struct br_value value, const char *unit, const char *key,
-                  ...)
+void br_put_fact_as(struct br_document *d, struct br_value value, const char *heading,
+                    const char *unit, const char *key, ...)
 {
     va_list arguments;
     va_start(arguments, key);
     const char *name = formatted(d, key, arguments);
     va_end(arguments);
     if (name)
-        BR_FACT(d, value, .key = name, .unit = unit, .flags = BR_FOR_PROGRAMS);
+        BR_FACT(d, value, .key = name, .heading = heading, .unit = unit);
 }
 
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)
@@ -412,14 +412,15 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
         t->column[at].flags |= BR_TEXTUAL;
 }
 
-void br_put(struct br_document *d, const char *key, struct br_value value)
-{
-    BR_PUT(d, value, .key = key);
-}
-
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value)
 {
     BR_PUT(d, value, .key = key, .unit = unit, .flags = BR_FOR_PROGRAMS);
+}
+
+void br_put_cells(struct br_document *d, size_t count, const struct br_value *values)
+{
+    for (size_t i = 0; i < count; i++)
+        BR_PUT(d, values[i], .key = NULL);
 }
 
 void br_put_blank(struct br_document *d, bool blank)
@@ -525,8 +526,11 @@ enum br_status br_document_print(FILE *out, const struct br_document_format *for
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
 {
+    struct br_markup_page page = {.out = out, .markup = format->markup, .d = d, .err = err};
     const enum br_status status = br_document_status(d, err);
-    return status ? status : format->write(out, d, table, err);
+    if (status)
+        return status;
+    return format->markup ? br_markup_print(&page) : format->write(out, d, table, err);
 }
 
 const struct br_document_table *br_document_next_table(const struct br_document *d, size_t *block)
@@ -580,49 +584,4 @@ void br_document_print_value(FILE *out, const struct br_quoting *target, const c
         fputs(nothing, out);
         break;
     }
-}
-
-void br_document_print_lines(FILE *out, const struct br_quoting *target, const char *before,
-                             const char *lines, const char *after)
-{
-    while (*lines) {
-        size_t rest = strcspn(lines, "\n");
-        fputs(before, out);
-        while (rest) { /* in pieces of whole characters */
-            char piece[1024];
-            size_t size = rest < sizeof piece ? rest : sizeof piece - 8;
-            for (int i = 0; i < 3 && size < rest && ((unsigned char)lines[size] & 0xc0) == 0x80;
-                 i++)
-                size++;
-            snprintf(piece, sizeof piece, "%.*s", (int)size, lines);
-            br_quote(out, target, piece);
-            lines += size;
-            rest -= size;
-        }
-        fputs(after, out);
-        lines += *lines == '\n';
-    }
-}
-
-bool br_document_has(const struct br_block *block)
-{
-    return block->kind == BR_BLOCK_TABLE
-               ? br_for_people(block->table->flags) && block->table->rows > 0
-               : br_for_people(block->what.flags);
-}
-
-bool br_document_is_seen(const struct br_document_table *table, size_t column)
-{
-    const unsigned flags = table->column[column].flags;
-    return br_for_people(flags) && flags & BR_FILLED;
-}
-
-bool br_document_is_text(const struct br_document_table *table, size_t column)
-{
-    return table->column[column].flags & BR_TEXTUAL;
-}
-
-bool br_document_verdict_matters(const struct br_document_verdict *verdict)
-{
-    return verdict->outcome != BR_OUTCOME_PASS || verdict->message;
 }

@@ -17,7 +17,7 @@
  *     br_put_provenance(d, &provenance);
  *
  * The first row brings the columns of its table; a table that may have no row begins with them
- * (BR_TABLE).
+ * (BR_TABLE), and its rows are values in their order (BR_PUT_ROW).
  *
  * Each call copies what it is given. None of them fails: the document remembers the first failure
  * (no memory, a key that no column has), does nothing from then on, and tells it when it is
@@ -88,8 +88,8 @@ enum {
     BR_FOR_PROGRAMS = 4, /* in CSV and JSON only */
     BR_MAIN = 8,         /* the table whose CSV file is NAME.csv; others are NAME-TABLE.csv */
     BR_WRAP = 16,        /* a column of long texts, which people get on several lines */
-    BR_FILLED = 32,      /* a column with a value; set by br_put */
-    BR_TEXTUAL = 64,     /* a column with a text or a truth; set by br_put */
+    BR_FILLED = 32,      /* a column with a value; set by br_put_cell */
+    BR_TEXTUAL = 64,     /* a column with a text or a truth, set to the left; set by br_put_cell */
     BR_LONG = 128,       /* a table that a terminal shows however long it is */
 };
 enum { BR_LONG_TABLE = 24 /* rows: a terminal does not show more, a page folds them */ };
@@ -240,10 +240,12 @@ struct br_fact {
 void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
 #define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
 
-/* A fact for programs; the key is formatted. unit: NULL, none. */
-__attribute__((format(printf, 4, 5))) void br_hide_fact(struct br_document *d,
-                                                        struct br_value value, const char *unit,
-                                                        const char *key, ...);
+/* A fact whose key is formatted; for programs alone where there is no heading. unit: NULL, none. */
+__attribute__((format(printf, 5, 6))) void br_put_fact_as(struct br_document *d,
+                                                          struct br_value value,
+                                                          const char *heading, const char *unit,
+                                                          const char *key, ...);
+#define br_hide_fact(d, value, unit, ...) br_put_fact_as((d), (value), NULL, (unit), __VA_ARGS__)
 
 /* A command line, or several lines, to be copied; a fact of JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
@@ -265,9 +267,14 @@ void br_put_rule(struct br_document *d);
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value);
 #define BR_PUT(d, value, ...) br_put_cell((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* The same of a column that has a key alone (NULL: of the next column), and of a column for
- * programs (unit: NULL, none). */
-void br_put(struct br_document *d, const char *key, struct br_value value);
+/* Puts values under the next columns, in their order; of a new row, or of the one that is there. */
+void br_put_cells(struct br_document *d, size_t count, const struct br_value *values);
+#define BR_PUT_CELLS(d, ...)                                                              \
+    br_put_cells((d), sizeof((struct br_value[]){__VA_ARGS__}) / sizeof(struct br_value), \
+                 (const struct br_value[]){__VA_ARGS__})
+#define BR_PUT_ROW(d, ...) (br_put_row(d), BR_PUT_CELLS(d, __VA_ARGS__))
+
+/* BR_PUT of a column for programs. unit: NULL, none. */
 void br_hide(struct br_document *d, const char *key, const char *unit, struct br_value value);
 
 /* Whether what is put from now on is nothing, up to the end of the row. */
@@ -292,11 +299,13 @@ void br_put_provenance(struct br_document *d, const struct br_provenance *proven
 /* ---- printing ---- */
 
 /* A format: one const record. */
+struct br_markup;
 struct br_document_format {
-    const char *name;      /* as on the command line */
-    const char *extension; /* of its files, with the dot */
-    const char *title;     /* one line for a person */
-    bool by_table;         /* a file has one table */
+    const char *name;               /* as on the command line */
+    const char *extension;          /* of its files, with the dot */
+    const char *title;              /* one line for a person */
+    bool by_table;                  /* a file has one table */
+    const struct br_markup *markup; /* of tables/markup.h; NULL: it has a function of its own */
     /* Of a sound document, through br_document_print. The table is NULL unless by_table. */
     enum br_status (*write)(FILE *out, const struct br_document *d,
                             const struct br_document_table *table, struct br_error *err);
@@ -353,12 +362,12 @@ static inline const struct br_document_cell *br_document_cell_at(
     return &table->row[row].cell[column];
 }
 
-/* Whether people see a block, or a column: it is for them, and not without any row or value. */
-bool br_document_has(const struct br_block *block);
-bool br_document_is_seen(const struct br_document_table *table, size_t column);
-
-/* Whether the cells of a column are texts, to be set to the left: any of them is. */
-bool br_document_is_text(const struct br_document_table *table, size_t column);
+/* Whether people see a column: it is for them, and not without any value. */
+static inline bool br_document_is_seen(const struct br_document_table *table, size_t column)
+{
+    const unsigned flags = table->column[column].flags;
+    return br_for_people(flags) && flags & BR_FILLED;
+}
 
 /* What people see of a cell, without its mark. */
 enum { BR_SHOWN = 400 };
@@ -369,12 +378,5 @@ const char *br_document_shown(const struct br_column *column, const struct br_do
 struct br_quoting;
 void br_document_print_value(FILE *out, const struct br_quoting *target, const char *nothing,
                              const struct br_value *value);
-
-/* Each line as it is, quoted, between two texts. */
-void br_document_print_lines(FILE *out, const struct br_quoting *target, const char *before,
-                             const char *lines, const char *after);
-
-/* Whether a person should hear of a verdict. */
-bool br_document_verdict_matters(const struct br_document_verdict *verdict);
 
 #endif

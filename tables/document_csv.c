@@ -4,33 +4,24 @@
 #include "study/scene/quote.h"
 #include "tables/document.h"
 
-static void print_head(FILE *out, const struct br_document_table *t)
-{
-    const char *separator = "";
-    for (size_t c = 0; c < t->columns; c++) {
-        if (!br_for_programs(t->column[c].flags))
-            continue;
-        fprintf(out, "%s%s", separator, t->column[c].key);
-        if (t->column[c].unit)
-            fprintf(out, " [%s]", t->column[c].unit);
-        separator = ",";
-    }
-    fputc('\n', out);
-}
-
 static enum br_status write(FILE *out, const struct br_document *d,
                             const struct br_document_table *t, struct br_error *err)
 {
     (void)d, (void)err;
-    print_head(out, t);
-    for (size_t r = 0; r < t->rows; r++) {
+    for (size_t line = 0; line <= t->rows; line++) { /* the first is the head */
         const char *separator = "";
         for (size_t c = 0; c < t->columns; c++) {
             if (!br_for_programs(t->column[c].flags))
                 continue;
             fputs(separator, out);
-            br_document_print_value(out, &br_for_csv, "", &br_document_cell_at(t, r, c)->value);
             separator = ",";
+            if (line > 0)
+                br_document_print_value(out, &br_for_csv, "",
+                                        &br_document_cell_at(t, line - 1, c)->value);
+            else if (t->column[c].unit)
+                fprintf(out, "%s [%s]", t->column[c].key, t->column[c].unit);
+            else
+                fputs(t->column[c].key, out);
         }
         fputc('\n', out);
     }

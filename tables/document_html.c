@@ -52,8 +52,6 @@ static const char style[] =
     "figure, tr { break-inside: avoid; }\n"
     "::details-content { content-visibility: visible; } }\n";
 
-/* ---- tables ---- */
-
 static bool is_folded(const struct br_document_table *t)
 {
     return t->rows > BR_LONG_TABLE;
@@ -74,26 +72,23 @@ static void close_table(const struct br_markup_page *p, const struct br_document
     fputs(is_folded(t) ? "</details>\n" : "", p->out);
 }
 
-/* ---- pictures ---- */
-
 /* STEM.svg as a text, to be freed; NULL: there is none. */
-static enum br_status read_svg(const struct br_markup_page *p, const char *stem, char **svg,
-                               struct br_error *err)
+static char *read_svg(struct br_markup_page *p, const char *stem)
 {
-    char path[4096];
+    char path[4096], *svg = NULL;
     size_t room = 0;
-    *svg = NULL;
     snprintf(path, sizeof path, "%s/%s.svg", p->folder ? p->folder : "", stem);
     FILE *file = p->folder ? fopen(path, "r") : NULL;
     if (!file)
-        return BR_OK;
-    const bool there = getdelim(svg, &room, '\0', file) > 0, lacked = !there && errno == ENOMEM;
+        return NULL;
+    const bool there = getdelim(&svg, &room, '\0', file) > 0;
+    if (!there && errno == ENOMEM)
+        p->status = br_no_memory(p->err, "a picture");
     fclose(file);
-    if (!there) {
-        free(*svg);
-        *svg = NULL;
-    }
-    return lacked ? br_no_memory(err, "a picture") : BR_OK;
+    if (there)
+        return svg;
+    free(svg);
+    return NULL;
 }
 
 /* What is behind a picture's opening tag. All pictures of gnuplot have the same ids: within tags,
@@ -135,11 +130,9 @@ static bool print_svg(const struct br_markup_page *p, const char *svg, const cha
     return true;
 }
 
-static enum br_status print_picture(struct br_markup_page *p, const struct br_block *b,
-                                    struct br_error *err)
+static void print_picture(struct br_markup_page *p, const struct br_block *b)
 {
-    char *svg;
-    const enum br_status status = read_svg(p, b->what.key, &svg, err);
+    char *svg = read_svg(p, b->what.key);
     p->pictures++;
     fputs("<figure>\n", p->out);
     if (!print_svg(p, svg, b->text)) {
@@ -149,10 +142,7 @@ static enum br_status print_picture(struct br_markup_page *p, const struct br_bl
     }
     fputs("</figure>\n", p->out);
     free(svg);
-    return status;
 }
-
-/* ---- the rest ---- */
 
 static void end(const struct br_markup_page *p)
 {
@@ -216,8 +206,6 @@ static const struct br_markup html = {
     .classes = classes,
 };
 
-/* ---- the page ---- */
-
 /* "beamrate extremes" of "beamrate extremes map". */
 static void print_title(const struct br_markup_page *p, const struct br_document *d, size_t count)
 {
@@ -246,37 +234,31 @@ static void print_contents(const struct br_markup_page *p, const struct br_docum
 }
 
 /* All reports of a page are of one command, so where they come from stands once. */
-static enum br_status print_page(struct br_markup_page *p, const struct br_document *d,
-                                 size_t count, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-          p->out);
-    print_title(p, d, count);
-    fprintf(p->out, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<main>\n", style);
-    if (count > 1)
-        print_contents(p, d, count);
-    for (size_t i = 0; i < count && !status; i++) {
-        fprintf(p->out, "<article id=\"report%zu\">\n", i + 1);
-        p->d = &d[i];
-        status = br_markup_print(p, err);
-        fputs("</article>\n", p->out);
-    }
-    print_provenance(p, &d->provenance);
-    fputs("</main>\n</body>\n</html>\n", p->out);
-    return status;
-}
-
 enum br_status br_document_print_page(FILE *out, const struct br_document *d, size_t count,
                                       const char *folder, struct br_error *err)
 {
     struct br_markup_page p = {
-        .out = out, .markup = &html, .folder = folder, .level = count > 1 ? 2 : 1};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < count && !status; i++)
-        status = br_document_status(&d[i], err);
-    return status ? status : print_page(&p, d, count, err);
+        .out = out, .markup = &html, .folder = folder, .level = count > 1 ? 2 : 1, .err = err};
+    for (size_t i = 0; i < count && !p.status; i++)
+        p.status = br_document_status(&d[i], err);
+    if (p.status)
+        return p.status;
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
+          out);
+    print_title(&p, d, count);
+    fprintf(out, "</title>\n<style>\n%s</style>\n</head>\n<body>\n<main>\n", style);
+    if (count > 1)
+        print_contents(&p, d, count);
+    for (size_t i = 0; i < count && !p.status; i++) {
+        fprintf(out, "<article id=\"report%zu\">\n", i + 1);
+        p.d = &d[i];
+        br_markup_print(&p);
+        fputs("</article>\n", out);
+    }
+    print_provenance(&p, &d->provenance);
+    fputs("</main>\n</body>\n</html>\n", out);
+    return p.status;
 }
 
 static enum br_status write(FILE *out, const struct br_document *d,

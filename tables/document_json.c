@@ -43,40 +43,29 @@ static json_t *value_of(const struct br_value *value)
     }
 }
 
-/* The object of that name, which is made if it is not there; borrowed. */
-static json_t *object_in(struct page *p, json_t *object, const char *key)
-{
-    if (!json_is_object(json_object_get(object, key)))
-        put(p, object, key, json_object());
-    return json_object_get(object, key);
-}
-
-/* A key with dots is an object in an object. */
+/* A key with dots is an object in an object, which is made if it is not there. */
 static void put_fact(struct page *p, json_t *object, const char *key, json_t *value)
 {
     char name[100];
-    for (const char *dot = strchr(key, '.'); dot; dot = strchr(key, '.')) {
+    for (const char *dot; (dot = strchr(key, '.')); key = dot + 1) {
         snprintf(name, sizeof name, "%.*s", (int)(dot - key), key);
-        object = object_in(p, object, name);
-        key = dot + 1;
+        if (!json_is_object(json_object_get(object, name)))
+            put(p, object, name, json_object());
+        object = json_object_get(object, name);
     }
     put(p, object, key, value);
-}
-
-static json_t *row_of(struct page *p, const struct br_document_table *t, size_t row)
-{
-    json_t *o = json_object();
-    for (size_t c = 0; c < t->columns; c++)
-        if (br_for_programs(t->column[c].flags))
-            put(p, o, t->column[c].key, value_of(&br_document_cell_at(t, row, c)->value));
-    return o;
 }
 
 static json_t *rows_of(struct page *p, const struct br_document_table *t)
 {
     json_t *rows = json_array();
-    for (size_t r = 0; r < t->rows; r++)
-        append(p, rows, row_of(p, t, r));
+    for (size_t r = 0; r < t->rows; r++) {
+        json_t *o = json_object();
+        for (size_t c = 0; c < t->columns; c++)
+            if (br_for_programs(t->column[c].flags))
+                put(p, o, t->column[c].key, value_of(&br_document_cell_at(t, r, c)->value));
+        append(p, rows, o);
+    }
     return rows;
 }
 
@@ -129,51 +118,42 @@ static json_t *provenance(struct page *p)
     return o;
 }
 
-static json_t *picture(struct page *p, const struct br_block *b)
-{
-    json_t *o = json_object();
-    put(p, o, "stem", br_json_string(b->what.key));
-    put(p, o, "caption", br_json_string(b->text));
-    return o;
-}
-
-static void put_blocks(struct page *p, json_t *root)
-{
-    json_t *tables = json_object(), *about = json_object(), *notes = json_array(),
-           *pictures = json_array();
-    for (size_t i = 0; i < p->d->blocks; i++) {
-        const struct br_block *b = &p->d->block[i];
-        if (b->kind == BR_BLOCK_NOTE)
-            append(p, notes, br_json_string(b->text));
-        else if (b->kind == BR_BLOCK_PICTURE)
-            append(p, pictures, picture(p, b));
-        else if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags)) {
-            put(p, tables, b->table->key, rows_of(p, b->table));
-            put(p, about, b->table->key, columns_of(p, b->table));
-        } else if (b->kind == BR_BLOCK_FACT || b->kind == BR_BLOCK_COMMAND)
-            if (br_for_programs(b->what.flags))
-                put_fact(p, root, b->what.key, value_of(&b->cell.value));
-    }
-    put(p, root, "tables", tables);
-    put(p, root, "about_tables", about);
-    put(p, root, "notes", notes);
-    put(p, root, "pictures", pictures);
-}
-
 static json_t *root_of(struct page *p)
 {
     const struct br_document *d = p->d;
-    json_t *root = json_object(), *answer = json_array(), *verdicts = json_array();
+    json_t *root = json_object(), *answer = json_array(), *tables = json_object(),
+           *about = json_object(), *notes = json_array(), *pictures = json_array(),
+           *verdicts = json_array();
     for (size_t i = 0; i < d->answers; i++)
         append(p, answer, br_json_string(d->answer[i]));
-    for (size_t i = 0; i < d->verdicts; i++)
-        append(p, verdicts, verdict(p, &d->verdict[i]));
     put(p, root, "format", br_json_string(d->format));
     put(p, root, "version", json_integer(d->version));
     put(p, root, "name", br_json_string(d->name));
     put(p, root, "caption", br_json_string(d->caption));
     put(p, root, "answer", answer);
-    put_blocks(p, root);
+    for (size_t i = 0; i < d->blocks; i++) {
+        const struct br_block *b = &d->block[i];
+        if (b->kind == BR_BLOCK_NOTE) {
+            append(p, notes, br_json_string(b->text));
+        } else if (b->kind == BR_BLOCK_PICTURE) {
+            json_t *picture = json_object();
+            put(p, picture, "stem", br_json_string(b->what.key));
+            put(p, picture, "caption", br_json_string(b->text));
+            append(p, pictures, picture);
+        } else if (b->kind == BR_BLOCK_TABLE && br_for_programs(b->table->flags)) {
+            put(p, tables, b->table->key, rows_of(p, b->table));
+            put(p, about, b->table->key, columns_of(p, b->table));
+        } else if (b->kind == BR_BLOCK_FACT || b->kind == BR_BLOCK_COMMAND) {
+            if (br_for_programs(b->what.flags))
+                put_fact(p, root, b->what.key, value_of(&b->cell.value));
+        }
+    }
+    for (size_t i = 0; i < d->verdicts; i++)
+        append(p, verdicts, verdict(p, &d->verdict[i]));
+    put(p, root, "tables", tables);
+    put(p, root, "about_tables", about);
+    put(p, root, "notes", notes);
+    put(p, root, "pictures", pictures);
     put(p, root, "verdicts", verdicts);
     put(p, root, "provenance", provenance(p));
     return root;

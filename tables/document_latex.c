@@ -67,16 +67,13 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
 }
 
 /* Only where there is one that LaTeX reads. */
-static enum br_status picture(struct br_markup_page *p, const struct br_block *b,
-                              struct br_error *err)
+static void picture(struct br_markup_page *p, const struct br_block *b)
 {
-    (void)err;
     fprintf(p->out,
             "\\IfFileExists{\\detokenize{%s}.pdf}{\\begin{figure}\n\\centering\n"
             "\\includegraphics[width=\\textwidth]{\\detokenize{%s}.pdf}\n\\caption{",
             b->what.key, b->what.key);
     br_markup_put(p, "", b->text, "}\n\\end{figure}}{}\n");
-    return BR_OK;
 }
 
 static const struct br_markup latex = {
@@ -105,17 +102,9 @@ static const struct br_markup latex = {
     .unit = print_unit,
 };
 
-static enum br_status write(FILE *out, const struct br_document *d,
-                            const struct br_document_table *table, struct br_error *err)
-{
-    struct br_markup_page p = {.out = out, .markup = &latex, .d = d};
-    (void)table;
-    return br_markup_print(&p, err);
-}
-
 const struct br_document_format br_document_latex = {
     .name = "latex",
     .extension = ".tex",
     .title = "LaTeX with booktabs and longtable",
-    .write = write,
+    .markup = &latex,
 };

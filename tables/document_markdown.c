@@ -23,14 +23,11 @@ static void open_rows(const struct br_markup_page *p, const struct br_document_t
     fputc('\n', p->out);
 }
 
-static enum br_status picture(struct br_markup_page *p, const struct br_block *b,
-                              struct br_error *err)
+static void picture(struct br_markup_page *p, const struct br_block *b)
 {
-    (void)err;
     br_markup_put(p, "![", b->text, "](<");
     br_quote(p->out, &br_for_text, b->what.key);
     fputs(".svg>)\n", p->out);
-    return BR_OK;
 }
 
 /* The command line between backticks, unless it has one of its own. */
@@ -77,17 +74,9 @@ static const struct br_markup markdown = {
     .end = end,
 };
 
-static enum br_status write(FILE *out, const struct br_document *d,
-                            const struct br_document_table *table, struct br_error *err)
-{
-    struct br_markup_page p = {.out = out, .markup = &markdown, .d = d};
-    (void)table;
-    return br_markup_print(&p, err);
-}
-
 const struct br_document_format br_document_markdown = {
     .name = "markdown",
     .extension = ".md",
     .title = "GitHub-flavoured Markdown",
-    .write = write,
+    .markup = &markdown,
 };

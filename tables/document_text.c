@@ -60,8 +60,6 @@ static void print_paragraph(const struct br_markup_page *p, const char *paragrap
     }
 }
 
-/* ---- tables ---- */
-
 struct layout {
     const struct br_column *column;
     int width, mark; /* of values and of what stands behind them */
@@ -90,7 +88,7 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
     struct layout l = {
         .column = &t->column[c],
         .shown = br_document_is_seen(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
-        .left = br_document_is_text(t, c),
+        .left = flags & BR_TEXTUAL,
     };
     for (size_t r = 0; r < t->rows; r++) {
         const struct br_document_cell *cell = br_document_cell_at(t, r, c);
@@ -150,36 +148,33 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
                       struct layout *l, size_t r)
 {
     char buffer[BR_SHOWN];
-    bool more = false;
+    bool first = true, more;
     const size_t last = last_shown(t, l);
-    for (size_t c = 0; c < last; c++) {
-        const struct br_document_cell *cell = br_document_cell_at(t, r, c);
-        if (!l[c].shown)
-            continue;
-        l[c].rest = br_document_shown(l[c].column, cell, buffer);
-        print_piece(p, &l[c], cell->mark ? cell->mark : "", c + 1 == last);
-        if (!*l[c].rest)
-            l[c].rest = ""; /* not what the buffer will have */
-        more |= *l[c].rest != '\0';
-    }
-    fputc('\n', p->out);
-    while (more) {
+    do {
         more = false;
-        for (size_t c = 0; c < last; c++)
-            if (l[c].shown) {
-                print_piece(p, &l[c], "", c + 1 == last);
-                more |= *l[c].rest != '\0';
-            }
+        for (size_t c = 0; c < last; c++) {
+            const struct br_document_cell *cell = br_document_cell_at(t, r, c);
+            if (!l[c].shown)
+                continue;
+            if (first)
+                l[c].rest = br_document_shown(l[c].column, cell, buffer);
+            print_piece(p, &l[c], first && cell->mark ? cell->mark : "", c + 1 == last);
+            if (!*l[c].rest)
+                l[c].rest = ""; /* not what the buffer will have */
+            more |= *l[c].rest != '\0';
+        }
         fputc('\n', p->out);
-    }
+        first = false;
+    } while (more);
 }
 
-static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
-                                  struct br_error *err)
+static void print_table(struct br_markup_page *p, const struct br_document_table *t)
 {
     struct layout *l = br_allocate(t->columns + 1, sizeof *l);
-    if (!l)
-        return br_no_memory(err, "the columns of a table");
+    if (!l) {
+        p->status = br_no_memory(p->err, "the columns of a table");
+        return;
+    }
     for (size_t c = 0; c < t->columns; c++)
         l[c] = lay_out(p, t, c);
     br_markup_put(p, "\n", t->title, "\n");
@@ -196,18 +191,12 @@ static enum br_status print_table(const struct br_markup_page *p, const struct b
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, l, r);
     free(l);
-    return BR_OK;
 }
 
-/* ---- the format ---- */
-
-static enum br_status print_picture(struct br_markup_page *p, const struct br_block *b,
-                                    struct br_error *err)
+static void print_picture(struct br_markup_page *p, const struct br_block *b)
 {
-    (void)err;
     br_markup_put(p, "Picture ", b->what.key, ": ");
     br_markup_put(p, "", b->text, "\n");
-    return BR_OK;
 }
 
 static const struct br_markup text = {
@@ -234,12 +223,12 @@ static enum br_status print_page(FILE *out, const struct br_document *d, bool te
 {
     struct buffers b = {.size = 4 * d->longest + BR_SHOWN}; /* \xff for a byte; heading and unit */
     struct br_markup_page p = {
-        .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b};
+        .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b, .err = err};
     b.visible = br_allocate(2, b.size);
     if (!b.visible)
         return br_no_memory(err, "the text of a report");
     b.piece = b.visible + b.size;
-    const enum br_status status = br_markup_print(&p, err);
+    const enum br_status status = br_markup_print(&p);
     free(b.visible);
     return status;
 }

@@ -31,23 +31,6 @@ static void print_line(FILE *out, const struct br_quoting *target, const char *n
 
 /* ---- JUnit ---- */
 
-/* Verdicts from `begin` to `end`. */
-struct suite {
-    size_t begin, end;
-    size_t of[BR_OUTCOME_SKIPPED + 1];
-    double seconds;
-};
-
-static struct suite count(const struct br_document *d, size_t begin, size_t end)
-{
-    struct suite s = {.begin = begin, .end = end};
-    for (size_t i = begin; i < end; i++) {
-        s.of[d->verdict[i].outcome]++;
-        s.seconds += isfinite(d->verdict[i].seconds) ? d->verdict[i].seconds : 0;
-    }
-    return s;
-}
-
 static void print_attribute(FILE *out, const char *name, const char *text)
 {
     fprintf(out, " %s=\"", name);
@@ -55,11 +38,18 @@ static void print_attribute(FILE *out, const char *name, const char *text)
     fputc('"', out);
 }
 
-static void print_counts(FILE *out, const struct suite *s)
+/* Counts verdicts from `begin` to `end`; returns how many were skipped. */
+static size_t print_counts(FILE *out, const struct br_document *d, size_t begin, size_t end)
 {
-    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" time=\"%.6f\"", s->end - s->begin,
-            s->of[BR_OUTCOME_FAIL] + s->of[BR_OUTCOME_INCONCLUSIVE], s->of[BR_OUTCOME_ERROR],
-            s->seconds);
+    size_t of[BR_OUTCOME_SKIPPED + 1] = {0};
+    double seconds = 0;
+    for (size_t i = begin; i < end; i++) {
+        of[d->verdict[i].outcome]++;
+        seconds += isfinite(d->verdict[i].seconds) ? d->verdict[i].seconds : 0;
+    }
+    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" time=\"%.6f\"", end - begin,
+            of[BR_OUTCOME_FAIL] + of[BR_OUTCOME_INCONCLUSIVE], of[BR_OUTCOME_ERROR], seconds);
+    return of[BR_OUTCOME_SKIPPED];
 }
 
 /* Where it is expected, and the lines that explain. The schemas have no attributes for a place. */
@@ -103,41 +93,31 @@ static void print_testcase(FILE *out, const struct br_document *d,
     fputs("      </system-out>\n    </testcase>\n", out);
 }
 
-static void print_suite(FILE *out, const struct br_document *d, const struct suite *s)
-{
-    const char *group = d->verdict[s->begin].group;
-    fputs("  <testsuite", out);
-    print_attribute(out, "name", group ? group : d->name);
-    print_counts(out, s);
-    fprintf(out, " skipped=\"%zu\"", s->of[BR_OUTCOME_SKIPPED]);
-    if (d->provenance.date)
-        fprintf(out, " timestamp=\"%.19s\"", d->provenance.date);
-    fputs(">\n", out);
-    for (size_t i = s->begin; i < s->end; i++)
-        print_testcase(out, d, &d->verdict[i]);
-    fputs("  </testsuite>\n", out);
-}
-
-static bool is_same(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
 static enum br_status write_junit(FILE *out, const struct br_document *d,
                                   const struct br_document_table *table, struct br_error *err)
 {
     (void)table, (void)err;
-    const struct suite all = count(d, 0, d->verdicts);
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites", out);
     print_attribute(out, "name", d->format);
-    print_counts(out, &all);
+    print_counts(out, d, 0, d->verdicts);
     fputs(">\n", out);
     for (size_t begin = 0, end; begin < d->verdicts; begin = end) {
-        for (end = begin + 1; end < d->verdicts; end++)
-            if (!is_same(d->verdict[end].group, d->verdict[begin].group))
+        const char *group = d->verdict[begin].group, *other = group;
+        for (end = begin + 1; end < d->verdicts; end++) {
+            other = d->verdict[end].group;
+            if (group && other ? strcmp(group, other) != 0 : group != other)
                 break;
-        const struct suite s = count(d, begin, end);
-        print_suite(out, d, &s);
+        }
+        fputs("  <testsuite", out);
+        print_attribute(out, "name", group ? group : d->name);
+        const size_t skipped = print_counts(out, d, begin, end);
+        fprintf(out, " skipped=\"%zu\"", skipped);
+        if (d->provenance.date)
+            fprintf(out, " timestamp=\"%.19s\"", d->provenance.date);
+        fputs(">\n", out);
+        for (size_t i = begin; i < end; i++)
+            print_testcase(out, d, &d->verdict[i]);
+        fputs("  </testsuite>\n", out);
     }
     fputs("</testsuites>\n", out);
     return BR_OK;
@@ -207,39 +187,36 @@ const struct br_document_format br_document_tap = {
 
 /* ---- GitHub: a line for what did not pass, which its pages show beside the file's line ---- */
 
-static void print_annotation(FILE *out, const struct br_document_verdict *v)
-{
-    static const char *const levels[] = {NULL, "error", "warning", "error", "notice"};
-    if (!levels[v->outcome])
-        return;
-    fprintf(out, "::%s ", levels[v->outcome]);
-    if (v->file) {
-        fputs("file=", out);
-        br_quote(out, &br_for_github_property, v->file);
-        fputc(',', out);
-    }
-    if (v->file && v->line)
-        fprintf(out, "line=%zu,", v->line);
-    fputs("title=", out);
-    br_quote(out, &br_for_github_property, v->group ? v->group : "beamrate");
-    fputs("::", out);
-    br_quote(out, &br_for_github, v->name);
-    fprintf(out, " %s", br_outcome_names[v->outcome]);
-    fputs(v->message ? ": " : "", out);
-    br_quote(out, &br_for_github, v->message ? v->message : "");
-    for (size_t i = 0; i < v->details; i++) {
-        fputs("%0A", out);
-        br_quote(out, &br_for_github, v->detail[i]);
-    }
-    fputc('\n', out);
-}
-
 static enum br_status write_annotations(FILE *out, const struct br_document *d,
                                         const struct br_document_table *table, struct br_error *err)
 {
+    static const char *const levels[] = {NULL, "error", "warning", "error", "notice"};
     (void)table, (void)err;
-    for (size_t i = 0; i < d->verdicts; i++)
-        print_annotation(out, &d->verdict[i]);
+    for (size_t i = 0; i < d->verdicts; i++) {
+        const struct br_document_verdict *v = &d->verdict[i];
+        if (!levels[v->outcome])
+            continue;
+        fprintf(out, "::%s ", levels[v->outcome]);
+        if (v->file) {
+            fputs("file=", out);
+            br_quote(out, &br_for_github_property, v->file);
+            fputc(',', out);
+        }
+        if (v->file && v->line)
+            fprintf(out, "line=%zu,", v->line);
+        fputs("title=", out);
+        br_quote(out, &br_for_github_property, v->group ? v->group : "beamrate");
+        fputs("::", out);
+        br_quote(out, &br_for_github, v->name);
+        fprintf(out, " %s", br_outcome_names[v->outcome]);
+        fputs(v->message ? ": " : "", out);
+        br_quote(out, &br_for_github, v->message ? v->message : "");
+        for (size_t j = 0; j < v->details; j++) {
+            fputs("%0A", out);
+            br_quote(out, &br_for_github, v->detail[j]);
+        }
+        fputc('\n', out);
+    }
     return BR_OK;
 }
 

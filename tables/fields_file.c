@@ -1,18 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/fields_file.h"
 
+#include <errno.h>
 #include <math.h>
+#include <string.h>
+#include <unistd.h>
 
-extern const struct br_fields_format br_fields_csv;
-#ifdef BR_HAVE_HDF5
-extern const struct br_fields_format br_fields_hdf5;
-#endif
-
-const struct br_fields_format *const br_fields_formats[] = {
-#ifdef BR_HAVE_HDF5
-    &br_fields_hdf5,
-#endif
-    &br_fields_csv, NULL};
+#include "study/scene/quote.h"
 
 const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES] = {
     {"u", "m", "axial displacement"},
@@ -70,3 +64,91 @@ void br_field_values(const struct br_march *march, double *values, double *work)
     if (!br_march_models(march, BR_BENDING))
         blank(2, 4, nodes, values);
 }
+
+/* ---- CSV: one line a node and time: t, x and the variables, in SI units ---- */
+
+struct br_fields_file {
+    FILE *out;
+    char path[2048];
+    size_t nodes, variables;
+    double h;     /* m */
+    double *work; /* values, then workspace */
+};
+
+static enum br_status open_csv(struct br_fields_file **out, const struct br_fields_request *q,
+                               struct br_error *err)
+{
+    struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
+    if (!f)
+        return br_no_memory(err, "the fields' file");
+    snprintf(f->path, sizeof f->path, "%s", q->path);
+    f->nodes = q->n + 1;
+    f->variables = br_field_variable_count(q->axial_degree);
+    f->h = q->scene->length / (double)q->n;
+    f->work = br_allocate((BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
+    if (!f->work)
+        return br_no_memory(err, "the fields' file");
+    f->out = fopen(q->path, "w");
+    if (!f->out)
+        return br_fail(err, BR_IO, "%s: %s", q->path, strerror(errno));
+    fprintf(f->out, "t,x");
+    for (size_t v = 0; v < f->variables; v++)
+        fprintf(f->out, ",%s", br_field_variables[v].name);
+    fputc('\n', f->out);
+    return BR_OK;
+}
+
+static enum br_status look_csv(struct br_fields_file *f, const struct br_march *march,
+                               const struct br_history_row *row, struct br_error *err)
+{
+    br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
+    for (size_t i = 0; i < f->nodes; i++) {
+        fprintf(f->out, "%.17g,%.17g", row->time, f->h * (double)i);
+        for (size_t v = 0; v < f->variables; v++) {
+            const double value = f->work[v * f->nodes + i];
+            fprintf(f->out, isnan(value) ? "," : ",%.17g", value); /* RFC 4180 */
+        }
+        fputc('\n', f->out);
+    }
+    return ferror(f->out) ? br_fail(err, BR_IO, "%s could not be written", f->path) : BR_OK;
+}
+
+static enum br_status close_csv(struct br_fields_file *f, const char *stopped, struct br_error *err)
+{
+    if (!f)
+        return BR_OK;
+    bool failed = false;
+    if (f->out && stopped) {
+        fprintf(f->out, "# stopped: ");
+        br_quote(f->out, &br_for_text, stopped);
+        fputc('\n', f->out);
+    }
+    if (f->out) {
+        failed = fflush(f->out) != 0 || ferror(f->out) || fsync(fileno(f->out)) != 0;
+        failed = fclose(f->out) != 0 || failed;
+    }
+    const enum br_status status =
+        failed ? br_fail(err, BR_IO, "%s could not be written whole", f->path) : BR_OK;
+    free(f->work);
+    free(f);
+    return status;
+}
+
+static const struct br_fields_format csv = {
+    .name = "csv",
+    .file_name = "fields.csv",
+    .title = "one line a node and time",
+    .open = open_csv,
+    .look = look_csv,
+    .close = close_csv,
+};
+
+#ifdef BR_HAVE_HDF5
+extern const struct br_fields_format br_fields_hdf5;
+#endif
+
+const struct br_fields_format *const br_fields_formats[] = {
+#ifdef BR_HAVE_HDF5
+    &br_fields_hdf5,
+#endif
+    &csv, NULL};

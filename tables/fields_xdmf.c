@@ -22,18 +22,6 @@ static void print_row(const struct description *d, const char *variable, size_t 
             d->nodes, look, d->nodes, d->looks, d->nodes, d->heavy, variable);
 }
 
-static void print_displacement(const struct description *d, size_t look)
-{
-    fprintf(d->out,
-            "<Attribute Name=\"displacement\" AttributeType=\"Vector\" Center=\"Node\">"
-            "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" "
-            "Dimensions=\"1 1 %zu 3\">",
-            d->nodes);
-    print_row(d, "u", look);
-    print_row(d, "w", look);
-    fputs("</DataItem></Attribute>\n", d->out);
-}
-
 static void print_look(const struct description *d, size_t look, double time, size_t variables)
 {
     fprintf(d->out,
@@ -45,7 +33,14 @@ static void print_look(const struct description *d, size_t look, double time, si
             "<DataItem Dimensions=\"1\" Format=\"XML\">0</DataItem>"
             "<DataItem Dimensions=\"1\" Format=\"XML\">0</DataItem></Geometry>\n",
             time, d->nodes, d->nodes, d->heavy);
-    print_displacement(d, look);
+    fprintf(d->out,
+            "<Attribute Name=\"displacement\" AttributeType=\"Vector\" Center=\"Node\">"
+            "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" "
+            "Dimensions=\"1 1 %zu 3\">",
+            d->nodes);
+    print_row(d, "u", look);
+    print_row(d, "w", look);
+    fputs("</DataItem></Attribute>\n", d->out);
     for (size_t v = 0; v < variables; v++) {
         const char *name = br_field_variables[v].name;
         fprintf(d->out, "<Attribute Name=\"%s\" AttributeType=\"Scalar\" Center=\"Node\">", name);

@@ -10,18 +10,14 @@
 
 static atomic_bool lacked, parsing;
 
-static void give_up(void)
-{
-    static const char message[] = "beamrate: out of memory for reading JSON\n";
-    (void)!write(STDERR_FILENO, message, sizeof message - 1);
-    _exit(br_status_exit_code(BR_NO_MEMORY));
-}
-
 static void *remembering_malloc(size_t size)
 {
+    static const char message[] = "beamrate: out of memory for reading JSON\n";
     void *p = malloc(size);
-    if (!p && atomic_load(&parsing))
-        give_up();
+    if (!p && atomic_load(&parsing)) {
+        (void)!write(STDERR_FILENO, message, sizeof message - 1);
+        _exit(br_status_exit_code(BR_NO_MEMORY));
+    }
     if (!p)
         atomic_store(&lacked, true);
     return p;
@@ -48,18 +44,15 @@ json_t *br_json_number(double value)
 }
 
 /* A file's name need not be UTF-8, which JSON must be. */
-static json_t *not_utf8(const char *text)
+json_t *br_json_string(const char *text)
 {
+    if (!text)
+        return json_null();
+    if (br_is_utf8(text))
+        return json_string(text);
     const size_t size = 4 * strlen(text) + 1;
     char *visible = br_allocate(size, 1);
     json_t *o = visible ? json_string(br_quoted(visible, size, &br_for_text, text)) : NULL;
     free(visible);
     return o;
-}
-
-json_t *br_json_string(const char *text)
-{
-    if (!text)
-        return json_null();
-    return br_is_utf8(text) ? json_string(text) : not_utf8(text);
 }

@@ -53,32 +53,46 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
     fprintf(p->out, p->markup->heading.after, level);
 }
 
+/* Each line as it is, quoted, in pieces of whole characters. */
 void br_markup_lines(const struct br_markup_page *p, const char *lines)
 {
     const struct br_markup *m = p->markup;
     say(p, m->lines.before);
-    br_document_print_lines(p->out, m->of_lines, m->line.before ? m->line.before : "", lines,
-                            m->line.after);
+    while (*lines) {
+        size_t rest = strcspn(lines, "\n");
+        say(p, m->line.before);
+        while (rest) {
+            char piece[1024];
+            size_t size = rest < sizeof piece ? rest : sizeof piece - 8;
+            for (int i = 0; i < 3 && size < rest && ((unsigned char)lines[size] & 0xc0) == 0x80;
+                 i++)
+                size++;
+            snprintf(piece, sizeof piece, "%.*s", (int)size, lines);
+            br_quote(p->out, m->of_lines, piece);
+            lines += size;
+            rest -= size;
+        }
+        say(p, m->line.after);
+        lines += *lines == '\n';
+    }
     say(p, m->lines.after);
+}
+
+/* By a function of the format's own; NULL: as any text. */
+static void print_by(const struct br_markup_page *p, void (*own)(FILE *out, const char *text),
+                     const char *text)
+{
+    if (own)
+        own(p->out, text);
+    else
+        br_markup_text(p, text);
 }
 
 static void print_unit(const struct br_markup_page *p, const char *before, const char *unit)
 {
-    if (!unit)
-        return;
-    fputs(before, p->out);
-    if (p->markup->unit)
-        p->markup->unit(p->out, unit);
-    else
-        br_markup_text(p, unit);
-}
-
-static void print_number(const struct br_markup_page *p, const char *text)
-{
-    if (p->markup->number)
-        p->markup->number(p->out, text);
-    else
-        br_markup_text(p, text);
+    say(p, unit ? before : NULL);
+    if (unit)
+        print_by(p, p->markup->unit, unit);
 }
 
 static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
@@ -86,24 +100,15 @@ static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
     fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
 }
 
-/* Whether a text is a verdict's word, which it then prints. */
-static bool print_if_word(const struct br_markup_page *p, const char *text)
-{
-    for (int i = BR_OUTCOME_PASS; i <= BR_OUTCOME_SKIPPED; i++)
-        if (strcmp(text, br_outcome_names[i]) == 0) {
-            print_word(p, (enum br_outcome)i);
-            return true;
-        }
-    return false;
-}
-
 /* ---- tables ---- */
 
-enum br_alignment br_markup_alignment(const struct br_document_table *t, size_t column)
+/* How a column is set, in the order of what a format says of each. */
+enum alignment { RIGHT, LEFT, WRAPPED };
+
+static enum alignment alignment_of(const struct br_document_table *t, size_t column)
 {
-    return t->column[column].flags & BR_WRAP ? BR_WRAPPED
-           : br_document_is_text(t, column)  ? BR_LEFT
-                                             : BR_RIGHT;
+    const unsigned flags = t->column[column].flags;
+    return flags & BR_WRAP ? WRAPPED : flags & BR_TEXTUAL ? LEFT : RIGHT;
 }
 
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
@@ -111,7 +116,7 @@ void br_markup_columns(const struct br_markup_page *p, const struct br_document_
 {
     for (size_t c = 0; c < t->columns; c++)
         if (br_document_is_seen(t, c))
-            fputs(word[br_markup_alignment(t, c)], p->out);
+            fputs(word[alignment_of(t, c)], p->out);
 }
 
 static void print_value(const struct br_markup_page *p, const struct br_column *column,
@@ -119,84 +124,64 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
 {
     char buffer[BR_SHOWN];
     const char *text = br_document_shown(column, cell, buffer);
+    int word = BR_OUTCOME_PASS; /* of a verdict */
+    while (word <= BR_OUTCOME_SKIPPED && strcmp(text, br_outcome_names[word]) != 0)
+        word++;
     if (cell->value.kind != BR_TEXT || cell->shown)
-        print_number(p, text);
-    else if (!print_if_word(p, text))
+        print_by(p, p->markup->number, text);
+    else if (word <= BR_OUTCOME_SKIPPED)
+        print_word(p, (enum br_outcome)word);
+    else
         br_markup_text(p, text);
     if (cell->mark)
         put(p, &p->markup->mark, cell->mark);
 }
 
-/* What a cell begins with: its alignment may be a part of that. */
-static void open_cell(const struct br_markup_page *p, const struct br_around *a,
-                      const struct br_document_table *t, size_t column)
-{
-    const char *const *classes = p->markup->classes;
-    if (a->before)
-        fprintf(p->out, a->before, classes ? classes[br_markup_alignment(t, column)] : "");
-}
-
-static void print_head(const struct br_markup_page *p, const struct br_document_table *t)
+/* row: NULL, the head. What a cell begins with may have its alignment as a part. */
+static void print_row(const struct br_markup_page *p, const struct br_document_table *t,
+                      const struct br_document_row *row)
 {
     const struct br_markup *m = p->markup;
-    const char *between = "";
+    const struct br_around *cell = row ? &m->cell : &m->head;
+    const char *between = !row ? "" : row->rule ? m->rule : m->row.before;
     for (size_t c = 0; c < t->columns; c++) {
         if (!br_document_is_seen(t, c))
             continue;
         say(p, between);
-        open_cell(p, &m->head, t, c);
-        print_number(p, t->column[c].heading);
-        print_unit(p, ", ", t->column[c].unit);
-        say(p, m->head.after);
+        if (cell->before)
+            fprintf(p->out, cell->before, m->classes ? m->classes[alignment_of(t, c)] : "");
+        if (row) {
+            print_value(p, &t->column[c], &row->cell[c]);
+        } else {
+            print_by(p, m->number, t->column[c].heading);
+            print_unit(p, ", ", t->column[c].unit);
+        }
+        say(p, cell->after);
         between = m->between;
     }
+    say(p, row ? m->row.after : NULL);
 }
 
-static void print_row(const struct br_markup_page *p, const struct br_document_table *t, size_t r)
+static void print_table(struct br_markup_page *p, const struct br_document_table *t, int level)
 {
     const struct br_markup *m = p->markup;
-    const char *between = t->row[r].rule ? m->rule : m->row.before;
-    for (size_t c = 0; c < t->columns; c++) {
-        if (!br_document_is_seen(t, c))
-            continue;
-        say(p, between);
-        open_cell(p, &m->cell, t, c);
-        print_value(p, &t->column[c], br_document_cell_at(t, r, c));
-        say(p, m->cell.after);
-        between = m->between;
+    if (m->table) {
+        m->table(p, t);
+        return;
     }
-    say(p, m->row.after);
-}
-
-static enum br_status print_table(const struct br_markup_page *p, const struct br_document_table *t,
-                                  int level, struct br_error *err)
-{
-    if (p->markup->table)
-        return p->markup->table(p, t, err);
-    const struct br_markup *m = p->markup;
     m->open_table(p, t, level);
-    print_head(p, t);
+    print_row(p, t, NULL);
     if (m->open_rows)
         m->open_rows(p, t);
     say(p, m->rows.before);
     for (size_t r = 0; r < t->rows; r++)
-        print_row(p, t, r);
+        print_row(p, t, &t->row[r]);
     say(p, m->rows.after);
     if (m->close_table)
         m->close_table(p, t);
-    return BR_OK;
 }
 
 /* ---- blocks ---- */
-
-static void print_fact(const struct br_markup_page *p, const struct br_block *b)
-{
-    say(p, p->markup->fact.before);
-    put(p, &p->markup->label, b->what.heading);
-    print_value(p, &b->what, &b->cell);
-    print_unit(p, " ", b->what.unit);
-    say(p, p->markup->fact.after);
-}
 
 static void print_command(const struct br_markup_page *p, const struct br_block *b)
 {
@@ -205,12 +190,12 @@ static void print_command(const struct br_markup_page *p, const struct br_block 
 }
 
 /* level: of a section; the tables below one are a level lower. */
-static enum br_status print_block(struct br_markup_page *p, const struct br_block *b, int level,
-                                  bool under, struct br_error *err)
+static void print_block(struct br_markup_page *p, const struct br_block *b, int level, bool under)
 {
     switch (b->kind) {
     case BR_BLOCK_TABLE:
-        return print_table(p, b->table, level + under, err);
+        print_table(p, b->table, level + under);
+        break;
     case BR_BLOCK_SECTION:
         br_markup_heading(p, level, b->text);
         break;
@@ -218,23 +203,28 @@ static enum br_status print_block(struct br_markup_page *p, const struct br_bloc
         put_paragraph(p, &p->markup->note, b->text);
         break;
     case BR_BLOCK_FACT:
-        print_fact(p, b);
+        say(p, p->markup->fact.before);
+        put(p, &p->markup->label, b->what.heading);
+        print_value(p, &b->what, &b->cell);
+        print_unit(p, " ", b->what.unit);
+        say(p, p->markup->fact.after);
         break;
     case BR_BLOCK_COMMAND:
         print_command(p, b);
         break;
     case BR_BLOCK_PICTURE:
-        return p->markup->picture(p, b, err);
+        p->markup->picture(p, b);
+        break;
     }
-    return BR_OK;
 }
 
 /* A terminal has short tables and facts, and the titles that are needed for these. */
 static bool is_shown(const struct br_markup_page *p, size_t block)
 {
     const struct br_block *b = &p->d->block[block];
-    const bool table = b->kind == BR_BLOCK_TABLE, has = br_document_has(b);
+    const bool table = b->kind == BR_BLOCK_TABLE;
     const unsigned flags = table ? b->table->flags : b->what.flags;
+    const bool has = br_for_people(flags) && (!table || b->table->rows > 0);
     if (!p->terminal || !has)
         return has;
     if (b->kind == BR_BLOCK_SECTION) {
@@ -248,13 +238,12 @@ static bool is_shown(const struct br_markup_page *p, size_t block)
 }
 
 /* Facts that follow each other are one list. */
-static enum br_status print_blocks(struct br_markup_page *p, struct br_error *err)
+static void print_blocks(struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
-    enum br_status status = BR_OK;
     enum br_block_kind before = BR_BLOCK_TABLE;
     bool under = false;
-    for (size_t i = 0; i < p->d->blocks && !status; i++) {
+    for (size_t i = 0; i < p->d->blocks && !p->status; i++) {
         const struct br_block *b = &p->d->block[i];
         const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
         if (!is_shown(p, i))
@@ -266,11 +255,10 @@ static enum br_status print_blocks(struct br_markup_page *p, struct br_error *er
         if (b->kind == BR_BLOCK_FACT && before != b->kind)
             say(p, m->facts.before);
         under |= b->kind == BR_BLOCK_SECTION;
-        status = print_block(p, b, p->level + 1, under, err);
+        print_block(p, b, p->level + 1, under);
         before = b->kind;
     }
     say(p, before == BR_BLOCK_FACT ? m->facts.after : NULL);
-    return status;
 }
 
 /* ---- verdicts ---- */
@@ -316,12 +304,14 @@ static void print_verdicts(const struct br_markup_page *p)
     bool any = false;
     if (p->d->verdicts && !p->terminal)
         count_verdicts(p);
-    for (size_t i = 0; i < p->d->verdicts; i++)
-        if (br_document_verdict_matters(&p->d->verdict[i])) {
-            say(p, any ? NULL : m->verdicts.before);
-            print_verdict(p, &p->d->verdict[i]);
-            any = true;
-        }
+    for (size_t i = 0; i < p->d->verdicts; i++) {
+        const struct br_document_verdict *v = &p->d->verdict[i];
+        if (v->outcome == BR_OUTCOME_PASS && !v->message)
+            continue;
+        say(p, any ? NULL : m->verdicts.before);
+        print_verdict(p, v);
+        any = true;
+    }
     say(p, any ? m->verdicts.after : NULL);
 }
 
@@ -345,7 +335,7 @@ static void print_end(const struct br_markup_page *p)
             print_command(p, &p->d->block[i]);
 }
 
-enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
+enum br_status br_markup_print(struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
     if (m->begin)
@@ -356,10 +346,10 @@ enum br_status br_markup_print(struct br_markup_page *p, struct br_error *err)
         print_answer(p);
         print_verdicts(p);
     }
-    const enum br_status status = print_blocks(p, err);
+    print_blocks(p);
     if (p->terminal)
         print_end(p);
     else if (m->end)
         m->end(p);
-    return status;
+    return p->status;
 }

@@ -17,14 +17,13 @@ struct br_markup_page {
     size_t pictures;    /* so far */
     bool terminal;      /* it gets what is short, and the answer last */
     void *own;          /* the format's */
+    struct br_error *err;
+    enum br_status status; /* of all until now: what cannot be printed is left out */
 };
 
 struct br_around {
     const char *before, *after; /* NULL: nothing */
 };
-
-/* How a column is set. */
-enum br_alignment { BR_RIGHT, BR_LEFT, BR_WRAPPED };
 
 struct br_markup {
     const struct br_quoting *quoting, *of_lines; /* of texts; of what is to be copied */
@@ -41,10 +40,8 @@ struct br_markup {
                        int level);
     void (*open_rows)(const struct br_markup_page *p, const struct br_document_table *t);
     void (*close_table)(const struct br_markup_page *p, const struct br_document_table *t);
-    enum br_status (*table)(const struct br_markup_page *p, const struct br_document_table *t,
-                            struct br_error *err);
-    enum br_status (*picture)(struct br_markup_page *p, const struct br_block *b,
-                              struct br_error *err);
+    void (*table)(struct br_markup_page *p, const struct br_document_table *t);
+    void (*picture)(struct br_markup_page *p, const struct br_block *b);
     /* NULL: nothing. */
     void (*begin)(const struct br_markup_page *p);
     void (*end)(const struct br_markup_page *p);
@@ -53,7 +50,7 @@ struct br_markup {
     void (*paragraph)(const struct br_markup_page *p, const char *text);
     void (*number)(FILE *out, const char *text);
     void (*unit)(FILE *out, const char *unit);
-    const char *const *classes; /* by alignment, for %s in head and cell; NULL: none */
+    const char *const *classes; /* for %s in head and cell, as br_markup_columns; NULL: none */
 };
 
 /* A text as the format quotes it (NULL: nothing), and between two others. In headings %d is the
@@ -66,12 +63,10 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
 /* Lines to be copied. */
 void br_markup_lines(const struct br_markup_page *p, const char *lines);
 
-enum br_alignment br_markup_alignment(const struct br_document_table *t, size_t column);
-
-/* One of three words for each column that people see. */
+/* One of three words for each column that people see: numbers, texts, texts on several lines. */
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
                        const char *const word[3]);
 
-enum br_status br_markup_print(struct br_markup_page *page, struct br_error *err);
+enum br_status br_markup_print(struct br_markup_page *page);
 
 #endif

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report's JSON beside that of its repetition. */
-#include "tables/repeated.h"
-
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "tables/reports.h"
 
 enum { PLACE = 300 };
 
@@ -19,44 +20,22 @@ struct comparison {
     double error;    /* of the errors of a study, in their unit */
 };
 
-/* ---- what is no result ---- */
-
-static bool is_one_of(const char *key, const char *const *list)
+/* Whether a key is one of the words of a list, which stand between blanks. */
+static bool is_one_of(const char *key, const char *words)
 {
-    for (; *list; list++)
-        if (strcmp(key, *list) == 0)
-            return true;
-    return false;
+    char word[PLACE];
+    return (size_t)snprintf(word, sizeof word, " %s ", key) < sizeof word && strstr(words, word);
 }
 
 /* Times of the clock, estimates of what a reference is off, what is derived from them, texts that
  * say numbers again, what is the machine's own, and sums that are round-off alone. */
 static bool is_skipped(const char *key)
 {
-    static const char *const keys[] = {"provenance",
-                                       "answer",
-                                       "notes",
-                                       "pictures",
-                                       "message",
-                                       "details",
-                                       "kernel",
-                                       "set_up",
-                                       "march",
-                                       "repeats",
-                                       "front",
-                                       "relative",
-                                       "rate_h",
-                                       "rate_k",
-                                       "ratio",
-                                       "imbalance",
-                                       "worst",
-                                       "largest_imbalance_of_a_step",
-                                       "why",
-                                       "path",
-                                       "audited_error",
-                                       "reference_error",
-                                       NULL};
-    return strstr(key, "second") || strstr(key, "own_") || is_one_of(key, keys);
+    static const char words[] =
+        " provenance answer notes pictures message details kernel set_up march repeats front "
+        "relative rate_h rate_k ratio imbalance worst largest_imbalance_of_a_step why path "
+        "audited_error reference_error ";
+    return strstr(key, "second") || strstr(key, "own_") || is_one_of(key, words);
 }
 
 /* Which trials are held, and which are best, depends on the clock. */
@@ -65,8 +44,6 @@ static bool depends_on_clock(const char *format)
     return format &&
            (strcmp(format, "beamrate trade") == 0 || strcmp(format, "beamrate plan") == 0);
 }
-
-/* ---- differences ---- */
 
 /* One value as a text of a row; nothing where there is none. */
 static const char *text_of(const json_t *value, char text[PLACE])
@@ -92,21 +69,18 @@ static void put_difference(struct comparison *c, const char *place, const json_t
     char text[PLACE];
     if (c->found->different++ >= BR_LONG_TABLE)
         return; /* enough to begin with */
-    br_put_row(c->d);
-    BR_PUT(c->d, br_text(place), .key = "place");
-    BR_PUT(c->d, br_text(text_of(was, text)), .key = "was");
-    BR_PUT(c->d, br_text(text_of(is, text)), .key = "is");
+    BR_PUT_ROW(c->d, br_text(place), br_text(text_of(was, text)));
+    BR_PUT_CELLS(c->d, br_text(text_of(is, text))); /* into the same place */
 }
 
 /* The interval that is stated beside a number: KEY_low and KEY_high, or low and high. */
 static bool has_interval(const json_t *object, const char *key, double *low, double *high)
 {
-    static const char *const alone[] = {"order", "error", "value", NULL};
     char name[2][PLACE];
     snprintf(name[0], PLACE, "%.280s_low", key);
     snprintf(name[1], PLACE, "%.280s_high", key);
     const bool own = json_object_get(object, name[0]) && json_object_get(object, name[1]);
-    if (!own && !is_one_of(key, alone))
+    if (!own && !is_one_of(key, " order error value "))
         return false;
     const json_t *a = json_object_get(object, own ? name[0] : "low");
     const json_t *b = json_object_get(object, own ? name[1] : "high");
@@ -129,29 +103,9 @@ static bool is_end(const json_t *object, const char *key)
                      json_object_get(object, "value");
 }
 
-/* scale: the largest number that is comparable with these. */
-static bool is_near(const struct comparison *c, const json_t *object, const char *key, double was,
-                    double is, double scale)
-{
-    double low, high;
-    const double allowed = c->relative * scale + (strcmp(key, "error") == 0 ? c->error : 0);
-    if (has_interval(object, key, &low, &high) && is >= low && is <= high)
-        return true;
-    return fabs(is - was) <= allowed;
-}
-
-static double largest(const json_t *object, double least)
-{
-    const char *key;
-    const json_t *value;
-    json_object_foreach((json_t *)object, key,
-                        value) if (strcmp(key, "axial") == 0 || strcmp(key, "bending") == 0) least =
-        fmax(least, fabs(json_number_value(value)));
-    return least;
-}
-
 static void compare(struct comparison *c, const char *place, const json_t *was, const json_t *is);
 
+/* Numbers are held against the larger of both, and the two fields against the larger of these. */
 static void compare_member(struct comparison *c, const char *place, const json_t *object,
                            const char *key, const json_t *is)
 {
@@ -163,10 +117,14 @@ static void compare_member(struct comparison *c, const char *place, const json_t
         return;
     }
     const double a = json_number_value(was), b = json_number_value(is);
-    const double scale = fmax(fabs(a), fabs(b));
-    const bool twin = strcmp(key, "axial") == 0 || strcmp(key, "bending") == 0;
+    double low, high, scale = fmax(fabs(a), fabs(b));
+    if (strcmp(key, "axial") == 0 || strcmp(key, "bending") == 0)
+        scale = fmax(scale, fmax(fabs(json_number_value(json_object_get(object, "axial"))),
+                                 fabs(json_number_value(json_object_get(object, "bending")))));
+    const double allowed = c->relative * scale + (strcmp(key, "error") == 0 ? c->error : 0);
+    const bool within = has_interval(object, key, &low, &high) && b >= low && b <= high;
     c->found->compared++;
-    if (!is_near(c, object, key, a, b, twin ? largest(object, scale) : scale))
+    if (!within && !(fabs(b - a) <= allowed))
         put_difference(c, inner, was, is);
 }
 
@@ -175,15 +133,15 @@ static void compare_objects(struct comparison *c, const char *place, const json_
 {
     const char *key;
     const json_t *value;
-    json_object_foreach((json_t *)was, key, value) if (!is_skipped(key) && !is_end(was, key))
-        compare_member(c, place, was, key, json_object_get(is, key));
-    json_object_foreach((json_t *)is, key,
-                        value) if (!is_skipped(key) && !json_object_get(was, key))
-    {
-        char inner[PLACE];
-        snprintf(inner, sizeof inner, "%.200s%s%.90s", place, *place ? "." : "", key);
-        put_difference(c, inner, NULL, value);
-    }
+    json_object_foreach ((json_t *)was, key, value)
+        if (!is_skipped(key) && !is_end(was, key))
+            compare_member(c, place, was, key, json_object_get(is, key));
+    json_object_foreach ((json_t *)is, key, value)
+        if (!is_skipped(key) && !json_object_get(was, key)) {
+            char inner[PLACE];
+            snprintf(inner, sizeof inner, "%.200s%s%.90s", place, *place ? "." : "", key);
+            put_difference(c, inner, NULL, value);
+        }
 }
 
 static void compare(struct comparison *c, const char *place, const json_t *was, const json_t *is)
@@ -205,8 +163,6 @@ static void compare(struct comparison *c, const char *place, const json_t *was, 
     }
 }
 
-/* ---- trials, which need not be the same ---- */
-
 static bool is_same_trial(const json_t *a, const json_t *b)
 {
     static const char *const keys[] = {"method", "n", "steps_or_levels", "tolerance"};
@@ -216,7 +172,7 @@ static bool is_same_trial(const json_t *a, const json_t *b)
     return same;
 }
 
-/* Errors of those that both have, where both came to their end. */
+/* Trials need not be the same: errors of those that both have, where both came to their end. */
 static void compare_trials(struct comparison *c, const json_t *was, const json_t *is)
 {
     static const char *const keys[] = {"relative_error", "error", "axial", "bending", "scale"};
@@ -231,8 +187,6 @@ static void compare_trials(struct comparison *c, const json_t *was, const json_t
                     compare_member(c, place, a, keys[k], json_object_get(b, keys[k]));
         }
 }
-
-/* ---- all ---- */
 
 /* The number at a place, or 0. */
 static double number_at(const json_t *root, const char *object, const char *key)

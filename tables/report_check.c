@@ -33,62 +33,6 @@ static const char *source_of(const struct br_check_findings *f)
     return "scene";
 }
 
-/* ---- the answer ---- */
-
-static void answer_tally(struct br_document *d, const struct br_check_findings *f)
-{
-    const struct br_check *first;
-    const size_t refused = br_check_failures(f->checks, f->count, &first);
-    size_t orders = 0, of[BR_INCONCLUSIVE + 1];
-    for (size_t i = 0; i < f->count; i++)
-        orders += f->checks[i].count;
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
-        of[v] = br_check_tally(f->checks, f->count, (enum br_verdict)v);
-    br_put_answer(d, "%zu order%s in %zu %s%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE", orders,
-                  orders == 1 ? "" : "s", f->count, source_of(f), f->count == 1 ? "" : "s",
-                  of[BR_PASS], of[BR_FAIL], of[BR_INCONCLUSIVE]);
-    if (refused)
-        br_put_more(d, ", %zu cannot be verified", refused);
-    if (f->stopped)
-        br_put_more(d, "; stopped at the first %s that failed", source_of(f));
-    br_put_more(d, "; %.1f s", f->wall_seconds);
-}
-
-/* The first of what does not pass. */
-static void answer_failures(struct br_document *d, const struct br_check_findings *f)
-{
-    char name[NAME], place[1100];
-    size_t failures = 0;
-    for (size_t i = 0; i < f->count; i++)
-        if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
-            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].name,
-                          f->checks[i].failure.message);
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->checks[i].count; j++) {
-            const struct br_case *c = &f->checks[i].cases[j];
-            if (c->expected.line)
-                snprintf(place, sizeof place, " (%s:%zu)", f->checks[i].path, c->expected.line);
-            else
-                *place = '\0';
-            if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
-                br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
-                              f->checks[i].name, name_of(c, name), place, c->reason);
-        }
-    if (failures > FIRST_FAILURES)
-        br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
-}
-
-static void put_tally(struct br_document *d, const struct br_check_findings *f)
-{
-    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
-        br_hide_fact(d, br_count(br_check_tally(f->checks, f->count, (enum br_verdict)v)), NULL,
-                     "tally.%s", br_verdict_names[v]);
-    br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
-    br_hide_fact(d, br_truth(f->stopped), NULL, "stopped");
-}
-
-/* ---- orders ---- */
-
 /* Its points, and for the writers of verdicts what was found. */
 static void put_verdict(struct br_document *d, const struct br_check *check,
                         const struct br_case *c)
@@ -128,111 +72,6 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
     }
 }
 
-/* What a row is of. */
-static void begin_row(struct br_document *d, const struct br_check *check, const struct br_case *c)
-{
-    br_put_row(d);
-    br_put(d, "scene", br_text(check->name));
-    br_put(d, "study", br_text(br_verify_names[c->kind]));
-    br_put(d, "norm", br_text(c->measure));
-    br_put(d, "part", br_text(c->part));
-}
-
-static void put_order(struct br_document *d, const struct br_check *check, const struct br_case *c)
-{
-    const struct br_expectation *e = &c->expected;
-    char order[NAME];
-    begin_row(d, check, c);
-    br_put(d, "expected", br_number(e->order));
-    br_put_shown(d, "%g +- %g", e->order, e->tolerance);
-    br_put(d, "tolerance", br_number(e->tolerance));
-    br_put(d, "order", br_number(c->order.value));
-    br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
-    br_put(d, "low", br_number(c->order.low));
-    br_put(d, "high", br_number(c->order.high));
-    br_put(d, "margin", br_number(c->margin));
-    br_put(d, "constant", br_number(c->constant));
-    br_put(d, "floor", br_number(e->floor));
-    br_put(d, "ceiling", br_number(e->ceiling));
-    if (isfinite(e->floor))
-        br_put_shown(d, "%g to %g", e->floor, e->ceiling);
-    else if (isfinite(e->ceiling))
-        br_put_shown(d, "at most %g", e->ceiling);
-    br_put(d, "verdict", br_text(br_verdict_names[c->verdict]));
-}
-
-static void put_orders(struct br_document *d, const struct br_check_findings *f)
-{
-    const struct br_column columns[] = {
-        {.key = "scene", .heading = source_of(f)},
-        {.key = "study"},
-        {.key = "norm"},
-        {.key = "part"},
-        {.key = "expected"},
-        {.key = "tolerance", .flags = BR_FOR_PROGRAMS},
-        {.key = "order", .heading = "observed order"},
-        {.key = "low", .flags = BR_FOR_PROGRAMS},
-        {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "margin", .format = "%+.3f", .flags = BR_FILES_ONLY},
-        {.key = "constant", .format = "%.3e"},
-        {.key = "floor", .flags = BR_FOR_PROGRAMS},
-        {.key = "ceiling", .heading = "its range"},
-        {.key = "verdict"},
-    };
-    BR_TABLE(d, "orders", "All orders", BR_MAIN | BR_LONG, columns);
-    for (size_t i = 0; i < f->count; i++) {
-        const struct br_check *check = &f->checks[i];
-        if (check->failure.status)
-            br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
-                                                            .group = check->name,
-                                                            .name = "verify",
-                                                            .message = check->failure.message,
-                                                            .file = check->path,
-                                                            .seconds = check->seconds});
-        for (size_t j = 0; j < check->count; j++) {
-            put_order(d, check, &check->cases[j]);
-            put_verdict(d, check, &check->cases[j]);
-        }
-    }
-}
-
-static void put_point(struct br_document *d, const struct br_check *check, const struct br_case *c,
-                      const struct br_point *p)
-{
-    begin_row(d, check, c);
-    if (p->at.n) {
-        br_put(d, "n", br_count(p->at.n));
-        br_put(d, "steps", br_count(p->at.steps));
-    }
-    br_put(d, "against_n", br_count(p->against.n));
-    br_put(d, "against_steps", br_count(p->against.steps));
-    br_put(d, "error", br_number(p->error));
-    br_put(d, "constant", br_number(p->constant));
-    br_put(d, "used", br_truth(p->used));
-    br_put(d, "flag", br_text(br_flag_name(p->flag)));
-    br_put(d, "failure", br_text(p->failure));
-    br_put(d, "at", br_text(p->label));
-}
-
-/* People see them with the verdicts. */
-static void put_points(struct br_document *d, const struct br_check_findings *f)
-{
-    static const struct br_column columns[] = {
-        {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
-        {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
-        {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
-        {.key = "failure"}, {.key = "at"},
-    };
-    BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, columns);
-    for (size_t i = 0; i < f->count; i++)
-        for (size_t j = 0; j < f->checks[i].count; j++)
-            for (size_t p = 0; p < f->checks[i].cases[j].points; p++)
-                put_point(d, &f->checks[i], &f->checks[i].cases[j],
-                          &f->checks[i].cases[j].point[p]);
-}
-
-/* ---- scenes ---- */
-
 static void put_cells(struct br_document *d, const struct br_scene *scene,
                       const struct br_verify_study *v)
 {
@@ -264,41 +103,7 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
     }
 }
 
-/* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
-static void put_scenes(struct br_document *d, const struct br_check_findings *f)
-{
-    static const struct br_column columns[] = {
-        {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
-        {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
-    };
-    char key[NAME];
-    BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, columns);
-    for (size_t i = 0; i < f->count; i++) {
-        const struct br_check *check = &f->checks[i];
-        br_put_row(d);
-        br_put(d, "scene", br_text(check->name));
-        br_put(d, "path", br_text(check->path));
-        br_put(d, "by_default", br_truth(check->verify && check->verify->by_default));
-        br_put(d, "seconds", br_number(check->seconds));
-        br_put(d, "element_steps", br_number(check->element_steps));
-        br_put(d, "failure", br_failure_text(&check->failure));
-        br_put(d, "problem", br_text(*check->problem ? check->problem : NULL));
-    }
-    for (size_t i = 0; i < f->count; i++)
-        for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
-            const struct br_verify_study *s = &f->checks[i].verify->study[kind];
-            snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
-            if (s->count)
-                br_put_method_facts(d, key, &s->method,
-                                    &(struct br_meshes){f->checks[i].scene, s->n, s->count});
-        }
-    for (size_t i = 0; i < f->count; i++)
-        if (f->checks[i].verify && f->checks[i].verify->by_default)
-            put_defaults(d, &f->checks[i], i);
-}
-
-/* ---- against an earlier check ---- */
-
+/* Against an earlier check. */
 static void put_comparison(struct br_document *d, const struct br_comparison *c)
 {
     static const struct br_column columns[] = {
@@ -310,14 +115,9 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
                   "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
     BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
-    for (size_t i = 0; i < c->count; i++) {
-        const struct br_difference *x = &c->difference[i];
-        br_put_row(d);
-        br_put(d, "severity", br_text(br_severity_names[x->severity]));
-        br_put(d, "subject", br_text(x->subject));
-        br_put(d, "before", br_number(x->before));
-        br_put(d, "now", br_number(x->now));
-        br_put(d, "remark", br_text(*x->remark ? x->remark : NULL));
+    for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
+        BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
+                   br_number(x->before), br_number(x->now), br_text(*x->remark ? x->remark : NULL));
         br_put_shown(d, "%s", x->remark);
     }
 }
@@ -325,13 +125,140 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
 void br_report_check(const struct br_check_findings *f, struct br_document *d)
 {
     br_document_begin(d, "check", "beamrate check", 2, "Orders of convergence");
-    answer_tally(d, f);
-    answer_failures(d, f);
-    put_tally(d, f);
-    put_orders(d, f);
+
+    const struct br_check *first;
+    const size_t refused = br_check_failures(f->checks, f->count, &first);
+    size_t orders = 0, of[BR_INCONCLUSIVE + 1];
+    for (size_t i = 0; i < f->count; i++)
+        orders += f->checks[i].count;
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        of[v] = br_check_tally(f->checks, f->count, (enum br_verdict)v);
+    br_put_answer(d, "%zu order%s in %zu %s%s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE", orders,
+                  orders == 1 ? "" : "s", f->count, source_of(f), f->count == 1 ? "" : "s",
+                  of[BR_PASS], of[BR_FAIL], of[BR_INCONCLUSIVE]);
+    if (refused)
+        br_put_more(d, ", %zu cannot be verified", refused);
+    if (f->stopped)
+        br_put_more(d, "; stopped at the first %s that failed", source_of(f));
+    br_put_more(d, "; %.1f s", f->wall_seconds);
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        br_hide_fact(d, br_count(of[v]), NULL, "tally.%s", br_verdict_names[v]);
+    br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
+    br_hide_fact(d, br_truth(f->stopped), NULL, "stopped");
+
+    /* The first of what does not pass. */
+    char name[NAME], place[1100];
+    size_t failures = 0;
+    for (size_t i = 0; i < f->count; i++)
+        if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
+            br_put_answer(d, "%s cannot be verified: %s", f->checks[i].name,
+                          f->checks[i].failure.message);
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->checks[i].count; j++) {
+            const struct br_case *c = &f->checks[i].cases[j];
+            if (c->expected.line)
+                snprintf(place, sizeof place, " (%s:%zu)", f->checks[i].path, c->expected.line);
+            else
+                *place = '\0';
+            if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
+                br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
+                              f->checks[i].name, name_of(c, name), place, c->reason);
+        }
+    if (failures > FIRST_FAILURES)
+        br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
+
+    const struct br_column orders_columns[] = {
+        {.key = "scene", .heading = source_of(f)},
+        {.key = "study"},
+        {.key = "norm"},
+        {.key = "part"},
+        {.key = "expected"},
+        {.key = "tolerance", .flags = BR_FOR_PROGRAMS},
+        {.key = "order", .heading = "observed order"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
+        {.key = "margin", .format = "%+.3f", .flags = BR_FILES_ONLY},
+        {.key = "constant", .format = "%.3e"},
+        {.key = "floor", .flags = BR_FOR_PROGRAMS},
+        {.key = "ceiling", .heading = "its range"},
+        {.key = "verdict"},
+    };
+    char order[NAME];
+    BR_TABLE(d, "orders", "All orders", BR_MAIN | BR_LONG, orders_columns);
+    for (size_t i = 0; i < f->count; i++) {
+        const struct br_check *check = &f->checks[i];
+        if (check->failure.status)
+            br_put_verdict(d, &(struct br_document_verdict){.outcome = BR_OUTCOME_ERROR,
+                                                            .group = check->name,
+                                                            .name = "verify",
+                                                            .message = check->failure.message,
+                                                            .file = check->path,
+                                                            .seconds = check->seconds});
+        for (size_t j = 0; j < check->count; j++) {
+            const struct br_case *c = &check->cases[j];
+            const struct br_expectation *e = &c->expected;
+            BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]),
+                       br_text(c->measure), br_text(c->part), br_number(e->order));
+            br_put_shown(d, "%g +- %g", e->order, e->tolerance);
+            BR_PUT_CELLS(d, br_number(e->tolerance), br_number(c->order.value));
+            br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
+            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_number(c->margin),
+                         br_number(c->constant), br_number(e->floor), br_number(e->ceiling));
+            if (isfinite(e->floor))
+                br_put_shown(d, "%g to %g", e->floor, e->ceiling);
+            else if (isfinite(e->ceiling))
+                br_put_shown(d, "at most %g", e->ceiling);
+            BR_PUT_CELLS(d, br_text(br_verdict_names[c->verdict]));
+            put_verdict(d, check, c);
+        }
+    }
+
     if (f->comparison)
         put_comparison(d, f->comparison);
-    put_points(d, f);
-    put_scenes(d, f);
+
+    /* People see them with the verdicts. */
+    static const struct br_column points_columns[] = {
+        {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
+        {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
+        {.key = "error"},   {.key = "constant"}, {.key = "used"},      {.key = "flag"},
+        {.key = "failure"}, {.key = "at"},
+    };
+    BR_TABLE(d, "points", "Errors", BR_FOR_PROGRAMS, points_columns);
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->checks[i].count; j++) {
+            const struct br_case *c = &f->checks[i].cases[j];
+            for (const struct br_point *p = c->point; p < c->point + c->points; p++)
+                BR_PUT_ROW(d, br_text(f->checks[i].name), br_text(br_verify_names[c->kind]),
+                           br_text(c->measure), br_text(c->part), br_if(p->at.n, br_count(p->at.n)),
+                           br_if(p->at.n, br_count(p->at.steps)), br_count(p->against.n),
+                           br_count(p->against.steps), br_number(p->error), br_number(p->constant),
+                           br_truth(p->used), br_text(br_flag_name(p->flag)), br_text(p->failure),
+                           br_text(p->label));
+        }
+
+    /* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
+    static const struct br_column scenes_columns[] = {
+        {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
+        {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
+    };
+    char key[NAME];
+    BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, scenes_columns);
+    for (const struct br_check *c = f->checks; c < f->checks + f->count; c++)
+        BR_PUT_ROW(d, br_text(c->name), br_text(c->path),
+                   br_truth(c->verify && c->verify->by_default), br_number(c->seconds),
+                   br_number(c->element_steps), br_failure_text(&c->failure),
+                   br_text(*c->problem ? c->problem : NULL));
+    for (size_t i = 0; i < f->count; i++)
+        for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
+            const struct br_verify_study *s = &f->checks[i].verify->study[kind];
+            snprintf(key, sizeof key, "methods.%zu.%s", i, br_verify_names[kind]);
+            if (s->count)
+                br_put_method_facts(d, key, &s->method,
+                                    &(struct br_meshes){f->checks[i].scene, s->n, s->count});
+        }
+    for (size_t i = 0; i < f->count; i++)
+        if (f->checks[i].verify && f->checks[i].verify->by_default)
+            put_defaults(d, &f->checks[i], i);
+
     br_put_provenance(d, f->provenance);
 }

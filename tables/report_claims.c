@@ -16,29 +16,6 @@ static void show_value(struct br_document *d, double value, double error, const 
                      *named ? " " : "", named);
 }
 
-static void put_claim(struct br_document *d, const struct br_claim *c, const struct br_finding *f)
-{
-    br_put_row(d);
-    BR_PUT(d, br_text(c->name), .key = "claim", .flags = BR_FOR_PROGRAMS);
-    BR_PUT(d, br_text(c->section), .key = "section");
-    BR_PUT(d, br_if(c->figure, br_count((size_t)c->figure)), .key = "figure",
-           .flags = BR_FOR_PROGRAMS);
-    BR_PUT(d, br_text(c->statement), .key = "statement", .heading = "the paper", .flags = BR_WRAP);
-    BR_PUT(d, br_text(c->measured), .key = "measured", .flags = BR_WRAP | BR_FILES_ONLY);
-    BR_PUT(d, br_text(c->unit), .key = "unit", .flags = BR_FOR_PROGRAMS);
-    BR_PUT(d, br_number(f->printed), .key = "printed", .heading = "the paper's value",
-           .flags = BR_FILES_ONLY);
-    show_value(d, f->printed, NAN, c->unit);
-    BR_PUT(d, br_number(f->value), .key = "value", .heading = "ours");
-    show_value(d, f->value, f->error, c->unit);
-    BR_PUT(d, br_number(f->error), .key = "error", .flags = BR_FOR_PROGRAMS);
-    BR_PUT(d, br_number(f->exact), .key = "exact");
-    show_value(d, f->exact, NAN, c->unit);
-    BR_PUT(d, br_text(br_agreement_name(f->agreement)), .key = "agreement");
-    BR_PUT(d, br_text(*f->note ? f->note : NULL), .key = "note", .heading = "why",
-           .flags = BR_WRAP | BR_FILES_ONLY);
-}
-
 void br_report_claims(const struct br_finding *finding, size_t n, size_t per_second,
                       struct br_document *d)
 {
@@ -53,6 +30,28 @@ void br_report_claims(const struct br_finding *finding, size_t n, size_t per_sec
                   "to the exact solution, or, where there is none, to a second resolution.",
                   n, per_second);
     br_put_table(d, "claims", "The claims", BR_MAIN);
-    for (size_t i = 0; br_claims[i].name; i++)
-        put_claim(d, &br_claims[i], &finding[i]);
+    for (size_t i = 0; br_claims[i].name; i++) {
+        const struct br_claim *c = &br_claims[i];
+        const struct br_finding *f = &finding[i];
+        br_put_row(d);
+        BR_PUT(d, br_text(c->name), .key = "claim", .flags = BR_FOR_PROGRAMS);
+        BR_PUT(d, br_text(c->section), .key = "section");
+        BR_PUT(d, br_if(c->figure, br_count((size_t)c->figure)), .key = "figure",
+               .flags = BR_FOR_PROGRAMS);
+        BR_PUT(d, br_text(c->statement), .key = "statement", .heading = "the paper",
+               .flags = BR_WRAP);
+        BR_PUT(d, br_text(c->measured), .key = "measured", .flags = BR_WRAP | BR_FILES_ONLY);
+        BR_PUT(d, br_text(c->unit), .key = "unit", .flags = BR_FOR_PROGRAMS);
+        BR_PUT(d, br_number(f->printed), .key = "printed", .heading = "the paper's value",
+               .flags = BR_FILES_ONLY);
+        show_value(d, f->printed, NAN, c->unit);
+        BR_PUT(d, br_number(f->value), .key = "value", .heading = "ours");
+        show_value(d, f->value, f->error, c->unit);
+        BR_PUT(d, br_number(f->error), .key = "error", .flags = BR_FOR_PROGRAMS);
+        BR_PUT(d, br_number(f->exact), .key = "exact");
+        show_value(d, f->exact, NAN, c->unit);
+        BR_PUT(d, br_text(br_agreement_name(f->agreement)), .key = "agreement");
+        BR_PUT(d, br_text(*f->note ? f->note : NULL), .key = "note", .heading = "why",
+               .flags = BR_WRAP | BR_FILES_ONLY);
+    }
 }

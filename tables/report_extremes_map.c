@@ -27,12 +27,9 @@ static void put_reasons(struct br_document *d, const struct br_extreme_map *m)
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
     for (size_t i = 0; i < m->reasons; i++) {
         const struct br_extreme_reason *r = &m->reason[i];
-        br_put_row(d);
-        br_put(d, "kind", br_text(br_extreme_names[r->which].word));
+        BR_PUT_ROW(d, br_text(br_extreme_names[r->which].word));
         br_put_shown(d, "%s", br_extreme_names[r->which].heading);
-        br_put(d, "cases", br_count(r->cases));
-        br_put(d, "first", br_count(r->first));
-        br_put(d, "reason", br_text(r->text));
+        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
     }
 }
 
@@ -45,11 +42,8 @@ static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
     BR_TABLE(d, "wrong", "Silently wrong, made small", 0, columns);
     for (size_t i = 0; i < m->shrunks; i++) {
         const struct br_extreme_shrunk *s = &m->shrunk[i];
-        br_put_row(d);
-        br_put(d, "case", br_count(s->one.index));
-        br_put(d, "scene", br_text(s->file));
-        br_put(d, "why", br_text(s->verdict.why));
-        br_put(d, "command", br_text(s->command));
+        BR_PUT_ROW(d, br_count(s->one.index), br_text(s->file), br_text(s->verdict.why),
+                   br_text(s->command));
     }
 }
 

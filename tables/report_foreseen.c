@@ -5,26 +5,6 @@
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"
 
-static void put_row(struct br_document *d, const struct br_foreseen_march *row)
-{
-    const double duration = row->of->duration;
-    const size_t steps = row->at.steps;
-    char method[BR_METHOD_TEXT];
-    br_put_row(d);
-    BR_PUT(d, br_text(row->scene), .key = "scene");
-    BR_PUT(d, br_text(row->what), .key = "what");
-    BR_PUT(d, br_if(row->at.n, br_count(row->at.n)), .key = "n");
-    BR_PUT(d, br_if(steps, br_count(steps)), .key = "steps");
-    BR_PUT(d, br_if(steps, br_number(duration / (double)steps)), .key = "k", .unit = "s");
-    BR_PUT(d, br_number(row->seconds), .key = "seconds", .heading = "time", .unit = "s",
-           .format = "%.2g");
-    BR_PUT(d, br_number(row->bytes / 1e6), .key = "megabytes", .heading = "memory", .unit = "MB",
-           .format = "%.2g");
-    const struct br_meshes on = {row->of, &row->at.n, 1};
-    BR_PUT(d, br_text(row->method.scheme ? br_method_text(&on, &row->method, method) : NULL),
-           .key = "method", .flags = BR_WRAP);
-}
-
 void br_report_foreseen(const struct br_foreseen *w, const char *command, int threads,
                         struct br_document *d)
 {
@@ -47,6 +27,23 @@ void br_report_foreseen(const struct br_foreseen *w, const char *command, int th
         br_put_answer(d, "Then %s.", w->then);
     br_put_answer(d, "Nothing was run, and nothing was written.");
     br_put_table(d, "marches", "What would be marched", BR_MAIN | BR_LONG);
-    for (size_t i = 0; i < w->rows; i++)
-        put_row(d, &w->row[i]);
+    for (size_t i = 0; i < w->rows; i++) {
+        const struct br_foreseen_march *row = &w->row[i];
+        const struct br_meshes on = {row->of, &row->at.n, 1};
+        const size_t steps = row->at.steps;
+        char method[BR_METHOD_TEXT];
+        br_put_row(d);
+        BR_PUT(d, br_text(row->scene), .key = "scene");
+        BR_PUT(d, br_text(row->what), .key = "what");
+        BR_PUT(d, br_if(row->at.n, br_count(row->at.n)), .key = "n");
+        BR_PUT(d, br_if(steps, br_count(steps)), .key = "steps");
+        BR_PUT(d, br_if(steps, br_number(row->of->duration / (double)steps)), .key = "k",
+               .unit = "s");
+        BR_PUT(d, br_number(row->seconds), .key = "seconds", .heading = "time", .unit = "s",
+               .format = "%.2g");
+        BR_PUT(d, br_number(row->bytes / 1e6), .key = "megabytes", .heading = "memory",
+               .unit = "MB", .format = "%.2g");
+        BR_PUT(d, br_text(row->method.scheme ? br_method_text(&on, &row->method, method) : NULL),
+               .key = "method", .flags = BR_WRAP);
+    }
 }

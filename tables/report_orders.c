@@ -17,8 +17,6 @@ static const char *const limit_methods[] = {
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };
 
-/* ---- the answer ---- */
-
 enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities; others are left for the tables */
 
 /* Parts of a sentence: the first follows its colon. */
@@ -91,57 +89,6 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit, 
         br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
 }
 
-/* Their numbers are of the program as it was when it ran. */
-static void say_kept(struct br_document *d, const struct br_numbers *numbers)
-{
-    size_t kept = 0;
-    for (size_t i = 0; i < numbers->rows; i++)
-        kept += numbers->row[i].kept;
-    if (kept)
-        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
-                      numbers->rows);
-}
-
-static void put_answers(struct br_document *d, const struct br_orders *o,
-                        const struct br_estimate *growth)
-{
-    for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
-        const struct br_quantity_orders *of = &o->of[i];
-        const struct br_orders_line *line =
-            of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
-        bool first = true;
-        br_put_answer(d, "%s:", quantity_of(o, of)->name);
-        if (!line)
-            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
-        if (line && quantity_of(o, of)->is_value)
-            say_limit(d, &line->limit, &first);
-        say_orders(d, of, &first);
-        br_put_more(d, ".");
-        say_left_out(d, of);
-    }
-    if (o->count > MOST_NAMED)
-        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
-    for (int axis = 0; axis < BR_AXES; axis++)
-        if (isfinite(growth[axis].value))
-            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                          br_order_text(&growth[axis], (char[64]){0}, 64));
-    if (o->tied)
-        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
-    say_kept(d, o->numbers);
-}
-
-/* ---- tables ---- */
-
-/* Point of a row in the lines along an axis; NULL: it is in none. */
-static const struct br_point *point_of(const struct br_quantity_orders *of, enum br_axis axis,
-                                       size_t row, double *rate)
-{
-    const struct br_row_point *at = of->point[axis] ? &of->point[axis][row] : NULL;
-    const struct br_orders_line *line = at ? at->line : NULL;
-    *rate = line ? br_orders_rate(line, at->index) : (double)NAN;
-    return line ? &line->observed.point[at->index] : NULL;
-}
-
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
 {
     for (int axis = 0; axis < BR_AXES; axis++)
@@ -150,190 +97,39 @@ static void put_given(struct br_document *d, const struct br_numbers *numbers, s
                    .unit = numbers->unit[axis], .format = "%.6g");
 }
 
-static void put_row(struct br_document *d, const struct br_orders *o,
-                    const struct br_quantity_orders *of, size_t row)
+static void put_rows(struct br_document *d, const struct br_orders *o,
+                     const struct br_quantity_orders *of)
 {
     static const char *const rates[] = {"rate_h", "rate_k"}, *const headings[] = {"rate in h",
                                                                                   "rate in k"};
     const struct br_numbers *numbers = o->numbers;
     const struct br_quantity *q = quantity_of(o, of);
-    const bool failed = numbers->row[row].failure || isnan(numbers->row[row].number[of->quantity]);
-    const char *left_out = failed ? br_flag_name(BR_FLAG_FAILED) : "";
-    br_put_row(d);
-    BR_PUT(d, br_text(q->name), .key = "quantity");
-    put_given(d, numbers, row);
-    BR_PUT(d, br_number(numbers->row[row].number[of->quantity]),
-           .key = q->is_value ? "value" : "error", .unit = q->unit,
-           .format = q->is_value ? "%.9g" : "%.3e");
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        double rate;
-        const struct br_point *p = point_of(of, (enum br_axis)axis, row, &rate);
-        if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
-            BR_PUT(d, br_number(rate), .key = rates[axis], .heading = headings[axis],
-                   .format = "%.2f");
-        if (p && p->flag && p->flag != BR_FLAG_FAILED) /* the next finer one may have failed */
-            left_out = br_flag_name(p->flag);
-    }
-    BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
-    BR_PUT(d, br_text(numbers->row[row].failure), .key = "failure", .flags = BR_FILES_ONLY);
-}
-
-static void put_rows(struct br_document *d, const struct br_orders *o,
-                     const struct br_quantity_orders *of)
-{
     char key[80], title[160];
-    const struct br_quantity *q = quantity_of(o, of);
     snprintf(key, sizeof key, "rows-%zu", of->quantity + 1);
     snprintf(title, sizeof title, "%s %s, row by row", q->is_value ? "Value" : "Error", q->name);
     br_put_table(d, key, title, BR_LONG);
-    for (size_t i = 0; i < o->numbers->rows; i++)
-        put_row(d, o, of, i);
-}
-
-static void put_order(struct br_document *d, const struct br_orders *o,
-                      const struct br_quantity_orders *of, const struct br_orders_line *line)
-{
-    char text[64];
-    const struct br_case *c = &line->observed;
-    br_put_row(d);
-    br_put(d, "quantity", br_text(quantity_of(o, of)->name));
-    br_put(d, "in", br_text(br_axis_letters[line->axis]));
-    br_put(d, "at", br_text(line->at));
-    br_put(d, "order", br_number(c->order.value));
-    br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
-    br_put(d, "low", br_number(c->order.low));
-    br_put(d, "high", br_number(c->order.high));
-    br_put(d, "points", br_count(c->points));
-    br_put(d, "used", br_count(c->used));
-    br_put(d, "note", br_text(c->note));
-}
-
-static void put_orders(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
-        {.key = "order", .heading = "order [95 %]"},
-        {.key = "low", .flags = BR_FOR_PROGRAMS},
-        {.key = "high", .flags = BR_FOR_PROGRAMS},
-        {.key = "points"},
-        {.key = "used"},
-        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
-    };
-    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines; l++)
-            put_order(d, o, &o->of[i], &o->of[i].line[l]);
-}
-
-static void put_estimate(struct br_document *d, const char *key, const struct br_estimate *e)
-{
-    char name[32], text[64];
-    br_put(d, key, br_number(e->value));
-    br_put_shown(d, "%s", br_order_text(e, text, sizeof text));
-    snprintf(name, sizeof name, "%s_low", key);
-    br_put(d, name, br_number(e->low));
-    snprintf(name, sizeof name, "%s_high", key);
-    br_put(d, name, br_number(e->high));
-}
-
-static void put_joint_fits(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "order_h", .heading = "order in h [95 %]"},
-        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k", .heading = "order in k [95 %]"},
-        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
-        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
-        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
-        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
-        {.key = "rows"},
-        {.key = "misfit", .format = "%.2e"},
-    };
-    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, columns);
-    for (size_t i = 0; i < o->count; i++) {
-        const struct br_joint_fit *f = &o->of[i].joint;
-        if (!f->converged)
-            continue;
+    for (size_t i = 0; i < numbers->rows; i++) {
+        const struct br_numbers_row *row = &numbers->row[i];
+        const double number = row->number[of->quantity];
+        const char *left_out = row->failure || isnan(number) ? br_flag_name(BR_FLAG_FAILED) : "";
         br_put_row(d);
-        br_put(d, "quantity", br_text(quantity_of(o, &o->of[i])->name));
-        put_estimate(d, "order_h", &f->p);
-        put_estimate(d, "order_k", &f->q);
-        br_put(d, "c_h", br_number(f->c_h.value));
-        br_put(d, "c_k", br_number(f->c_k.value));
-        br_put(d, "rows", br_count(f->points));
-        br_put(d, "misfit", br_number(f->misfit));
+        BR_PUT(d, br_text(q->name), .key = "quantity");
+        put_given(d, numbers, i);
+        BR_PUT(d, br_number(number), .key = q->is_value ? "value" : "error", .unit = q->unit,
+               .format = q->is_value ? "%.9g" : "%.3e");
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            const struct br_row_point *at = of->point[axis] ? &of->point[axis][i] : NULL;
+            const struct br_orders_line *line = at ? at->line : NULL; /* NULL: it is in none */
+            const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
+            if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
+                BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
+                       .key = rates[axis], .heading = headings[axis], .format = "%.2f");
+            if (flag && flag != BR_FLAG_FAILED) /* the next finer one may have failed */
+                left_out = br_flag_name(flag);
+        }
+        BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
+        BR_PUT(d, br_text(row->failure), .key = "failure", .flags = BR_FILES_ONLY);
     }
-}
-
-/* ---- values: what they tend to ---- */
-
-static void put_limit(struct br_document *d, const struct br_orders *o,
-                      const struct br_quantity_orders *of, const struct br_orders_line *line)
-{
-    const struct br_gci *g = &line->gci;
-    br_put_row(d);
-    br_put(d, "quantity", br_text(quantity_of(o, of)->name));
-    br_put(d, "in", br_text(br_axis_letters[line->axis]));
-    br_put(d, "at", br_text(line->at));
-    br_put(d, "sequence", br_text(br_sequence_text(line->limit.sequence)));
-    br_put(d, "limit", br_number(line->limit.value.value));
-    br_put(d, "low", br_number(line->limit.value.low));
-    br_put(d, "high", br_number(line->limit.value.high));
-    br_put(d, "method", br_text(limit_methods[line->limit.method]));
-    br_put(d, "p", br_number(g->order));
-    br_put(d, "r21", br_number(g->fine.ratio));
-    br_put(d, "r32", br_number(g->coarse.ratio));
-    br_put(d, "phi_ext", br_number(g->fine.limit));
-    br_put(d, "e_a", br_number(g->fine.relative));
-    br_put(d, "e_ext", br_number(g->fine.relative_extrapolated));
-    br_put(d, "gci_fine", br_number(g->fine.index));
-    br_put(d, "gci_coarse", br_number(g->coarse.index));
-    br_put(d, "asymptotic", br_number(g->asymptotic));
-    br_put(d, "of_three", br_text(br_sequence_text(g->sequence)));
-}
-
-/* The grid convergence index is that of the three finest rows, relative as Celik et al. print it.
- */
-static void put_limits(struct br_document *d, const struct br_orders *o)
-{
-    static const struct br_column columns[] = {
-        {.key = "quantity"},
-        {.key = "in"},
-        {.key = "at"},
-        {.key = "sequence"},
-        {.key = "limit", .format = "%.9g"},
-        {.key = "low", .format = "%.9g"},
-        {.key = "high", .format = "%.9g"},
-        {.key = "method", .flags = BR_FILES_ONLY},
-        {.key = "p", .heading = "p of three", .format = "%.4f"},
-        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
-        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
-        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
-        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
-    };
-    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, columns);
-    for (size_t i = 0; i < o->count; i++)
-        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++)
-            put_limit(d, o, &o->of[i], &o->of[i].line[l]);
-}
-
-/* ---- what it costs ---- */
-
-static bool is_timed(const struct br_numbers *numbers)
-{
-    bool timed = false;
-    for (size_t i = 0; i < numbers->rows; i++)
-        timed |= isfinite(numbers->row[i].seconds);
-    return timed;
 }
 
 static void put_costs(struct br_document *d, const struct br_numbers *numbers)
@@ -383,12 +179,132 @@ static void put_cheapest(struct br_document *d, const struct br_orders *o)
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
                       const char *caption, struct br_document *d)
 {
+    bool timed = false;
     br_document_begin(d, "orders", "beamrate orders", 1, caption);
-    put_answers(d, o, growth);
-    put_orders(d, o);
-    put_joint_fits(d, o);
-    put_limits(d, o);
-    if (is_timed(o->numbers)) {
+
+    size_t kept = 0;
+    for (size_t i = 0; i < o->count && i < MOST_NAMED; i++) {
+        const struct br_quantity_orders *of = &o->of[i];
+        const struct br_orders_line *line =
+            of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
+        bool first = true;
+        br_put_answer(d, "%s:", quantity_of(o, of)->name);
+        if (!line)
+            br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
+        if (line && quantity_of(o, of)->is_value)
+            say_limit(d, &line->limit, &first);
+        say_orders(d, of, &first);
+        br_put_more(d, ".");
+        say_left_out(d, of);
+    }
+    if (o->count > MOST_NAMED)
+        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (isfinite(growth[axis].value))
+            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                          br_order_text(&growth[axis], (char[64]){0}, 64));
+    if (o->tied)
+        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        kept += o->numbers->row[i].kept;
+    if (kept) /* their numbers are of the program as it was when it ran */
+        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
+                      o->numbers->rows);
+
+    static const struct br_column orders_columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "order", .heading = "order [95 %]"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
+        {.key = "points"},
+        {.key = "used"},
+        {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
+    };
+    char text[64];
+    BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, orders_columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines; l++) {
+            const struct br_orders_line *line = &o->of[i].line[l];
+            const struct br_case *c = &line->observed;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_number(c->order.value));
+            br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
+            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
+                         br_count(c->used), br_text(c->note));
+        }
+
+    static const struct br_column joint_columns[] = {
+        {.key = "quantity"},
+        {.key = "order_h", .heading = "order in h [95 %]"},
+        {.key = "order_h_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_h_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k", .heading = "order in k [95 %]"},
+        {.key = "order_k_low", .flags = BR_FOR_PROGRAMS},
+        {.key = "order_k_high", .flags = BR_FOR_PROGRAMS},
+        {.key = "c_h", .heading = "C_h", .format = "%.3e"},
+        {.key = "c_k", .heading = "C_k", .format = "%.3e"},
+        {.key = "rows"},
+        {.key = "misfit", .format = "%.2e"},
+    };
+    BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, joint_columns);
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_joint_fit *f = &o->of[i].joint;
+        if (!f->converged)
+            continue;
+        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
+        br_put_shown(d, "%s", br_order_text(&f->p, text, sizeof text));
+        BR_PUT_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
+        br_put_shown(d, "%s", br_order_text(&f->q, text, sizeof text));
+        BR_PUT_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
+                     br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
+    }
+
+    /* What values tend to. The grid convergence index is that of the three finest rows, relative as
+     * Celik et al. print it. */
+    static const struct br_column limits_columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "sequence"},
+        {.key = "limit", .format = "%.9g"},
+        {.key = "low", .format = "%.9g"},
+        {.key = "high", .format = "%.9g"},
+        {.key = "method", .flags = BR_FILES_ONLY},
+        {.key = "p", .heading = "p of three", .format = "%.4f"},
+        {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
+        {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
+        {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
+        {.key = "of_three", .flags = BR_FOR_PROGRAMS},
+    };
+    BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
+            const struct br_orders_line *line = &o->of[i].line[l];
+            const struct br_grid_limit *limit = &line->limit;
+            const struct br_gci *g = &line->gci;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(br_axis_letters[line->axis]), br_text(line->at),
+                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
+                       br_number(limit->value.low), br_number(limit->value.high),
+                       br_text(limit_methods[limit->method]), br_number(g->order),
+                       br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                       br_number(g->fine.limit), br_number(g->fine.relative),
+                       br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
+                       br_number(g->coarse.index), br_number(g->asymptotic),
+                       br_text(br_sequence_text(g->sequence)));
+        }
+
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        timed |= isfinite(o->numbers->row[i].seconds);
+    if (timed) {
         put_costs(d, o->numbers);
         put_cheapest(d, o);
     }

@@ -6,8 +6,6 @@
 #include "study/trade/plan.h"
 #include "tables/report_parts.h"
 
-/* ---- the answer ---- */
-
 static double error_of(const struct br_plan *p, size_t i)
 {
     return br_trial_bound(&p->trial[i]);
@@ -42,40 +40,6 @@ static void answer_missed(struct br_document *d, const struct br_plan *p)
                       p->seconds(&p->trial[best]));
 }
 
-/* How the goal was met. */
-static void answer_met(struct br_document *d, const struct br_plan *p)
-{
-    const double share = error_of(p, p->chosen) / p->goal.error;
-    if (!isfinite(p->goal.error))
-        br_put_answer(d, "Met: the least error that was found within %g CPU s.", p->goal.seconds);
-    else if (p->end == BR_PLAN_MET)
-        br_put_answer(d, "Met: the achieved error is %.2f of the goal, a relative error of %g.",
-                      share, p->goal.error);
-    else
-        br_put_answer(d,
-                      "Met, and better: the achieved error is %.2g of the goal, a relative error "
-                      "of %g; %s.",
-                      share, p->goal.error,
-                      p->end == BR_PLAN_COARSEST
-                          ? "the mesh is the coarsest, nothing costs less"
-                          : "nothing nearer to the goal was found that costs as little");
-}
-
-static void answer_work(struct br_document *d, const struct br_plan *p)
-{
-    size_t cheap = 0, failed = 0;
-    for (size_t i = 0; i < p->count; i++) {
-        cheap += p->forecast[i].round == 0;
-        failed += isfinite(error_of(p, i)) ? 0 : 1;
-    }
-    br_put_answer(
-        d,
-        "The planning took %.3g s: %zu cheap trials and %zu proposal%s (%zu failed), which "
-        "take %.3g CPU s when marched once.",
-        p->wall_seconds, cheap, p->count - cheap, p->count - cheap == 1 ? "" : "s", failed,
-        br_plan_spent(p));
-}
-
 /* Command lines that repeat the chosen trial: its march, and its error and seconds. */
 static void put_commands(struct br_document *d, const struct br_plan *p, const char *scene_word)
 {
@@ -99,23 +63,6 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
     br_put_command(d, "trade", "To measure it again", line);
 }
 
-/* The commands stand first: a file has them below the answer. */
-static void put_answer(struct br_document *d, const struct br_plan *p, const char *scene_word)
-{
-    if (p->end == BR_PLAN_MISSED)
-        answer_missed(d, p);
-    else
-        answer_met(d, p);
-    if (p->chosen < p->count)
-        answer_trial(d, p, "Proposal", p->chosen);
-    if (p->first < p->count && p->first != p->chosen)
-        answer_trial(d, p, "First proposal, by the cheap trials alone", p->first);
-    answer_work(d, p);
-    put_commands(d, p, scene_word);
-}
-
-/* ---- tables ---- */
-
 static const char *remark_on(const struct br_plan *p, size_t i)
 {
     if (p->trial[i].end != BR_TRIAL_DONE)
@@ -125,30 +72,6 @@ static const char *remark_on(const struct br_plan *p, size_t i)
     return i == p->first ? "first" : NULL;
 }
 
-static void put_trial(struct br_document *d, const struct br_plan *p, size_t i)
-{
-    const struct br_trial *t = &p->trial[i];
-    const struct br_counts *c = &t->cost.counts;
-    br_put_row(d);
-    BR_PUT(d, br_count(p->forecast[i].round), .key = "round");
-    br_put_trial(d, p->request.scene, t);
-    BR_PUT(d, br_number(p->forecast[i].error), .key = "predicted_error",
-           .heading = "predicted error", .format = "%.3e");
-    BR_PUT(d, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
-           .format = "%.3e");
-    BR_PUT(d, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
-           .heading = "predicted CPU", .unit = "s", .format = "%.3g");
-    BR_PUT(d, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
-           .format = "%.3g");
-    BR_PUT(d, br_count(c->steps), .key = "steps");
-    br_hide(d, "solves", NULL, br_count(c->stages));
-    br_hide(d, "set_ups", NULL, br_count(c->set_ups));
-    br_hide(d, "end", NULL, br_text(br_trial_end_names[t->end]));
-    br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
-    br_hide(d, "failure", NULL, br_failure_text(&t->failure));
-    BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
-}
-
 /* All of them, or those that were proposed, after the cheap trials of round 0. */
 static void put_trials(struct br_document *d, const struct br_plan *p, bool proposed)
 {
@@ -156,9 +79,30 @@ static void put_trials(struct br_document *d, const struct br_plan *p, bool prop
         br_put_table(d, "proposals", "What was proposed", BR_FOR_PEOPLE);
     else
         br_put_table(d, "trials", "All trials", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t i = 0; i < p->count; i++)
-        if (!proposed || p->forecast[i].round > 0)
-            put_trial(d, p, i);
+    for (size_t i = 0; i < p->count; i++) {
+        const struct br_trial *t = &p->trial[i];
+        const struct br_counts *c = &t->cost.counts;
+        if (proposed && p->forecast[i].round == 0)
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_count(p->forecast[i].round), .key = "round");
+        br_put_trial(d, p->request.scene, t);
+        BR_PUT(d, br_number(p->forecast[i].error), .key = "predicted_error",
+               .heading = "predicted error", .format = "%.3e");
+        BR_PUT(d, br_number(error_of(p, i)), .key = "relative_error", .heading = "relative error",
+               .format = "%.3e");
+        BR_PUT(d, br_number(p->forecast[i].seconds), .key = "predicted_seconds",
+               .heading = "predicted CPU", .unit = "s", .format = "%.3g");
+        BR_PUT(d, br_number(p->seconds(t)), .key = "seconds", .heading = "CPU", .unit = "s",
+               .format = "%.3g");
+        BR_PUT(d, br_count(c->steps), .key = "steps");
+        br_hide(d, "solves", NULL, br_count(c->stages));
+        br_hide(d, "set_ups", NULL, br_count(c->set_ups));
+        br_hide(d, "end", NULL, br_text(br_trial_end_names[t->end]));
+        br_hide(d, "chosen", NULL, br_truth(i == p->chosen));
+        br_hide(d, "failure", NULL, br_failure_text(&t->failure));
+        BR_PUT(d, br_text(remark_on(p, i)), .key = "remark", .flags = BR_FOR_PEOPLE);
+    }
 }
 
 /* A root mean square of logarithms, which people see in per cent; NaN: not known. */
@@ -169,8 +113,51 @@ static void put_scatter(struct br_document *d, const char *key, const char *head
         br_put_shown(d, "%.2g %%", 100 * expm1(scatter));
 }
 
-static void put_models(struct br_document *d, const struct br_plan *p)
+void br_report_plan(const struct br_plan *p, const char *scene_word,
+                    const struct br_provenance *provenance, struct br_document *d)
 {
+    const struct br_scene *scene = p->request.scene;
+    char name[512], caption[512];
+    snprintf(name, sizeof name, "%.500s-plan", scene->name);
+    snprintf(caption, sizeof caption, "A plan: %.400s", scene->title);
+    br_document_begin(d, name, "beamrate plan", 1, caption);
+
+    const double share = p->chosen < p->count ? error_of(p, p->chosen) / p->goal.error : NAN;
+    if (p->end == BR_PLAN_MISSED)
+        answer_missed(d, p);
+    else if (!isfinite(p->goal.error))
+        br_put_answer(d, "Met: the least error that was found within %g CPU s.", p->goal.seconds);
+    else if (p->end == BR_PLAN_MET)
+        br_put_answer(d, "Met: the achieved error is %.2f of the goal, a relative error of %g.",
+                      share, p->goal.error);
+    else
+        br_put_answer(d,
+                      "Met, and better: the achieved error is %.2g of the goal, a relative error "
+                      "of %g; %s.",
+                      share, p->goal.error,
+                      p->end == BR_PLAN_COARSEST
+                          ? "the mesh is the coarsest, nothing costs less"
+                          : "nothing nearer to the goal was found that costs as little");
+    if (p->chosen < p->count)
+        answer_trial(d, p, "Proposal", p->chosen);
+    if (p->first < p->count && p->first != p->chosen)
+        answer_trial(d, p, "First proposal, by the cheap trials alone", p->first);
+
+    size_t cheap = 0, failed = 0;
+    for (size_t i = 0; i < p->count; i++) {
+        cheap += p->forecast[i].round == 0;
+        failed += isfinite(error_of(p, i)) ? 0 : 1;
+    }
+    br_put_answer(
+        d,
+        "The planning took %.3g s: %zu cheap trials and %zu proposal%s (%zu failed), which "
+        "take %.3g CPU s when marched once.",
+        p->wall_seconds, cheap, p->count - cheap, p->count - cheap == 1 ? "" : "s", failed,
+        br_plan_spent(p));
+
+    put_commands(d, p, scene_word); /* first: a file has them below the answer */
+    put_trials(d, p, true);
+
     br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0);
     for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_models *m = &p->model[i];
@@ -189,40 +176,24 @@ static void put_models(struct br_document *d, const struct br_plan *p)
         BR_PUT(d, br_number(c[3]), .key = "seconds_element_solve",
                .heading = "an element and solve", .unit = "s", .format = "%.3g");
     }
-}
 
-static void put_curve(struct br_document *d, const char *method, const char *name,
-                      const struct br_plan_curve *c)
-{
-    for (size_t i = 0; i < c->count; i++) {
-        br_put_row(d);
-        br_put(d, "method", br_text(method));
-        br_put(d, "curve", br_text(name));
-        br_put(d, "at", br_number(c->at[i]));
-        br_put(d, "value", br_number(c->value[i]));
-    }
-}
+    put_trials(d, p, false);
 
-/* Logarithms: of n, steps or 1/tolerance; and of an error or solves. */
-static void put_curves(struct br_document *d, const struct br_plan *p)
-{
-    static const struct br_column columns[] = {
+    /* Logarithms: of n, steps or 1/tolerance; and of an error or solves. */
+    static const struct br_column curves_columns[] = {
         {.key = "method"}, {.key = "curve"}, {.key = "at"}, {.key = "value"}};
-    BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, columns);
+    static const char *const names[] = {"log_space_error", "log_time_error", "log_solves"};
+    BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, curves_columns);
     for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_models *m = &p->model[i];
-        if (!m->known)
-            continue;
-        put_curve(d, p->methods.list[i].name, "log_space_error", &m->error.space);
-        put_curve(d, p->methods.list[i].name, "log_time_error", &m->error.time);
-        put_curve(d, p->methods.list[i].name, "log_solves", &m->cost.solves);
+        const struct br_plan_curve *const curves[] = {&m->error.space, &m->error.time,
+                                                      &m->cost.solves};
+        for (size_t c = 0; c < 3 && m->known; c++)
+            for (size_t j = 0; j < curves[c]->count; j++)
+                BR_PUT_ROW(d, br_text(p->methods.list[i].name), br_text(names[c]),
+                           br_number(curves[c]->at[j]), br_number(curves[c]->value[j]));
     }
-}
 
-/* ---- facts and notes ---- */
-
-static void put_facts(struct br_document *d, const struct br_plan *p)
-{
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
     br_hide_fact(d, br_text(p->request.scene->name), NULL, "scene.name");
     br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
@@ -239,11 +210,7 @@ static void put_facts(struct br_document *d, const struct br_plan *p)
     br_hide_fact(d, br_number(parts.time), NULL, "time_error");
     br_hide_fact(d, br_number(parts.p), NULL, "space_order");
     br_hide_fact(d, br_number(parts.q), NULL, "time_order");
-}
 
-static void put_notes(struct br_document *d, const struct br_plan *p, const char *machine)
-{
-    const struct br_plan_parts parts = br_plan_chosen_parts(p);
     br_put_section(d, "What is measured");
     if (isfinite(parts.space))
         br_put_note(
@@ -263,23 +230,7 @@ static void put_notes(struct br_document *d, const struct br_plan *p, const char
     br_put_note(d,
                 "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
                 "%zu marches after a warm-up. On %s.",
-                p->request.repeats, machine);
-}
+                p->request.repeats, provenance->machine);
 
-void br_report_plan(const struct br_plan *p, const char *scene_word,
-                    const struct br_provenance *provenance, struct br_document *d)
-{
-    const struct br_scene *scene = p->request.scene;
-    char name[512], caption[512];
-    snprintf(name, sizeof name, "%.500s-plan", scene->name);
-    snprintf(caption, sizeof caption, "A plan: %.400s", scene->title);
-    br_document_begin(d, name, "beamrate plan", 1, caption);
-    put_answer(d, p, scene_word);
-    put_trials(d, p, true);
-    put_models(d, p);
-    put_trials(d, p, false);
-    put_curves(d, p);
-    put_facts(d, p);
-    put_notes(d, p, provenance->machine);
     br_put_provenance(d, provenance);
 }

@@ -6,9 +6,10 @@
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
+#include "study/scene/quote.h"
 #include "tables/report_parts.h"
 
-enum { KEY = 80, VALUE = 80 };
+enum { VALUE = 80 };
 
 static const char *const field_names[2] = {"axial", "bending"};
 
@@ -29,11 +30,10 @@ static void put_two(struct br_document *d, const struct br_run_report *r, const 
                     const char *label, const char *unit, const char *key)
 {
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        char name[KEY], heading[KEY];
-        snprintf(name, sizeof name, "%s.%s", key, field_names[kind]);
+        char heading[80];
         snprintf(heading, sizeof heading, "%s, %s", label ? label : "", field_names[kind]);
-        BR_FACT(d, br_if(is_marched(r, kind), br_number(x[kind])), .key = name,
-                .heading = label ? heading : NULL, .unit = unit);
+        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(x[kind])), label ? heading : NULL,
+                       unit, "%s.%s", key, field_names[kind]);
     }
 }
 
@@ -63,21 +63,20 @@ static const char *with_error(double value, double error, char text[VALUE])
 
 /* A number of the march with as many digits as its predicted error allows, three where that is not
  * known; error: its own, if that is known better than the march's. */
-static void put_number(struct br_document *d, const struct br_run_findings *f,
-                       const struct br_column *what, struct br_value value, double error)
+static void put_number(struct br_document *d, const struct br_run_findings *f, double value,
+                       double error, const char *heading, const char *unit, const char *key)
 {
     const struct br_prediction *p = f->prediction;
     const double digits = p->known ? 1 - floor(log10(p->whole.error)) : 3;
     char text[VALUE];
-    br_put_fact(d, what, value);
-    if (value.kind != BR_NUMBER || !isfinite(value.number))
+    BR_FACT(d, br_number(value), .key = key, .heading = heading, .unit = unit);
+    if (!isfinite(value))
         return;
-    if (error > 0 || value.number == 0)
-        br_put_shown(d, "%s", with_error(value.number, error, text));
+    if (error > 0 || value == 0)
+        with_error(value, error, text);
     else
-        br_put_shown(
-            d, "%s",
-            br_digits_text(value.number, (int)fmax(2, fmin(digits, 6)), text, sizeof text));
+        br_digits_text(value, (int)fmax(2, fmin(digits, 6)), text, sizeof text);
+    br_put_shown(d, "%s", text);
 }
 
 static void answer_tip(struct br_document *d, const struct br_run_findings *f)
@@ -109,166 +108,71 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
     br_put_more(d, *before == ',' ? "." : "");
 }
 
-static void answer_prediction(struct br_document *d, const struct br_prediction *p)
+static void put_answers(struct br_document *d, const struct br_run_findings *f)
 {
+    const struct br_run_report *r = f->report;
+    const struct br_warnings *w = f->warnings;
+    if (r->failure.status)
+        br_put_answer(d, "STOPPED: %s", r->failure.message);
+    answer_tip(d, f);
+
     char interval[BR_PREDICTED_TEXT];
-    if (p->known)
+    if (f->prediction->known)
         br_put_answer(d,
                       "Predicted before the march, of each field relative to its largest (L2): "
                       "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is what "
                       "this may make at the tip, an estimate.",
-                      br_predicted_interval(&p->whole, interval), p->time.error, p->space.error,
-                      p->round_off);
-    else if (p->bounded)
+                      br_predicted_interval(&f->prediction->whole, interval),
+                      f->prediction->time.error, f->prediction->space.error,
+                      f->prediction->round_off);
+    else if (f->prediction->bounded)
         br_put_answer(d,
                       "The discretisation error is not known, between %.0e and %.0e: %s; "
                       "round-off %.1e.",
-                      p->whole.low, p->whole.high, p->why, p->round_off);
+                      f->prediction->whole.low, f->prediction->whole.high, f->prediction->why,
+                      f->prediction->round_off);
     else
-        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.", p->why,
-                      p->round_off);
-}
+        br_put_answer(d, "The discretisation error is not known: %s; round-off %.1e.",
+                      f->prediction->why, f->prediction->round_off);
 
-/* Their texts stand below, and were on the terminal before the march. */
-static void answer_warnings(struct br_document *d, const struct br_warnings *w)
-{
-    if (!w->count)
-        return;
-    br_put_answer(d, "%zu warning%s before the march: ", w->count, w->count == 1 ? "" : "s");
-    for (size_t i = 0; i < w->count; i++)
-        br_put_more(d, "%s%s", i ? ", " : "", br_warning_words[w->list[i].kind]);
-    br_put_more(d, ".");
-}
-
-/* What the scheme has added in all. */
-static void answer_gain(struct br_document *d, const struct br_run_report *r, int kind)
-{
-    const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
-    const double put_in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
-    if (!(added > 0))
-        return;
-    br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
-    if (put_in > 0)
-        br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
-                    100 * added / put_in);
-    br_put_more(d, ".");
-    if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
-        br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
-}
-
-static void put_answers(struct br_document *d, const struct br_run_findings *f)
-{
-    const struct br_run_report *r = f->report;
-    if (r->failure.status)
-        br_put_answer(d, "STOPPED: %s", r->failure.message);
-    answer_tip(d, f);
-    answer_prediction(d, f->prediction);
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++)
-        answer_gain(d, r, kind);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++) { /* in all */
+        const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
+        const double in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
+        if (!(added > 0))
+            continue;
+        br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
+        if (in > 0)
+            br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
+                        100 * added / in);
+        br_put_more(d, ".");
+        if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
+            br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
+    }
     if (r->contact_unstable)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
                          "chatter at the step's rate. --contact implicit has no such limit.");
-    answer_warnings(d, f->warnings);
+    for (size_t i = 0; i < w->count; i++) {
+        if (i == 0) /* their texts stand below, and were on the terminal before the march */
+            br_put_answer(d, "%zu warning%s before the march: ", w->count,
+                          w->count == 1 ? "" : "s");
+        br_put_more(d, "%s%s", br_warning_words[w->list[i].kind], i + 1 < w->count ? ", " : ".");
+    }
 }
 
 /* ---- the march ---- */
-
-static void put_march(struct br_document *d, const struct br_run_findings *f)
-{
-    const struct br_run_report *r = f->report;
-    const struct br_scene *scene = r->scene;
-    char method[BR_METHOD_TEXT];
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(scene->name)},
-        {"scene.title", NULL, NULL, br_text(scene->title)},
-        {"scene.remark", "remark", NULL, br_text(scene->remark)},
-        {"scene.length", NULL, "m", br_number(scene->length)},
-        {"scene.duration", NULL, "s", br_number(scene->duration)},
-        {"n", "elements", NULL, br_count(r->n)},
-        {"h", "element size h", "m", br_number(r->h)},
-        {"steps", "steps", NULL, br_count(r->steps)},
-        {"k", "time step k", "s", br_number(r->k)},
-    };
-    br_put_section(d, "The march");
-    BR_FACTS(d, facts);
-    const struct br_meshes on = {&r->marched, &r->n, 1};
-    BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
-            .heading = "method", .flags = BR_FOR_PEOPLE);
-    br_put_method_facts(d, "method", &r->method, &on);
-    br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
-    br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
-}
-
-/* What the scene does not give, but what makes it. */
-static void put_derived(struct br_document *d, const struct br_scene *scene)
-{
-    if (!scene->derived->what)
-        return;
-    br_put_section(d, "Derived from what the scene gives");
-    for (const struct br_derived *n = scene->derived; n->what; n++) {
-        char key[KEY], heading[KEY];
-        const char *dot = strchr(n->what, '.');
-        snprintf(key, sizeof key, "derived.%s", n->what);
-        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
-                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
-        BR_FACT(d, br_number(n->value), .key = key, .heading = heading, .unit = n->unit);
-    }
-}
 
 /* "0.0014, between 0.00046 and 0.0042" */
 static void put_predicted(struct br_document *d, bool known, const char *key, const char *label,
                           const struct br_predicted *e)
 {
-    char name[KEY], interval[BR_PREDICTED_TEXT];
-    snprintf(name, sizeof name, "prediction.%s.error", key);
-    BR_FACT(d, br_if(known, br_number(e->error)), .key = name, .heading = label);
+    char interval[BR_PREDICTED_TEXT];
+    br_put_fact_as(d, br_if(known, br_number(e->error)), label, NULL, "prediction.%s.error", key);
     br_put_shown(d, "%s", br_predicted_interval(e, interval));
     br_hide_fact(d, br_if(known, br_number(e->low)), NULL, "prediction.%s.low", key);
     br_hide_fact(d, br_if(known, br_number(e->high)), NULL, "prediction.%s.high", key);
-}
-
-static void put_prediction(struct br_document *d, const struct br_run_findings *f)
-{
-    static const char *const labels[] = {"  of the axial field", "  of the bending field"};
-    const struct br_prediction *p = f->prediction;
-    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
-    br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
-    br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
-    put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
-    put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
-    put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double most = br_predicted_most(p, (enum br_field_kind)kind);
-        const bool marched = is_marched(f->report, kind);
-        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
-        br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
-                     field_names[kind]);
-    }
-    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
-            .format = "%.1e");
-    br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
-}
-
-/* Remedies are options that can be typed. */
-static void put_warnings(struct br_document *d, const struct br_warnings *w)
-{
-    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
-    for (size_t i = 0; i < w->count; i++) {
-        const char *remedy = w->list[i].remedy;
-        br_put_row(d);
-        BR_PUT(d, br_text(br_warning_words[w->list[i].kind]), .key = "warning");
-        BR_PUT(d, br_text(w->list[i].text), .key = "text");
-        BR_PUT(d, br_text(*remedy ? remedy : NULL), .key = "remedy");
-    }
-    for (size_t i = 0; i < w->count; i++) {
-        char key[KEY];
-        snprintf(key, sizeof key, "remedies.%s", br_warning_words[w->list[i].kind]);
-        br_put_note(d, "Warning: %s.", w->list[i].text);
-        br_put_command(d, key, "Remedy", w->list[i].remedy);
-    }
 }
 
 /* ---- the tip ---- */
@@ -276,12 +180,10 @@ static void put_warnings(struct br_document *d, const struct br_warnings *w)
 static void put_extreme(struct br_document *d, const struct br_run_findings *f, bool known,
                         const char *key, const char *label, const struct br_extreme *e)
 {
-    char value[KEY], time[KEY];
-    snprintf(value, sizeof value, "events.%s.value", key);
-    snprintf(time, sizeof time, "events.%s.t", key);
-    put_number(d, f, &(struct br_column){.key = value, .heading = label, .unit = "N"},
-               br_if(known, br_number(e->value)), NAN);
-    BR_FACT(d, br_if(known, br_number(e->time)), .key = time, .heading = "  at t", .unit = "s");
+    char name[80];
+    snprintf(name, sizeof name, "events.%s.value", key);
+    put_number(d, f, known ? e->value : NAN, NAN, label, "N", name);
+    br_put_fact_as(d, br_if(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
 /* The bound of Coulomb's law is as wrong as the penetration; that of Tresca's is given. */
@@ -289,38 +191,20 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
     const struct br_friction *law = &r->marched.friction;
-    const struct br_history_row *row = &r->end.last;
-    const double force = row->friction_force, bound = row->friction_bound;
-    const bool friction = has_friction(r);
-    const bool coulomb = law->law == BR_COULOMB && bound > 0;
+    const struct br_tip_watch *w = &r->watch;
+    const double force = r->end.last.friction_force, bound = r->end.last.friction_bound;
+    const bool friction = has_friction(r), coulomb = law->law == BR_COULOMB && bound > 0;
     const double error = coulomb ? law->coefficient * tip_error(f, BR_AXIAL) : NAN;
-    const struct br_value regime = br_text(br_tip_regime_word(r->watch.regime));
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.friction_force", .heading = "friction force", .unit = "N"},
-        br_if(friction, br_number(force)), fabs(force) == bound ? error : NAN);
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.friction_bound", .heading = "  its bound", .unit = "N"},
-        br_if(friction, br_number(bound)), error);
+    put_number(d, f, friction ? force : NAN, fabs(force) == bound ? error : NAN, "friction force",
+               "N", "tip.friction_force");
+    put_number(d, f, friction ? bound : NAN, error, "  its bound", "N", "tip.friction_bound");
     BR_FACT(d, br_if(friction, br_number(100 * fabs(force) / bound)), .key = "tip.friction_share",
             .heading = "  of the bound", .unit = "%", .format = "%.4g");
-    BR_FACT(d, br_if(friction && r->watch.steps, regime), .key = "tip.regime",
-            .heading = "friction");
-    br_put_mark(d, r->watch.regime == BR_TIP_SLIP ? direction(r->watch.direction) : "");
+    BR_FACT(d, br_if(friction && w->steps, br_text(br_tip_regime_word(w->regime))),
+            .key = "tip.regime", .heading = "friction");
+    br_put_mark(d, w->regime == BR_TIP_SLIP ? direction(w->direction) : "");
     put_extreme(d, f, friction, "largest_friction_force", "largest friction force",
-                &r->watch.friction_force);
-}
-
-static void put_displacement(struct br_document *d, const struct br_run_findings *f, int kind)
-{
-    const double value = f->report->end.last.displacement[kind];
-    const bool axial = kind == BR_AXIAL;
-    char text[VALUE];
-    BR_FACT(d, br_if(is_marched(f->report, kind), br_number(value)),
-            .key = axial ? "tip.displacement.axial" : "tip.displacement.bending",
-            .heading = axial ? "axial displacement u" : "bending displacement w", .unit = "m");
-    br_put_shown(d, "%s", with_error(value, tip_error(f, kind), text));
+                &w->friction_force);
 }
 
 /* Whether the tip sticks, and what its velocity is besides may be round-off: that of the
@@ -333,38 +217,32 @@ static bool rests(const struct br_run_findings *f)
            fabs(r->end.last.velocity[BR_BENDING]) <= r->round_off * most / r->k;
 }
 
-static void put_velocity(struct br_document *d, const struct br_run_findings *f, int kind)
-{
-    const double velocity = f->report->end.last.velocity[kind];
-    const bool axial = kind == BR_AXIAL;
-    put_number(d, f,
-               &(struct br_column){.key = axial ? "tip.velocity.axial" : "tip.velocity.bending",
-                                   .heading = axial ? "velocity, axial" : "velocity, bending",
-                                   .unit = "m/s"},
-               br_if(is_marched(f->report, kind), br_number(velocity)), NAN);
-    if (kind == BR_BENDING && rests(f))
-        br_put_shown(d, "0");
-}
-
 static void put_tip(struct br_document *d, const struct br_run_findings *f)
 {
+    static const char *const displacements[] = {"axial displacement u", "bending displacement w"};
     const struct br_run_report *r = f->report;
     const struct br_history_row *row = &r->end.last;
     const bool contact = r->marched.contact.modelled;
     const double error[] = {tip_error(f, BR_AXIAL), tip_error(f, BR_BENDING)};
+    char text[VALUE];
     br_put_section(d, "The tip");
     BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
     br_hide_fact(d, br_count(row->step), NULL, "tip.step");
-    put_displacement(d, f, BR_AXIAL);
-    put_displacement(d, f, BR_BENDING);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(row->displacement[kind])),
+                       displacements[kind], "m", "tip.displacement.%s", field_names[kind]);
+        br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
+    }
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
-    put_velocity(d, f, BR_AXIAL);
-    put_velocity(d, f, BR_BENDING);
-    put_number(
-        d, f,
-        &(struct br_column){.key = "tip.contact_force", .heading = "contact force", .unit = "N"},
-        br_if(contact, br_number(row->contact_force)),
-        row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        put_number(d, f, is_marched(r, kind) ? row->velocity[kind] : NAN, NAN,
+                   kind == BR_AXIAL ? "velocity, axial" : "velocity, bending", "m/s",
+                   kind == BR_AXIAL ? "tip.velocity.axial" : "tip.velocity.bending");
+    if (rests(f))
+        br_put_shown(d, "0");
+    put_number(d, f, contact ? row->contact_force : NAN,
+               row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN,
+               "contact force", "N", "tip.contact_force");
     BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
             .heading = "contact");
     br_put_shown(d, "%s", r->watch.closed ? "closed" : "open");
@@ -375,67 +253,43 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
 
 /* ---- events ---- */
 
-static void put_regime(struct br_document *d, const char *key, enum br_regime regime)
-{
-    br_put(d, key, br_text(br_regime_name(regime)));
-    br_put_shown(d, "%s", regime == BR_REGIME_NONE ? "no bound" : br_regime_name(regime));
-}
-
 static void put_switches(struct br_document *d, const struct br_run_report *r)
 {
     static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.12g"},
                                                {.key = "law"},
                                                {.key = "from"},
                                                {.key = "to"}};
-    if (!r->method.scheme->adaptive)
-        return;
     BR_FACT(d, br_count(r->switches), .key = "events.switches",
             .heading = "switches that the scheme has found");
     BR_TABLE(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
              columns);
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
         const struct br_switch *s = &r->switched[i];
-        br_put_row(d);
-        br_put(d, "t", br_number(s->time));
-        br_put(d, "law", br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
-        put_regime(d, "from", s->from);
-        put_regime(d, "to", s->to);
-    }
-}
-
-static void put_event_list(struct br_document *d, const struct br_tip_watch *w)
-{
-    static const struct br_column columns[] = {
-        {.key = "t", .unit = "s", .format = "%.10g"},
-        {.key = "event"},
-        {.key = "direction"},
-        {.key = "step"},
-    };
-    BR_TABLE(d, "events", "When", 0, columns);
-    for (size_t i = 0; i < w->events; i++) {
-        const struct br_tip_event *e = &w->event[i];
-        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
-        br_put_row(d);
-        br_put(d, "t", br_number(e->time));
-        br_put(d, "event", br_text(br_tip_event_word(e->kind)));
-        br_put(d, "direction", br_if(e->direction, sign));
-        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
-        br_put(d, "step", br_count(e->step));
+        const enum br_regime regime[] = {s->from, s->to};
+        BR_PUT_ROW(d, br_number(s->time), br_text(s->kind == BR_AXIAL ? "contact" : "friction"));
+        for (int j = 0; j < 2; j++) {
+            BR_PUT_CELLS(d, br_text(br_regime_name(regime[j])));
+            if (regime[j] == BR_REGIME_NONE)
+                br_put_shown(d, "no bound");
+        }
     }
 }
 
 /* How many steps, and what share that is. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
-    char label[KEY], key[KEY];
+    char label[80];
     snprintf(label, sizeof label, "steps: %s", word);
-    snprintf(key, sizeof key, "events.steps.%s", word);
-    BR_FACT(d, br_count(steps), .key = key, .heading = known && all ? label : NULL);
+    br_put_fact_as(d, br_count(steps), known && all ? label : NULL, NULL, "events.steps.%s", word);
     br_put_shown(d, "%zu (%.4g %%)", steps, all ? 100 * (double)steps / (double)all : 0);
 }
 
 static void put_events(struct br_document *d, const struct br_run_report *r)
 {
+    static const struct br_column columns[] = {{.key = "t", .unit = "s", .format = "%.10g"},
+                                               {.key = "event"},
+                                               {.key = "direction"},
+                                               {.key = "step"}};
     const struct br_tip_watch *w = &r->watch;
     br_put_section(d, "Events at the tip");
     br_put_note(d,
@@ -451,17 +305,23 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     br_put_mark(d, direction(w->direction_at_start));
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
         const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
-        char key[KEY];
-        snprintf(key, sizeof key, "events.counts.%s", word);
-        BR_FACT(d, br_count(w->count[kind]), .key = key,
-                .heading = w->contact || w->friction ? word : NULL);
+        br_put_fact_as(d, br_count(w->count[kind]), w->contact || w->friction ? word : NULL, NULL,
+                       "events.counts.%s", word);
     }
     put_steps(d, w->contact, "closed", w->closed_steps, w->steps);
     for (int regime = 0; regime < BR_TIP_REGIMES; regime++)
         put_steps(d, w->friction, br_tip_regime_word((enum br_tip_regime)regime),
                   w->regime_steps[regime], w->steps);
-    put_event_list(d, w);
-    put_switches(d, r);
+    BR_TABLE(d, "events", "When", 0, columns);
+    for (const struct br_tip_event *e = w->event; e < w->event + w->events; e++) {
+        const struct br_value sign = {.kind = BR_COUNT, .count = e->direction};
+        BR_PUT_ROW(d, br_number(e->time), br_text(br_tip_event_word(e->kind)),
+                   br_if(e->direction, sign));
+        br_put_shown(d, "%s", direction(e->direction) + (e->direction != 0)); /* no blank */
+        BR_PUT_CELLS(d, br_count(e->step));
+    }
+    if (r->method.scheme->adaptive)
+        put_switches(d, r);
 }
 
 /* ---- energies ---- */
@@ -470,32 +330,15 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
 static void put_state(struct br_document *d, const struct br_run_report *r, bool end,
                       const struct br_energy *e)
 {
-    char key[4][KEY];
-    static const char *const terms[] = {"kinetic", "stored", "contact", "total"};
-    for (size_t i = 0; i < 4; i++)
-        snprintf(key[i], KEY, "energies.%s.%s", end ? "end" : "start", terms[i]);
-    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J", key[0]);
-    put_two(d, r, e->stored, end ? "stored" : NULL, "J", key[1]);
-    BR_FACT(d, br_if(r->marched.contact.modelled, br_number(e->contact)), .key = key[2],
-            .heading = end ? "of the contact" : NULL, .unit = "J");
-    BR_FACT(d, br_number(br_energy_total(e)), .key = key[3],
-            .heading = end ? "total" : "total at t = 0", .unit = "J");
-}
-
-static void put_added(struct br_document *d, const struct br_run_report *r)
-{
-    const struct br_work *w = &r->work;
-    const double all[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
-    const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
-                             br_energy_put_in(&r->energy_start, w, BR_BENDING)};
-    const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
-    const bool any = steps[BR_AXIAL] + steps[BR_BENDING] > 0;
-    put_two(d, r, all, NULL, "J", "energies.added_by_scheme.in_all");
-    put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
-    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
-            "energies.added_by_scheme.steps_that_add");
-    put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
-            "energies.added_by_scheme.by_these_steps");
+    const char *of = end ? "end" : "start";
+    put_two(d, r, e->kinetic, end ? "kinetic" : NULL, "J",
+            end ? "energies.end.kinetic" : "energies.start.kinetic");
+    put_two(d, r, e->stored, end ? "stored" : NULL, "J",
+            end ? "energies.end.stored" : "energies.start.stored");
+    br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(e->contact)),
+                   end ? "of the contact" : NULL, "J", "energies.%s.contact", of);
+    br_put_fact_as(d, br_number(br_energy_total(e)), end ? "total" : "total at t = 0", "J",
+                   "energies.%s.total", of);
 }
 
 static void put_works(struct br_document *d, const struct br_run_report *r)
@@ -510,11 +353,21 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
         {"energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
          br_number(r->energy_worst)},
     };
+    const double added[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
+    const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
+                             br_energy_put_in(&r->energy_start, w, BR_BENDING)};
+    const double steps[] = {(double)w->gaining[BR_AXIAL], (double)w->gaining[BR_BENDING]};
+    const bool any = steps[BR_AXIAL] + steps[BR_BENDING] > 0;
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
     BR_FACTS(d, facts);
-    put_added(d, r);
+    put_two(d, r, added, NULL, "J", "energies.added_by_scheme.in_all");
+    put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
+    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
+            "energies.added_by_scheme.steps_that_add");
+    put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
+            "energies.added_by_scheme.by_these_steps");
 }
 
 static void put_energies(struct br_document *d, const struct br_run_report *r)
@@ -564,9 +417,8 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
                           : "Certificate of every step, stage by stage: the worst");
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         const double worst = rows[i].worst, most = rows[i].limit;
-        char key[KEY];
-        snprintf(key, sizeof key, "certificate.worst.%s", rows[i].key);
-        BR_FACT(d, br_number(worst), .key = key, .heading = rows[i].modelled ? rows[i].name : NULL);
+        br_put_fact_as(d, br_number(worst), rows[i].modelled ? rows[i].name : NULL, NULL,
+                       "certificate.worst.%s", rows[i].key);
         if (isfinite(most))
             br_put_shown(d, "%.3g of at most %.3g: %s", worst, most,
                          worst <= most ? "good" : "BAD");
@@ -580,19 +432,6 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
 }
 
 /* ---- what is modelled, and what it costs ---- */
-
-static void put_model(struct br_document *d, const struct br_run_report *r)
-{
-    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
-    for (size_t i = 0; i < r->model_rows; i++) {
-        br_put_row(d);
-        BR_PUT(d, br_text(r->model[i].key), .key = "part");
-        br_put_shown(d, "%s", r->model[i].part);
-        BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
-        br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
-        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
-    }
-}
 
 static void put_cost(struct br_document *d, const struct br_run_report *r)
 {
@@ -624,9 +463,96 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
     BR_FACTS(d, facts);
 }
 
-static void put_time(struct br_document *d, const struct br_run_findings *f)
+void br_report_run(const struct br_run_findings *f, struct br_document *d)
 {
     const struct br_run_report *r = f->report;
+    const struct br_scene *scene = r->scene;
+    br_document_begin(d, "summary", "beamrate run", 2, scene->title);
+    put_answers(d, f);
+
+    char method[BR_METHOD_TEXT];
+    const struct br_fact march_facts[] = {
+        {"scene.name", NULL, NULL, br_text(scene->name)},
+        {"scene.title", NULL, NULL, br_text(scene->title)},
+        {"scene.remark", "remark", NULL, br_text(scene->remark)},
+        {"scene.length", NULL, "m", br_number(scene->length)},
+        {"scene.duration", NULL, "s", br_number(scene->duration)},
+        {"n", "elements", NULL, br_count(r->n)},
+        {"h", "element size h", "m", br_number(r->h)},
+        {"steps", "steps", NULL, br_count(r->steps)},
+        {"k", "time step k", "s", br_number(r->k)},
+    };
+    br_put_section(d, "The march");
+    BR_FACTS(d, march_facts);
+    const struct br_meshes on = {&r->marched, &r->n, 1};
+    BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
+            .heading = "method", .flags = BR_FOR_PEOPLE);
+    br_put_method_facts(d, "method", &r->method, &on);
+    br_hide_fact(d, br_failure_text(&r->failure), NULL, "stopped");
+    br_hide_fact(d, br_truth(r->contact_unstable), NULL, "contact_beyond_stability_limit");
+    if (scene->derived->what)
+        br_put_section(d, "Derived from what the scene gives");
+    for (const struct br_derived *n = scene->derived; n->what; n++) {
+        const char *dot = strchr(n->what, '.');
+        char heading[80];
+        snprintf(heading, sizeof heading, "%.*s%s%s = %s", dot ? (int)(dot - n->what) : 0, n->what,
+                 dot ? " " : "", dot ? dot + 1 : n->what, n->from);
+        br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
+    }
+
+    /* Remedies are options that can be typed. */
+    br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
+    for (size_t i = 0; i < f->warnings->count; i++) {
+        const struct br_warning *w = &f->warnings->list[i];
+        br_put_row(d);
+        BR_PUT(d, br_text(br_warning_words[w->kind]), .key = "warning");
+        BR_PUT(d, br_text(w->text), .key = "text");
+        BR_PUT(d, br_text(*w->remedy ? w->remedy : NULL), .key = "remedy");
+    }
+    for (size_t i = 0; i < f->warnings->count; i++) {
+        const struct br_warning *w = &f->warnings->list[i];
+        char key[80];
+        snprintf(key, sizeof key, "remedies.%s", br_warning_words[w->kind]);
+        br_put_note(d, "Warning: %s.", w->text);
+        br_put_command(d, key, "Remedy", w->remedy);
+    }
+
+    static const char *const labels[] = {"  of the axial field", "  of the bending field"};
+    const struct br_prediction *p = f->prediction;
+    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
+    br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
+    br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
+    put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
+    put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
+    put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double most = br_predicted_most(p, (enum br_field_kind)kind);
+        const bool marched = is_marched(f->report, kind);
+        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
+        br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
+                     field_names[kind]);
+    }
+    BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
+            .format = "%.1e");
+    br_hide_fact(d, br_number(p->seconds), "s", "prediction.seconds");
+
+    put_tip(d, f);
+    put_events(d, r);
+    put_energies(d, r);
+    put_certificate(d, r);
+
+    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
+    for (size_t i = 0; i < r->model_rows; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(r->model[i].key), .key = "part");
+        br_put_shown(d, "%s", r->model[i].part);
+        BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
+        br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
+        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
+    }
+
+    put_cost(d, r);
+
     const struct br_counts *c = &r->counts;
     const double march = r->end.march_seconds;
     const double a_step = march / (double)r->end.last.step; /* NAN: none */
@@ -634,9 +560,6 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
     const char *of_march = r->checked  ? "  of the march, the check included"
                            : r->summed ? "  of the march, the energies included"
                                        : "  of the march";
-    const char *taken_back = r->method.scheme->adaptive ? "  taken back" : NULL;
-    const char *changes = c->set_ups ? "changes of the step" : NULL;
-    const char *iterations = iterates ? "friction iterations" : NULL;
     const struct br_fact facts[] = {
         {"seconds.wall", "time", "s", br_number(f->wall_seconds)},
         {"seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds)},
@@ -644,29 +567,51 @@ static void put_time(struct br_document *d, const struct br_run_findings *f)
         {"seconds.per_step", "  a step", "s", br_number(a_step)},
         {"seconds.per_element_step", "  an element-step", "s", br_number(a_step / (double)r->n)},
         {"work.steps", "steps of the scheme", NULL, br_count(c->steps)},
-        {"work.steps_taken_back", taken_back, NULL, br_count(c->rejected)},
+        {"work.steps_taken_back", r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
+         br_count(c->rejected)},
         {"work.solves_a_field", "solves a field", NULL, br_count(c->stages)},
-        {"work.changes_of_the_step", changes, NULL, br_count(c->set_ups)},
-        {"work.friction_iterations", iterations, NULL, br_count(c->iterations)},
+        {"work.changes_of_the_step", c->set_ups ? "changes of the step" : NULL, NULL,
+         br_count(c->set_ups)},
+        {"work.friction_iterations", iterates ? "friction iterations" : NULL, NULL,
+         br_count(c->iterations)},
     };
     br_put_section(d, "Time and work");
     BR_FACTS(d, facts);
+
+    br_put_provenance(d, f->provenance);
 }
 
-void br_report_run(const struct br_run_findings *f, struct br_document *d)
+/* ---- the history ---- */
+
+void br_history_csv_head(FILE *out)
 {
-    br_document_begin(d, "summary", "beamrate run", 2, f->report->scene->title);
-    put_answers(d, f);
-    put_march(d, f);
-    put_derived(d, f->report->scene);
-    put_warnings(d, f->warnings);
-    put_prediction(d, f);
-    put_tip(d, f);
-    put_events(d, f->report);
-    put_energies(d, f->report);
-    put_certificate(d, f->report);
-    put_model(d, f->report);
-    put_cost(d, f->report);
-    put_time(d, f);
-    br_put_provenance(d, f->provenance);
+    fprintf(out, "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n");
+}
+
+void br_history_csv_row(FILE *out, const struct br_history_row *row)
+{
+    const double values[] = {
+        row->time,
+        row->displacement[BR_AXIAL],
+        row->displacement[BR_BENDING],
+        row->velocity[BR_AXIAL],
+        row->velocity[BR_BENDING],
+        row->contact_force,
+        row->friction_force,
+        row->friction_bound,
+    };
+    fprintf(out, "%zu", row->step);
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (isfinite(values[i]))
+            fprintf(out, ",%.17g", values[i]);
+        else
+            fputc(',', out);
+    fputc('\n', out);
+}
+
+void br_history_csv_stopped(FILE *out, const char *message)
+{
+    fprintf(out, "# stopped: ");
+    br_quote(out, &br_for_text, message);
+    fputc('\n', out);
 }

@@ -47,14 +47,13 @@ static void answer_run(struct br_document *d, const struct br_split *s)
                        "chatter.");
 }
 
-/* ---- lines: a part of a run's error in one norm, the sum of the parts, or the whole ---- */
-
 static bool models(const struct br_split *s, enum br_part part)
 {
     return part == BR_PART_TOTAL ||
            (part == BR_PART_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled);
 }
 
+/* A part of a run's error in one norm, the sum of the parts, or the whole. */
 struct line {
     const char *name;
     const char *none;          /* why there is no such part; NULL: there is */
@@ -89,45 +88,39 @@ static struct line line_of(const struct br_split *s, size_t norm, size_t i)
     };
 }
 
-/* An error and its floor. People see "< 3.4e-16" below the floor. */
-static void put_error(struct br_document *d, const struct br_split *s, const struct line *l,
-                      enum br_part part)
+/* People see "< 3.4e-16" for an error below its floor. */
+static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
 {
     static const char *const key[BR_PARTS] = {"error", "axial", "bending"},
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
-    const double error = models(s, part) ? l->error[part] : (double)NAN;
-    const double floor = l->floor ? l->floor[part] : (double)NAN;
-    br_hide(d, floor_key[part], NULL, br_number(floor));
-    BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part], .format = "%.3e");
-    if (isfinite(error) && floor > 0 && !(error > floor))
-        br_put_shown(d, "< %.1e", floor);
-}
-
-static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
-{
-    const struct line l = line_of(s, norm, i);
-    const bool told = i > s->shares || isfinite(l.share);
+    const struct line line = line_of(s, norm, i), *l = &line;
+    const bool told = i > s->shares || isfinite(l->share);
     br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
     br_hide(d, "unit", NULL, br_text(s->norm[norm]->unit));
-    BR_PUT(d, br_text(l.name), .key = "part");
-    br_hide(d, "applies", NULL, br_truth(!l.none));
-    br_put_blank(d, l.none);
-    for (int part = 0; part < BR_PARTS; part++)
-        put_error(d, s, &l, (enum br_part)part);
-    BR_PUT(d, br_number(l.share), .key = "share", .heading = "of the sum");
-    if (isfinite(l.share))
-        br_put_shown(d, share_format(l.share), 100 * l.share);
-    BR_PUT(d, br_number(told ? l.error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
+    BR_PUT(d, br_text(l->name), .key = "part");
+    br_hide(d, "applies", NULL, br_truth(!l->none));
+    br_put_blank(d, l->none);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        const double error = models(s, part) ? l->error[part] : (double)NAN;
+        const double floor = l->floor ? l->floor[part] : (double)NAN;
+        br_hide(d, floor_key[part], NULL, br_number(floor));
+        BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part],
+               .format = "%.3e");
+        if (isfinite(error) && floor > 0 && !(error > floor))
+            br_put_shown(d, "< %.1e", floor);
+    }
+    BR_PUT(d, br_number(l->share), .key = "share", .heading = "of the sum");
+    if (isfinite(l->share))
+        br_put_shown(d, share_format(l->share), 100 * l->share);
+    BR_PUT(d, br_number(told ? l->error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
            .heading = "of the solution", .format = "%.2e");
-    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l.tip[BR_AXIAL])), .key = "axial_tip",
+    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])), .key = "axial_tip",
            .heading = "axial tip", .unit = "m", .format = "%+.3e");
-    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l.tip[BR_BENDING])), .key = "bending_tip",
-           .heading = "bending tip", .unit = "m", .format = "%+.3e");
+    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l->tip[BR_BENDING])),
+           .key = "bending_tip", .heading = "bending tip", .unit = "m", .format = "%+.3e");
     br_put_blank(d, false);
-    br_hide(d, "none", NULL, br_text(l.none));
+    br_hide(d, "none", NULL, br_text(l->none));
 }
-
-/* ---- tables ---- */
 
 static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 {
@@ -144,7 +137,7 @@ static void put_run(struct br_document *d, const struct br_split *s, size_t run)
 }
 
 /* For people: a table a run and norm, with the parts that there are. */
-static void put_run_tables(struct br_document *d, const struct br_split *s)
+static void put_run_for_people(struct br_document *d, const struct br_split *s)
 {
     char title[TEXT + 64], run[TEXT];
     for (size_t m = 0; m < s->norms; m++) {
@@ -158,41 +151,6 @@ static void put_run_tables(struct br_document *d, const struct br_split *s)
             put_line(d, s, m, i);
         }
     }
-}
-
-/* For programs: all lines of all runs. */
-static void put_parts(struct br_document *d, const struct br_split *split, size_t count)
-{
-    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
-    for (size_t r = 0; r < count; r++)
-        for (size_t m = 0; m < split[r].norms; m++)
-            for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
-                put_run(d, &split[r], r);
-                put_line(d, &split[r], m, i);
-            }
-}
-
-static void put_runs(struct br_document *d, const struct br_split *split, size_t count)
-{
-    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
-    for (size_t r = 0; r < count; r++) {
-        const struct br_split *s = &split[r];
-        put_run(d, s, r);
-        br_hide(d, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
-        br_hide(d, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
-        br_hide(d, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
-        br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
-        br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
-        br_hide(d, "unstable", NULL, br_truth(s->unstable));
-        br_hide(d, "reference", NULL, br_text(s->judge->name));
-        br_hide(d, "refined", NULL, br_text(s->refined.name));
-    }
-}
-
-/* ---- notes ---- */
-
-static void note_run(struct br_document *d, const struct br_split *s)
-{
     for (size_t m = 0; m < s->norms; m++) {
         const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum[m][BR_PART_TOTAL];
         br_put_note(d, "The whole is %.3g of the sum of its parts%s (%s).", whole / sum,
@@ -208,22 +166,6 @@ static void note_run(struct br_document *d, const struct br_split *s)
              fabs(s->tip_sum[BR_BENDING] - s->whole.tip[BR_BENDING])));
 }
 
-static void put_notes(struct br_document *d, const struct br_split *s)
-{
-    br_put_section(d, "What is measured");
-    for (size_t m = 0; m < s->norms; m++)
-        br_put_note(d, "%s", s->norm[m]->title);
-    br_put_note(d,
-                "A part is the distance of two marches, or of a march from the solution (%s). The "
-                "second march has one source of error less. So the parts add up to the whole: as "
-                "functions, and at the tip (x = L, t = T) as numbers with signs.",
-                s->judge->name);
-    br_put_note(d, "<: below this floor a part cannot be told from round-off and from the errors "
-                   "of what it is measured by.");
-    if (s->scene->remark)
-        br_put_note(d, "%s", s->scene->remark);
-}
-
 void br_report_split(const struct br_split *split, size_t count,
                      const struct br_provenance *provenance, struct br_document *d)
 {
@@ -235,12 +177,44 @@ void br_report_split(const struct br_split *split, size_t count,
     br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
     for (size_t r = 0; r < count; r++)
         answer_run(d, &split[r]);
+    for (size_t r = 0; r < count; r++)
+        put_run_for_people(d, &split[r]);
+
+    br_put_table(d, "runs", "Runs", BR_FOR_PROGRAMS);
     for (size_t r = 0; r < count; r++) {
-        put_run_tables(d, &split[r]);
-        note_run(d, &split[r]);
+        const struct br_split *s = &split[r];
+        put_run(d, s, r);
+        br_hide(d, "axial_tip", "m", br_number(s->tip[BR_AXIAL]));
+        br_hide(d, "bending_tip", "m", br_number(s->tip[BR_BENDING]));
+        br_hide(d, "solution_axial_tip", "m", br_number(s->solution_tip[BR_AXIAL]));
+        br_hide(d, "solution_bending_tip", "m", br_number(s->solution_tip[BR_BENDING]));
+        br_hide(d, "predicted_round_off", NULL, br_number(s->predicted_round_off));
+        br_hide(d, "unstable", NULL, br_truth(s->unstable));
+        br_hide(d, "reference", NULL, br_text(s->judge->name));
+        br_hide(d, "refined", NULL, br_text(s->refined.name));
     }
-    put_runs(d, split, count);
-    put_parts(d, split, count);
-    put_notes(d, split);
+
+    /* For programs: all lines of all runs. */
+    br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
+    for (size_t r = 0; r < count; r++)
+        for (size_t m = 0; m < split[r].norms; m++)
+            for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
+                put_run(d, &split[r], r);
+                put_line(d, &split[r], m, i);
+            }
+
+    br_put_section(d, "What is measured");
+    for (size_t m = 0; m < split->norms; m++)
+        br_put_note(d, "%s", split->norm[m]->title);
+    br_put_note(d,
+                "A part is the distance of two marches, or of a march from the solution (%s). The "
+                "second march has one source of error less. So the parts add up to the whole: as "
+                "functions, and at the tip (x = L, t = T) as numbers with signs.",
+                split->judge->name);
+    br_put_note(d, "<: below this floor a part cannot be told from round-off and from the errors "
+                   "of what it is measured by.");
+    if (split->scene->remark)
+        br_put_note(d, "%s", split->scene->remark);
+
     br_put_provenance(d, provenance);
 }

@@ -31,43 +31,6 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 static const char *const directions[BR_DIRECTIONS] = {"h", "k"};
 
-/* "2.000 [2.000, 2.001]"; "-" where no order is claimed. */
-static const char *seen_text(const struct br_seen_order *seen, char text[64])
-{
-    return br_order_text(&seen->order, text, 64);
-}
-
-static void answer_orders(struct br_document *d, const struct br_report *r)
-{
-    char text[64];
-    for (int i = 0; i < BR_DIRECTIONS; i++) {
-        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
-        if (!seen->asked)
-            continue;
-        br_put_answer(d, "Order in %s: ", directions[i]);
-        if (isfinite(seen->order.value))
-            br_put_more(d, "%s, theory %g, %s: %s.", seen_text(seen, text), seen->theory,
-                        seen->remark, seen->by);
-        else
-            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
-    }
-}
-
-static void answer_error(struct br_document *d, const struct br_study *s)
-{
-    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
-    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
-                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
-    if (isfinite(error))
-        br_put_more(d, "%.3e %s", error, s->norm->unit);
-    else
-        br_put_more(d, "none, the march failed");
-    if (isfinite(relative))
-        br_put_more(d, ", relative %.2e", relative);
-    br_put_more(d, ".");
-}
-
 /* Says how well a reference is known. own: its own error; NaN: not known. */
 static void say_own_error(struct br_document *d, const struct br_study *s, double own)
 {
@@ -89,14 +52,6 @@ static void say_own_error(struct br_document *d, const struct br_study *s, doubl
     br_put_more(d, ". ");
 }
 
-static size_t count_flag(const struct br_study *s, enum br_flag flag)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < s->n_count * s->k_count; i++)
-        count += s->cell[i].flag[BR_PART_TOTAL] == flag;
-    return count;
-}
-
 /* Says how many cells are left out of fits, and why. */
 static void say_flags(struct br_document *d, const struct br_study *s)
 {
@@ -110,46 +65,28 @@ static void say_flags(struct br_document *d, const struct br_study *s)
         {BR_FLAG_UNSTABLE, "U, beyond the stability limit of the lagged contact: the tip may "
                            "chatter; smaller k or --contact implicit mends it"},
     };
-    const size_t cells = s->n_count * s->k_count, good = count_flag(s, BR_FLAG_NONE);
-    if (good == cells) {
-        if (cells == 1)
-            br_put_more(d, "Its one cell counts.");
-        else
-            br_put_more(d, "All %zu cells count.", cells);
+    const size_t cells = s->n_count * s->k_count;
+    size_t count[BR_FLAG_UNSTABLE + 1] = {0};
+    for (size_t i = 0; i < cells; i++)
+        count[s->cell[i].flag[BR_PART_TOTAL]]++;
+    if (count[BR_FLAG_NONE] == cells) {
+        br_put_more(d, cells == 1 ? "Its one cell counts." : "All %zu cells count.", cells);
         return;
     }
-    br_put_more(d, "%zu of %zu cells are left out of fits:", cells - good, cells);
+    br_put_more(d, "%zu of %zu cells are left out of fits:", cells - count[BR_FLAG_NONE], cells);
     const char *separator = " ";
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const size_t count = count_flag(s, rows[i].flag);
-        if (count)
-            br_put_more(d, "%s%zu %s", separator, count, rows[i].why);
-        separator = count ? "; " : separator;
-    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        if (count[rows[i].flag]) {
+            br_put_more(d, "%s%zu %s", separator, count[rows[i].flag], rows[i].why);
+            separator = "; ";
+        }
     br_put_more(d, ".");
-}
-
-static void answer_unstable(struct br_document *d, const struct br_study *s)
-{
-    if (s->judged_by.unstable)
-        br_put_answer(d,
-                      "The %s reference itself is beyond the stability limit of the lagged "
-                      "contact: do not trust it.",
-                      s->judge->name);
-}
-
-static size_t count_contradictions(const struct br_report *r)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < r->triangles; i++)
-        count += r->triangle[i].contradiction;
-    return count;
 }
 
 static void answer_printed(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
-    size_t differ = 0, compared = 0, farthest = 0;
+    size_t differ = 0, compared = 0, farthest = 0, pairs = 0;
     double least = INFINITY, most = 0, distance = -1;
     for (size_t i = 0; r->printed && i < s->n_count * s->k_count; i++) {
         const double ratio = br_report_ratio(r, i);
@@ -164,7 +101,8 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
     }
     if (!compared)
         return;
-    const size_t pairs = count_contradictions(r);
+    for (size_t i = 0; i < r->triangles; i++)
+        pairs += r->triangle[i].contradiction;
     if (!differ)
         br_put_answer(d, "Ours and the printed errors agree within 5 %% in all %zu cells.",
                       compared);
@@ -199,10 +137,47 @@ static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
     return kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
 }
 
-static void answer_tips(struct br_document *d, const struct br_report *r)
+static void put_answers(struct br_document *d, const struct br_report *r)
 {
-    char text[64];
     const struct br_study *s = br_report_fitted(r);
+    char text[64];
+    for (int i = 0; i < BR_DIRECTIONS; i++) {
+        const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
+        if (!seen->asked)
+            continue;
+        br_put_answer(d, "Order in %s: ", directions[i]);
+        if (isfinite(seen->order.value))
+            br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
+                        seen->theory, seen->remark, seen->by);
+        else
+            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
+    }
+
+    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
+    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
+    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
+                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
+    if (isfinite(error))
+        br_put_more(d, "%.3e %s", error, s->norm->unit);
+    else
+        br_put_more(d, "none, the march failed");
+    if (isfinite(relative))
+        br_put_more(d, ", relative %.2e", relative);
+    br_put_more(d, ".");
+
+    br_put_answer(d, "Judged by: %s. ",
+                  s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
+    say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
+    say_flags(d, s);
+    for (int i = 0; i < (r->exact ? 2 : 1); i++) {
+        const struct br_study *of = i ? r->study : s;
+        if (of->judged_by.unstable)
+            br_put_answer(d,
+                          "The %s reference itself is beyond the stability limit of the lagged "
+                          "contact: do not trust it.",
+                          of->judge->name);
+    }
+
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (is_modelled(r, kind) && is_outside(r, kind))
             br_put_answer(d,
@@ -214,65 +189,7 @@ static void answer_tips(struct br_document *d, const struct br_report *r)
                                             (r->tip[kind].high - r->tip[kind].low) / 2, text,
                                             sizeof text),
                           s->judge->name, s->reference_tip[kind]);
-}
 
-/* What the answers say, and the same of each part. */
-static void put_seen(struct br_document *d, const struct br_report *r, enum br_part part, int i)
-{
-    const struct br_seen_order *seen = &r->seen[part][i];
-    char text[64];
-    if (!seen->asked)
-        return;
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-    BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
-    BR_PUT(d, br_text(seen_text(seen, text)), .heading = "seen [95 %]");
-    BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
-    BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
-    BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
-}
-
-static void put_finest(struct br_document *d, const struct br_study *s)
-{
-    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
-    const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[BR_PART_TOTAL]), .heading = "part");
-    BR_PUT(d, br_text(s->judge == &br_judge_none ? "difference" : "error"), .heading = "what");
-    BR_PUT(d, br_number(error), .heading = "seen [95 %]");
-    if (isfinite(error))
-        br_put_shown(d, "%.3e %s", error, s->norm->unit);
-    BR_PUT(d, br_number(relative), .heading = "it is");
-    if (isfinite(relative))
-        br_put_shown(d, "%.1e of the solution", relative);
-    BR_PUT(d, br_count(c->at.n), .heading = "by");
-    br_put_shown(d, "finest cell, n = %zu, k = %g s", c->at.n, step_of(s, c));
-}
-
-static void put_orders(struct br_document *d, const struct br_report *r)
-{
-    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++)
-            put_seen(d, r, part, i);
-        if (part == BR_PART_TOTAL)
-            put_finest(d, br_report_fitted(r));
-    }
-}
-
-static void put_answers(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = br_report_fitted(r);
-    answer_orders(d, r);
-    answer_error(d, s);
-    br_put_answer(d, "Judged by: %s. ",
-                  s->judge == &br_judge_none ? "the next finer cell" : s->judge->name);
-    say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
-    say_flags(d, s);
-    answer_unstable(d, s);
-    if (r->exact)
-        answer_unstable(d, r->study);
-    answer_tips(d, r);
     answer_printed(d, r);
 }
 
@@ -294,54 +211,42 @@ static const char *slope_text(const struct br_estimate *slope, char text[64])
     return slope->value <= 0 || slope->low <= 0 ? "no order" : br_order_text(slope, text, 64);
 }
 
-static void put_grid_row(struct br_document *d, const struct br_report *r, const struct grid *g,
-                         size_t i)
+static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
+                     const char *title)
 {
     static const char *const marks[] = {"", "R", "F", "X", "U"};
     const struct br_study *s = g->study;
     char buffer[64];
-    br_put_row(d);
-    BR_PUT(d, br_count(s->n[i]), .key = "n");
-    for (size_t j = 0; j < s->k_count; j++) {
-        const struct br_cell *c = br_study_cell(s, i, j);
-        const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
-        char key[32];
-        snprintf(key, sizeof key, "steps%zu", s->steps[j]);
-        snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
-        BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
-        br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
+    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
+    for (size_t i = 0; i < s->n_count; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_count(s->n[i]), .key = "n");
+        for (size_t j = 0; j < s->k_count; j++) {
+            const struct br_cell *c = br_study_cell(s, i, j);
+            const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
+            char key[32];
+            snprintf(key, sizeof key, "steps%zu", s->steps[j]);
+            snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
+            BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
+            br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
+        }
+        if (g->fits)
+            BR_PUT(d, br_text(slope_text(&g->fits->by_n[i].order, buffer)), .key = "slope",
+                   .heading = "slope in k [95 %]");
     }
     if (!g->fits)
         return;
-    BR_PUT(d, br_text(slope_text(&g->fits->by_n[i].order, buffer)), .key = "slope",
-           .heading = "slope in k [95 %]");
-}
-
-static void put_slopes_in_h(struct br_document *d, const struct grid *g)
-{
-    char text[64];
-    br_put_row(d);
-    br_put_rule(d);
-    br_put(d, "n", br_nothing());
+    BR_PUT_ROW(d, br_nothing());
     br_put_shown(d, "slope in h");
-    for (size_t j = 0; j < g->study->k_count; j++) {
+    br_put_rule(d);
+    for (size_t j = 0; j < s->k_count; j++) {
         const struct br_estimate *slope = &g->fits->by_k[j].order;
-        br_put(d, NULL, br_number(slope->value));
+        BR_PUT_CELLS(d, br_number(slope->value));
         if (slope->value <= 0 || slope->low <= 0)
-            br_put_shown(d, "%s", slope_text(slope, text));
+            br_put_shown(d, "%s", slope_text(slope, buffer));
         else if (isfinite(slope->value))
             br_put_shown(d, "%.2f", slope->value);
     }
-}
-
-static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
-                     const char *title)
-{
-    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
-    for (size_t i = 0; i < g->study->n_count; i++)
-        put_grid_row(d, r, g, i);
-    if (g->fits)
-        put_slopes_in_h(d, g);
 }
 
 static double printed_of(const struct br_report *r, size_t cell)
@@ -388,23 +293,17 @@ static void put_grids(struct br_document *d, const struct br_report *r)
 
 /* ---- lists ---- */
 
-/* The order that a cell and its coarser neighbour show; not finite where there is none. */
-static double rate_of(double coarse, double fine, size_t from, size_t to)
-{
-    return log(coarse / fine) / log((double)to / (double)from);
-}
-
-/* To the coarser mesh, or the longer step, before this one. */
+/* The order that a cell and its coarser neighbour show, which has the coarser mesh or the longer
+ * step before this one; not finite where there is none. */
 static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part,
                                bool over_h)
 {
     const size_t i = cell / s->k_count, j = cell % s->k_count;
     if (over_h ? i == 0 : j == 0)
         return br_nothing();
-    const double error = s->cell[cell].error[part];
     const double coarse = br_study_cell(s, i - over_h, j - !over_h)->error[part];
-    return br_number(over_h ? rate_of(coarse, error, s->n[i - 1], s->n[i])
-                            : rate_of(coarse, error, s->steps[j - 1], s->steps[j]));
+    const size_t from = over_h ? s->n[i - 1] : s->steps[j - 1], to = over_h ? s->n[i] : s->steps[j];
+    return br_number(log(coarse / s->cell[cell].error[part]) / log((double)to / (double)from));
 }
 
 static void put_cell(struct br_document *d, const struct br_report *r, const struct br_study *s,
@@ -413,35 +312,43 @@ static void put_cell(struct br_document *d, const struct br_report *r, const str
     const struct br_cell *c = &s->cell[cell];
     const bool printed = s == r->study && part == BR_PART_TOTAL && r->printed;
     const bool marched = c->failure.status == BR_OK;
-    const struct br_scene *scene = s->scene;
-    const char *unit = s->norm->unit;
-    br_put_row(d);
-    BR_PUT(d, br_text(s->judge->name), .key = "reference");
-    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-    BR_PUT(d, br_count(c->at.n), .key = "n");
-    BR_PUT(d, br_number(br_mesh_size(scene, c->at.n)), .key = "h", .unit = "m");
-    BR_PUT(d, br_count(c->at.steps), .key = "steps");
-    BR_PUT(d, br_number(step_of(s, c)), .key = "k", .unit = "s");
-    BR_PUT(d, br_number(c->error[part]), .key = "error", .unit = unit);
-    BR_PUT(d, br_number(relative_of(s, c, part)), .key = "relative");
-    BR_PUT(d, br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), .key = "flag");
-    BR_PUT(d, rate_to(s, cell, part, true), .key = "rate_h");
-    BR_PUT(d, rate_to(s, cell, part, false), .key = "rate_k");
-    BR_PUT(d, br_number(printed ? r->printed[cell] : NAN), .key = "printed", .unit = unit);
-    BR_PUT(d, br_number(printed ? br_report_ratio(r, cell) : NAN), .key = "ratio");
-    BR_PUT(d, br_number(c->worst_time[part]), .key = "worst_time", .unit = "s");
-    BR_PUT(d, br_if(marched && scene->axial.modelled, br_number(c->tip[BR_AXIAL])),
-           .key = "tip_axial", .unit = "m");
-    BR_PUT(d, br_if(marched && scene->bending.modelled, br_number(c->tip[BR_BENDING])),
-           .key = "tip_bending", .unit = "m");
-    BR_PUT(d, br_number(c->seconds), .key = "seconds", .unit = "s");
-    BR_PUT(d, br_failure_text(&c->failure), .key = "failure");
+    BR_PUT_ROW(
+        d, br_text(s->judge->name), br_text(br_part_names[part]), br_count(c->at.n),
+        br_number(br_mesh_size(s->scene, c->at.n)), br_count(c->at.steps), br_number(step_of(s, c)),
+        br_number(c->error[part]), br_number(relative_of(s, c, part)),
+        br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), rate_to(s, cell, part, true),
+        rate_to(s, cell, part, false), br_number(printed ? r->printed[cell] : NAN),
+        br_number(printed ? br_report_ratio(r, cell) : NAN), br_number(c->worst_time[part]),
+        br_if(marched && s->scene->axial.modelled, br_number(c->tip[BR_AXIAL])),
+        br_if(marched && s->scene->bending.modelled, br_number(c->tip[BR_BENDING])),
+        br_number(c->seconds), br_failure_text(&c->failure));
 }
 
 static void put_cells(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *const studies[] = {r->study, r->exact};
-    br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN);
+    const char *unit = r->study->norm->unit;
+    const struct br_column columns[] = {
+        {.key = "reference"},
+        {.key = "part"},
+        {.key = "n"},
+        {.key = "h", .unit = "m"},
+        {.key = "steps"},
+        {.key = "k", .unit = "s"},
+        {.key = "error", .unit = unit},
+        {.key = "relative"},
+        {.key = "flag"},
+        {.key = "rate_h"},
+        {.key = "rate_k"},
+        {.key = "printed", .unit = unit},
+        {.key = "ratio"},
+        {.key = "worst_time", .unit = "s"},
+        {.key = "tip_axial", .unit = "m"},
+        {.key = "tip_bending", .unit = "m"},
+        {.key = "seconds", .unit = "s"},
+        {.key = "failure"},
+    };
+    BR_TABLE(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN, columns);
     for (size_t i = 0; i < 2 && studies[i]; i++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
             for (size_t c = 0; is_shown(r, part) && c < r->study->n_count * r->study->k_count; c++)
@@ -450,7 +357,7 @@ static void put_cells(struct br_document *d, const struct br_report *r)
 
 /* ---- slopes, fits and tips ---- */
 
-/* A number, and its interval in columns of their own. shown: to people; NULL: the number. */
+/* An estimate, and its interval in columns of their own. shown: to people; NULL: the number. */
 static void put_estimate(struct br_document *d, const struct br_column *column,
                          const struct br_estimate *e, const char *shown)
 {
@@ -463,117 +370,53 @@ static void put_estimate(struct br_document *d, const struct br_column *column,
     br_hide(d, low, column->unit, br_number(e->low));
     br_hide(d, high, column->unit, br_number(e->high));
 }
+#define PUT_ESTIMATE(d, e, shown, ...) \
+    put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
 
-/* shown: to people. */
-static void put_order(struct br_document *d, const char *key, const char *heading,
-                      const struct br_estimate *e, const char *shown)
-{
-    put_estimate(d, &(struct br_column){.key = key, .heading = heading}, e, shown);
-}
-
-/* claims: whether the fit describes the errors. */
-static const char *fitted_text(const struct br_estimate *e, bool claims, char text[64])
-{
-    return claims && br_order_determined(e) ? br_order_text(e, text, 64) : "not claimed";
-}
-
-/* n, or k; over: what the slope is over. */
-static void put_slope(struct br_document *d, enum br_part part, const char *over, struct br_value n,
-                      struct br_value k, const struct br_slope *slope)
-{
-    char text[64];
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-    BR_PUT(d, br_text(over), .key = "over");
-    BR_PUT(d, n, .key = "n");
-    BR_PUT(d, k, .key = "k", .unit = "s");
-    put_order(d, "order", "slope [95 %]", &slope->order, slope_text(&slope->order, text));
-    BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
-}
-
-static void put_slopes(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study;
-    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 r->rates ? BR_LONG : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (size_t i = 0; is_shown(r, part) && i < s->n_count; i++)
-            put_slope(d, part, "k", br_count(s->n[i]), br_nothing(), &r->fits[part].by_n[i]);
-        for (size_t j = 0; is_shown(r, part) && j < s->k_count; j++)
-            put_slope(d, part, "h", br_nothing(), br_number(br_time_step(s->scene, s->steps[j])),
-                      &r->fits[part].by_k[j]);
-    }
-}
-
-static void put_fit(struct br_document *d, const struct br_report *r, enum br_part part)
-{
-    static const char *const kinds[] = {"space and time", "time", "space"};
-    static const struct br_column c_h = {.key = "C_h", .format = "%.3g"},
-                                  c_k = {.key = "C_k", .format = "%.3g"},
-                                  both = {.key = "r", .heading = "r [95 %]"};
-    const struct br_joint_fit *j = &r->fits[part].joint;
-    const bool claims = br_joint_describes(j);
-    char text[64], order[64];
-    snprintf(text, sizeof text, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
-    br_put_row(d);
-    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-    BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
-           .flags = BR_FILES_ONLY);
-    if (!j->converged)
-        br_put_shown(d, "none");
-    put_order(d, "p", "p [95 %]", &j->p, fitted_text(&j->p, claims, order));
-    put_estimate(d, &c_h, &j->c_h, claims ? NULL : "-");
-    put_order(d, "q", "q [95 %]", &j->q, fitted_text(&j->q, claims, order));
-    put_estimate(d, &c_k, &j->c_k, claims ? NULL : "-");
-    put_estimate(d, &both, &j->r, claims ? text : "-");
-    BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
-    BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
-           .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
-    br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
-    BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
-    BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
-           .flags = BR_FILES_ONLY);
-    br_hide(d, "reference_error", r->study->norm->unit, br_number(r->fits[part].reference_error));
-}
-
+/* Numbers of a fit that does not describe the errors are not claimed. */
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
+    static const char *const kinds[] = {"space and time", "time", "space"};
     bool told = r->rates;
     for (enum br_part part = 0; part < BR_PARTS; part++)
         told |= is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
                  told ? 0 : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        if (is_shown(r, part))
-            put_fit(d, r, part);
-}
-
-static void put_tips(struct br_document *d, const struct br_report *r)
-{
-    static const struct br_column extrapolated = {.key = "extrapolated", .unit = "m"};
-    const struct br_study *s = br_report_fitted(r);
-    const bool judged = s->judge != &br_judge_none;
-    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
-    br_put_table(d, "tips",
-                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
-                       : "Tip at t = T (the cells alone cannot be extrapolated)",
-                 r->printed ? BR_FILES_ONLY : 0);
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_estimate *e = &r->tip[kind];
-        const bool compared = judged && isfinite(e->high - e->low);
-        char shown[64];
-        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
-        if (!is_modelled(r, kind))
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        const struct br_joint_fit *j = &r->fits[part].joint;
+        const bool claims = br_joint_describes(j);
+        const char *constant = claims ? NULL : "-";
+        char p[64] = "not claimed", q[64] = "not claimed", both[64] = "-";
+        if (!is_shown(r, part))
             continue;
+        if (claims && br_order_determined(&j->p))
+            br_order_text(&j->p, p, sizeof p);
+        if (claims && br_order_determined(&j->q))
+            br_order_text(&j->q, q, sizeof q);
+        if (claims)
+            snprintf(both, sizeof both, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
         br_put_row(d);
-        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
-        put_estimate(d, &extrapolated, e, shown);
-        BR_PUT(d, br_number(judged ? s->reference_tip[kind] : NAN), .key = "reference", .unit = "m",
-               .format = "%.10g");
-        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
-               .key = "reference_is", .heading = "it is");
+        BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+        BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
+               .flags = BR_FILES_ONLY);
+        if (!j->converged)
+            br_put_shown(d, "none");
+        PUT_ESTIMATE(d, &j->p, p, .key = "p", .heading = "p [95 %]");
+        PUT_ESTIMATE(d, &j->c_h, constant, .key = "C_h", .format = "%.3g");
+        PUT_ESTIMATE(d, &j->q, q, .key = "q", .heading = "q [95 %]");
+        PUT_ESTIMATE(d, &j->c_k, constant, .key = "C_k", .format = "%.3g");
+        PUT_ESTIMATE(d, &j->r, both, .key = "r", .heading = "r [95 %]");
+        BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
+        BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
+               .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
+        br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
+        BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
+               .flags = BR_FILES_ONLY);
+        br_hide(d, "reference_error", r->study->norm->unit,
+                br_number(r->fits[part].reference_error));
     }
 }
 
@@ -599,17 +442,10 @@ static void put_triangles(struct br_document *d, const struct br_report *r)
              columns);
     for (size_t i = 0; i < r->triangles; i++) {
         const struct br_triangle *t = &r->triangle[i];
-        br_put_row(d);
-        br_put(d, "a_n", br_count(t->a.n));
-        br_put(d, "a_k", br_number(br_time_step(r->study->scene, t->a.steps)));
-        br_put(d, "b_n", br_count(t->b.n));
-        br_put(d, "b_k", br_number(br_time_step(r->study->scene, t->b.steps)));
-        br_put(d, "printed_a", br_number(t->printed_a));
-        br_put(d, "printed_b", br_number(t->printed_b));
-        br_put(d, "least", br_number(t->least));
-        br_put(d, "most", br_number(t->most));
-        br_put(d, "distance", br_number(t->distance));
-        br_put(d, "contradiction", br_truth(t->contradiction));
+        BR_PUT_ROW(d, br_count(t->a.n), br_number(br_time_step(r->study->scene, t->a.steps)),
+                   br_count(t->b.n), br_number(br_time_step(r->study->scene, t->b.steps)),
+                   br_number(t->printed_a), br_number(t->printed_b), br_number(t->least),
+                   br_number(t->most), br_number(t->distance), br_truth(t->contradiction));
     }
     br_put_note(d, "Whatever the reference, two printed errors need solutions that are at least "
                    "their difference and at most their sum apart. The scheme's own solutions are "
@@ -617,20 +453,6 @@ static void put_triangles(struct br_document *d, const struct br_report *r)
 }
 
 /* ---- notes and facts ---- */
-
-static void put_events(struct br_document *d, const struct br_report *r)
-{
-    const char *line = br_report_fitted(r)->events, *remark = r->study->scene->remark;
-    if ((line && *line) || remark)
-        br_put_section(d, "Events");
-    while (line && *line) {
-        const size_t length = strcspn(line, "\n");
-        br_put_note(d, "%.*s", (int)length, line);
-        line += length + (line[length] == '\n');
-    }
-    if (remark)
-        br_put_note(d, "%s", remark);
-}
 
 /* Who judges. */
 static void put_judge(struct br_document *d, const char *label, const struct br_study *s)
@@ -645,15 +467,6 @@ static void put_judge(struct br_document *d, const char *label, const struct br_
         br_put_note(d, "%s %s: %s.", label, s->judge->name, s->judge->title);
 }
 
-/* The study that is not fitted. */
-static void put_beside(struct br_document *d, const struct br_study *s)
-{
-    put_judge(d, "Beside it,", s);
-    br_put_note(d, "%s", "");
-    say_own_error(d, s, s->reference_error[BR_PART_TOTAL]);
-    say_flags(d, s);
-}
-
 static void put_notes(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study;
@@ -665,8 +478,12 @@ static void put_notes(struct br_document *d, const struct br_report *r)
         d, "Cells: %s.",
         br_method_text(&(struct br_meshes){s->scene, s->n, s->n_count}, &s->method, method));
     put_judge(d, "Reference,", br_report_fitted(r));
-    if (r->exact)
-        put_beside(d, s);
+    if (r->exact) { /* the study that is not fitted */
+        put_judge(d, "Beside it,", s);
+        br_put_note(d, "%s", "");
+        say_own_error(d, s, s->reference_error[BR_PART_TOTAL]);
+        say_flags(d, s);
+    }
     br_put_note(d,
                 "Too near: below %g times the own error of the reference (R) or the predicted "
                 "round-off (F).",
@@ -706,31 +523,10 @@ static void put_reference(struct br_document *d, const char *key, const struct b
     br_hide_fact(d, br_number(s->judged_by.seconds), "s", "%s.seconds", key);
 }
 
-static void put_order_facts(struct br_document *d, const struct br_report *r, enum br_part part,
-                            int i)
-{
-    const struct br_seen_order *seen = &r->seen[part][i];
-    const char *name = br_part_names[part], *in = directions[i];
-    br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
-    br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
-    br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
-    br_hide_fact(d, br_number(seen->theory), NULL, "orders.%s.%s.theory", name, in);
-    br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
-    br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
-}
-
-static void put_finest_facts(struct br_document *d, const struct br_study *s)
-{
-    const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
-    br_hide_fact(d, br_count(c->at.n), NULL, "finest.n");
-    br_hide_fact(d, br_number(step_of(s, c)), "s", "finest.k");
-    br_hide_fact(d, br_number(c->error[BR_PART_TOTAL]), s->norm->unit, "finest.error");
-    br_hide_fact(d, br_number(relative_of(s, c, BR_PART_TOTAL)), NULL, "finest.relative");
-}
-
 static void put_facts(struct br_document *d, const struct br_report *r)
 {
-    const struct br_study *s = r->study;
+    const struct br_study *s = r->study, *fitted = br_report_fitted(r);
+    const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
     const struct br_fact facts[] = {
         {"scene.name", NULL, NULL, br_text(s->scene->name)},
         {"norm.name", NULL, NULL, br_text(s->norm->name)},
@@ -743,11 +539,23 @@ static void put_facts(struct br_document *d, const struct br_report *r)
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (int i = 0; i < BR_DIRECTIONS; i++)
-            if (r->seen[part][i].asked)
-                put_order_facts(d, r, part, i);
-    put_finest_facts(d, br_report_fitted(r));
-    br_hide_fact(d, br_text(br_report_fitted(r)->judge->name), NULL, "fitted");
+        for (int i = 0; i < BR_DIRECTIONS; i++) {
+            const struct br_seen_order *seen = &r->seen[part][i];
+            const char *name = br_part_names[part], *in = directions[i];
+            if (!seen->asked)
+                continue;
+            br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
+            br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
+            br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
+            br_hide_fact(d, br_number(seen->theory), NULL, "orders.%s.%s.theory", name, in);
+            br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
+            br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
+        }
+    br_hide_fact(d, br_count(finest->at.n), NULL, "finest.n");
+    br_hide_fact(d, br_number(step_of(fitted, finest)), "s", "finest.k");
+    br_hide_fact(d, br_number(finest->error[BR_PART_TOTAL]), fitted->norm->unit, "finest.error");
+    br_hide_fact(d, br_number(relative_of(fitted, finest, BR_PART_TOTAL)), NULL, "finest.relative");
+    br_hide_fact(d, br_text(fitted->judge->name), NULL, "fitted");
     br_hide_fact(d, br_number(r->wall_seconds), "s", "wall_seconds");
 }
 
@@ -755,14 +563,103 @@ void br_report_study(const struct br_report *r, struct br_document *d)
 {
     br_document_begin(d, r->name, "beamrate study", 2, r->caption);
     put_answers(d, r);
-    put_orders(d, r);
+
+    /* What the answers say, and the same of each part. */
+    const struct br_study *fitted = br_report_fitted(r);
+    const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
+    const double error = finest->error[BR_PART_TOTAL];
+    const double relative = relative_of(fitted, finest, BR_PART_TOTAL);
+    char text[64];
+    br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
+            const struct br_seen_order *seen = &r->seen[part][i];
+            if (!seen->asked)
+                continue;
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+            BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
+                   .heading = "seen [95 %]");
+            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+            BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
+            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
+        }
+        if (part != BR_PART_TOTAL)
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
+        BR_PUT(d, br_text(fitted->judge == &br_judge_none ? "difference" : "error"),
+               .heading = "what");
+        BR_PUT(d, br_number(error), .heading = "seen [95 %]");
+        if (isfinite(error))
+            br_put_shown(d, "%.3e %s", error, fitted->norm->unit);
+        BR_PUT(d, br_number(relative), .heading = "it is");
+        if (isfinite(relative))
+            br_put_shown(d, "%.1e of the solution", relative);
+        BR_PUT(d, br_count(finest->at.n), .heading = "by");
+        br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(fitted, finest));
+    }
+
     put_grids(d, r);
     put_fits(d, r);
-    put_tips(d, r);
+
+    const bool judged = fitted->judge != &br_judge_none;
+    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
+    br_put_table(d, "tips",
+                 known ? "Tip at t = T from the cells alone (Richardson, h and k to 0)"
+                       : "Tip at t = T (the cells alone cannot be extrapolated)",
+                 r->printed ? BR_FILES_ONLY : 0);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_estimate *e = &r->tip[kind];
+        const bool compared = judged && isfinite(e->high - e->low);
+        char shown[64];
+        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
+        if (!is_modelled(r, kind))
+            continue;
+        br_put_row(d);
+        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
+        PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
+        BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
+               .unit = "m", .format = "%.10g");
+        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
+               .key = "reference_is", .heading = "it is");
+    }
+
     put_triangles(d, r);
-    put_slopes(d, r);
+
+    const struct br_study *s = r->study;
+    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
+                 r->rates ? BR_LONG : BR_FILES_ONLY);
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
+            const bool row = i < s->n_count;
+            const size_t j = row ? i : i - s->n_count;
+            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
+            br_put_row(d);
+            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
+            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
+            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
+                   .key = "k", .unit = "s");
+            PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
+                         .heading = "slope [95 %]");
+            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
+        }
+
     put_cells(d, r);
     put_notes(d, r);
-    put_events(d, r);
+
+    const char *line = fitted->events, *remark = r->study->scene->remark;
+    if ((line && *line) || remark)
+        br_put_section(d, "Events");
+    while (line && *line) {
+        const size_t length = strcspn(line, "\n");
+        br_put_note(d, "%.*s", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+    if (remark)
+        br_put_note(d, "%s", remark);
+
     put_facts(d, r);
 }

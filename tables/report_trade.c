@@ -5,8 +5,6 @@
 #include "study/trade/trade.h"
 #include "tables/report_parts.h"
 
-/* ---- the answer ---- */
-
 enum { TEXT = 1024 };
 
 /* "bdf2, n = 100, k = 0.01 s; 1.2e-05 CPU s, relative error 3.45e-04" */
@@ -58,10 +56,9 @@ static void answer_front(struct br_document *d, const struct br_trade *t)
     size_t best = fastest;
     for (size_t i = best; i < t->count; i = next_on_front(t, i))
         best = i;
-    if (best == t->count)
-        return;
-    br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
-                  describe(t, fastest, text));
+    if (best < t->count)
+        br_put_answer(d, "Fastest%s: %s.", best == fastest ? " and most accurate" : "",
+                      describe(t, fastest, text));
     if (best != fastest)
         br_put_answer(d, "Most accurate: %s.", describe(t, best, text));
 }
@@ -89,28 +86,6 @@ static void answer_paper(struct br_document *d, const struct br_trade *t)
         return;
     }
 }
-
-static void answer_ends(struct br_document *d, const struct br_trade *t)
-{
-    const char *between = "";
-    br_put_answer(d, "Trials: ");
-    for (int i = BR_TRIAL_DONE; i < BR_TRIAL_ENDS; i++) {
-        const enum br_trial_end end = (enum br_trial_end)i;
-        if (!br_trade_tally(t, end))
-            continue;
-        br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_names[end]);
-        between = ", ";
-    }
-    br_put_more(d, ".");
-    if (t->outlook.left)
-        br_put_answer(d,
-                      "Left out for time, the dearest first: %zu of %zu trials, about %.0f s; "
-                      "--seconds %.0f has all.",
-                      t->outlook.left, t->count, t->outlook.left_seconds,
-                      br_trade_seconds_of_all(&t->outlook));
-}
-
-/* ---- tables ---- */
 
 /* A trial and what came of it. */
 static void put_outcome(struct br_document *d, const struct br_trade *t, size_t i)
@@ -178,40 +153,6 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
     }
 }
 
-static void put_methods(struct br_document *d, const struct br_trade *t)
-{
-    br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY);
-    for (size_t c = 0; c < t->methods.count; c++) {
-        br_put_row(d);
-        BR_PUT(d, br_text(t->methods.list[c].name), .key = "method");
-        br_put_method_cells(d, &t->methods.list[c].method);
-        for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
-            const size_t best = t->best_of[c][i];
-            const bool reached = best < t->count;
-            char key[32];
-            snprintf(key, sizeof key, "seconds_to_%.0e", br_trade_target(i));
-            BR_PUT(d, br_number(reached ? br_trial_seconds(&t->trial[best]) : NAN), .key = key,
-                   .heading = key + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
-        }
-    }
-}
-
-static void put_failures(struct br_document *d, const struct br_trade *t)
-{
-    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE);
-    for (size_t i = 0; i < t->count; i++) {
-        const struct br_trial *trial = &t->trial[i];
-        if (!trial->failure.status)
-            continue;
-        br_put_row(d);
-        br_put_trial(d, t->request.scene, trial);
-        BR_PUT(d, br_text(br_trial_end_names[trial->end]), .key = "end");
-        BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
-    }
-}
-
-/* ---- what was measured ---- */
-
 static const struct br_judge *judge_of(const struct br_trade *t)
 {
     return t->request.judge ? t->request.judge : br_judge_best(t->request.scene);
@@ -236,28 +177,64 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
                     known->own / known->scale);
 }
 
-static void put_notes(struct br_document *d, const struct br_trade *t, const char *machine)
+void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
+                     struct br_document *d)
 {
-    br_put_section(d, "What is measured");
-    note_judge(d, t);
-    br_put_note(d,
-                "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
-                "%zu marches after a warm-up. A march longer than %g s is not repeated. On %s.",
-                t->request.repeats, t->request.repeat_seconds, machine);
-    br_put_note(d, "Digits/s: -log10 of the relative error, over these seconds.");
-    br_put_note(d, "An error is the largest at a trial's own time levels: nobody asks long steps "
-                   "about what happens between them.");
-    br_put_note(d, "A method is its time scheme and what is not the default with it. A scheme that "
-                   "chooses its steps has a tolerance (tol) instead of k.");
-    if (br_trade_tally(t, BR_TRIAL_DOUBTFUL))
-        br_put_note(d, "Doubtful: the judge's own error is more than a third of the trial's.");
-    if (br_trade_tally(t, BR_TRIAL_UNSTABLE))
-        br_put_note(d, "Unstable: beyond the stability limit of the lagged contact.");
-    br_put_note(d, "All trials are in the CSV and JSON files.");
-}
+    char caption[512];
+    snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
+    br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
+    answer_cheapest(d, t);
+    answer_front(d, t);
+    answer_paper(d, t);
 
-static void put_facts(struct br_document *d, const struct br_trade *t)
-{
+    const char *between = "";
+    br_put_answer(d, "Trials: ");
+    for (enum br_trial_end end = BR_TRIAL_DONE; end < BR_TRIAL_ENDS; end++)
+        if (br_trade_tally(t, end)) {
+            br_put_more(d, "%s%zu %s", between, br_trade_tally(t, end), br_trial_end_names[end]);
+            between = ", ";
+        }
+    br_put_more(d, ".");
+    if (t->outlook.left)
+        br_put_answer(d,
+                      "Left out for time, the dearest first: %zu of %zu trials, about %.0f s; "
+                      "--seconds %.0f has all.",
+                      t->outlook.left, t->count, t->outlook.left_seconds,
+                      br_trade_seconds_of_all(&t->outlook));
+
+    br_put_table(d, "cheapest", "Cheapest way to an error",
+                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
+    put_targets(d, t, NULL);
+    put_trials(d, t, true);
+
+    br_put_table(d, "methods", "CPU seconds to an error, by method", BR_FILES_ONLY);
+    for (size_t c = 0; c < t->methods.count; c++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(t->methods.list[c].name), .key = "method");
+        br_put_method_cells(d, &t->methods.list[c].method);
+        for (size_t i = 0; i < BR_TRADE_DIGITS; i++) {
+            const size_t best = t->best_of[c][i];
+            const bool reached = best < t->count;
+            char key[32];
+            snprintf(key, sizeof key, "seconds_to_%.0e", br_trade_target(i));
+            BR_PUT(d, br_number(reached ? br_trial_seconds(&t->trial[best]) : NAN), .key = key,
+                   .heading = key + strlen("seconds_to_"), .unit = "s", .format = "%.2g");
+        }
+    }
+
+    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE);
+    for (size_t i = 0; i < t->count; i++) {
+        const struct br_trial *trial = &t->trial[i];
+        if (!trial->failure.status)
+            continue;
+        br_put_row(d);
+        br_put_trial(d, t->request.scene, trial);
+        BR_PUT(d, br_text(br_trial_end_names[trial->end]), .key = "end");
+        BR_PUT(d, br_text(trial->failure.message), .key = "why", .flags = BR_WRAP);
+    }
+
+    put_trials(d, t, false);
+
     const struct br_fact facts[] = {
         {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
         {"norm", NULL, NULL, br_text(t->request.norm->name)},
@@ -269,31 +246,26 @@ static void put_facts(struct br_document *d, const struct br_trade *t)
         {"wall_seconds", NULL, NULL, br_number(t->wall_seconds)},
     };
     BR_FACTS(d, facts);
-}
 
-void br_report_trade(const struct br_trade *t, const struct br_provenance *provenance,
-                     struct br_document *d)
-{
-    char caption[512];
-    snprintf(caption, sizeof caption, "What a digit costs: %.400s", t->request.scene->title);
-    br_document_begin(d, t->request.scene->name, "beamrate trade", 1, caption);
-    answer_cheapest(d, t);
-    answer_front(d, t);
-    answer_paper(d, t);
-    answer_ends(d, t);
-    br_put_table(d, "cheapest", "Cheapest way to an error",
-                 t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);
-    put_targets(d, t, NULL);
-    put_trials(d, t, true);
-    put_methods(d, t);
-    put_failures(d, t);
-    put_trials(d, t, false);
-    put_facts(d, t);
-    put_notes(d, t, provenance->machine);
+    br_put_section(d, "What is measured");
+    note_judge(d, t);
+    br_put_note(d,
+                "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
+                "%zu marches after a warm-up. A march longer than %g s is not repeated. On %s.",
+                t->request.repeats, t->request.repeat_seconds, provenance->machine);
+    br_put_note(d, "Digits/s: -log10 of the relative error, over these seconds.");
+    br_put_note(d, "An error is the largest at a trial's own time levels: nobody asks long steps "
+                   "about what happens between them.");
+    br_put_note(d, "A method is its time scheme and what is not the default with it. A scheme that "
+                   "chooses its steps has a tolerance (tol) instead of k.");
+    if (br_trade_tally(t, BR_TRIAL_DOUBTFUL))
+        br_put_note(d, "Doubtful: the judge's own error is more than a third of the trial's.");
+    if (br_trade_tally(t, BR_TRIAL_UNSTABLE))
+        br_put_note(d, "Unstable: beyond the stability limit of the lagged contact.");
+    br_put_note(d, "All trials are in the CSV and JSON files.");
+
     br_put_provenance(d, provenance);
 }
-
-/* ---- several scenes ---- */
 
 /* "example1: to 1e-03 bdf2, n = 100, k = 0.01 s (1e-05 CPU s); to 1e-06 ..." */
 static void answer_scene(struct br_document *d, const struct br_trade *t)

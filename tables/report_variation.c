@@ -45,20 +45,6 @@ static bool answer_range(struct br_document *d, const struct br_variation *s, si
     return true;
 }
 
-static void put_row(struct br_document *d, const struct br_variation *s, size_t i)
-{
-    const struct br_varied *v = s->varied;
-    br_put_row(d);
-    BR_PUT(d, br_number(v->value[i]), .key = "value", .heading = v->name, .unit = v->unit);
-    for (size_t c = 0; c < s->columns; c++)
-        BR_PUT(d, br_number(br_variation_value(s, i, c)), .key = s->column[c].key,
-               .heading = s->column[c].heading, .unit = s->column[c].unit,
-               .format = s->column[c].format,
-               .flags = s->column[c].for_programs ? BR_FOR_PROGRAMS : 0);
-    BR_PUT(d, br_text(s->remark[i]), .key = "remark", .flags = BR_WRAP);
-    BR_PUT(d, br_failure_text(&s->failure[i]), .key = "failure", .flags = BR_WRAP);
-}
-
 void br_report_variation(const struct br_variation *s, struct br_document *d)
 {
     const struct br_varied *v = s->varied;
@@ -78,8 +64,16 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
                       v->value[first], v->unit, s->failure[first].message);
     br_put_table(d, "values", "What was found at each value", BR_MAIN | BR_LONG);
-    for (size_t i = 0; i < v->count; i++)
-        put_row(d, s, i);
+    for (size_t i = 0; i < v->count; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_number(v->value[i]), .key = "value", .heading = v->name, .unit = v->unit);
+        for (const struct br_variation_column *c = s->column; c < s->column + s->columns; c++)
+            BR_PUT(d, br_number(br_variation_value(s, i, (size_t)(c - s->column))), .key = c->key,
+                   .heading = c->heading, .unit = c->unit, .format = c->format,
+                   .flags = c->for_programs ? BR_FOR_PROGRAMS : 0);
+        BR_PUT(d, br_text(s->remark[i]), .key = "remark", .flags = BR_WRAP);
+        BR_PUT(d, br_failure_text(&s->failure[i]), .key = "failure", .flags = BR_WRAP);
+    }
     const struct br_fact facts[] = {{"varied.key", "varied", NULL, br_text(v->name)},
                                     {"varied.unit", NULL, NULL, br_text(v->unit)},
                                     {"varied.logarithmic", NULL, NULL, br_truth(v->logarithmic)},

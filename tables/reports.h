@@ -27,6 +27,7 @@ struct br_stability;
 struct br_variation;
 struct br_trade;
 struct br_warnings;
+struct json_t; /* of jansson */
 
 /* ---- study, tables, figures: without provenance ---- */
 
@@ -119,6 +120,18 @@ void br_report_split(const struct br_split *split, size_t count,
  * <scene>-plan. scene_word: the scene as on the command line. */
 void br_report_plan(const struct br_plan *plan, const char *scene_word,
                     const struct br_provenance *provenance, struct br_document *d);
+
+/* ---- repeat ---- */
+
+struct br_repeated {
+    size_t compared, different; /* values */
+};
+
+/* Puts what differs between two JSON documents of one report into a document that has begun:
+ * numbers beyond the interval or the error that is stated beside them, or beyond round-off;
+ * verdicts, words and what one of them does not have. Times of the clock are not compared. */
+void br_report_repeated(const struct json_t *was, const struct json_t *is,
+                        struct br_repeated *found, struct br_document *d);
 
 /* ---- extremes, one a part: without provenance ---- */
 

@@ -69,18 +69,6 @@ static json_t *number(const struct br_scene_key *key)
     return o;
 }
 
-static json_t *shape(void)
-{
-    return matching(NULL, "^(circle +" LENGTH "|(rectangle|tube) +" LENGTH " x +" LENGTH ")$");
-}
-
-static json_t *load(void)
-{
-    return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf", expression(NULL),
-                     "type", "object", "additionalProperties", 0, "required", "shape", "history",
-                     "properties", "shape", expression("t"), "history", expression("x"));
-}
-
 static json_t *law(void)
 {
     json_t *names = json_array();
@@ -89,8 +77,6 @@ static json_t *law(void)
             json_array_append_new(names, json_string(br_friction_law_names[i]));
     return json_pack("{s:o}", "enum", names);
 }
-
-/* ---- verify ---- */
 
 /* The rows of a registry; a number of them may be written as one. */
 static json_t *method_words(const struct br_words *words)
@@ -166,8 +152,6 @@ static json_t *verify(void)
                      "additionalProperties", 0, "properties", properties);
 }
 
-/* ---- keys and sections ---- */
-
 static json_t *section(const char *name);
 
 static json_t *value(const struct br_scene_key *key)
@@ -181,7 +165,10 @@ static json_t *value(const struct br_scene_key *key)
     case BR_KEY_NOT_NEGATIVE:
         return number(key);
     case BR_KEY_LOAD:
-        return load();
+        return json_pack("{s:[o, {s:s, s:b, s:[s, s], s:{s:o, s:o}}]}", "anyOf", expression(NULL),
+                         "type", "object", "additionalProperties", 0, "required", "shape",
+                         "history", "properties", "shape", expression("t"), "history",
+                         expression("x"));
     case BR_KEY_INITIAL:
         return expression("t");
     case BR_KEY_HISTORY:
@@ -191,7 +178,7 @@ static json_t *value(const struct br_scene_key *key)
     case BR_KEY_LAW:
         return law();
     case BR_KEY_SHAPE:
-        return shape();
+        return matching(NULL, "^(circle +" LENGTH "|(rectangle|tube) +" LENGTH " x +" LENGTH ")$");
     case BR_KEY_VERIFY:
         break;
     }

@@ -7,13 +7,6 @@
 
 enum { COLUMN = 46 }; /* where comments begin */
 
-/* "  name: value", as a comment where it is optional; returns how wide that is. */
-static int write_entry(FILE *out, const struct br_scene_key *key, bool live)
-{
-    return fprintf(out, "%s%s%s:%s%s", *key->section ? "  " : "", live ? "" : "# ", key->name,
-                   *key->example ? " " : "", key->example);
-}
-
 /* Or what makes it; the template gives the number itself. */
 static bool must_be_given(const struct br_scene_key *key)
 {
@@ -39,32 +32,23 @@ static void write_default(FILE *out, const struct br_scene_key *key)
         fprintf(out, "; default: none");
 }
 
-static const char *constraint(enum br_key_kind kind)
-{
-    return kind == BR_KEY_POSITIVE       ? ", > 0"
-           : kind == BR_KEY_NOT_NEGATIVE ? ", >= 0"
-           : kind == BR_KEY_LOAD         ? ", or {shape: \"F(x) [1]\", history: \"G(t) [N/m]\"}"
-           : kind == BR_KEY_HISTORY      ? ", of t"
-                                         : "";
-}
-
+/* "  name: value  # help", as a comment where it is optional. */
 static void write_key(FILE *out, const struct br_scene_key *key)
 {
     const bool other_law = key->law && key->law != BR_COULOMB; /* that of the example */
     const bool live = (must_be_given(key) && !other_law) || key->kind == BR_KEY_SECTION ||
                       key->kind == BR_KEY_LOAD;
-    const int width = write_entry(out, key, live);
-    fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "", key->help,
-            constraint(key->kind));
+    const char *constraint = key->kind == BR_KEY_POSITIVE       ? ", > 0"
+                             : key->kind == BR_KEY_NOT_NEGATIVE ? ", >= 0"
+                             : key->kind == BR_KEY_LOAD
+                                 ? ", or {shape: \"F(x) [1]\", history: \"G(t) [N/m]\"}"
+                             : key->kind == BR_KEY_HISTORY ? ", of t"
+                                                           : "";
+    const int width = fprintf(out, "%s%s%s:%s%s", *key->section ? "  " : "", live ? "" : "# ",
+                              key->name, *key->example ? " " : "", key->example);
+    fprintf(out, "%*s# %s%s", width < COLUMN ? COLUMN - width : 1, "", key->help, constraint);
     write_default(out, key);
     fputc('\n', out);
-}
-
-static void write_section(FILE *out, const char *section)
-{
-    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (strcmp(k->section, section) == 0)
-            write_key(out, k);
 }
 
 /* As a comment: orders are measured first, by a scene without it. */
@@ -113,7 +97,8 @@ void br_scene_template_write(FILE *out, const char *schema)
         if (k->kind == BR_KEY_SECTION)
             fputc('\n', out);
         write_key(out, k);
-        if (k->kind == BR_KEY_SECTION)
-            write_section(out, k->name);
+        for (const struct br_scene_key *in = br_scene_keys; in->name; in++)
+            if (strcmp(in->section, k->name) == 0)
+                write_key(out, in);
     }
 }

@@ -71,18 +71,18 @@ static void put_all_kinds(struct br_document *d)
     BR_TABLE(d, "all", "All & sundry", BR_MAIN, columns);
     for (size_t i = 0; i < ROWS; i++) {
         br_put_row(d);
-        br_put(d, "text", br_text(texts[i].text));
-        br_put(d, NULL, br_number(numbers[i]));
+        BR_PUT(d, br_text(texts[i].text), .key = "text");
+        BR_PUT(d, br_number(numbers[i]), .key = NULL);
         br_put_mark(d, i == 0 ? "R" : NULL);
-        br_put(d, NULL, br_count(counts[i]));
-        br_put(d, NULL, br_truth(i % 2));
-        br_put(d, "empty", br_nothing());
-        br_put(d, "seen", br_number((double)i));
+        BR_PUT(d, br_count(counts[i]), .key = NULL);
+        BR_PUT(d, br_truth(i % 2), .key = NULL);
+        BR_PUT(d, br_nothing(), .key = "empty");
+        BR_PUT(d, br_number((double)i), .key = "seen");
         br_put_shown(d, "shown %zu", i);
-        br_put(d, "hidden", br_text(i ? "only for programs" : NULL));
+        BR_PUT(d, br_text(i ? "only for programs" : NULL), .key = "hidden");
         char text[100];
         snprintf(text, sizeof text, MANY_WORDS, i);
-        br_put(d, "long", br_text(text));
+        BR_PUT(d, br_text(text), .key = "long");
     }
     br_put_rule(d);
 }
@@ -570,7 +570,7 @@ static void unknown_key(struct br_document *d)
 {
     put_x(d, "t", "T");
     br_put_row(d);
-    br_put(d, "b", br_count(1));
+    BR_PUT(d, br_count(1), .key = "b");
 }
 
 static void new_key(struct br_document *d)
@@ -586,14 +586,14 @@ static void too_many_cells(struct br_document *d)
 {
     put_x(d, "t", "T");
     br_put_row(d);
-    br_put(d, NULL, br_count(1));
-    br_put(d, NULL, br_count(2));
+    BR_PUT(d, br_count(1), .key = NULL);
+    BR_PUT(d, br_count(2), .key = NULL);
 }
 
 static void no_row(struct br_document *d)
 {
     put_x(d, "t", "T");
-    br_put(d, "x", br_count(1));
+    BR_PUT(d, br_count(1), .key = "x");
 }
 
 static void no_table(struct br_document *d)
