@@ -289,12 +289,42 @@ static void fields_are_in_hdf5(void **state)
 }
 #endif
 
+/* Of quadratic elements the fields have the middles, of others not. */
+static void middles_are_fields(void **state)
+{
+    (void)state;
+    enum { N = 3, NODES = N + 1 };
+    struct br_scene scene = br_test_bare();
+    struct br_method method = br_method_default();
+    scene.axial.displacement = br_test_function("x*(2 - x)");
+    scene.axial.velocity = br_test_function("x^2");
+    assert_int_equal(br_field_variable_count(1), 6);
+    assert_int_equal(br_field_variable_count(2), 8);
+    for (int degree = 1; degree <= 2; degree++) {
+        double values[BR_FIELD_VARIABLES * NODES], work[4 * NODES];
+        method.axial_degree = degree;
+        struct br_march *march = br_test_march(&scene, N, 1, &method);
+        br_field_values(march, values, work);
+        for (size_t i = 1; i < NODES; i++) {
+            const double x = (double)i / N, middle = x - 0.5 / N;
+            CLOSE(values[i], x * (2 - x), 1e-15);
+            CLOSE(values[NODES + i], x * x, 1e-15);
+            if (degree == 2) {
+                CLOSE(values[6 * NODES + i], middle * (2 - middle), 1e-15);
+                CLOSE(values[7 * NODES + i], middle * middle, 1e-15);
+            }
+        }
+        assert_true(degree == 1 || isnan(values[6 * NODES]));
+        br_march_free(march);
+    }
+    br_scene_clear(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(history_is_printed),
-        cmocka_unit_test(tip_is_the_last_node),
-        cmocka_unit_test(fields_are_printed),
+        cmocka_unit_test(history_is_printed), cmocka_unit_test(tip_is_the_last_node),
+        cmocka_unit_test(fields_are_printed), cmocka_unit_test(middles_are_fields),
 #ifdef BR_HAVE_HDF5
         cmocka_unit_test(fields_are_in_hdf5),
 #endif
