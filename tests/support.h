@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -111,6 +112,10 @@ void br_test_scene_refused(const char *text, bool verify, const char *message);
  * and cleans up after itself whatever happens. */
 void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
                             const void *data, long least);
+
+/* What is printed is, to the byte, what is stored in golden/made/NAME.txt, but for numbers of a
+ * relative difference up to the tolerance. With BR_TEST_UPDATE set it is stored: read the change. */
+void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);

@@ -14,7 +14,13 @@
 #include "study/run/run.h"
 #include "tables/fields_file.h"
 #include "tables/reports.h"
-#include "tests/document_reader.h"
+#include "tests/support.h"
+
+/* A column with the number, count or truth (0, 1) that belongs in it; NAN: nothing does. */
+struct expected {
+    const char *key;
+    double value;
+};
 
 /* As it is printed: with six digits at least. */
 static void is(const char *where, const char *key, double found, double expected)
@@ -123,6 +129,7 @@ static char *read_file(const struct watched *w, const char *name)
 /* What the test program does as the command does it: rows and fields go to files as they come. */
 static void march_and_write(struct watched *w)
 {
+    const struct br_provenance provenance = {.version = "1", .commit = "c"};
     struct br_error err = {0};
     char path[64];
     const struct br_history_observer output[] = {
@@ -147,8 +154,8 @@ static void march_and_write(struct watched *w)
     br_history_csv_head(w->history);
     for (size_t f = 0; br_fields_formats[f]; f++) {
         path_of(w, br_fields_formats[f]->file_name, path);
-        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,           STEPS,
-                                                 LOOKS, 1,         &br_made_provenance};
+        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
+                                                 LOOKS, 1,         &provenance};
         MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
     }
     MUST(br_run(&request, &w->report, &err));

@@ -1,18 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part `stability` of extremes: the matrix of a step, what marches say of the limit, a verdict
- * that sees what is wrong, its report and its figure. */
+/* The part `stability` of extremes: the matrix of a step, what marches say of the limit, and a
+ * verdict that sees what is wrong. Its report and figure are in golden/. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "figure_check.h"
-#include "plots/pictures.h"
 #include "solver/laws.h"
 #include "study/extremes/stability.h"
 #include "study/extremes/step_matrix.h"
 #include "study/grid/observer.h"
 #include "support.h"
-#include "tables/reports.h"
 
 static struct br_stability found;
 
@@ -179,58 +176,6 @@ static void test_interrupted(void **state)
     br_stability_clear(&s);
 }
 
-/* ---- what is shown ---- */
-
-static void test_report(void **state)
-{
-    (void)state;
-    static char text[1 << 18];
-    struct br_error err = {0};
-    struct br_document d = {0};
-    br_report_stability(&found, &d);
-    for (const struct br_document_format *const *f = br_document_formats; *f; f++) {
-        FILE *file = fmemopen(text, sizeof text, "w");
-        size_t block = 0;
-        const struct br_document_table *t = NULL;
-        while ((*f)->by_table && (t = br_document_next_table(&d, &block)))
-            MUST(br_document_print(file, *f, &d, t, &err));
-        if (!(*f)->by_table)
-            MUST(br_document_print(file, *f, &d, NULL, &err));
-        assert_int_equal(fclose(file), 0);
-        assert_true(strlen(text) < sizeof text - 1);
-        assert_true((*f)->by_table || strstr(text, "exactly where it is predicted"));
-        assert_non_null(strstr(text, "quasi-static"));
-        assert_non_null(strstr(text, "trbdf2"));
-    }
-    br_document_clear(&d);
-}
-
-static void test_figure(void **state)
-{
-    (void)state;
-    struct br_error err = {0};
-    struct br_figure f;
-    f = br_stability_draw(&found);
-    MUST(br_figure_check(&f, &err));
-    assert_int_equal(f.panels, BR_STABILITY_RODS);
-    for (size_t i = 0; i < f.panels; i++) {
-        const struct br_cells *c = &f.panel[i].cells;
-        const struct br_stability_plane *plane = &found.plane[i];
-        figure_axes(&f.panel[i], "c_H (N/m)", "k (s)");
-        for (size_t j = 0; j < c->columns; j++)
-            assert_true(c->x[j] < found.stiffness[j] && found.stiffness[j] < c->x[j + 1]);
-        for (size_t j = 0; j < c->rows; j++) {
-            assert_true(c->y[j] < plane->row[j].k && plane->row[j].k < c->y[j + 1]);
-            figure_point(figure_series(&f.panel[i], "predicted limit"), j, plane->row[j].limit,
-                         plane->row[j].k);
-            figure_point(f.panel[i].series[1], j, plane->row[j].bouncing, plane->row[j].k);
-        }
-        assert_memory_equal(c->value, plane->radius, c->rows * c->columns * sizeof *c->value);
-    }
-    figure_check(&f);
-    br_figure_clear(&f);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -238,7 +183,6 @@ int main(void)
         cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
         cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
         cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_report),   cmocka_unit_test(test_figure),
     };
     return cmocka_run_group_tests(tests, run_small, clear);
 }
