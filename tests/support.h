@@ -4,18 +4,12 @@
 #ifndef BR_TESTS_SUPPORT_H
 #define BR_TESTS_SUPPORT_H
 
-/* cmocka.h wants these before it. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
-
-#include <cmocka.h>
 
 #include "solver/march.h"
 #include "study/grid/study.h"
+#include "tests/test.h"
 
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
@@ -114,7 +108,8 @@ void br_test_without_memory(enum br_status (*attempt)(const void *data, struct b
                             const void *data, long least);
 
 /* What is printed is, to the byte, what is stored in golden/made/NAME.txt, but for numbers of a
- * relative difference up to the tolerance. With BR_TEST_UPDATE set it is stored: read the change. */
+ * relative difference up to the tolerance. With BR_TEST_UPDATE set it is stored: read the change.
+ */
 void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */

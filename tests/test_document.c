@@ -199,17 +199,15 @@ static void print_formats(FILE *out)
     br_document_clear(&d);
 }
 
-static void test_formats(void **state)
+TEST(test_formats)
 {
-    (void)state;
     br_test_stored("document", print_formats, 0);
     br_test_stored("pages", print_pages, 0);
 }
 
 /* Numbers come back to the bit, awkward texts as they are. */
-static void test_json(void **state)
+TEST(test_json)
 {
-    (void)state;
     char *text = printed(&br_document_json, NULL);
     json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(root);
@@ -328,9 +326,8 @@ static void verdict_without_row(struct br_document *d)
     br_put_verdict(d, &(struct br_document_verdict){.name = "v", .of_row = true});
 }
 
-static void test_built_wrongly(void **state)
+TEST(test_built_wrongly)
 {
-    (void)state;
     static const struct {
         void (*put)(struct br_document *d);
         const char *message;
@@ -368,9 +365,8 @@ static void test_built_wrongly(void **state)
 }
 
 /* What rounds to zero has no sign, wherever numbers become text; all else stays. */
-static void test_no_sign_of_zero(void **state)
+TEST(test_no_sign_of_zero)
 {
-    (void)state;
     static const char *const rows[][2] = {
         {"-0.0000 [-0.0001, -0.0000]", "0.0000 [-0.0001, 0.0000]"},
         {"[-0, -0.10) -0.0e+00 -0.1e-00", "[0, -0.10) 0.0e+00 -0.1e-00"},
@@ -393,9 +389,8 @@ static void test_no_sign_of_zero(void **state)
 }
 
 /* Two values of one name would be one in JSON. */
-static void test_two_values(void **state)
+TEST(test_two_values)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_document d = {0};
     br_document_begin(&d, "twice", "f", 1, "c");
@@ -467,23 +462,12 @@ static void sweep(const struct br_document_format *format, bool jansson, long le
     free(whole);
 }
 
-static void test_no_memory(void **state)
+TEST(test_no_memory)
 {
-    (void)state;
     for (size_t f = 0; br_document_formats[f]; f++)
         sweep(br_document_formats[f], false, 1);
     sweep(NULL, false, 3); /* and the buffers of texts and tables */
     json_set_alloc_funcs(failing_malloc, free);
     sweep(&br_document_json, true, 500);
     json_set_alloc_funcs(malloc, free);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_json),          cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_built_wrongly), cmocka_unit_test(test_no_sign_of_zero),
-        cmocka_unit_test(test_two_values),    cmocka_unit_test(test_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,9 +56,8 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
                  br_extreme_word(verdict->which), verdict->why, command, out.exit_code, out.output);
 }
 
-static void test_commands(void **state)
+TEST(test_commands)
 {
-    (void)state;
     const struct br_extreme_judging judging = {.quick = true};
     size_t seen[BR_EXTREME_CLASSES] = {0};
     const size_t cases = br_test_long() ? 10 * CASES : CASES;
@@ -79,8 +78,4 @@ static void test_commands(void **state)
                 seen[BR_EXTREME_UNSTABLE] && seen[BR_EXTREME_UNKNOWN]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_commands)};
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

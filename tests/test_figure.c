@@ -96,9 +96,8 @@ static void print_made(FILE *out)
 }
 
 /* Infinity has the end's colour; no number and no kind has none. */
-static void test_colours(void **state)
+TEST(test_colours)
 {
-    (void)state;
     struct br_figure f = {.value = {1e-2, 10}};
     assert_true(br_colour_of(&f, 0) == 1e-2 && br_colour_of(&f, INFINITY) == 10);
     assert_true(br_colour_of(&f, 2) == 2 && br_colour_of(&f, NAN) == -1);
@@ -109,9 +108,8 @@ static void test_colours(void **state)
 }
 
 /* At most six hues in a figure; the same title looks the same in the next panel. */
-static void test_hues(void **state)
+TEST(test_hues)
 {
-    (void)state;
     struct br_figure f = {0};
     struct br_panel *p = br_panel_add(&f, "x", "y");
     for (size_t i = 0; i < 8; i++) {
@@ -178,9 +176,8 @@ static void draw(const struct br_figure *f)
     rmdir(folder);
 }
 
-static void test_drawn(void **state)
+TEST(test_drawn)
 {
-    (void)state;
     for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++)
         for (size_t how = 0; how < 3; how++) {
             struct br_figure f = made(panels, how > 0, how == 2 ? 2 : 0);
@@ -189,9 +186,8 @@ static void test_drawn(void **state)
         }
 }
 
-static void test_no_memory(void **state)
+TEST(test_no_memory)
 {
-    (void)state;
     struct br_error err = {0};
     bool failed = true;
     for (long i = 0; failed; i++) {
@@ -210,9 +206,8 @@ static void test_no_memory(void **state)
 
 /* ---- a study ---- */
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     static const char *const bad[] = {"", "a/b", "../a", "<a", "|a", "-a", "a\nb", " a"};
     struct br_made_report m;
     struct br_error err = {0};
@@ -327,9 +322,8 @@ static void print_letters(FILE *out)
     br_scene_clear(&scene);
 }
 
-static void test_stored(void **state)
+TEST(test_stored)
 {
-    (void)state;
     br_test_stored("figures", print_made, 1e-12);
     br_test_stored("powers", print_powers, 1e-12);
     br_test_stored("floors", print_floors, 1e-12);
@@ -337,14 +331,4 @@ static void test_stored(void **state)
     br_test_stored("energy", print_energy, 1e-12);
     br_test_stored("map", print_map, 1e-12);
     br_test_stored("letters", print_letters, 1e-12);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stored), cmocka_unit_test(test_colours),
-        cmocka_unit_test(test_hues),   cmocka_unit_test(test_drawn),
-        cmocka_unit_test(test_names),  cmocka_unit_test(test_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,17 +57,15 @@ static const struct br_history_row *last_row(size_t example)
 }
 
 /* The display hears of every step of an exact solution, and of those that judge the tables. */
-static void test_progress(void **state)
+TEST(test_progress)
 {
-    (void)state;
     assert_true(told > 100);
 }
 
 /* Closed forms at t = 1 s; of Example 2 also the exact discrete solution at k = 1e-3 s, from
  * quadruple precision (at n = 12800; the mesh moves it by 1e-9). */
-static void test_ends(void **state)
+TEST(test_ends)
 {
-    (void)state;
     const struct br_example *e = paper.example;
     CLOSE(e[0].exact[e[0].exacts - 1].displacement[BR_AXIAL], 0.171692329889782302, 1e-13);
     CLOSE(e[1].exact[e[1].exacts - 1].displacement[BR_AXIAL], 0.0429230824724455755, 1e-13);
@@ -81,9 +79,8 @@ static void test_ends(void **state)
 }
 
 /* 3/8 q L reaches the bound. */
-static void test_release(void **state)
+TEST(test_release)
 {
-    (void)state;
     const struct br_finding f = find("release");
     const double theory = 3000 / (0.375 * 10000), k = 1.0 / (double)paper.request.per_second;
     CLOSE(f.exact, theory, 1e-9);
@@ -94,9 +91,8 @@ static void test_release(void **state)
 }
 
 /* The exact tip slips first; a march with k = 0.1 microseconds sees the same. */
-static void test_early_slip(void **state)
+TEST(test_early_slip)
 {
-    (void)state;
     const struct br_finding f = find("stuck");
     const struct br_history_record *r = &paper.early.record;
     double slip = 0, ends = 0;
@@ -112,9 +108,8 @@ static void test_early_slip(void **state)
 }
 
 /* numerics: 7.8e-4 and 7.4e-4 at k = 0.01 s. */
-static void test_tables(void **state)
+TEST(test_tables)
 {
-    (void)state;
     CLOSE(find("table1").value, 7.8e-4, 0.05e-4);
     CLOSE(find("table2").value, 7.4e-4, 0.05e-4);
     CLOSE(find("table1").printed, 5.042e-3, 0);
@@ -163,9 +158,8 @@ static void check_end(const struct br_sweep_point *point, double (*beam)(double,
     CLOSE(point->doubled, most, 0.006 * most);
 }
 
-static void test_sweep(void **state)
+TEST(test_sweep)
 {
-    (void)state;
     const struct br_sweep *s = &paper.sweep[BR_SWEEP_FRICTION];
     check_end(&s->point[0], free_beam);
     check_end(&s->point[s->points - 1], propped_beam);
@@ -174,9 +168,8 @@ static void test_sweep(void **state)
                     0.99e6 * paper.sweep[i].point[0].coefficient);
 }
 
-static void test_verdicts(void **state)
+TEST(test_verdicts)
 {
-    (void)state;
     static const char *const differ[] = {"table1", "table2", "stuck", "release", "stable-printed"};
     size_t differing = 0;
     for (size_t i = 0; br_claims[i].name; i++) {
@@ -191,9 +184,8 @@ static void test_verdicts(void **state)
 }
 
 /* What is no number is never agreed to. */
-static void test_nan(void **state)
+TEST(test_nan)
 {
-    (void)state;
     assert_int_equal(br_below(NAN, 0, 1), BR_UNDECIDED);
     assert_int_equal(br_below(0, NAN, 1), BR_UNDECIDED);
     assert_int_equal(br_above(NAN, 0, 1), BR_UNDECIDED);
@@ -213,9 +205,8 @@ static void test_nan(void **state)
 }
 
 /* Any number of threads gives the same bits. */
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     struct br_paper runs[2];
     struct br_error err = {0};
     for (int i = 0; i < 2; i++)
@@ -244,9 +235,8 @@ static void test_threads(void **state)
 }
 
 /* The figures themselves are in golden/. */
-static void test_charts(void **state)
+TEST(test_charts)
 {
-    (void)state;
     struct br_error err = {0};
     br_allocation_fails_at(0);
     struct br_figure f = br_paper_figure_draw(&br_paper_figures[0], &paper);
@@ -255,14 +245,4 @@ static void test_charts(void **state)
     br_figure_clear(&f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_progress), cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_release),  cmocka_unit_test(test_early_slip),
-        cmocka_unit_test(test_tables),   cmocka_unit_test(test_sweep),
-        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_nan),
-        cmocka_unit_test(test_threads),  cmocka_unit_test(test_charts),
-    };
-    return cmocka_run_group_tests(tests, run_paper, clear_paper);
-}
+AROUND_TESTS(run_paper, clear_paper)

@@ -47,9 +47,8 @@ static void is_the_table(const char *text)
     br_numbers_clear(&n);
 }
 
-static void test_formats(void **state)
+TEST(test_formats)
 {
-    (void)state;
     is_the_table("h,l2\n1,3\n.5,2\n.25,1\n");
     is_the_table("h,l2\n.25,1\n1,3\n.5,2"); /* in any order, without an end of line */
     is_the_table("\xef\xbb\xbfh,l2\r\n1,3\r\n.5,2\r\n.25,1\r\n");
@@ -63,9 +62,8 @@ static void test_formats(void **state)
     is_the_table("name,h,l2\ncoarse,1,3\nfine,.5,2\nfiner,.25,1\n"); /* words are left alone */
 }
 
-static void test_names_and_units(void **state)
+TEST(test_names_and_units)
 {
-    (void)state;
     struct br_numbers n = read_with(
         "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,1\n.5,2,2,2\n.25,1,,4\n", &plain);
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
@@ -81,9 +79,8 @@ static void test_names_and_units(void **state)
     br_numbers_clear(&n);
 }
 
-static void test_resolutions(void **state)
+TEST(test_resolutions)
 {
-    (void)state;
     struct br_table_request q = plain;
     q.dimension = 3;
     struct br_numbers n = read_with("dofs,l2\n1000,3\n8000,2\n64000,1\n", &q);
@@ -100,9 +97,8 @@ static void test_resolutions(void **state)
     br_numbers_clear(&n);
 }
 
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     const char *text = "h,l2 rate,l2,drag,cpu\n1,9,3,-7,1\n.5,9,2,-8,1\n.25,9,1,-9,1\n";
     const struct br_table_request q = {"t.csv", "l2", " drag ", 2};
     struct br_numbers n = read_with(text, &q);
@@ -132,9 +128,8 @@ static void test_lists(void **state)
     assert_false(br_lists(",", ""));
 }
 
-static void test_refused_tables(void **state)
+TEST(test_refused_tables)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } rows[] = {
@@ -223,9 +218,8 @@ static void clear_found(struct found *f)
     br_numbers_clear(&f->numbers);
 }
 
-static void test_lines(void **state)
+TEST(test_lines)
 {
-    (void)state;
     for (double p = 0.5; p < 6; p += 0.75) {
         struct found f;
         find(&f, table_of(5, 0, p, 0), NULL);
@@ -244,9 +238,8 @@ static void test_lines(void **state)
     }
 }
 
-static void test_grid(void **state)
+TEST(test_grid)
 {
-    (void)state;
     struct found f;
     find(&f, table_of(6, 5, 2, 1), NULL);
     const struct br_quantity_orders *of = &f.orders.of[0];
@@ -276,9 +269,8 @@ static void test_grid(void **state)
 }
 
 /* A line at a fine size may begin at a finer mesh than one at a coarser size. */
-static void test_lines_are_sorted(void **state)
+TEST(test_lines_are_sorted)
 {
-    (void)state;
     struct found f;
     find(&f,
          "h,k,l2\n1,1,9\n1,.25,9\n.5,1,4\n.5,.5,4\n.5,.25,4\n.25,1,1\n.25,.5,1\n.25,.25,1\n"
@@ -291,9 +283,8 @@ static void test_lines_are_sorted(void **state)
     clear_found(&f);
 }
 
-static void test_tied(void **state)
+TEST(test_tied)
 {
-    (void)state;
     struct found f;
     find(&f, "h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
     assert_true(f.orders.tied);
@@ -324,9 +315,8 @@ static const char *floor_table(int rows, double level)
     return text;
 }
 
-static void test_floors(void **state)
+TEST(test_floors)
 {
-    (void)state;
     struct found f;
     find(&f, floor_table(12, pow(4, -7)), NULL); /* 6e-5: no round-off */
     const struct br_case *c = &f.orders.of[0].line[0].observed;
@@ -357,9 +347,8 @@ static void test_floors(void **state)
 
 /* ---- values ---- */
 
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
     static const double even[] = {1, .5, .25, .125, .0625}, uneven[] = {1, .5, .25, .125, .12, .01};
     for (double p = 0.5; p < 4; p += 0.5)
         for (int kind = 0; kind < 2; kind++) {
@@ -389,9 +378,8 @@ static void test_values(void **state)
 }
 
 /* Differences that fall or grow faster than any order: nothing is said of them. */
-static void test_steep_values(void **state)
+TEST(test_steep_values)
 {
-    (void)state;
     struct found f;
     find(&f,
          "h,u\n1,0\n.5,1e300\n.25,1\n.125,2\n.0625,3\n.03125,1e300\n.015625,0\n"
@@ -417,9 +405,8 @@ static void refuse_expectation(const char *text, const char *message)
     free(e);
 }
 
-static void test_grammar(void **state)
+TEST(test_grammar)
 {
-    (void)state;
     struct br_order_expectation *e;
     size_t count;
     struct br_error err = {0};
@@ -479,9 +466,8 @@ static enum br_verdict verdict_of(const char *table, const char *values, const c
     return verdict;
 }
 
-static void test_verdicts(void **state)
+TEST(test_verdicts)
 {
-    (void)state;
     char reason[768];
     assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 2 +- 0.1", NULL), BR_PASS);
     assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 3 +- 0.1", NULL), BR_FAIL);
@@ -512,9 +498,8 @@ static void test_verdicts(void **state)
                      BR_PASS);
 }
 
-static void test_unknown_expectations(void **state)
+TEST(test_unknown_expectations)
 {
-    (void)state;
     static const struct {
         const char *expected, *message;
     } rows[] = {
@@ -537,9 +522,8 @@ static void test_unknown_expectations(void **state)
 }
 
 /* Errors with noise, of any order and constant; the band does not hold the order. */
-static void test_wrong_orders_never_pass(void **state)
+TEST(test_wrong_orders_never_pass)
 {
-    (void)state;
     struct br_test_random random = {7};
     for (int i = 0; i < 300; i++) {
         char text[1024], expected[64];
@@ -579,9 +563,8 @@ static const char *const full = "title: a study\n"
                                 "  l2: h 2 +- 0.1, k 1 +- 0.1\n"
                                 "  drag: h 2 +- 0.2 down to 1e-9\n";
 
-static void test_study_file(void **state)
+TEST(test_study_file)
 {
-    (void)state;
     struct br_orders_request r;
     struct br_error err = {0};
     MUST(br_orders_request_read("s.yaml", full, &r, &err));
@@ -617,9 +600,8 @@ static void test_study_file(void **state)
     }
 }
 
-static void test_study_table(void **state)
+TEST(test_study_table)
 {
-    (void)state;
     const char *path = br_test_scene_file("h,l2\n1,3\n.5,x\n.25,1\n");
     char text[4096], message[4200];
     struct br_orders_request r;
@@ -643,9 +625,8 @@ static void test_study_table(void **state)
     br_orders_request_clear(&r);
 }
 
-static void test_refused_studies(void **state)
+TEST(test_refused_studies)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } rows[] = {
@@ -690,9 +671,8 @@ static void test_refused_studies(void **state)
 }
 
 /* A text that is cut would be another expectation. */
-static void test_long_expectation(void **state)
+TEST(test_long_expectation)
 {
-    (void)state;
     char text[3000];
     struct br_orders_request r;
     struct br_error err = {0};
@@ -702,9 +682,8 @@ static void test_long_expectation(void **state)
     br_orders_request_clear(&r);
 }
 
-static void test_is_study_file(void **state)
+TEST(test_is_study_file)
 {
-    (void)state;
     char **names, path[1200];
     size_t count;
     struct br_error err = {0};
@@ -739,9 +718,8 @@ static void problem_of(const char *from, const char *to, char problem[40])
     br_orders_request_clear(&r);
 }
 
-static void test_problems(void **state)
+TEST(test_problems)
 {
-    (void)state;
     static const char *const others[][2] = {
         {"l2={n}", "l2={k}"},
         {"json:/drag", "json:/lift"},
@@ -784,9 +762,8 @@ static void refuse_run(const char *readings, const char *lists, const char *mess
     br_orders_request_clear(&r);
 }
 
-static void test_readings(void **state)
+TEST(test_readings)
 {
-    (void)state;
     refuse_run("a: a=([^ ]*)", "value: b\n", "s.yaml: --value: nothing of the name 'b' is read");
     refuse_run("a: a=([^ ]*)", "error: b\n", "s.yaml: --error: nothing of the name 'b' is read");
     refuse_run("a: a=([^ ]*)", "error: a\nvalue: a\n", "'a' is given as an error and as a value");
@@ -825,9 +802,8 @@ static enum br_status whole_study(const void *text, struct br_error *err)
     return status;
 }
 
-static void test_without_memory(void **state)
+TEST(test_without_memory)
 {
-    (void)state;
     static const char *const csv = "h,k,l2,u\n1,1,2,4\n1,.5,1.5,2\n1,.25,1.2,1.5\n.5,1,1.3,1\n"
                                    ".5,.5,.7,1\n.5,.25,.5,1\n.25,1,1.1,1\n.25,.5,.6,1\n"
                                    ".25,.25,.3,1\n.125,1,1,1\n.125,.5,.5,1\n.125,.25,.25,1\n";
@@ -837,35 +813,4 @@ static void test_without_memory(void **state)
                            "{\"h\":0.25,\"l2\":0.1,\"u\":3}\n",
                            10);
     br_test_without_memory(whole_study, full, 8);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_names_and_units),
-        cmocka_unit_test(test_resolutions),
-        cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_refused_tables),
-        cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_lines_are_sorted),
-        cmocka_unit_test(test_tied),
-        cmocka_unit_test(test_floors),
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_steep_values),
-        cmocka_unit_test(test_grammar),
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_unknown_expectations),
-        cmocka_unit_test(test_wrong_orders_never_pass),
-        cmocka_unit_test(test_study_file),
-        cmocka_unit_test(test_study_table),
-        cmocka_unit_test(test_refused_studies),
-        cmocka_unit_test(test_long_expectation),
-        cmocka_unit_test(test_is_study_file),
-        cmocka_unit_test(test_problems),
-        cmocka_unit_test(test_readings),
-        cmocka_unit_test(test_without_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,9 +30,8 @@ static bool is_silent(const char *folder, const char *script)
     return pclose(pipe) == 0 && silent && !strstr(said, "arning");
 }
 
-static void test_figures(void **state)
+TEST(test_figures)
 {
-    (void)state;
     cli_expect("figures --out figures", NULL, 0, "11 agree, 5 differ, 0 undecided");
     for (const struct br_paper_figure *f = br_paper_figures; f->number; f++) {
         char name[64];
@@ -75,9 +74,8 @@ static int gif_frames(const char *name)
     return frames;
 }
 
-static void test_animation(void **state)
+TEST(test_animation)
 {
-    (void)state;
     if (!has_gnuplot())
         return; /* not skip(): it counts as a failure for who reads TAP */
     /* 50 steps: every one, and t = 0 */
@@ -101,21 +99,12 @@ static void test_animation(void **state)
     assert_false(cli_is_there("full.gif") || cli_is_there("full.gp"));
 }
 
-static void test_plot(void **state)
+TEST(test_plot)
 {
-    (void)state;
     if (!has_gnuplot())
         return; /* not skip(): it counts as a failure for who reads TAP */
     cli_expect("run example4 --n 10 --plot", NULL, 0, "friction force and its bound (N)");
     cli_expect("run example3 --n 10 --plot", NULL, 0, "vertical displacement of the tip");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figures),
-        cmocka_unit_test(test_animation),
-        cmocka_unit_test(test_plot),
-    };
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

@@ -184,9 +184,9 @@ static int tear_down(void **state)
     return system(command);
 }
 
-static void history_is_printed(void **state)
+TEST(history_is_printed)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     char *text = read_file(w, "history.csv"), *rest = text, *head = next_line(&rest);
     assert_int_equal(w->record.rows, STEPS + 1);
     for (size_t i = 0; i < w->record.rows; i++) {
@@ -216,9 +216,9 @@ static double field_value(const struct watched *w, size_t look, size_t node, con
 }
 
 /* The rows' tip is that of the fields. */
-static void tip_is_the_last_node(void **state)
+TEST(tip_is_the_last_node)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     for (size_t look = 0; look < LOOKS; look++) {
         const struct br_history_row *row = &w->record.row[levels[look]];
         is("row", "u", row->displacement[BR_AXIAL], field_value(w, look, ELEMENTS, "u"));
@@ -228,9 +228,9 @@ static void tip_is_the_last_node(void **state)
     }
 }
 
-static void fields_are_printed(void **state)
+TEST(fields_are_printed)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     char *text = read_file(w, "fields.csv"), *rest = text, *head = next_line(&rest);
     for (size_t look = 0; look < LOOKS; look++)
         for (size_t node = 0; node <= ELEMENTS; node++) {
@@ -270,9 +270,9 @@ static void check_axes(hid_t file, const char *name)
     H5Dclose(set);
 }
 
-static void fields_are_in_hdf5(void **state)
+TEST(fields_are_in_hdf5)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     double x[ELEMENTS + 1], t[LOOKS], values[LOOKS][ELEMENTS + 1];
     char path[64];
     path_of(w, "fields.h5", path);
@@ -297,9 +297,8 @@ static void fields_are_in_hdf5(void **state)
 #endif
 
 /* Of quadratic elements the fields have the middles, of others not. */
-static void middles_are_fields(void **state)
+TEST(middles_are_fields)
 {
-    (void)state;
     enum { N = 3, NODES = N + 1 };
     struct br_scene scene = br_test_bare();
     struct br_method method = br_method_default();
@@ -327,14 +326,4 @@ static void middles_are_fields(void **state)
     br_scene_clear(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(history_is_printed), cmocka_unit_test(tip_is_the_last_node),
-        cmocka_unit_test(fields_are_printed), cmocka_unit_test(middles_are_fields),
-#ifdef BR_HAVE_HDF5
-        cmocka_unit_test(fields_are_in_hdf5),
-#endif
-    };
-    return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
-}
+AROUND_TESTS(set_up, tear_down)

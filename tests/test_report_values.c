@@ -67,9 +67,8 @@ static void is_read(const char *text)
     br_old_check_clear(&old);
 }
 
-static void check_of_version_1_is_read(void **state)
+TEST(check_of_version_1_is_read)
 {
-    (void)state;
     is_read("{\"format\": \"beamrate check 1\", \"scenes\": [{\"scene\": \"made\", \"methods\": "
             "{\"time\": {\"scheme\": \"adaptive\", \"tolerance\": 0.0625, \"solver\": \"banded\", "
             "\"contact\": \"implicit\", \"friction\": \"exact\"}}, \"seconds\": 4.25, "
@@ -316,9 +315,8 @@ static void print_comparisons(FILE *out)
     free(plan);
 }
 
-static void reports_are_as_stored(void **state)
+TEST(reports_are_as_stored)
 {
-    (void)state;
     br_test_stored("study", print_study, 1e-13);
     br_test_stored("study_other", print_other_study, 1e-13);
     br_test_stored("study_without_judge", print_study_without_judge, 1e-13);
@@ -396,9 +394,8 @@ static void print_certificate(FILE *out)
     free(text);
 }
 
-static void certificate_is_printed(void **state)
+TEST(certificate_is_printed)
 {
-    (void)state;
     struct br_run_report *r = &report;
     double *worst = br_certificate_entries(&r->worst), *limits = br_certificate_entries(&r->limits);
     for (int i = 0; i < BR_CERTIFICATE_ENTRIES; i++) {
@@ -437,9 +434,8 @@ static char *printed(struct br_document *d)
 }
 
 /* People get the digits that the predicted error leaves, or the reason why it is not known. */
-static void answer_comes_first(void **state)
+TEST(answer_comes_first)
 {
-    (void)state;
     struct br_document d = {0};
     struct br_prediction p = made_prediction;
     const struct br_warnings none = {0};
@@ -469,14 +465,4 @@ static void answer_comes_first(void **state)
     *last = kept;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(check_of_version_1_is_read),
-        cmocka_unit_test(reports_are_as_stored),
-        cmocka_unit_test(certificate_is_printed),
-        cmocka_unit_test(answer_comes_first),
-
-    };
-    return cmocka_run_group_tests_name("report_values", tests, march, end);
-}
+AROUND_TESTS(march, end)

@@ -244,9 +244,8 @@ static const struct {
     {8, "  tip_force: exp(2000*t) [N]", 8, "tip_force", "found inf at t = 0.5 s, expected"},
 };
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         char text[4096], where[160];
         spoilt(refusals[i].line, refusals[i].replacement, text, sizeof text);
@@ -299,17 +298,15 @@ static const struct {
      ":5: young: makes no number of stiffness"},
 };
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++)
         br_test_scene_refused(files[i].text, false, files[i].message);
 }
 
 /* Displacements that bend, and velocities that jump, are no displacements that jump. */
-static void test_bent(void **state)
+TEST(test_bent)
 {
-    (void)state;
     static const char *const bent[] = {"  displacement: max(0, x - 0.4) [m]\n",
                                        "  displacement: min(x, 0.3) [m]\n",
                                        "  displacement: x + abs((x - 0.3)^3) - 0.027 [m]\n",
@@ -328,9 +325,8 @@ static void test_bent(void **state)
 }
 
 /* A byte that is not UTF-8, and a file cut anywhere: refused or read, never a crash. */
-static void test_mangled(void **state)
+TEST(test_mangled)
 {
-    (void)state;
     char text[4096];
     struct br_error err = {0};
     struct br_scene scene;
@@ -350,9 +346,8 @@ static void test_mangled(void **state)
     }
 }
 
-static void test_no_file(void **state)
+TEST(test_no_file)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene;
     REFUSED(br_scene_read("/nowhere/at/all.yaml", &scene, &err), BR_BAD_INPUT, "/nowhere/at/all");
@@ -407,9 +402,8 @@ static void check_paper(size_t i)
     br_scene_clear(&s);
 }
 
-static void test_bundled(void **state)
+TEST(test_bundled)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof paper / sizeof *paper; i++)
         check_paper(i);
 }
@@ -432,9 +426,8 @@ static const struct {
     {"\"t > 1 ? min(x, 3) : abs(-x) [N/m]\"", true, true, false, false, 0.5},
 };
 
-static void test_loads(void **state)
+TEST(test_loads)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
         struct br_error err = {0};
         struct br_scene s;
@@ -452,9 +445,8 @@ static void test_loads(void **state)
     }
 }
 
-static void test_good_initial_data(void **state)
+TEST(test_good_initial_data)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene s;
     char text[4096];
@@ -474,9 +466,8 @@ static void test_good_initial_data(void **state)
 }
 
 /* tau omega/2 of the lowest mode that finite elements have. */
-static void test_damping_ratio(void **state)
+TEST(test_damping_ratio)
 {
-    (void)state;
     const double most[] = {[BR_AXIAL] = 5e-5, [BR_BENDING] = 1e-7}; /* of eight elements */
     struct br_error err = {0};
     struct br_scene s;
@@ -495,9 +486,8 @@ static void test_damping_ratio(void **state)
 }
 
 /* A clone lives on without its source, and is another instance. */
-static void test_clone(void **state)
+TEST(test_clone)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_function f = br_test_function("x + 10*t"), copy;
     MUST(br_function_clone(&f, &copy, &err));
@@ -513,9 +503,8 @@ static void test_clone(void **state)
 }
 
 /* Every number of a scene built by hand, as a NaN, an infinity and a negative one. */
-static void test_check(void **state)
+TEST(test_check)
 {
-    (void)state;
     static const double bad[] = {NAN, INFINITY, -INFINITY, -1};
     for (size_t b = 0; b < 4; b++) {
         struct br_scene s = br_test_bare();
@@ -540,17 +529,4 @@ static void test_check(void **state)
             *numbers[i] = value;
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_files),
-        cmocka_unit_test(test_bent),          cmocka_unit_test(test_mangled),
-        cmocka_unit_test(test_no_file),       cmocka_unit_test(test_bundled),
-        cmocka_unit_test(test_loads),         cmocka_unit_test(test_good_initial_data),
-        cmocka_unit_test(test_clone),         cmocka_unit_test(test_check),
-        cmocka_unit_test(test_damping_ratio),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

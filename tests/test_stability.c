@@ -30,9 +30,8 @@ static int clear(void **state)
 }
 
 /* One element without inertia: u_n = (c/k - c_H L)/(a + c/k) u_{n-1}, whatever the velocity was. */
-static void test_matrix(void **state)
+TEST(test_matrix)
 {
-    (void)state;
     struct br_error err = {0};
     const struct br_field rod = {
         .kind = BR_AXIAL, .n = 1, .h = 2, .stiffness = 3, .viscosity = 0.5, .k = 0.25, .degree = 1};
@@ -49,9 +48,8 @@ static void test_matrix(void **state)
 }
 
 /* Of a quadratic rod the bubbles are states, too, and nothing else than a march is asked. */
-static void test_quadratic_matrix(void **state)
+TEST(test_quadratic_matrix)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_field rod = br_stability_field(&br_stability_rods[5], 2, 1e-3);
     double radius;
@@ -63,9 +61,8 @@ static void test_quadratic_matrix(void **state)
     assert_true(radius < 1);
 }
 
-static void test_found(void **state)
+TEST(test_found)
 {
-    (void)state;
     struct br_error err = {0};
     MUST(br_stability_verdict(&found, &err));
     assert_int_equal(found.rows, 3);
@@ -95,9 +92,8 @@ static void test_found(void **state)
         REFUSED(br_stability_verdict(&wrong, &err), BR_VERDICT, text); \
     } while (0)
 
-static void test_verdict(void **state)
+TEST(test_verdict)
 {
-    (void)state;
     WRONG(limit_error, 1e-8, "limit");
     WRONG(limit_error, NAN, "limit");
     WRONG(growth_error, 1e-8, "growth");
@@ -118,9 +114,8 @@ static void test_verdict(void **state)
 }
 
 /* A limit that is a little wrong is found: the one without inertia, say, in the paper's rod. */
-static void test_planted_limit(void **state)
+TEST(test_planted_limit)
 {
-    (void)state;
     const struct br_stability_row *r = &found.plane[0].row[1];
     assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
     const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
@@ -129,9 +124,8 @@ static void test_planted_limit(void **state)
 }
 
 /* Between the two limits a bouncing rod does gain energy: the narrower promise is not idle. */
-static void test_bounce(void **state)
+TEST(test_bounce)
 {
-    (void)state;
     double most = 0;
     for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
         const struct br_stability_bounce *b = &found.bounce[i];
@@ -141,9 +135,8 @@ static void test_bounce(void **state)
     assert_true(most > 1.5);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const double wrong[] = {0, -1, NAN, 1e4, 1e-12};
     struct br_error err = {0};
     struct br_stability s;
@@ -165,9 +158,8 @@ static bool stop_now(void *self)
     return true;
 }
 
-static void test_interrupted(void **state)
+TEST(test_interrupted)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_stability s;
     const struct br_observer observer = {.stop = stop_now};
@@ -176,13 +168,4 @@ static void test_interrupted(void **state)
     br_stability_clear(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrix),   cmocka_unit_test(test_quadratic_matrix),
-        cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
-    };
-    return cmocka_run_group_tests(tests, run_small, clear);
-}
+AROUND_TESTS(run_small, clear)

@@ -176,9 +176,8 @@ static bool has_gnuplot(void)
 }
 
 /* Pictures and plans take most of the time: in the short test some scenes go without. */
-static void test_every_command(void **state)
+TEST(test_every_command)
 {
-    (void)state;
     for (size_t i = 0; i < STRANGERS; i++) {
         const bool drawn = i < 1 || br_test_long(), planned = i % 5 == 0 || br_test_long();
         write_scene(&strangers[i]);
@@ -217,9 +216,8 @@ static int draw_script(const char *path, const struct stat *info, int kind, stru
     return 0;
 }
 
-static void test_scripts(void **state)
+TEST(test_scripts)
 {
-    (void)state;
     if (!has_gnuplot())
         skip();
     assert_int_equal(nftw(cli_folder(), draw_script, 8, FTW_PHYS), 0);
@@ -227,9 +225,8 @@ static void test_scripts(void **state)
 }
 
 /* A name as long as a file's may be: what is written for it has names that the disk takes. */
-static void test_long(void **state)
+TEST(test_long)
 {
-    (void)state;
     char name[256], title[1200];
     memset(name, 'n', 240);
     memset(title, '\'', 1100);
@@ -240,12 +237,4 @@ static void test_long(void **state)
         run_command(&s, c, c == 1 ? NULL : "/nonexistent");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_command),
-        cmocka_unit_test(test_scripts),
-        cmocka_unit_test(test_long),
-    };
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

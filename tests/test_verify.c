@@ -37,9 +37,8 @@ static enum br_status read_part(const char *part, struct br_scene *scene, struct
     return br_scene_read_verify(br_test_scene_file(with(part)), scene, verify, err);
 }
 
-static void test_whole(void **state)
+TEST(test_whole)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -92,9 +91,8 @@ static void test_whole(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_method(void **state)
+TEST(test_method)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -116,9 +114,8 @@ static void test_method(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_default(void **state)
+TEST(test_default)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -138,9 +135,8 @@ static void test_default(void **state)
 #define GRID "    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
 #define TIMES "    n: 10\n    k: 0.5, 0.25, 0.125, 0.0625, 0.03125 s\n"
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const struct {
         const char *part, *message;
     } rows[] = {
@@ -242,9 +238,8 @@ static void test_refusals(void **state)
 }
 
 /* A part that the scene does not model has no order. */
-static void test_missing_part(void **state)
+TEST(test_missing_part)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     struct br_verify v;
     struct br_error err = {0};
@@ -257,9 +252,8 @@ static void test_missing_part(void **state)
 }
 
 /* Nobody but the check asks for it: a study is not stopped by what it does not need. */
-static void test_ignored_by_others(void **state)
+TEST(test_ignored_by_others)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -268,14 +262,4 @@ static void test_ignored_by_others(void **state)
     br_scene_clear(&scene);
     MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),        cmocka_unit_test(test_method),
-        cmocka_unit_test(test_default),      cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_missing_part), cmocka_unit_test(test_ignored_by_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

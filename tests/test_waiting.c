@@ -31,9 +31,8 @@ static void *watch_terminal(void *self)
 }
 
 /* The load is one of x and t, which the exact reference approximates first, for long. */
-static void test_waiting(void **state)
+TEST(test_waiting)
 {
-    (void)state;
     static struct terminal terminal;
     static struct cli_outcome out;
     static const char what[] =
@@ -57,8 +56,4 @@ static void test_waiting(void **state)
         fail_msg("nothing moves: %s", terminal.shown);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_waiting)};
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

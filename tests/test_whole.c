@@ -150,29 +150,25 @@ static size_t try_everywhere(const char *what, long every)
     return sets[0] * sets[1] * sets[2];
 }
 
-static void test_killed(void **state)
+TEST(test_killed)
 {
-    (void)state;
     assert_true(try_everywhere("kill", 1) > 0); /* each of the three was seen */
 }
 
-static void test_broken_disk(void **state)
+TEST(test_broken_disk)
 {
-    (void)state;
     assert_true(try_everywhere("fail", br_test_long() ? 1 : 3) > 0);
 }
 
 /* The disk fails for good, then is mended. */
-static void test_dead_disk(void **state)
+TEST(test_dead_disk)
 {
-    (void)state;
     assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
 }
 
 /* A signal is never lost: it comes in time, or when all is written. */
-static void test_stopped(void **state)
+TEST(test_stopped)
 {
-    (void)state;
     size_t in_time = 0, late = 0;
     for (long n = 1;; n++) {
         make_old();
@@ -200,9 +196,8 @@ static pid_t start_slow(const char *line)
     _exit(out.exit_code);
 }
 
-static void test_two_at_once(void **state)
+TEST(test_two_at_once)
 {
-    (void)state;
     int ending;
     make_old();
     const pid_t first = start_slow(new_line);
@@ -217,9 +212,8 @@ static void test_two_at_once(void **state)
 }
 
 /* Whatever the order: of those that begin together one at least ends well, and its set is whole. */
-static void test_many_at_once(void **state)
+TEST(test_many_at_once)
 {
-    (void)state;
     enum { PROGRAMS = 4 };
     pid_t child[PROGRAMS];
     clear_set();
@@ -245,12 +239,4 @@ static int make_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_killed),    cmocka_unit_test(test_broken_disk),
-        cmocka_unit_test(test_dead_disk), cmocka_unit_test(test_two_at_once),
-        cmocka_unit_test(test_stopped),   cmocka_unit_test(test_many_at_once),
-    };
-    return cmocka_run_group_tests(tests, make_folder, cli_remove_folder);
-}
+AROUND_TESTS(make_folder, cli_remove_folder)
