@@ -173,11 +173,6 @@ const char *cli_read(const char *name)
     return contents;
 }
 
-bool cli_file_contains(const char *name, const char *text)
-{
-    return strstr(cli_read(name), text) != NULL;
-}
-
 int cli_make_folder(void **state)
 {
     (void)state;
