@@ -322,6 +322,30 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
         fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
 }
 
+/* ---- rows ---- */
+
+char *br_test_part(char *row)
+{
+    char *bar = strstr(row, " | ");
+    if (!bar)
+        return row + strlen(row);
+    *bar = '\0';
+    return bar + 3;
+}
+
+char *br_test_unescape(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (strncmp(from, "\\n", 2) == 0) {
+            *to++ = '\n';
+            from++;
+        } else
+            *to++ = *from;
+    *to = '\0';
+    return text;
+}
+
 /* ---- what is stored ---- */
 
 /* How many bytes of the text are as in the stored one, but for numbers within the tolerance. */

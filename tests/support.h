@@ -96,6 +96,12 @@ double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
 /* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);
 
+/* Parts the first cell of a row from the rest, at " | "; returns the rest, or "". */
+char *br_test_part(char *row);
+
+/* Makes ends of lines of all \n in the text, in place; returns it. */
+char *br_test_unescape(char *text);
+
 /* Reading the scene, with its verify part or without, is refused with a message that begins with
  * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
  * set: the scene schema is tested with them. */

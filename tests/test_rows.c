@@ -34,29 +34,6 @@ struct test {
 static struct cli_outcome out;
 static struct cli_circumstances circumstances;
 
-/* Parts the first words of a row from the rest, at " | "; returns the rest, or "". */
-static char *part(char *row)
-{
-    char *bar = strstr(row, " | ");
-    if (!bar)
-        return row + strlen(row);
-    *bar = '\0';
-    return bar + 3;
-}
-
-static char *without_escapes(char *text)
-{
-    char *to = text;
-    for (const char *from = text; *from; from++)
-        if (strncmp(from, "\\n", 2) == 0) {
-            *to++ = '\n';
-            from++;
-        } else
-            *to++ = *from;
-    *to = '\0';
-    return text;
-}
-
 static void set_circumstance(char *pair)
 {
     static char path[600], errors[64];
@@ -111,7 +88,7 @@ static int run_shell(const char *line)
 /* What concerns the options is refused before there are warnings. */
 static void run_command(char *row)
 {
-    char *code = part(row), *message = without_escapes(part(code)), *end;
+    char *code = br_test_part(row), *message = br_test_unescape(br_test_part(code)), *end;
     const long expected = strtol(code, &end, 10);
     if (end == code || *end)
         fail_msg("'%s' is no exit code", code);
@@ -149,15 +126,16 @@ static void is_gone(char *name)
 
 static void check_count(char *folder)
 {
-    const size_t expected = strtoul(part(folder), NULL, 10), found = cli_count_files(folder);
+    const size_t expected = strtoul(br_test_part(folder), NULL, 10),
+                 found = cli_count_files(folder);
     if (found != expected)
         fail_msg("%zu files in %s, expected %zu", found, folder, expected);
 }
 
 static void write_file(char *row)
 {
-    char *text = part(row);
-    cli_write_file(row, without_escapes(text));
+    char *text = br_test_part(row);
+    cli_write_file(row, br_test_unescape(text));
 }
 
 static void set_circumstances(char *row)
@@ -167,23 +145,23 @@ static void set_circumstances(char *row)
 
 static void says(char *text)
 {
-    check_text("the output", out.output, without_escapes(text), true);
+    check_text("the output", out.output, br_test_unescape(text), true);
 }
 
 static void is_silent(char *text)
 {
-    check_text("the output", out.output, without_escapes(text), false);
+    check_text("the output", out.output, br_test_unescape(text), false);
 }
 
 static void has(char *row)
 {
-    const char *text = without_escapes(part(row));
+    const char *text = br_test_unescape(br_test_part(row));
     check_text(row, cli_read(row), text, true);
 }
 
 static void lacks(char *row)
 {
-    const char *text = without_escapes(part(row));
+    const char *text = br_test_unescape(br_test_part(row));
     check_text(row, cli_read(row), text, false);
 }
 
