@@ -106,7 +106,8 @@ void cli_run_line(const char *line, const struct cli_circumstances *c, struct cl
 {
     char text[512];
     const char *word[CLI_MOST_WORDS + 1];
-    snprintf(text, sizeof text, "%s", line);
+    assert_true(strlen(line) < sizeof text);
+    strcpy(text, line);
     split(text, word);
     cli_run(word, c, out);
 }

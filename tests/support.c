@@ -346,6 +346,28 @@ char *br_test_unescape(char *text)
     return text;
 }
 
+void br_test_rows(const char *section, void (*check)(char *row))
+{
+    char path[1024], *row = NULL;
+    size_t room = 0, rows = 0;
+    bool inside = false;
+    br_data_path("tests/data/text_refusals.txt", path, sizeof path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (getline(&row, &room, file) > 0) {
+        row[strcspn(row, "\n")] = '\0';
+        if (strncmp(row, "= ", 2) == 0) {
+            inside = strcmp(row + 2, section) == 0;
+        } else if (inside && *row && strncmp(row, "##", 2) != 0) {
+            check(row);
+            rows++;
+        }
+    }
+    assert_true(rows > 20);
+    free(row);
+    fclose(file);
+}
+
 /* ---- what is stored ---- */
 
 /* How many bytes of the text are as in the stored one, but for numbers within the tolerance. */

@@ -102,6 +102,9 @@ char *br_test_part(char *row);
 /* Makes ends of lines of all \n in the text, in place; returns it. */
 char *br_test_unescape(char *text);
 
+/* Calls for each row of a section of data/text_refusals.txt. */
+void br_test_rows(const char *section, void (*check)(char *row));
+
 /* Reading the scene, with its verify part or without, is refused with a message that begins with
  * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
  * set: the scene schema is tested with them. */

@@ -128,47 +128,15 @@ TEST(test_lists)
     assert_false(br_lists(",", ""));
 }
 
+static void refuse_table(char *row)
+{
+    const char *message = br_test_part(row);
+    refuse_with(br_test_unescape(row), &plain, message);
+}
+
 TEST(test_refused_tables)
 {
-    static const struct {
-        const char *text, *message;
-    } rows[] = {
-        {"", "t.csv:1: the table is empty"},
-        {"# nothing\n\n", "t.csv:1: the table is empty"},
-        {"a,b\n1,2\n", "found no column of a resolution, expected h, n or dofs, or k, dt or steps"},
-        {"h\n1\n.5\n.25\n", "found no column of numbers beside the resolution"},
-        {"h,name\n1,a\n.5,b\n.25,c\n", "found no column of numbers beside the resolution"},
-        {"h;l2\n1;3\n", "t.csv:1: found ';' between columns, expected ',' or tabs"},
-        {"h,,l2\n1,2,3\n", "t.csv:1: heading 2 is empty, expected a name"},
-        {"h,l2,l2\n1,3,3\n.5,2,2\n.25,1,1\n", "the column 'l2' is there twice"},
-        {"h,l2\n1,3,4\n", "t.csv:2: found more than 2 fields, as the heading has"},
-        {"h,l2\n1,3\n\n2\n", "t.csv:4: found fewer than 2 fields, as the heading has"},
-        {"h,l2\n1,\"3\n.5,2\n", "t.csv:2: a quote is open to the end"},
-        {"h,l2\n1,3\n.5,x\n.25,1\n", "t.csv:3: l2: found 'x', expected a number"},
-        {"h,l2\n1,3\n.5,nan\n.25,1\n", "t.csv:3: l2: found 'nan', expected a number"},
-        {"h,l2\n1,3\n.5,2\n.25,-INF\n", "t.csv:4: l2: found '-INF', expected a number"},
-        {"h,l2\n1,3\n.5,1e999\n.25,1\n", "t.csv:3: l2: found '1e999', expected a number"},
-        {"h,l2\n1,3\n.5,-2\n.25,1\n", "t.csv:3: l2: found -2, expected an error of at least 0"},
-        {"h,l2\n1,3\n.5,1e308\n.25,1\n", "t.csv:3: l2: found 1e+308, expected at most"},
-        {"h,l2\n1,3\n-.5,2\n.25,1\n", "t.csv:3: h: found -0.5, expected a number above 0"},
-        {"h,l2\n1,3\n0,2\n.25,1\n", "t.csv:3: h: found 0, expected a number above 0"},
-        {"h,l2\n1,3\n,2\n.25,1\n", "t.csv:3: h: found nan, expected a number above 0"},
-        {"n,l2\n1,3\n2,2\n1e-310,1\n", "t.csv:4: n: found 1e-310, expected a size within"},
-        {"h,l2\n1,3\n.5,2\n1,1\n", "t.csv:4: the resolution is that of line 2, expected each once"},
-        {"h,l2\n1,3\n.5,2\n1.00000000000001,1\n", "the resolution is that of line"},
-        {"h,l2\n1,3\n.5,2\n", "t.csv: found 2 resolutions, expected at least 3"},
-        {"h,l2\n", "t.csv: found no column of numbers"},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2}\n",
-         "t.csv:2: found 1 keys, expected the first line's 2"},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2, \"l3\": 3}\n", "t.csv:2: there is no key 'l2'"},
-        {"{\"h\": 1, \"l2\": 3}\n[1]\n", "t.csv:2: expected a JSON object: found another value"},
-        {"{\"h\": 1, \"l2\": NaN}\n", "t.csv:1: expected a JSON object: "},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": .5, \"l2\n", "t.csv:2: expected a JSON object: "},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 0.5, \"l2\": true}\n{\"h\": 2, \"l2\": 1}",
-         "t.csv:2: l2: found '(no number)', expected a number"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        refuse_with(rows[i].text, &plain, rows[i].message);
+    br_test_rows("tables of numbers", refuse_table);
 }
 
 /* ---- numbers that are made ---- */
@@ -625,49 +593,19 @@ TEST(test_study_table)
     br_orders_request_clear(&r);
 }
 
+static void refuse_study(char *row)
+{
+    struct br_orders_request r;
+    struct br_error err = {0};
+    const char *message = br_test_part(row), *text = br_test_unescape(row);
+    REFUSED(br_orders_request_read("s.yaml", text, &r, &err), BR_BAD_INPUT, message);
+    assert_non_null(strstr(err.message, "s.yaml"));
+    br_orders_request_clear(&r);
+}
+
 TEST(test_refused_studies)
 {
-    static const struct {
-        const char *text, *message;
-    } rows[] = {
-        {"", "s.yaml:1: study: expected a mapping"},
-        {"- a\n", "s.yaml:1: study: expected a mapping"},
-        {"title: a\n", "s.yaml:1: study: expected 'run' or 'table', one of the two"},
-        {"run: a\ntable: /dev/null\n", "study: expected 'run' or 'table', one of the two"},
-        {"run: a\n", "s.yaml:1: read: missing, expected what is read of the output"},
-        {"run: a\nreed: {}\n",
-         "s.yaml:2: reed: unknown key, expected one of: title, run, table, n"},
-        {"run: a\nrun: b\n", "s.yaml:2: run: is given twice"},
-        {"run: [a]\n", "s.yaml:1: run: expected one text"},
-        {"run: a\nread: x\n", "s.yaml:2: read: expected names with a text each"},
-        {"run: a\nread: {a: [b]}\n", "s.yaml:2: read: expected names with a text each"},
-        {"run: a\nread:\n  a: b\n  a: c\n", "a"},
-        {"run: a\nn: 1, x\n", "s.yaml:2: n: n: found 'x', expected positive numbers"},
-        {"run: a\nn: 1, 2\nh: 1, 2\n", "s.yaml:3: h: n and h are given, expected one of the two"},
-        {"run: a\ndimension: -1\n", "s.yaml:2: dimension: found '-1', expected a number above 0"},
-        {"run: a\nformal_order: x\n", "s.yaml:2: formal_order: found 'x', expected a number above"},
-        {"run: a\nformal_order: 40\n",
-         "s.yaml:2: formal_order: found '40', expected an order from"},
-        {"run: a\ntime_limit: 60\n",
-         "s.yaml:2: time_limit: found '60', expected a number above 0 and its unit, s"},
-        {"table: /nowhere/t.csv\n", "s.yaml:1: table: /nowhere/t.csv: No such file"},
-        {"table: /dev/null\nn: 1, 2\n", "n: is given beside 'table', expected beside 'run' only"},
-        {"table: /dev/null\nread: {a: b}\n", "read: is given beside 'table'"},
-        {"table: /dev/null\ntime_limit: 1 s\n", "time_limit: is given beside 'table'"},
-        {"run: a\nverify:\n  l2: h 2 + 1\n", "s.yaml:3: verify: found '+ 1', expected '+-'"},
-        {"run: a\nverify:\n  l2: h 2 +- 1\n  'l2 ': h 2 +- 1\n",
-         "s.yaml:4: verify: the order of l2 in h is given twice"},
-        {"run: a\nverify: l2\n", "s.yaml:2: verify: expected names with a text each"},
-        {"run: a\n  n: {", "s.yaml:2"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_orders_request r;
-        struct br_error err = {0};
-        REFUSED(br_orders_request_read("s.yaml", rows[i].text, &r, &err), BR_BAD_INPUT,
-                rows[i].message);
-        assert_non_null(strstr(err.message, "s.yaml"));
-        br_orders_request_clear(&r);
-    }
+    br_test_rows("files of studies", refuse_study);
 }
 
 /* A text that is cut would be another expectation. */

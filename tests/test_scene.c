@@ -53,31 +53,23 @@ static void spoilt(size_t line, const char *replacement, char *text, size_t size
     }
 }
 
-/* The rows of a file: where the message names line and key, and what it says. */
+/* Where the message names line and key, and what it says. */
+static void refuse(char *row)
+{
+    char text[4096], where[160];
+    char *instead = br_test_part(row), *at = br_test_part(instead), *says = br_test_part(at);
+    const size_t line = strtoul(row, NULL, 10);
+    br_test_unescape(instead);
+    spoilt(line, *instead ? instead : NULL, text, sizeof text);
+    br_test_scene_refused(line ? text : instead, false, br_test_unescape(says));
+    snprintf(where, sizeof where, ".yaml:%s: ", at);
+    if (*at)
+        br_test_scene_refused(text, false, where);
+}
+
 TEST(test_refusals)
 {
-    char path[1024], *row = NULL;
-    size_t room = 0, rows = 0;
-    br_data_path("tests/data/scene_refusals.txt", path, sizeof path);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    for (; getline(&row, &room, file) > 0; rows++) {
-        char text[4096], where[160];
-        row[strcspn(row, "\n")] = '\0';
-        if (*row == '#')
-            continue;
-        char *instead = br_test_part(row), *at = br_test_part(instead), *says = br_test_part(at);
-        const size_t line = strtoul(row, NULL, 10);
-        br_test_unescape(instead);
-        spoilt(line, *instead ? instead : NULL, text, sizeof text);
-        br_test_scene_refused(line ? text : instead, false, br_test_unescape(says));
-        snprintf(where, sizeof where, ".yaml:%s: ", at);
-        if (*at)
-            br_test_scene_refused(text, false, where);
-    }
-    assert_true(rows > 140);
-    free(row);
-    fclose(file);
+    br_test_rows("scenes", refuse);
 }
 
 #define TOP "title: t\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
