@@ -132,7 +132,6 @@ TEST(test_default)
     br_scene_clear(&scene);
 }
 
-
 static void refuse(char *row)
 {
     const char *message = br_test_part(row);
