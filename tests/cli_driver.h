@@ -40,7 +40,6 @@ bool cli_is_there(const char *name);
 size_t cli_count_files(const char *name); /* hidden ones too; no manifest, no .kept */
 void cli_write_file(const char *name, const char *text);
 const char *cli_read(const char *name); /* its first 256 KiB, until the next call */
-bool cli_file_contains(const char *name, const char *text);
 
 /* Set-up and tear-down of a group of tests. */
 int cli_make_folder(void **state);

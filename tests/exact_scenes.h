@@ -4,6 +4,7 @@
 #define BR_TESTS_EXACT_SCENES_H
 
 #include "reference/exact/exact.h"
+#include "tests/test.h"
 
 /* A function of x and t with parameters; f gets them all. */
 struct formula {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "support.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -319,6 +320,98 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
     if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||
         strncmp(err.message, path, strlen(path)) != 0)
         fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
+}
+
+/* ---- rows ---- */
+
+char *br_test_part(char *row)
+{
+    char *bar = strstr(row, " | ");
+    if (!bar)
+        return row + strlen(row);
+    *bar = '\0';
+    return bar + 3;
+}
+
+char *br_test_unescape(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++)
+        if (strncmp(from, "\\n", 2) == 0) {
+            *to++ = '\n';
+            from++;
+        } else
+            *to++ = *from;
+    *to = '\0';
+    return text;
+}
+
+void br_test_rows(const char *section, void (*check)(char *row))
+{
+    char path[1024], *row = NULL;
+    size_t room = 0, rows = 0;
+    bool inside = false;
+    br_data_path("tests/data/text_refusals.txt", path, sizeof path);
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    while (getline(&row, &room, file) > 0) {
+        row[strcspn(row, "\n")] = '\0';
+        if (strncmp(row, "= ", 2) == 0) {
+            inside = strcmp(row + 2, section) == 0;
+        } else if (inside && *row && strncmp(row, "##", 2) != 0) {
+            check(row);
+            rows++;
+        }
+    }
+    assert_true(rows > 20);
+    free(row);
+    fclose(file);
+}
+
+/* ---- what is stored ---- */
+
+/* How many bytes of the text are as in the stored one, but for numbers within the tolerance. */
+static size_t same_bytes(const char *text, const char *stored, double tolerance)
+{
+    const char *at = text;
+    while (*at && *stored) {
+        char *end, *stored_end;
+        const double number = strtod(at, &end), other = strtod(stored, &stored_end);
+        if (tolerance > 0 && isdigit((unsigned char)*at) && isdigit((unsigned char)*stored) &&
+            fabs(number - other) <= tolerance * other) {
+            at = end;
+            stored = stored_end;
+        } else if (*at != *stored) {
+            return (size_t)(at - text);
+        } else {
+            at++;
+            stored++;
+        }
+    }
+    return (size_t)(at - text) + (*stored != '\0');
+}
+
+void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance)
+{
+    static char stored[1 << 18];
+    char path[1024], *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    print(out);
+    assert_int_equal(fclose(out), 0);
+    snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
+    if (getenv("BR_TEST_UPDATE"))
+        write_file(path, "", text);
+    FILE *file = fopen(path, "r");
+    if (!file)
+        fail_msg("%s is not there", path);
+    stored[fread(stored, 1, sizeof stored - 1, file)] = '\0';
+    fclose(file);
+    const size_t same = same_bytes(text, stored, tolerance);
+    if (same != size)
+        fail_msg("%s is otherwise from here on: %.200s", path, text + (same < size ? same : size));
+    free(text);
 }
 
 /* ---- memory ---- */

@@ -4,17 +4,12 @@
 #ifndef BR_TESTS_SUPPORT_H
 #define BR_TESTS_SUPPORT_H
 
-/* cmocka.h wants these before it. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include <stdio.h>
 
 #include "solver/march.h"
 #include "study/grid/study.h"
+#include "tests/test.h"
 
 /* |actual - expected| <= tolerance; `what` goes into the message. */
 #define CLOSE(actual, expected, tolerance) \
@@ -101,6 +96,15 @@ double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
 /* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);
 
+/* Parts the first cell of a row from the rest, at " | "; returns the rest, or "". */
+char *br_test_part(char *row);
+
+/* Makes ends of lines of all \n in the text, in place; returns it. */
+char *br_test_unescape(char *text);
+
+/* Calls for each row of a section of data/text_refusals.txt. */
+void br_test_rows(const char *section, void (*check)(char *row));
+
 /* Reading the scene, with its verify part or without, is refused with a message that begins with
  * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
  * set: the scene schema is tested with them. */
@@ -111,6 +115,11 @@ void br_test_scene_refused(const char *text, bool verify, const char *message);
  * and cleans up after itself whatever happens. */
 void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
                             const void *data, long least);
+
+/* What is printed is, to the byte, what is stored in golden/made/NAME.txt, but for numbers of a
+ * relative difference up to the tolerance. With BR_TEST_UPDATE set it is stored: read the change.
+ */
+void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
 bool br_test_quick(void);

@@ -18,9 +18,8 @@ static const long double second_end[2][ROWS] = {
      -3700637 / 11593932.0L, 61727 / 225920.0L}};
 
 /* The conditions of order 3 that a second end has to meet, and one of order 4 that it does not. */
-static void test_second_ends(void **state)
+TEST(test_second_ends)
 {
-    (void)state;
     for (size_t since = 0; since < 2; since++) {
         const struct br_textbook *book = br_textbook_step("adaptive", since);
         const long double *b = second_end[since];
@@ -79,9 +78,8 @@ static long double estimate_by_book(size_t since, long double lambda, long doubl
     return sum;
 }
 
-static void test_estimate(void **state)
+TEST(test_estimate)
 {
-    (void)state;
     for (size_t since = 0; since < 2; since++)
         for (double k = 1; k > 0.03; k /= 2) {
             const long double book = estimate_by_book(since, -1.3L, 0.7L, k);
@@ -106,9 +104,8 @@ static struct br_counts counts_of(const struct br_scene *scene, const char *solv
 
 /* Solvers differ in round-off: an estimate of the same state is the same, and so are the steps, to
  * a few. Some meshes leave lanes of the vectors without an element. */
-static void test_same_steps(void **state)
+TEST(test_same_steps)
 {
-    (void)state;
     static const char *const scenes[] = {"chatter", "release", "smoothed"};
     static const size_t meshes[] = {1, 3, 8, 10, 21};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
@@ -135,9 +132,8 @@ static struct br_scene smooth_scene(const char *axial, const char *bending)
 }
 
 /* A step's error is of order 4, so that steps shorten by 10^(1/4) with a tolerance of a tenth. */
-static void test_steps_of_tolerance(void **state)
+TEST(test_steps_of_tolerance)
 {
-    (void)state;
     struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
     const double many = (double)counts_of(&scene, NULL, 6, 1e-9).steps;
     const double few = (double)counts_of(&scene, NULL, 6, 1e-5).steps;
@@ -146,9 +142,8 @@ static void test_steps_of_tolerance(void **state)
 }
 
 /* Errors are relative: a load whose squares are no doubles has the same steps. */
-static void test_small_load(void **state)
+TEST(test_small_load)
 {
-    (void)state;
     struct br_scene scene = smooth_scene("sin(2*t)^5", "3*sin(2*t)^5");
     struct br_scene small = smooth_scene("1e-150*sin(2*t)^5", "3e-150*sin(2*t)^5");
     const double usual = (double)counts_of(&scene, "riccati", 6, 1e-6).steps;
@@ -188,9 +183,8 @@ static void see_step(void *self, enum br_field_kind kind, bool switched)
 
 /* When the first stage of the rod has ended, the beam's tip is still what the last accepted step
  * left, whatever was tried and taken back since. */
-static void test_taken_back(void **state)
+TEST(test_taken_back)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("chatter");
     struct br_method method = br_test_method(NULL, "implicit", NULL);
     method.scheme = br_time_scheme_find("adaptive");
@@ -203,14 +197,4 @@ static void test_taken_back(void **state)
     assert_true(seen.trials > seen.steps && seen.steps == br_march_counts(march).steps);
     br_march_free(march);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_taken_back),         cmocka_unit_test(test_second_ends),
-        cmocka_unit_test(test_estimate),           cmocka_unit_test(test_same_steps),
-        cmocka_unit_test(test_steps_of_tolerance), cmocka_unit_test(test_small_load),
-    };
-    return cmocka_run_group_tests_name("adaptive", tests, NULL, NULL);
 }

@@ -51,9 +51,8 @@ static struct br_scene full(void)
     return scene;
 }
 
-static void test_scene(void **state)
+TEST(test_scene)
 {
-    (void)state;
     br_test_without_memory(read_scene, br_test_scene_file(full_scene), 10);
 }
 
@@ -78,9 +77,8 @@ static enum br_status march(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_march(void **state)
+TEST(test_march)
 {
-    (void)state;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         struct march_data data = {full(), br_method_default()};
         data.method.solver = *s;
@@ -101,9 +99,8 @@ static enum br_status ladder(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_ladder(void **state)
+TEST(test_ladder)
 {
-    (void)state;
     br_test_without_memory(ladder, NULL, 5);
 }
 
@@ -126,9 +123,8 @@ static enum br_status study(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_study(void **state)
+TEST(test_study)
 {
-    (void)state;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         struct march_data data = {full(), br_method_default()};
         data.method.solver = *s;
@@ -161,9 +157,8 @@ static enum br_status run_scene(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_run(void **state)
+TEST(test_run)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene;
     MUST(br_scene_read_text("full.yaml", full_scene, &scene, &err));
@@ -172,9 +167,8 @@ static void test_run(void **state)
 }
 
 /* The hook itself: it fails the allocation it was told to, once. */
-static void test_hook(void **state)
+TEST(test_hook)
 {
-    (void)state;
     br_allocation_fails_at(1);
     void *first = br_allocate(1, 8), *second = br_allocate(1, 8), *third = br_allocate(0, 8);
     assert_true(first && !second && third);
@@ -187,24 +181,12 @@ static void test_hook(void **state)
 }
 
 /* The exit codes that the program promises. */
-static void test_exit_codes(void **state)
+TEST(test_exit_codes)
 {
-    (void)state;
     assert_int_equal(br_status_exit_code(BR_OK), 0);
     assert_int_equal(br_status_exit_code(BR_VERDICT), 1);
     assert_int_equal(br_status_exit_code(BR_BAD_INPUT), 2);
     for (int s = BR_NO_MEMORY; s <= BR_INTERRUPTED; s++)
         assert_int_equal(br_status_exit_code((enum br_status)s), 3);
     assert_string_equal(br_status_text(BR_NO_MEMORY), "out of memory");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hook),   cmocka_unit_test(test_exit_codes),
-        cmocka_unit_test(test_scene),  cmocka_unit_test(test_march),
-        cmocka_unit_test(test_ladder), cmocka_unit_test(test_study),
-        cmocka_unit_test(test_run),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

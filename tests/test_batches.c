@@ -67,9 +67,8 @@ static void march_apart(struct br_study *studies, size_t count, const struct br_
     free(bytes);
 }
 
-static void test_same_bits(void **state)
+TEST(test_same_bits)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example3");
     for (int ranks = 1; ranks <= 5; ranks += 2) {
         struct br_error err = {0};
@@ -101,9 +100,8 @@ static void test_same_bits(void **state)
 }
 
 /* A study that fails is a result of its own, and the others go on. */
-static void test_failure(void **state)
+TEST(test_failure)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     struct br_error err = {0};
     struct br_study s[2] = {prepared(&scene, &br_judge_exact, of_levels),
@@ -139,9 +137,8 @@ static size_t batches_of(const struct br_batches *batches, const size_t *of)
     return count;
 }
 
-static void test_cutting(void **state)
+TEST(test_cutting)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     struct br_error err = {0};
     const size_t n[] = {100, 200, 400, 800}, steps[] = {5000, 6000, 8000, 10000};
@@ -181,9 +178,8 @@ static void test_cutting(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_slices(void **state)
+TEST(test_slices)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
     double all = 0;
@@ -208,9 +204,8 @@ static void test_slices(void **state)
 
 /* ---- what comes from elsewhere ---- */
 
-static void test_cut_off(void **state)
+TEST(test_cut_off)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     struct br_error err = {0};
     struct br_study s = prepared(&scene, &br_judge_exact, of_levels);
@@ -226,9 +221,8 @@ static void test_cut_off(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_fingerprint(void **state)
+TEST(test_fingerprint)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example4"), other = br_test_bundled("example4");
     struct br_study s = prepared(&scene, &br_judge_exact, of_levels), t = s;
     const unsigned long long print = br_studies_fingerprint(&s, 1);
@@ -251,9 +245,8 @@ static void test_fingerprint(void **state)
     br_scene_clear(&other);
 }
 
-static void test_launchers(void **state)
+TEST(test_launchers)
 {
-    (void)state;
     static const char *const variables[] = {
         "OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK",
         "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"};
@@ -282,15 +275,4 @@ static void test_launchers(void **state)
         assert_int_equal(launch.rank, rows[i].rank);
         assert_true((launch.launcher != NULL) == (launch.size > 1));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bits), cmocka_unit_test(test_failure),
-        cmocka_unit_test(test_cutting),   cmocka_unit_test(test_slices),
-        cmocka_unit_test(test_cut_off),   cmocka_unit_test(test_fingerprint),
-        cmocka_unit_test(test_launchers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

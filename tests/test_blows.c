@@ -195,9 +195,10 @@ static enum outcome try(const struct hard_load *c)
     return outcome;
 }
 
-static void test_hard_loads(void **state)
+TEST(test_hard_loads)
 {
-    (void)state;
+    if (br_test_quick())
+        return;
     static struct hard_load c;
     size_t count[HARD_KINDS][OUTCOMES] = {0}, wrong = 0, refusals = 0, unsure = 0;
     const size_t cases = br_test_long() ? 2000 : 60;
@@ -217,12 +218,4 @@ static void test_hard_loads(void **state)
     assert_int_equal(wrong, 0);
     assert_true(100 * unsure <= cases);
     assert_int_equal(refusals, 0); /* kinds of which too many are refused */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hard_loads),
-    };
-    return br_test_quick() ? 0 : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static bool is_warned(const struct br_scene *scene, const char *contact, size_t 
 
 /* Of the bundled scenes those are warned of that do gain energy on a finer mesh, at the steps of
  * `run` and at fewer. */
-static void test_bounce(void **state)
+TEST(test_bounce)
 {
-    (void)state;
     enum { N = 40 };
     static const size_t steps[] = {200, 1000};
     char **name;
@@ -72,10 +71,4 @@ static void test_bounce(void **state)
     }
     br_scene_list_free(name, count);
     assert_true(warned[0] >= 2 && warned[1] == 1);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bounce)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,9 +73,8 @@ static void assert_seen_in(struct recorded *r, double *value, const char *what)
     *value = good;
 }
 
-static void test_planted_faults(void **state)
+TEST(test_planted_faults)
 {
-    (void)state;
     static struct recorded r;
     record(&r, "lagged", "exact", 0);
     assert_good(&r);
@@ -104,9 +103,8 @@ static void test_planted_faults(void **state)
 }
 
 /* The mass has little weight in Example 2: a thousandth of its velocity is still seen. */
-static void test_planted_velocity(void **state)
+TEST(test_planted_velocity)
 {
-    (void)state;
     static struct recorded r;
     record(&r, "lagged", "exact", 0);
     for (size_t i = 0; i < BENDING; i++)
@@ -125,9 +123,8 @@ static void test_planted_velocity(void **state)
 }
 
 /* Each law taken for the other one. */
-static void test_wrong_law(void **state)
+TEST(test_wrong_law)
 {
-    (void)state;
     static struct recorded r;
     record(&r, "lagged", "exact", 0);
     r.method.contact = br_contact_rule_find("implicit");
@@ -148,9 +145,8 @@ static void test_wrong_law(void **state)
 }
 
 /* The graph of the exact law: on it, and off it in each direction. */
-static void test_friction_graph(void **state)
+TEST(test_friction_graph)
 {
-    (void)state;
     static const struct {
         double v, lambda;
         bool good;
@@ -182,9 +178,8 @@ static void test_friction_graph(void **state)
 
 /* The norm of a residual is that of the moment (or the force) that balances it: a force P
  * too much at the tip of a beam at rest, P (L - x), so |m| = P (L^3/3)^1/2. */
-static void test_residual_norm(void **state)
+TEST(test_residual_norm)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     scene.length = 3;
     scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 10};
@@ -221,9 +216,8 @@ static struct br_scene rod_scene(const char *load)
 }
 
 /* What a certificate is for: a bubble that is off is seen. */
-static void test_wrong_bubble(void **state)
+TEST(test_wrong_bubble)
 {
-    (void)state;
     struct br_scene scene = rod_scene("40*x");
     struct br_method method = br_test_method("plain", "implicit", NULL);
     method.axial_degree = 2;
@@ -255,9 +249,8 @@ static void test_wrong_bubble(void **state)
 
 /* The size of a force on the last bubble beside one on the tip: its normal force stays in its
  * element, 3 f (2 xi - 1). */
-static void test_size_of_residual(void **state)
+TEST(test_size_of_residual)
 {
-    (void)state;
     static const double rest[10], load[10] = {[9] = -0.5};
     struct br_scene scene = rod_scene("0");
     struct br_method method = br_test_method("plain", "implicit", NULL);
@@ -283,9 +276,8 @@ static void assert_all_nan(const struct recorded *r)
                 isnan(c.friction) && isnan(c.contact));
 }
 
-static void test_not_finite(void **state)
+TEST(test_not_finite)
 {
-    (void)state;
     static struct recorded r;
     record(&r, "lagged", "exact", 0);
     static const double bad[] = {NAN, INFINITY, -INFINITY};
@@ -313,9 +305,8 @@ static void test_not_finite(void **state)
 }
 
 /* The verdict on each entry, at and above its limit, and NaN. */
-static void test_verdict(void **state)
+TEST(test_verdict)
 {
-    (void)state;
     struct br_error err = {0};
     const struct br_certificate most = {1, 2, 3, 4, 5};
     struct br_certificate c = most;
@@ -333,24 +324,11 @@ static void test_verdict(void **state)
     }
 }
 
-static void test_merge(void **state)
+TEST(test_merge)
 {
-    (void)state;
     struct br_certificate worst = {0};
     br_certificate_merge(&worst, &(struct br_certificate){1, 5, NAN, 0, 2});
     br_certificate_merge(&worst, &(struct br_certificate){3, 4, 1, 0, NAN});
     assert_true(worst.axial_residual == 3 && worst.bending_residual == 5 && worst.friction == 0);
     assert_true(isnan(worst.update) && isnan(worst.contact));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planted_faults), cmocka_unit_test(test_planted_velocity),
-        cmocka_unit_test(test_wrong_law),      cmocka_unit_test(test_friction_graph),
-        cmocka_unit_test(test_residual_norm),  cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_verdict),        cmocka_unit_test(test_merge),
-        cmocka_unit_test(test_wrong_bubble),   cmocka_unit_test(test_size_of_residual),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -18,9 +18,8 @@ static const struct br_case *case_of(const struct made_check *m, enum br_verify_
     return NULL;
 }
 
-static void test_sound(void **state)
+TEST(test_sound)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     made_run(&m, 2);
@@ -43,9 +42,8 @@ static void test_sound(void **state)
 }
 
 /* Expectations that do not hold are told so. */
-static void test_wrong_expectation(void **state)
+TEST(test_wrong_expectation)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     m.verify.study[BR_VERIFY_SPACE].expectation[0].order = 3;
@@ -60,9 +58,8 @@ static void test_wrong_expectation(void **state)
 }
 
 /* A march that breaks down is a verdict, not an end of the check. */
-static void test_failing_march(void **state)
+TEST(test_failing_march)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     br_function_free(&m.scene.axial.load.term[0].space);
@@ -78,9 +75,8 @@ static void test_failing_march(void **state)
 
 /* Lagged contact that is stable on four meshes and not on the fifth: the fourth has nothing sound
  * to be compared with. */
-static void test_unstable_reference(void **state)
+TEST(test_unstable_reference)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     m.scene.duration = 2;
@@ -100,9 +96,8 @@ static void test_unstable_reference(void **state)
 }
 
 /* Without a solution to compare with there is nothing to verify. */
-static void test_unverifiable(void **state)
+TEST(test_unverifiable)
 {
-    (void)state;
     struct made_check m;
     struct br_error err = {0};
     made_create(&m);
@@ -133,9 +128,8 @@ static void test_unverifiable(void **state)
 }
 
 /* A rod at rest has errors of 0: that is no order. */
-static void test_nothing_moves(void **state)
+TEST(test_nothing_moves)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     br_load_clear(&m.scene.axial.load);
@@ -146,9 +140,8 @@ static void test_nothing_moves(void **state)
 }
 
 /* A path whose cells share one mesh. */
-static void test_one_mesh(void **state)
+TEST(test_one_mesh)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     struct br_verify_study *joint = &m.verify.study[BR_VERIFY_JOINT];
@@ -168,9 +161,8 @@ static bool same_estimate(const struct br_estimate *a, const struct br_estimate 
 }
 
 /* The same bits on 1 to 8 threads, and the second time. */
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify verify;
     struct br_error err = {0};
@@ -194,15 +186,4 @@ static void test_threads(void **state)
     br_check_clear(&first);
     br_verify_clear(&verify);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),         cmocka_unit_test(test_wrong_expectation),
-        cmocka_unit_test(test_failing_march), cmocka_unit_test(test_unverifiable),
-        cmocka_unit_test(test_nothing_moves), cmocka_unit_test(test_one_mesh),
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_unstable_reference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

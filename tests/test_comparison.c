@@ -59,9 +59,8 @@ static void compare(const struct made_check *m, const struct br_old_check *old,
     br_comparison_clear(&c);
 }
 
-static void test_comparison(void **state)
+TEST(test_comparison)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     m.scene.name = (char[]){"made"};
@@ -140,9 +139,8 @@ static void test_comparison(void **state)
 }
 
 /* Another method is told, whatever has changed of it. */
-static void test_methods(void **state)
+TEST(test_methods)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     m.scene.name = (char[]){"made"};
@@ -170,9 +168,8 @@ static void test_methods(void **state)
 }
 
 /* What a comparison needs of the names. */
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     struct made_check m;
     struct br_error err = {0};
     made_create(&m);
@@ -193,9 +190,8 @@ static void test_names(void **state)
     made_clear(&m);
 }
 
-static void test_worse_verdict(void **state)
+TEST(test_worse_verdict)
 {
-    (void)state;
     struct made_check m;
     made_create(&m);
     m.scene.name = (char[]){"made"};
@@ -206,15 +202,4 @@ static void test_worse_verdict(void **state)
     compare(&m, &old, BR_SERIOUS, "made space l2 axial: verdict");
     br_old_check_clear(&old);
     made_clear(&m);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_comparison),
-        cmocka_unit_test(test_methods),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_worse_verdict),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,8 @@ static struct br_field field_of(const struct br_scene *scene, size_t n, double k
 }
 
 /* G(1/k) = k z_tip of a step of k, whatever solver computed it. */
-static void test_flexibility(void **state)
+TEST(test_flexibility)
 {
-    (void)state;
     struct br_test_random random = {31};
     for (int trial = 0; trial < 400; trial++) {
         struct br_scene scene = pressed_scene(br_test_log_uniform(&random, 1e-6, 1e6),
@@ -54,9 +53,8 @@ static void test_flexibility(void **state)
 
 /* Without inertia all is known: the limit is (a + 2c/k)/L, the eigenvalue (c/k - c_H L)/(a + c/k).
  */
-static void test_no_inertia(void **state)
+TEST(test_no_inertia)
 {
-    (void)state;
     struct br_scene scene = pressed_scene(0, 2, 1);
     scene.length = 4;
     scene.axial.stiffness = 3;
@@ -74,9 +72,8 @@ static void test_no_inertia(void **state)
 }
 
 /* What is 0, in each combination. */
-static void test_nothing_there(void **state)
+TEST(test_nothing_there)
 {
-    (void)state;
     struct br_scene scene = pressed_scene(0, 0, 1); /* neither inertia nor viscosity */
     struct br_field field = field_of(&scene, 10, 0.1, 1);
     CLOSE(br_contact_limit_stiffness(&field), 1, 1e-15); /* a/L, whatever k is */
@@ -100,9 +97,8 @@ static void test_nothing_there(void **state)
 }
 
 /* The two limits are each other's inverse, and beyond it an eigenvalue leaves the circle. */
-static void test_inverse(void **state)
+TEST(test_inverse)
 {
-    (void)state;
     struct br_test_random random = {32};
     for (int trial = 0; trial < 2000; trial++) {
         const struct br_scene scene =
@@ -147,9 +143,8 @@ static double deviation(const struct br_scene *scene, int degree, size_t steps, 
 }
 
 /* Above the limit a tip that rests leaves its rest as the eigenvalue says; below it does not. */
-static void test_marches(void **state)
+TEST(test_marches)
 {
-    (void)state;
     static const double density[] = {0, 1e-4, 1, 1e4}, viscosity[] = {0, 1e-3, 1};
     for (size_t i = 0; i < 4; i++)
         for (size_t j = 0; j < 3; j++)
@@ -172,9 +167,8 @@ static void test_marches(void **state)
 
 /* ---- what is said of it ---- */
 
-static void test_round_steps(void **state)
+TEST(test_round_steps)
 {
-    (void)state;
     static const double of[][2] = {{0, 1},     {1, 1},      {1.0001, 2},  {3, 4},       {9, 10},
                                    {10.5, 16}, {121, 125},  {125, 125},   {1601, 2000}, {0.1, 1},
                                    {81, 100},  {8001, 1e4}, {3e11, 4e11}, {8e12, 8e12}};
@@ -199,9 +193,8 @@ static bool warns(const struct br_scene *scene, size_t n, size_t steps,
 
 /* What the remedy names is within the limit, for scenes at random; where nothing is warned of, an
  * error does not grow. */
-static void test_warning(void **state)
+TEST(test_warning)
 {
-    (void)state;
     struct br_test_random random = {33};
     int warned = 0, by_step = 0;
     for (int trial = 0; trial < 500; trial++) {
@@ -235,9 +228,8 @@ static void test_warning(void **state)
 }
 
 /* No step is short enough where nothing but springs is there: no step is named. */
-static void test_no_step_helps(void **state)
+TEST(test_no_step_helps)
 {
-    (void)state;
     struct br_scene scene = pressed_scene(0, 0, 2);
     const struct br_method method = br_test_method(NULL, "lagged", NULL);
     struct br_warning w;
@@ -247,9 +239,8 @@ static void test_no_step_helps(void **state)
 }
 
 /* A march that never touches is not affected; one that does, is. */
-static void test_touched(void **state)
+TEST(test_touched)
 {
-    (void)state;
     struct br_scene scene = pressed_scene(1, 1, 1e9);
     scene.axial.load = (struct br_load){{{{.constant = 1}, {.constant = 1}}}};
     const struct br_method method = br_test_method(NULL, "lagged", NULL);
@@ -261,16 +252,4 @@ static void test_touched(void **state)
         assert_int_equal(br_march_contact_unstable(march), touching);
         br_march_free(march);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flexibility),   cmocka_unit_test(test_no_inertia),
-        cmocka_unit_test(test_nothing_there), cmocka_unit_test(test_inverse),
-        cmocka_unit_test(test_marches),       cmocka_unit_test(test_round_steps),
-        cmocka_unit_test(test_warning),       cmocka_unit_test(test_no_step_helps),
-        cmocka_unit_test(test_touched),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

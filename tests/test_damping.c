@@ -74,17 +74,15 @@ static void check_bounds(enum br_field_kind kind, int degree, double highest)
 }
 
 /* The highest frequencies of a free rod and beam: 12, 60 and 8400 of the textbooks. */
-static void test_bounds(void **state)
+TEST(test_bounds)
 {
-    (void)state;
     check_bounds(BR_AXIAL, 1, sqrt(12) * 10);
     check_bounds(BR_AXIAL, 2, sqrt(60) * 10);
     check_bounds(BR_BENDING, 1, sqrt(8400) * 100);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     const struct br_method method = bdf3();
     struct br_error err = {0};
     struct br_march *march;
@@ -102,9 +100,8 @@ static void test_refusals(void **state)
 }
 
 /* The modes beside an undamped spring at the tip have some of their stiffness in the rod. */
-static void test_spring(void **state)
+TEST(test_spring)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     const struct br_field f = br_field_of_scene(&s, BR_AXIAL, 10, 1);
     assert_true(br_damping_largest_step(&f, true) < br_damping_largest_step(&f, false));
@@ -120,14 +117,4 @@ static void test_spring(void **state)
         const double rod = q * q / 2 + q * sin(2 * q) / 4, of_spring = spring * pow(sin(q), 2);
         assert_true(rod / (rod + of_spring) > 0.6);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bounds),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_spring),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

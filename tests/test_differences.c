@@ -53,9 +53,8 @@ static void check_tips(const struct br_scene *scene, const struct br_tips *tips)
         }
 }
 
-static void test_differences(void **state)
+TEST(test_differences)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example4");
     struct br_study grid[NORMS];
@@ -82,9 +81,8 @@ static void test_differences(void **state)
 }
 
 /* The orders that the differences of a smooth march show, with no reference at all. */
-static void test_orders(void **state)
+TEST(test_orders)
 {
-    (void)state;
     static const size_t doubling[] = {8, 16, 32, 64}, halving[] = {100, 200, 400, 800};
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
@@ -114,9 +112,8 @@ static void test_orders(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     static const size_t odd[] = {10, 15};
     static const struct {
@@ -169,9 +166,8 @@ static struct br_estimate extrapolated(const struct truth *t, size_t rows, size_
     return e;
 }
 
-static void test_extrapolation(void **state)
+TEST(test_extrapolation)
 {
-    (void)state;
     const struct truth exact = {3, 0.5, 2, -0.25, 1, 0};
     struct br_estimate e = extrapolated(&exact, ROWS, COLUMNS);
     CLOSE(e.value, 3, 1e-9);
@@ -195,9 +191,8 @@ static void test_extrapolation(void **state)
 }
 
 /* Values that swing show no order: the last one, with a wide interval. A failed cell: none. */
-static void test_no_order(void **state)
+TEST(test_no_order)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_study grid[NORMS];
@@ -219,14 +214,4 @@ static void test_no_order(void **state)
     assert_true(isnan(br_extrapolate(&tips, BR_BENDING).value));
     br_tips_clear(&tips);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_differences), cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_refusals),    cmocka_unit_test(test_extrapolation),
-        cmocka_unit_test(test_no_order),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

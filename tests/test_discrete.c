@@ -49,9 +49,8 @@ static void check_golden(const struct br_test_golden *row)
     br_scene_clear(&scene);
 }
 
-static void test_golden(void **state)
+TEST(test_golden)
 {
-    (void)state;
     struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
     const size_t count = br_test_golden(rows), most = br_test_quick() ? 0 : 3200;
     size_t checked = 0;
@@ -97,9 +96,8 @@ static void same_as_solver(const struct br_scene *scene, const struct br_method 
     br_discrete_free(d);
 }
 
-static void test_schemes(void **state)
+TEST(test_schemes)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     for (size_t i = 0; i < 4; i++)
         for (size_t j = 0; br_time_schemes[j]; j++) {
@@ -114,9 +112,8 @@ static void test_schemes(void **state)
         }
 }
 
-static void test_laws(void **state)
+TEST(test_laws)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     for (size_t i = 0; i < 4 * 4; i++) {
         struct br_scene scene = br_test_bundled(scenes[i / 4]);
@@ -127,9 +124,8 @@ static void test_laws(void **state)
     }
 }
 
-static void test_data(void **state)
+TEST(test_data)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     s.duration = 2;
     s.axial.load = br_test_load("100*sin(3*x)*cos(5*t)");
@@ -169,9 +165,8 @@ static void test_data(void **state)
 
 /* ---- refusals ---- */
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_method method = br_method_default();
@@ -193,14 +188,4 @@ static void test_refusals(void **state)
     br_discrete_free(d);
     br_discrete_free(NULL);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden),   cmocka_unit_test(test_laws),
-        cmocka_unit_test(test_schemes),  cmocka_unit_test(test_data),
-        cmocka_unit_test(test_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

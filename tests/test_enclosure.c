@@ -100,9 +100,8 @@ static void check_point(enum br_operation o, const iv a[3], iv bound, const doub
                  a[0].low, a[0].high, a[1].low, a[1].high);
 }
 
-static void test_operations(void **state)
+TEST(test_operations)
 {
-    (void)state;
     struct br_test_random r = {1};
     for (int o = BR_OP_NEGATE; o <= BR_OP_CHOOSE; o++) {
         size_t bounded = 0;
@@ -123,9 +122,8 @@ static void test_operations(void **state)
 }
 
 /* Narrow arguments have narrow bounds: (range of f) + 10 units. */
-static void test_tight(void **state)
+TEST(test_tight)
 {
-    (void)state;
     struct br_test_random r = {2};
     for (int o = BR_OP_NEGATE; o <= BR_OP_POW; o++)
         for (size_t i = 0; i < cases(400); i++) {
@@ -182,9 +180,8 @@ static void check_tree(const struct br_tree *tree, const struct br_function *f, 
              box.t.high);
 }
 
-static void test_trees(void **state)
+TEST(test_trees)
 {
-    (void)state;
     struct br_test_random r = {5};
     size_t bounded = 0;
     for (size_t i = 0; i < cases(6000); i++) {
@@ -214,9 +211,8 @@ static void test_trees(void **state)
 }
 
 /* Where abs, min and max turn inside of the box, or something is taken by one of them only. */
-static void test_kinks(void **state)
+TEST(test_kinks)
 {
-    (void)state;
     static const char *const rows[] = {"abs(x) - x",          "abs(x - t) + x - t",
                                        "max(x, t) - x",       "min(x, 2*t) + abs(t - x) - t",
                                        "x*abs(x) - x*t",      "t - max(x, t, -x)",
@@ -244,9 +240,8 @@ static void test_kinks(void **state)
 
 /* Halved boxes are enclosed four times as tightly: the excess over the range falls quadratically.
  */
-static void test_quadratic(void **state)
+TEST(test_quadratic)
 {
-    (void)state;
     struct br_function f = br_test_function("(x - t)*exp(x)*sin(3*t) - x^2*t + x*t^3 - x*x*x");
     double before = 0;
     for (int k = 6; k <= 16; k++) {
@@ -354,9 +349,8 @@ static void check_series(const char *text, function_of *g, double shift, struct 
     br_function_free(&f);
 }
 
-static void test_taylor(void **state)
+TEST(test_taylor)
 {
-    (void)state;
     struct br_test_random r = {9};
 #define U "(%.17g + 0.7*t + 0.2*t^2)"
     static const struct {
@@ -379,9 +373,8 @@ static void test_taylor(void **state)
 }
 
 /* Where they are none. */
-static void test_not_smooth(void **state)
+TEST(test_not_smooth)
 {
-    (void)state;
     static const char *const rows[] = {
         "abs(t - 0.5)", "step(t - 0.5)", "t < 0.5", "min(t, 0.5)",  "sqrt(t)",   "log(t)",
         "t^1.5",        "1/t",           "asin(t)", "acosh(1 + t)", "tan(pi*t)", "t > 0.5 ? t : 1"};
@@ -392,15 +385,4 @@ static void test_not_smooth(void **state)
         assert_false(br_function_taylor(&f, BR_T, box, 3, c));
         br_function_free(&f);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_operations), cmocka_unit_test(test_tight),
-        cmocka_unit_test(test_trees),      cmocka_unit_test(test_kinks),
-        cmocka_unit_test(test_quadratic),  cmocka_unit_test(test_taylor),
-        cmocka_unit_test(test_not_smooth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@
 #include "support.h"
 
 /* e^z to the scheme's order; Euler's is 1/(1 - z). */
-static void test_amplification(void **state)
+TEST(test_amplification)
 {
-    (void)state;
     const double complex z = 0.02 + 0.03 * I, large = -0.5 + 2 * I;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
         const struct br_textbook *t = br_textbook_step((*s)->name, 2);
@@ -28,9 +27,8 @@ static void test_amplification(void **state)
 
 /* omega^2 = 6 a/(rho h^2) (1 - cos t)/(2 + cos t), t = pi h/2, of linear elements; 1.875^4 of a
  * cantilever, from above. */
-static void test_modes(void **state)
+TEST(test_modes)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     struct br_beam_mode mode;
@@ -48,9 +46,8 @@ static void test_modes(void **state)
 }
 
 /* One period of one scheme: by the formula, and what is refused. */
-static void test_one(void **state)
+TEST(test_one)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_vibration v = {
         .scheme = br_time_schemes[0], .kind = BR_BENDING, .density = 1, .per_period = 24};
@@ -80,9 +77,8 @@ static void test_one(void **state)
 }
 
 /* All of the part, on any number of threads. */
-static void test_all(void **state)
+TEST(test_all)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_energy_behaviour b;
     MUST(br_energy_behaviour_run(&b, 0, NULL, &err));
@@ -110,22 +106,11 @@ static bool give_up(void *self)
     return true;
 }
 
-static void test_interrupted(void **state)
+TEST(test_interrupted)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_energy_behaviour b;
     const struct br_observer observer = {.stop = give_up};
     REFUSED(br_energy_behaviour_run(&b, 2, &observer, &err), BR_INTERRUPTED, "interrupted");
     br_energy_behaviour_clear(&b);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_amplification), cmocka_unit_test(test_modes),
-        cmocka_unit_test(test_one),           cmocka_unit_test(test_all),
-        cmocka_unit_test(test_interrupted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -103,9 +103,8 @@ enum { SCENES = sizeof scenes / sizeof *scenes };
 
 /* ---- flags ---- */
 
-static void test_flags(void **state)
+TEST(test_flags)
 {
-    (void)state;
     struct br_error err = {0};
     char **names;
     size_t count;
@@ -168,9 +167,8 @@ static void compare_modes(const struct br_scene *s, const char *name,
     }
 }
 
-static void test_rounding(void **state)
+TEST(test_rounding)
 {
-    (void)state;
     for (size_t i = 0; i < SCENES; i++) {
         struct br_scene s = br_test_bundled(scenes[i]);
         EACH_METHOD(solver, scheme)
@@ -183,9 +181,8 @@ static void test_rounding(void **state)
 }
 
 /* The method's own mode acts as a thread's does, and stays in the march. */
-static void test_mode_of_method(void **state)
+TEST(test_mode_of_method)
 {
-    (void)state;
     struct br_scene s = br_test_bundled("example1");
     EACH_METHOD(solver, scheme)
     {
@@ -232,9 +229,8 @@ static void certify(const struct br_scene *s, const char *name, const struct br_
     br_march_free(march);
 }
 
-static void test_certificates(void **state)
+TEST(test_certificates)
 {
-    (void)state;
     for (size_t i = 0; i < SCENES; i++) {
         struct br_scene s = br_test_bundled(scenes[i]);
         for (size_t scheme = 0; br_time_schemes[scheme]; scheme++)
@@ -330,9 +326,8 @@ static bool takes_roots(const struct br_method *method)
     return method->solver == &br_cholmod || method->solver == &br_banded;
 }
 
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     struct br_test_random r = {5};
     for (int i = 0; i < (br_test_quick() ? 4 : 25); i++) {
         struct br_scene s = any_scene(&r);
@@ -353,14 +348,4 @@ static void test_units(void **state)
             compare_units(&s, &method, n, &twos, !method.scheme->adaptive && !takes_roots(&method));
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_flags),          cmocka_unit_test(test_rounding),
-        cmocka_unit_test(test_mode_of_method), cmocka_unit_test(test_certificates),
-        cmocka_unit_test(test_units),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

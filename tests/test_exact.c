@@ -7,9 +7,8 @@
 #include "support.h"
 
 /* The scheme as printed, to 1e-11 by the default solver whatever the mesh. */
-static void test_golden_riccati(void **state)
+TEST(test_golden_riccati)
 {
-    (void)state;
     struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
     const size_t count = br_test_golden(rows);
     const struct br_method method = br_test_method("riccati", "lagged", "exact");
@@ -25,9 +24,8 @@ static void test_golden_riccati(void **state)
 }
 
 /* Every other solver within the round-off that it predicts for itself. */
-static void test_golden_others(void **state)
+TEST(test_golden_others)
 {
-    (void)state;
     struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
     const size_t count = br_test_golden(rows);
     for (const struct br_linear_solver *const *s = br_linear_solvers + 1; *s; s++)
@@ -46,9 +44,8 @@ static void test_golden_others(void **state)
 }
 
 /* u(1) and w(1) of Example 2 on other meshes and with other steps. */
-static void test_other_resolutions(void **state)
+TEST(test_other_resolutions)
 {
-    (void)state;
     static const struct {
         size_t n, steps;
         const char *contact;
@@ -87,9 +84,8 @@ static const struct br_test_end exact1 = {0.171692329889782302, 0, NAN};
 static const struct br_test_end exact2 = {0.0429230824724455755, -0.0715950242871993164, NAN};
 
 /* The contact force at u_n: first order in k, with constants below 1e-3. */
-static void test_implicit_contact(void **state)
+TEST(test_implicit_contact)
 {
-    (void)state;
     double last_u = NAN, last_w = NAN;
     for (size_t steps = 50; steps <= 800; steps *= 2) {
         const double k = 1.0 / (double)steps;
@@ -109,9 +105,8 @@ static void test_implicit_contact(void **state)
 }
 
 /* The contact force at u_{n-1}: first order too, but with constants of 0.1. */
-static void test_lagged_contact(void **state)
+TEST(test_lagged_contact)
 {
-    (void)state;
     double last = NAN;
     for (size_t steps = 100; steps <= 1600; steps *= 2) {
         const struct br_test_end e = exact_errors("example2", "lagged", 50, steps, &exact2);
@@ -125,9 +120,8 @@ static void test_lagged_contact(void **state)
 
 /* Example 3: propped until the reaction 3/8 q L reaches 3000 N, at t = 0.80 s; and the
  * values at t = 1. */
-static void test_example3(void **state)
+TEST(test_example3)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example3");
     for (size_t steps = 100; steps <= 1600; steps *= 2) {
         const struct br_method method = br_method_default();
@@ -148,14 +142,4 @@ static void test_example3(void **state)
         br_march_free(march);
     }
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_golden_riccati),    cmocka_unit_test(test_golden_others),
-        cmocka_unit_test(test_other_resolutions), cmocka_unit_test(test_implicit_contact),
-        cmocka_unit_test(test_lagged_contact),    cmocka_unit_test(test_example3),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Projections, refusals, failing allocations, many readers. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_legendre.h>
 #include <math.h>
@@ -64,9 +58,8 @@ static void check_projection(const struct br_exact *exact, const struct br_exact
     br_exact_projection_free(projection);
 }
 
-static void test_projection(void **unused)
+TEST(test_projection)
 {
-    (void)unused;
     const struct br_scene scene = paper_example(4);
     struct br_exact *exact = solve(&scene, 1e-10);
     struct br_exact_state *state = new_state(exact);
@@ -87,9 +80,8 @@ static void test_projection(void **unused)
 }
 
 /* The derivatives belong together: each is the integral of the next. */
-static void test_derivatives(void **unused)
+TEST(test_derivatives)
 {
-    (void)unused;
     const struct br_scene scene = paper_example(1);
     struct br_exact *exact = solve(&scene, 1e-10);
     struct br_exact_state *state = new_state(exact);
@@ -125,9 +117,8 @@ static double f_nan(const double *p, double x, double t)
     return t > 0.5 ? NAN : t;
 }
 
-static void test_refusals(void **unused)
+TEST(test_refusals)
 {
-    (void)unused;
     struct formula bad = {f_nan, {0}};
     const struct br_scene good = paper_example(3);
     struct br_scene s = good;
@@ -167,9 +158,8 @@ static void test_refusals(void **unused)
 }
 
 /* Shared by those who would get the same one, and by nobody else. */
-static void test_shared(void **unused)
+TEST(test_shared)
 {
-    (void)unused;
     const struct br_scene scene = paper_example(2), same_data = scene;
     const struct br_exact_options modest = {.tolerance = 1e-4, .max_modes = 64},
                                   any = {.tolerance = 1e-4},
@@ -193,9 +183,8 @@ static void test_shared(void **unused)
 }
 
 /* Every allocation fails once. */
-static void test_allocations(void **unused)
+TEST(test_allocations)
 {
-    (void)unused;
     const struct br_scene scene = paper_example(2);
     const struct br_exact_options options = {.tolerance = 1e-4};
     const struct br_exact_part part = {BR_EXACT_BENDING, false, 0};
@@ -240,9 +229,8 @@ static void *read_all(void *data)
     return sum;
 }
 
-static void test_threads(void **unused)
+TEST(test_threads)
 {
-    (void)unused;
     const struct br_scene scene = paper_example(4);
     struct br_exact *exact = solve(&scene, 1e-8);
     pthread_t thread[4];
@@ -259,14 +247,4 @@ static void test_threads(void **unused)
     for (size_t i = 0; i < 4; i++)
         free(sum[i]);
     br_exact_free(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shared),      cmocka_unit_test(test_projection),
-        cmocka_unit_test(test_derivatives), cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_allocations), cmocka_unit_test(test_threads),
-    };
-    return cmocka_run_group_tests_name("exact: interface", tests, NULL, NULL);
 }

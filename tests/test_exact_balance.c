@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every solution must obey, whatever it is: the energy balance, the weak
  * form with other test functions, the laws at the tip. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
@@ -99,9 +93,8 @@ static double integrate(const struct br_exact *exact, double end, double (*f)(do
     return sum;
 }
 
-static void test_energy(void **unused)
+TEST(test_energy)
 {
-    (void)unused;
     const struct br_scene scene = lively_scene();
     struct br_exact *exact = solve(&scene, 1e-9);
     struct power p = {.scene = &scene, .exact = exact, .state = new_state(exact)};
@@ -170,9 +163,8 @@ static double momentum(const struct power *p, enum br_exact_field field, int pow
     return p->scene->density * sum;
 }
 
-static void test_weak_form(void **unused)
+TEST(test_weak_form)
 {
-    (void)unused;
     const struct br_scene scene = lively_scene();
     struct br_exact *exact = solve(&scene, 1e-9);
     struct power p = {.scene = &scene, .exact = exact, .state = new_state(exact)};
@@ -212,9 +204,8 @@ static void check_laws(const struct br_scene *scene)
     br_exact_free(exact);
 }
 
-static void test_laws(void **unused)
+TEST(test_laws)
 {
-    (void)unused;
     for (int i = 1; i <= 4; i++) {
         const struct br_scene scene = paper_example(i);
         check_laws(&scene);
@@ -224,9 +215,8 @@ static void test_laws(void **unused)
 }
 
 /* Solutions that are asked to be worse must know how bad they are. */
-static void test_honest(void **unused)
+TEST(test_honest)
 {
-    (void)unused;
     const struct br_scene scene = lively_scene();
     struct br_exact *exact = solve(&scene, 1e-10);
     struct br_exact_state *x = new_state(exact);
@@ -257,15 +247,4 @@ static void test_honest(void **unused)
     }
     br_exact_state_free(x);
     br_exact_free(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_weak_form),
-        cmocka_unit_test(test_laws),
-        cmocka_unit_test(test_honest),
-    };
-    return cmocka_run_group_tests_name("exact: balances", tests, NULL, NULL);
 }

@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Without mass the tip obeys one scalar equation between events, so that all
  * events have closed conditions: sticks, slips and contacts over many periods. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_roots.h>
@@ -51,6 +45,7 @@ static double first_root(double (*f)(double, void *), struct scalar *s, double e
         low += step;
     if (!(low < end))
         return INFINITY;
+    gsl_set_error_handler_off();
     gsl_function function = {f, s};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     gsl_root_fsolver_set(solver, &function, low, low + step);
@@ -97,9 +92,8 @@ static void check_event(const struct br_exact_event *event, double t, enum br_ph
 }
 
 /* The moment balance gives c w' + a w = (L^3 / 3) (3/8 f L - lambda) at the tip. */
-static void test_slider(void **unused)
+TEST(test_slider)
 {
-    (void)unused;
     struct formula time = {f_sine, {3}};
     struct br_scene s = {.length = 1.5, .duration = 10};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
@@ -137,9 +131,8 @@ static void test_slider(void **unused)
 }
 
 /* c u' + a u = f L^2 / 2 - p L at the tip. */
-static void test_bouncing(void **unused)
+TEST(test_bouncing)
 {
-    (void)unused;
     struct formula time = {f_sine, {5}};
     struct br_scene s = {.length = 1.5, .duration = 10};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 4, .viscosity = 3};
@@ -177,9 +170,8 @@ static void test_bouncing(void **unused)
 }
 
 /* A slip that a constant load drives comes to rest without an end. */
-static void test_slip_to_rest(void **unused)
+TEST(test_slip_to_rest)
 {
-    (void)unused;
     struct br_scene s = {.length = 1, .duration = 100, .density = 0.1};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.bending.load =
@@ -195,15 +187,4 @@ static void test_slip_to_rest(void **unused)
     assert_near(state->friction_force, 1, 0);
     br_exact_state_free(state);
     br_exact_free(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slider),
-        cmocka_unit_test(test_bouncing),
-        cmocka_unit_test(test_slip_to_rest),
-    };
-    gsl_set_error_handler_off();
-    return cmocka_run_group_tests_name("exact: events", tests, NULL, NULL);
 }

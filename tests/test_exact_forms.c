@@ -1,11 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference against closed forms. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <gsl/gsl_math.h>
 #include <math.h>
 
@@ -76,9 +70,8 @@ static double f_sine_shape(const double *p, double x, double t)
     return p[0] * sin(p[1] * x);
 }
 
-static void test_axial_vibration(void **unused)
+TEST(test_axial_vibration)
 {
-    (void)unused;
     const double viscosities[] = {0, 1e-3, 0.3, 50};
     for (size_t i = 0; i < 4; i++) {
         struct formula shape = {f_sine_shape, {0.01, M_PI_2 / 2.5}};
@@ -129,9 +122,8 @@ static struct vibration beam_vibration(const struct br_scene *s, const struct fo
 }
 
 /* The cantilever's second mode. */
-static void test_bending_vibration(void **unused)
+TEST(test_bending_vibration)
 {
-    (void)unused;
     const double b = 4.694091132974174576436, viscosities[] = {0, 1e-3, 0.02, 3};
     const double ratio = (sinh(b) - sin(b)) / (cosh(b) + cos(b));
     for (size_t i = 0; i < 4; i++) {
@@ -144,9 +136,8 @@ static void test_bending_vibration(void **unused)
 }
 
 /* The first mode of the clamped-propped beam, held by friction; its reaction. */
-static void test_stick_vibration(void **unused)
+TEST(test_stick_vibration)
 {
-    (void)unused;
     const double b = 3.926602312047918677556;
     const double ratio = (cosh(b) - cos(b)) / (sinh(b) - sin(b));
     const double viscosities[] = {1e-3, 0.02, 3};
@@ -184,9 +175,8 @@ static double f_closed(const double *p, double x, double t)
 
 /* A contact that never opens, without viscosity: a constant load's static shape,
  * and a mode of a rod on a spring, a k cos kL = -c_H sin kL, with k chosen. */
-static void test_closed_vibration(void **unused)
+TEST(test_closed_vibration)
 {
-    (void)unused;
     const double k = 2, a = 3, load = 6, x = 0.7;
     struct br_scene s = {.length = 1, .duration = 4, .density = 2};
     s.axial = (struct br_axial){.modelled = true, .stiffness = a};
@@ -219,9 +209,8 @@ static double f_forced(const double *p, double x, double t)
 }
 
 /* u = sin(kx) sin(omega t), by a load that depends on x and t at once. */
-static void test_forced(void **unused)
+TEST(test_forced)
 {
-    (void)unused;
     const double length = 0.8, k = 5 * M_PI_2 / length, omega = 4, x = 0.5;
     struct br_scene s = {.length = length, .duration = 2, .density = 0.3};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
@@ -251,9 +240,8 @@ static double f_pulse(const double *p, double x, double t)
 }
 
 /* u = sin(kx) g(t): nothing happens for long, and then much in a short time. */
-static void test_pulse(void **unused)
+TEST(test_pulse)
 {
-    (void)unused;
     struct formula load = {f_pulse, {M_PI_2, 2, 0.1, 0.01}};
     struct br_scene s = {.length = 1, .duration = 2, .density = 1};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
@@ -272,9 +260,8 @@ static void test_pulse(void **unused)
 }
 
 /* Over a long stick the modes must go on adding up to the tip that is held. */
-static void test_held(void **unused)
+TEST(test_held)
 {
-    (void)unused;
     const struct br_scene s = paper_example(4);
     struct br_exact *exact = solve(&s, 1e-10);
     struct br_exact_state *state = new_state(exact);
@@ -287,9 +274,8 @@ static void test_held(void **unused)
     br_exact_free(exact);
 }
 
-static void test_examples(void **unused)
+TEST(test_examples)
 {
-    (void)unused;
     const struct {
         int example;
         double u, w;
@@ -317,9 +303,8 @@ static void test_examples(void **unused)
 }
 
 /* Example 3 lets go at 0.8 s; example 1 slips first, and then sticks for good. */
-static void test_example_events(void **unused)
+TEST(test_example_events)
 {
-    (void)unused;
     const struct br_scene three = paper_example(3), one = paper_example(1);
     struct br_exact *exact = solve(&three, 1e-10);
     size_t count;
@@ -347,9 +332,8 @@ static void test_example_events(void **unused)
 
 /* Without mass a beam whose tip is held creeps to its static shape in the time
  * c / a, and the reaction is there at once. */
-static void test_creep(void **unused)
+TEST(test_creep)
 {
-    (void)unused;
     struct br_scene s = {.length = 2, .duration = 3};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 5, .viscosity = 4};
     s.bending.load =
@@ -368,21 +352,4 @@ static void test_creep(void **unused)
     }
     br_exact_state_free(state);
     br_exact_free(exact);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axial_vibration),
-        cmocka_unit_test(test_bending_vibration),
-        cmocka_unit_test(test_stick_vibration),
-        cmocka_unit_test(test_closed_vibration),
-        cmocka_unit_test(test_forced),
-        cmocka_unit_test(test_pulse),
-        cmocka_unit_test(test_held),
-        cmocka_unit_test(test_examples),
-        cmocka_unit_test(test_example_events),
-        cmocka_unit_test(test_creep),
-    };
-    return cmocka_run_group_tests_name("exact: closed forms", tests, NULL, NULL);
 }

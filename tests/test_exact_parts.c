@@ -1,11 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The parts of the exact reference: Legendre series, Radau's tables, modes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <string.h>
 
@@ -17,9 +11,8 @@
 enum { S = BR_STAGES };
 
 /* 3 x^2 - 2 x + 1, its integral x^3 - x^2 + x and its derivative 6 x - 2. */
-static void test_legendre(void **unused)
+TEST(test_legendre)
 {
-    (void)unused;
     double c[] = {1, 2 / sqrt(3) / 4, 1 / sqrt(5) / 2, 0};
     for (double x = 0; x <= 1; x += 0.125) {
         double p[4], dp[4], both[4], q[4], value = 0, rate = 0, integral = 0, series = 0;
@@ -45,9 +38,8 @@ static void test_legendre(void **unused)
 }
 
 /* What stands in tables is what the formulas give, bit by bit. */
-static void test_legendre_tables(void **unused)
+TEST(test_legendre_tables)
 {
-    (void)unused;
     double p[40];
     br_legendre(40, 1, p); /* P_k(1) = 1 */
     for (size_t k = 0; k < 40; k++) {
@@ -58,9 +50,8 @@ static void test_legendre_tables(void **unused)
 }
 
 /* As many as there may be, against the longer way. */
-static void test_legendre_integrals(void **unused)
+TEST(test_legendre_integrals)
 {
-    (void)unused;
     for (double x = 0; x <= 1; x += 1.0 / 64) {
         double p[BR_MOST_INTEGRALS + 1], both[BR_MOST_INTEGRALS], q[BR_MOST_INTEGRALS];
         br_legendre(BR_MOST_INTEGRALS + 1, x, p);
@@ -78,9 +69,8 @@ static void test_legendre_integrals(void **unused)
 }
 
 /* Collocation: X integrates each p_k right at the nodes, and fit() undoes p_k. */
-static void test_radau_tables(void **unused)
+TEST(test_radau_tables)
 {
-    (void)unused;
     struct br_radau r;
     assert_int_equal(br_radau_init(&r, NULL), BR_OK);
     double value[S][S], fitted[S];
@@ -117,9 +107,8 @@ static double step_end(const struct br_radau *r, double z)
 }
 
 /* Radau IIA of s stages is the Pade approximant of e^z of degrees s - 1 and s. */
-static void test_radau_stability(void **unused)
+TEST(test_radau_stability)
 {
-    (void)unused;
     struct br_radau r;
     assert_int_equal(br_radau_init(&r, NULL), BR_OK);
     for (double z = -3; z <= 6; z += 1.5) {
@@ -143,9 +132,8 @@ static void modes_of(size_t count, double length, size_t degree, struct br_modes
 }
 
 /* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2. */
-static void test_modes(void **unused)
+TEST(test_modes)
 {
-    (void)unused;
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861, 10.99554073487546699067};
     struct br_store store = {0};
@@ -184,9 +172,8 @@ static void check_projections(size_t m)
     br_store_clear(&store);
 }
 
-static void test_projections(void **unused)
+TEST(test_projections)
 {
-    (void)unused;
     check_projections(10);
     check_projections(150);
 }
@@ -223,9 +210,8 @@ static double squares(size_t count, const double *c)
 }
 
 /* int x^4 d(x/L) = L^4 / 5; with F = x^3 / (3 L), int F^2 d(x/L) = L^4 / 63. */
-static void test_pieces(void **unused)
+TEST(test_pieces)
 {
-    (void)unused;
     for (size_t fronts = 0; fronts < 2; fronts++) {
         struct br_store store = {0};
         struct br_pieces pieces;
@@ -242,9 +228,8 @@ static void test_pieces(void **unused)
 
 /* On elements that do not meet the pieces' ends, parabolas are x^2, and lines leave something out;
  * the squares of both add up to int x^4 dx = L^5 / 5. */
-static void test_projected_pieces(void **unused)
+TEST(test_projected_pieces)
 {
-    (void)unused;
     for (size_t degree = 1; degree <= 2; degree++)
         for (size_t n = 1; n <= 20; n++) {
             const struct br_exact_mesh mesh = {n, degree};
@@ -262,16 +247,4 @@ static void test_projected_pieces(void **unused)
             assert_near(rest, degree == 2 ? 0 : (double)n * pow(h, 5) / 180, 1e-12);
             br_store_clear(&store);
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_legendre),           cmocka_unit_test(test_legendre_tables),
-        cmocka_unit_test(test_legendre_integrals), cmocka_unit_test(test_radau_tables),
-        cmocka_unit_test(test_radau_stability),    cmocka_unit_test(test_modes),
-        cmocka_unit_test(test_projections),        cmocka_unit_test(test_pieces),
-        cmocka_unit_test(test_projected_pieces),
-    };
-    return cmocka_run_group_tests_name("exact: parts", tests, NULL, NULL);
 }

@@ -126,9 +126,8 @@ static void check_beam_patch(double place, double width)
     br_scene_clear(&s);
 }
 
-static void test_patches(void **unused)
+TEST(test_patches)
 {
-    (void)unused;
     static const double place[] = {0.1234567, 0.9}, width[] = {0.1, 1e-4, 1e-8};
     for (size_t i = 0; i < 2; i++)
         for (size_t j = 0; j < 3; j++) {
@@ -138,9 +137,8 @@ static void test_patches(void **unused)
 }
 
 /* A peak of unit area: of its integral nothing may be lost, wherever it is. */
-static void test_peaks(void **unused)
+TEST(test_peaks)
 {
-    (void)unused;
     for (double width = 0.01; width > 0.9e-8; width /= 100) {
         struct br_scene s = rod(0, 0.7);
         const double x = 0.71 * s.length, w = width * s.length;
@@ -159,9 +157,8 @@ static void test_peaks(void **unused)
 
 /* A load of -3 N/m on all x < 2 t of a rod without inertia: c u' + a u = -3 (2 t)^2 / 2 at the tip
  * until the front leaves. */
-static void test_front(void **unused)
+TEST(test_front)
 {
-    (void)unused;
     struct br_scene s = rod(0, 0.7);
     s.axial.load = load_of(TEXT("-3*step(2*t-x)"));
     struct br_exact *exact = solve_sharp(&s);
@@ -194,9 +191,8 @@ static struct br_pieces new_pieces(struct br_store *store)
 }
 
 /* A narrow element costs no digits: textbook frequencies and tips, as on one element. */
-static void test_modes_on_pieces(void **unused)
+TEST(test_modes_on_pieces)
 {
-    (void)unused;
     struct br_error err = {0};
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
                            7.854757438237612564861};
@@ -224,9 +220,8 @@ static void fill_kink(const struct br_pieces *pieces, size_t kink, double *serie
 
 /* |x - a| - a, in x / L, over meshes whose elements the pieces' ends cut: its mean over each
  * element, and its square over all. */
-static void test_projection_of_pieces(void **unused)
+TEST(test_projection_of_pieces)
 {
-    (void)unused;
     struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
     struct br_store store = {0};
@@ -256,9 +251,8 @@ static void test_projection_of_pieces(void **unused)
 }
 
 /* A guard that changes nothing cuts the beam and the time: the solution stays. */
-static void test_needless_ends(void **unused)
+TEST(test_needless_ends)
 {
-    (void)unused;
     struct br_scene whole = beam(1.3, 0.02), cut = whole;
     const char *load = "-8*(sin(5*x)+x)*exp(-t)";
     whole.bending.load = br_test_load(load);
@@ -288,9 +282,8 @@ static void test_needless_ends(void **unused)
 
 /* Interpolation misses e^{2 x}, or e^{2 t}, by 2 (w/2)^(d+1) / (d+1)! at most, but for a factor
  * e^{2 w}. */
-static void test_sight_of_errors(void **unused)
+TEST(test_sight_of_errors)
 {
-    (void)unused;
     const char *text[] = {"exp(2*x)", "exp(2*t)"};
     for (enum br_variable v = BR_X; v <= BR_T; v++) {
         struct br_function f = br_test_function(text[v]);
@@ -309,9 +302,8 @@ static void test_sight_of_errors(void **unused)
 }
 
 /* Of x t it is half of both sides' product, of which at least half is told. */
-static void test_sight_of_means(void **unused)
+TEST(test_sight_of_means)
 {
-    (void)unused;
     struct br_function f = br_test_function("x*t");
     for (double length = 1e-3; length < 1e4; length *= 100) {
         const double mean = length / 2 * 3 / 2;
@@ -323,9 +315,8 @@ static void test_sight_of_means(void **unused)
 }
 
 /* A root is never smooth at 0: its last cell holds what it holds, unseen. */
-static void test_sight_of_a_root(void **unused)
+TEST(test_sight_of_a_root)
 {
-    (void)unused;
     struct br_error err;
     struct br_function f = br_test_function("sqrt(t)");
     struct br_list ends = {0};
@@ -350,9 +341,8 @@ static void test_sight_of_a_root(void **unused)
 }
 
 /* A peak on a front, where nothing finds it: all of it in one box may be missed, or twice that. */
-static void test_sight_of_a_front(void **unused)
+TEST(test_sight_of_a_front)
 {
-    (void)unused;
     struct br_error err;
     struct br_function f = br_test_function("step(x-t)*(1+exp(-((x-0.5003)/1e-5)^2))");
     struct br_list x = {0}, t = {0};
@@ -384,9 +374,8 @@ static bool has(const struct br_list *list, double value)
 }
 
 /* A blow is seen where it is, whichever factor it is of; a step begins in the later cell. */
-static void test_outline_of_a_blow(void **unused)
+TEST(test_outline_of_a_blow)
 {
-    (void)unused;
     struct br_scene s = rod(1, 0.7);
     s.axial.load = br_test_load("(1+x)*exp(-((t-1.2)/1e-3)^2)");
     struct br_outline o = outline_of(&s, 1);
@@ -409,9 +398,8 @@ static void test_outline_of_a_blow(void **unused)
 
 /* When a front leaves, and that it moves; where initial data bend; what a jump in a force at the
  * tip leaves there; and what is proved, and what is not, of data that no polynomial is. */
-static void test_outline_of_places(void **unused)
+TEST(test_outline_of_places)
 {
-    (void)unused;
     struct br_scene s = rod(1, 0.7);
     s.axial.load = br_test_load("-3*step(2*t-x)");
     struct br_outline o = outline_of(&s, 1);
@@ -437,23 +425,4 @@ static void test_outline_of_places(void **unused)
     AT_MOST(o.proved, 1e-10);
     br_outline_clear(&o);
     br_scene_clear(&s);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_patches),
-        cmocka_unit_test(test_peaks),
-        cmocka_unit_test(test_front),
-        cmocka_unit_test(test_modes_on_pieces),
-        cmocka_unit_test(test_projection_of_pieces),
-        cmocka_unit_test(test_needless_ends),
-        cmocka_unit_test(test_sight_of_errors),
-        cmocka_unit_test(test_sight_of_means),
-        cmocka_unit_test(test_sight_of_a_root),
-        cmocka_unit_test(test_sight_of_a_front),
-        cmocka_unit_test(test_outline_of_a_blow),
-        cmocka_unit_test(test_outline_of_places),
-    };
-    return cmocka_run_group_tests_name("exact: pieces", tests, NULL, NULL);
 }

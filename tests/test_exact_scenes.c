@@ -88,9 +88,8 @@ static double tip_distance(const struct solved *a, const struct solved *b, doubl
     return most;
 }
 
-static void test_estimates(void **state)
+TEST(test_estimates)
 {
-    (void)state;
     for (size_t i = 0; i < SCENES; i++) {
         const struct bundled *b = find(scenes[i]);
         const struct solved *tight = &b->tight;
@@ -122,9 +121,8 @@ static size_t count_phase(const struct br_exact *exact, enum br_phase phase)
     return found;
 }
 
-static void test_events(void **state)
+TEST(test_events)
 {
-    (void)state;
     static const struct {
         const char *scene;
         size_t closes, opens, sticks, up, down; /* at t = 0 as well */
@@ -260,9 +258,8 @@ static void check_units(const char *name, const struct br_units_change *u)
     br_scene_clear(&other);
 }
 
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     for (size_t i = 0; i < SCENES; i++) {
         check_units(scenes[i], &(struct br_units_change){39.37, 1e3, 2.2046});
         if (i % 2) /* a nanoworld */
@@ -270,9 +267,8 @@ static void test_units(void **state)
     }
 }
 
-static void test_mirror(void **state)
+TEST(test_mirror)
 {
-    (void)state;
     for (size_t i = 0; i < SCENES; i++) {
         const struct bundled *b = find(scenes[i]);
         const struct br_scene other = mirrored(&b->scene);
@@ -280,13 +276,4 @@ static void test_mirror(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_estimates),
-        cmocka_unit_test(test_events),
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_mirror),
-    };
-    return cmocka_run_group_tests(tests, NULL, release_all);
-}
+AROUND_TESTS(NULL, release_all)

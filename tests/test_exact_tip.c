@@ -1,12 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces and a moment on the tip in the exact reference, against closed forms; its strain
  * rates; and that it stops when it is told to. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 #include <math.h>
 #include <string.h>
 
@@ -36,9 +30,8 @@ static double creep(double tau, double t)
 }
 
 /* Without mass, loads that grow like t make the beam creep in its static shape. */
-static void test_creep(void **state)
+TEST(test_creep)
 {
-    (void)state;
     struct formula pull = {f_ramp, {3}}, push = {f_ramp, {-2}}, turn = {f_ramp, {0.7}};
     struct br_scene scene = bare_scene(0);
     scene.axial.tip_force = formula_function(&pull);
@@ -62,9 +55,8 @@ static void test_creep(void **state)
 }
 
 /* The same rod pressed against its foundation: one spring more. */
-static void test_pressed(void **state)
+TEST(test_pressed)
 {
-    (void)state;
     struct formula pull = {f_ramp, {3}};
     struct br_scene scene = bare_scene(0);
     scene.bending.modelled = false;
@@ -116,9 +108,8 @@ static double bending_tip(const double *p, double x, double t)
     return sin(length) * stress(t);
 }
 
-static void test_inertia(void **state)
+TEST(test_inertia)
 {
-    (void)state;
     struct formula f[] = {
         {axial_load, {0}}, {axial_tip, {0}}, {bending_load, {0}}, {bending_tip, {0}}};
     const struct br_function one = {.constant = 1};
@@ -159,9 +150,8 @@ static void test_inertia(void **state)
 /* ---- friction ---- */
 
 /* A tip force holds against Tresca's bound as long as it can, and nothing moves. */
-static void test_stick(void **state)
+TEST(test_stick)
 {
-    (void)state;
     struct formula push = {f_ramp, {5}};
     struct br_scene scene = bare_scene(density);
     scene.axial.modelled = false;
@@ -187,9 +177,8 @@ static void test_stick(void **state)
 }
 
 /* Nothing ever moves: the displacement is round-off, and that is good enough. */
-static void test_rest(void **state)
+TEST(test_rest)
 {
-    (void)state;
     struct formula push = {f_sine, {3}};
     struct br_scene scene = bare_scene(density);
     scene.axial.modelled = false;
@@ -222,9 +211,8 @@ static double f_linear(const double *p, double x, double t)
 
 /* A beam with next to no stiffness goes on as it was thrown, but for a layer of 6 cm at a tip that
  * friction stops within 1e-8 T to 1e-22 T: w = t x^2. */
-static void test_stopped_tip(void **state)
+TEST(test_stopped_tip)
 {
-    (void)state;
     static const double bounds[] = {1e5, 1e8, 1e10, 1e12, 1e18};
     struct formula thrown = {f_square, {1}}, slope = {f_linear, {2}};
     struct br_scene scene = bare_scene(1);
@@ -256,9 +244,8 @@ static bool count_down(void *self)
     return (*left)-- <= 0;
 }
 
-static void test_stop(void **state)
+TEST(test_stop)
 {
-    (void)state;
     const struct br_scene scene = paper_example(4);
     for (int asked = 0; asked < 300; asked += 100) {
         int left = asked;
@@ -270,15 +257,4 @@ static void test_stop(void **state)
         assert_non_null(strstr(err.message, "interrupted"));
         assert_int_equal(left, -1); /* not asked again */
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_creep),       cmocka_unit_test(test_pressed),
-        cmocka_unit_test(test_inertia),     cmocka_unit_test(test_stick),
-        cmocka_unit_test(test_stop),        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_stopped_tip),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -279,9 +279,8 @@ static void run_example(size_t i)
     print_message("# %5.2f s, %s: %s\n", br_seconds() - start, example[i].origin, line);
 }
 
-static void test_examples(void **state)
+TEST(test_examples)
 {
-    (void)state;
     examples = 0;
     collect_helps();
     collect_pages();
@@ -291,8 +290,4 @@ static void test_examples(void **state)
         run_example(i);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_examples)};
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

@@ -22,9 +22,8 @@ static double value_of(const char *text, double x, double t)
 
 /* ---- what is read ---- */
 
-static void test_grammar(void **state)
+TEST(test_grammar)
 {
-    (void)state;
     const double x = 0.7, t = 1.3;
     const struct {
         const char *text;
@@ -154,9 +153,8 @@ static const struct {
     {"\"x\"", 1, "found '\"'"},
 };
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         struct br_function f;
         struct br_error err = {0};
@@ -176,9 +174,8 @@ static void repeat(char *out, const char *what, int times)
         out = stpcpy(out, what);
 }
 
-static void test_limits(void **state)
+TEST(test_limits)
 {
-    (void)state;
     static const char *const nest[] = {"(", "-", "x^", "sin(", "x?1:"};
     static char text[100000];
     struct br_function f;
@@ -204,9 +201,8 @@ static void test_limits(void **state)
 }
 
 /* Other decimal points, and letters of other alphabets. */
-static void test_locale(void **state)
+TEST(test_locale)
 {
-    (void)state;
     static const char *const names[] = {"de_DE.UTF-8", "de_DE", "fr_FR.UTF-8", "C.UTF-8"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (setlocale(LC_ALL, names[i]))
@@ -216,9 +212,8 @@ static void test_locale(void **state)
 
 /* ---- what it is worth ---- */
 
-static void test_no_numbers(void **state)
+TEST(test_no_numbers)
 {
-    (void)state;
     static const char *const texts[] = {
         "sqrt(x)",  "log(x)",        "min(sqrt(x), 1)", "max(1, sqrt(x))", "sqrt(x) < 1",
         "!sqrt(x)", "asin(t)",       "acos(t)",         "sqrt(x) ? 1 : 2", "step(sqrt(x))",
@@ -231,9 +226,8 @@ static void test_no_numbers(void **state)
 }
 
 /* One place at a time gives the bits of many, in any rounding mode, by any instruction set. */
-static void test_bits(void **state)
+TEST(test_bits)
 {
-    (void)state;
     enum { MOST = 700 };
     static const char text[] = "sin(3*x+t)*exp(-x*t)+cosh(x)*tan(t)^1.5-log(1+x*x)/(2+asinh(t*x))"
                                "+(x<0.3?atan(x):tanh(x))*max(x,t)";
@@ -300,9 +294,8 @@ static void check_value(const struct br_load *load, const char *text, double x, 
         fail_msg("%s is %.17g at x = %g, t = %g, expected %.17g", text, found, x, t, expected);
 }
 
-static void test_products(void **state)
+TEST(test_products)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
         struct br_function f = br_test_function(loads[i].text);
         struct br_load load;
@@ -325,9 +318,8 @@ static void test_products(void **state)
 }
 
 /* Out of memory at every allocation: told, and nothing is lost. */
-static void test_no_memory(void **state)
+TEST(test_no_memory)
 {
-    (void)state;
     enum br_status status = BR_NO_MEMORY;
     for (long i = 0; status == BR_NO_MEMORY; i++) {
         struct br_function f = {0}, copy = {0};
@@ -372,9 +364,8 @@ static double tip_after(struct br_function f, bool products, enum br_field_kind 
 }
 
 /* A march with a load's terms, and with the load as one f(x, t). */
-static void test_march(void **state)
+TEST(test_march)
 {
-    (void)state;
     static const char *const texts[] = {"100*(x*sin(t) - x^2*cos(3*t) + exp(-(x-t)^2))",
                                         "100*x + 100*exp(-(x-t)^2)", "100*x*sin(t) + 50*x^2"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
@@ -385,16 +376,4 @@ static void test_march(void **state)
             assert_true(fabs(whole) > 1e-3);
             CLOSE(sum, whole, 1e-12 * fabs(whole));
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grammar),    cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_limits),     cmocka_unit_test(test_locale),
-        cmocka_unit_test(test_no_numbers), cmocka_unit_test(test_bits),
-        cmocka_unit_test(test_products),   cmocka_unit_test(test_no_memory),
-        cmocka_unit_test(test_march),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,9 +57,8 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
                  out.output);
 }
 
-static void test_commands(void **state)
+TEST(test_commands)
 {
-    (void)state;
     const struct br_extreme_judging judging = {.quick = true};
     size_t seen[BR_EXTREME_CLASSES] = {0};
     const size_t cases = br_test_long() ? 10 * CASES : CASES;
@@ -80,8 +79,4 @@ static void test_commands(void **state)
                 seen[BR_EXTREME_UNSTABLE] && seen[BR_EXTREME_UNKNOWN]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_commands)};
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

@@ -40,9 +40,8 @@ static void draw_all(size_t cases, size_t solver[8], size_t scheme[16])
 }
 
 /* A case depends on seed and index alone, and every row of a registry occurs. */
-static void test_draws(void **state)
+TEST(test_draws)
 {
-    (void)state;
     size_t solver[8] = {0}, scheme[16] = {0};
     static struct br_extreme_case a, b, other;
     char first[BR_EXTREME_TEXT], second[BR_EXTREME_TEXT];
@@ -75,9 +74,8 @@ static struct br_extreme_map run(size_t cases, int threads, uint64_t seed, struc
 
 /* What was kept is not done again, a damaged entry is; the result is the same. Another seed's are
  * other cases. */
-static void test_resumes(void **state)
+TEST(test_resumes)
 {
-    (void)state;
     char folder[] = "/tmp/beamrate-map-XXXXXX", line[1300];
     struct br_error err = {0};
     struct br_kept kept = {0};
@@ -104,9 +102,8 @@ static void test_resumes(void **state)
 }
 
 /* What is left of a planted error is what was planted. */
-static void test_shrinks(void **state)
+TEST(test_shrinks)
 {
-    (void)state;
     struct br_extreme_map map = run(60, 2, 11, NULL);
     for (size_t i = 0; i < map.shrunks; i++) {
         const struct br_extreme_case *c = &map.shrunk[i].one;
@@ -120,9 +117,8 @@ static void test_shrinks(void **state)
 }
 
 /* The tallies of an axis sum up to no more than all cases; reasons are alike but for numbers. */
-static void test_counts(void **state)
+TEST(test_counts)
 {
-    (void)state;
     struct br_extreme_map map = run(60, 2, 11, NULL);
     assert_int_equal(map.tally[0].cases, 60);
     size_t schemes = 0;
@@ -137,9 +133,8 @@ static void test_counts(void **state)
 }
 
 /* 0 of n: 1 - 0.025^(1/n), which is 3.7/n; refused cases are no answers. */
-static void test_rate(void **state)
+TEST(test_rate)
 {
-    (void)state;
     struct br_extreme_verdict verdict[100] = {{.which = BR_EXTREME_RIGHT}};
     struct br_extreme_map map = {.cases = 100, .verdict = verdict};
     for (size_t i = 0; i < 100; i++)
@@ -158,9 +153,8 @@ static void test_rate(void **state)
 }
 
 /* A bundled scene is right; in other units it is the same scene. */
-static void test_other_units(void **state)
+TEST(test_other_units)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2"), other;
     const struct br_units_change units = {3, 7, 11};
@@ -199,9 +193,8 @@ static struct br_extreme_verdict judge(struct named which, const struct br_extre
  * friction force that obeys the march's bound, which is that of the nodes to round-off (3, 512; 5,
  * 241; 10, 151); by what a light beam's velocities are rounded to (8, 811). By a
  * short step over a switch, each of whose stages obeys the law (3, 802). */
-static void test_sound_cases(void **state)
+TEST(test_sound_cases)
 {
-    (void)state;
     static const struct named sound[] = {
         {1, 240}, {1, 246},  {1, 351}, {1, 502},  {1, 503},  {1, 681},  {1, 690}, {1, 741},
         {1, 751}, {1, 852},  {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102},
@@ -226,9 +219,8 @@ static void test_sound_cases(void **state)
  * back within a step (7, 430), a layer lies between the judge's places (7, 813), a beam follows its
  * load at once (6, 459), and where other units cannot be compared: round-off refuses them (11,
  * 1154) or grows without bound (12, 472). Those that take long are for long tests. */
-static void test_hard_cases(void **state)
+TEST(test_hard_cases)
 {
-    (void)state;
     static const struct named hard[] = {
         {1, 1012}, {1, 1248}, {3, 20},  {3, 101}, {1, 212}, {2, 284}, {4, 71},
         {4, 145},  {11, 108}, {5, 229}, {7, 430}, {7, 813}, {6, 459}, {11, 1154},
@@ -244,9 +236,8 @@ static void test_hard_cases(void **state)
 
 /* Who states less than is true is silently wrong: right ones that boast are, and one that says that
  * it does not know is not. */
-static void test_boast(void **state)
+TEST(test_boast)
 {
-    (void)state;
     const struct br_extreme_judging honest = {.quick = true}, boast = {.quick = true, .boast = 1e4};
     int known = 0, wrong = 0;
     for (size_t i = 1; i < 16 && (known < 4 || br_test_long()); i++) {
@@ -266,9 +257,8 @@ static void test_boast(void **state)
 /* ---- how far marches are from each other ---- */
 
 /* Nodes alone would be far better, or worse, than what is between them. */
-static void test_places(void **state)
+TEST(test_places)
 {
-    (void)state;
     const size_t meshes[] = {1, 7, 112, 1000};
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
         const struct br_track_places p = br_track_places(meshes[i], 10);
@@ -298,9 +288,8 @@ static struct br_track *made_track(double rest, double tip)
 
 /* What is far narrower than the last interval weighs nothing in the mean; squares that are lost to
  * underflow are not; what is no number is not right. */
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     static const struct {
         double own[2], reference[2], least, most;
     } rows[] = {
@@ -324,17 +313,4 @@ static void test_errors(void **state)
         free(own);
         free(reference);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_draws),       cmocka_unit_test(test_resumes),
-        cmocka_unit_test(test_shrinks),     cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_other_units), cmocka_unit_test(test_sound_cases),
-        cmocka_unit_test(test_hard_cases),  cmocka_unit_test(test_rate),
-        cmocka_unit_test(test_boast),       cmocka_unit_test(test_places),
-        cmocka_unit_test(test_errors),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -260,9 +260,8 @@ static void check_scene(uint64_t seed, size_t *compared)
     br_scene_clear(&s);
 }
 
-static void test_random_scenes(void **state)
+TEST(test_random_scenes)
 {
-    (void)state;
     size_t compared = 0;
     const size_t most = getenv("BR_EXTREMES") ? (size_t)atol(getenv("BR_EXTREMES")) : 600;
     for (uint64_t seed = 1; seed <= (br_test_quick() ? 60 : most); seed++)
@@ -288,9 +287,8 @@ static struct br_scene loaded(void)
     return s;
 }
 
-static void test_statics(void **state)
+TEST(test_statics)
 {
-    (void)state;
     const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
     for (size_t scheme = 0; scheme <= fixed_schemes(); scheme++) /* and the adaptive one */
         for (size_t solver = 0; solver < solver_count(); solver++) {
@@ -310,9 +308,8 @@ static void test_statics(void **state)
 }
 
 /* A load that jumps, and its field with it, on the adaptive scheme. */
-static void test_jumps(void **state)
+TEST(test_jumps)
 {
-    (void)state;
     const double u = 5.0 * 9 / 22, w = 5.0 * 81 / (8 * 13);
     for (size_t solver = 0; solver < solver_count(); solver++) {
         struct br_scene s = loaded();
@@ -386,9 +383,8 @@ static void check_without_effect(const struct br_method *method)
     br_scene_clear(&s);
 }
 
-static void test_laws_without_effect(void **state)
+TEST(test_laws_without_effect)
 {
-    (void)state;
     for (size_t i = 0; i < 4 * fixed_schemes(); i++) {
         const struct br_method method = method_of(i % 2, i / 4, i / 2 % 2, i % 4 / 2);
         check_without_effect(&method);
@@ -411,9 +407,8 @@ static struct br_scene held(double load, double bound)
 
 /* A bound that is the reaction of a stuck tip to the last bit holds it; one less lets it creep by
  * no more than that. */
-static void test_bound_is_the_reaction(void **state)
+TEST(test_bound_is_the_reaction)
 {
-    (void)state;
     for (size_t i = 0; i < 3 * solver_count() * fixed_schemes(); i++) {
         const struct br_method method =
             method_of(i / 3 % solver_count(), i / 3 / solver_count(), 1, 0);
@@ -432,9 +427,8 @@ static void test_bound_is_the_reaction(void **state)
 
 /* A load that turns round from one step to the next: slip one way, then the other. Without inertia
  * a tip that slips obeys 3 (a w + c v) / L^3 = f - lambda. */
-static void test_reversal_in_a_step(void **state)
+TEST(test_reversal_in_a_step)
 {
-    (void)state;
     for (size_t solver = 0; solver < solver_count(); solver++) {
         struct br_scene s = held(0, 1);
         s.bending.tip_force = br_test_function("t < 0.5 ? 5 : 0-5");
@@ -455,9 +449,8 @@ static void test_reversal_in_a_step(void **state)
 }
 
 /* A tip that comes to the gap with no speed and stays: no force, no bound. */
-static void test_grazing(void **state)
+TEST(test_grazing)
 {
-    (void)state;
     for (size_t i = 0; i < solver_count() * fixed_schemes(); i++) {
         struct br_scene s = loaded();
         s.contact = (struct br_contact){.modelled = true, .stiffness = 1e15};
@@ -489,9 +482,8 @@ static enum br_status end_of(const struct br_scene *s, const struct br_method *m
     return status;
 }
 
-static void test_beyond_double(void **state)
+TEST(test_beyond_double)
 {
-    (void)state;
     for (size_t i = 0; i < solver_count() * (fixed_schemes() + 1); i++) {
         const struct br_method method = method_of(i % solver_count(), i / solver_count(), 1, 0);
         struct br_error err = {0};
@@ -509,19 +501,4 @@ static void test_beyond_double(void **state)
         REFUSED(end_of(&s, &method, &err), BR_NOT_FINITE, "bending load at t = ");
         br_scene_clear(&s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_scenes),
-        cmocka_unit_test(test_statics),
-        cmocka_unit_test(test_jumps),
-        cmocka_unit_test(test_laws_without_effect),
-        cmocka_unit_test(test_bound_is_the_reaction),
-        cmocka_unit_test(test_reversal_in_a_step),
-        cmocka_unit_test(test_grazing),
-        cmocka_unit_test(test_beyond_double),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

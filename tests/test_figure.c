@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures: what is filled in stands in the data file, and gnuplot draws the script; and those
- * pictures that golden/ does not hold have the numbers of their results, along axes that name them.
- */
+/* Figures that are made up, as they are stored in golden/made: those that have everything, and
+ * those pictures that the outputs in golden/ do not hold. And gnuplot draws them. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "figure_check.h"
 #include "made_report.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
@@ -19,15 +17,6 @@
 #include "study/run/history.h"
 
 /* ---- any figure ---- */
-
-static void expect(const struct br_figure *f, void (*write)(FILE *, const struct br_figure *),
-                   const char *part)
-{
-    char *text = figure_written(f, write);
-    if (!strstr(text, part))
-        fail_msg("expected:\n%s\nin:\n%.3000s", part, text);
-    free(text);
-}
 
 /* Every pen, a flag, gaps, an upper axis, slopes, a mark, texts with quotes. */
 static void fill_curves(struct br_figure *f)
@@ -87,40 +76,28 @@ static struct br_figure made(size_t panels, bool cells, size_t kinds)
     return f;
 }
 
-/* Every title once, though there are two panels. */
-static void check_key(const struct br_figure *f)
+/* What is stored: script and data. */
+static void print(FILE *out, struct br_figure f)
 {
-    char *script = figure_written(f, br_figure_write_script);
-    const char *first = strstr(script, "title 'pen 3'");
-    assert_true(first && !strstr(first + 1, "title 'pen 3'"));
-    free(script);
+    struct br_error err = {0};
+    MUST(br_figure_check(&f, &err));
+    fprintf(out, "==== %s.gp\n", f.stem);
+    br_figure_write_script(out, &f);
+    fprintf(out, "==== %s.dat\n", f.stem);
+    br_figure_write_data(out, &f);
+    br_figure_clear(&f);
 }
 
-static void test_data(void **state)
+static void print_made(FILE *out)
 {
-    (void)state;
-    struct br_figure curves = made(2, false, 0), cells = made(2, true, 0), kinds = made(1, true, 2);
-    figure_check(&curves);
-    figure_check(&cells);
-    figure_check(&kinds);
-    expect(&curves, br_figure_write_data, "# A flag tells why a point is not fitted");
-    expect(&curves, br_figure_write_script, "title 'in the key alone'");
-    expect(&curves, br_figure_write_script, "title 'at 10'");
-    expect(&curves, br_figure_write_script, "set label '2' at ");
-    check_key(&curves);
-    expect(&cells, br_figure_write_script, "set cbrange [0.01:10]");
-    expect(&kinds, br_figure_write_data, "# value 1: kind 1\n");
-    expect(&kinds, br_figure_write_script, "title 'no case'");
-    expect(&kinds, br_figure_write_script, "title 'limit of it'");
-    br_figure_clear(&curves);
-    br_figure_clear(&cells);
-    br_figure_clear(&kinds);
+    print(out, made(2, false, 0));
+    print(out, made(2, true, 0));
+    print(out, made(1, true, 2));
 }
 
 /* Infinity has the end's colour; no number and no kind has none. */
-static void test_colours(void **state)
+TEST(test_colours)
 {
-    (void)state;
     struct br_figure f = {.value = {1e-2, 10}};
     assert_true(br_colour_of(&f, 0) == 1e-2 && br_colour_of(&f, INFINITY) == 10);
     assert_true(br_colour_of(&f, 2) == 2 && br_colour_of(&f, NAN) == -1);
@@ -131,9 +108,8 @@ static void test_colours(void **state)
 }
 
 /* At most six hues in a figure; the same title looks the same in the next panel. */
-static void test_hues(void **state)
+TEST(test_hues)
 {
-    (void)state;
     struct br_figure f = {0};
     struct br_panel *p = br_panel_add(&f, "x", "y");
     for (size_t i = 0; i < 8; i++) {
@@ -144,47 +120,25 @@ static void test_hues(void **state)
     }
     br_panel_add(&f, "x", "y");
     assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->look, 4);
-    expect(&f, br_figure_write_script, "title 'others'");
     br_figure_clear(&f);
 }
 
 /* Powers of ten are counted from a power of ten on: without a start gnuplot 5.4 puts the ticks of
- * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... */
-static void test_powers(void **state)
+ * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... The slopes of the
+ * last are lines of orders 0.5 and 2; two series have no hue of their own. */
+static void print_powers(FILE *out)
 {
-    (void)state;
-    struct br_figure f = {0};
+    struct br_figure f = {.stem = "powers"};
     struct br_panel *p = br_panel_add(&f, "x", "y");
     p->log_x = p->log_y = true;
-    struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "one");
-    br_point_add(s, 100, 1e-16, NULL);
-    br_point_add(s, 1e6, 10, NULL);
-    expect(&f, br_figure_write_script, "set xrange [57.5439937:1737800.83]");
-    expect(&f, br_figure_write_script, "set xtics nomirror 1e1,1e1;");
-    expect(&f, br_figure_write_script, "set ytics nomirror 1e-18,1e2;");
-    br_figure_clear(&f);
-}
-
-/* Slopes rise right of the points, and are those that they say. */
-static void test_slopes(void **state)
-{
-    (void)state;
-    static const double order[] = {0.5, 2};
-    struct br_figure f = {0};
-    struct br_panel *p = br_panel_add(&f, "x", "y");
-    p->log_x = p->log_y = true;
-    struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "one");
-    br_point_add(s, 100, 3, NULL);
-    br_point_add(s, 1, 7, NULL);
-    br_series_sort(s);
-    assert_true(s->point[0].x == 1 && s->point[0].y == 7 && s->point[1].x == 100);
-    br_slopes_add(&f, 2, order);
-    for (size_t i = 0; i < 2; i++) {
-        const struct br_figure_point *at = p->series[1 + i]->point;
-        assert_true(at[0].x > 100 && at[0].y == 3 && at[1].x > at[0].x);
-        CLOSE(log(at[1].y / at[0].y) / log(at[1].x / at[0].x), order[i], 1e-12);
+    for (size_t i = 0; i < 8; i++) {
+        struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
+        br_point_add(s, 1e6, 10 * ((double)i + 1), NULL);
+        br_point_add(s, 100, 1e-16 * ((double)i + 1), NULL);
+        br_series_sort(s);
     }
-    br_figure_clear(&f);
+    br_slopes_add(&f, 2, (const double[]){0.5, 2});
+    print(out, f);
 }
 
 static void write_file(const char *folder, const char *name, const struct br_figure *f,
@@ -222,9 +176,8 @@ static void draw(const struct br_figure *f)
     rmdir(folder);
 }
 
-static void test_drawn(void **state)
+TEST(test_drawn)
 {
-    (void)state;
     for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++)
         for (size_t how = 0; how < 3; how++) {
             struct br_figure f = made(panels, how > 0, how == 2 ? 2 : 0);
@@ -233,9 +186,8 @@ static void test_drawn(void **state)
         }
 }
 
-static void test_no_memory(void **state)
+TEST(test_no_memory)
 {
-    (void)state;
     struct br_error err = {0};
     bool failed = true;
     for (long i = 0; failed; i++) {
@@ -254,9 +206,8 @@ static void test_no_memory(void **state)
 
 /* ---- a study ---- */
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     static const char *const bad[] = {"", "a/b", "../a", "<a", "|a", "-a", "a\nb", " a"};
     struct br_made_report m;
     struct br_error err = {0};
@@ -273,11 +224,9 @@ static void test_names(void **state)
 
 /* ---- extremes ---- */
 
-static void test_floors(void **state)
+static void print_floors(FILE *out)
 {
-    (void)state;
     struct br_error err = {0};
-    struct br_figure f;
     size_t n[] = {10, 100};
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
@@ -291,25 +240,12 @@ static void test_floors(void **state)
                                      .k = k[i % 3],
                                      .deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
     br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
-    f = br_floors_draw(&floors, 2);
-    MUST(br_figure_check(&f, &err));
-    assert_string_equal(f.stem, "floors-k0.001");
-    figure_axes(&f.panel[0], "elements n", "relative deviation");
-    for (size_t s = 0; s < 2; s++)
-        for (size_t i = 0; i < 2; i++)
-            figure_point(f.panel[0].series[s], i, (double)n[i],
-                         s == 1 && i == 0 ? (double)NAN : floor[(s * 2 + i) * 3 + 2].deviation[1]);
-    figure_point(figure_series(&f.panel[0], "2^{-53} n^{4}"), 1, 100, DBL_EPSILON / 2 * 1e8);
-    assert_int_equal(figure_series(&f.panel[0], "2^{-53} n")->pen, BR_PEN_GUIDE);
-    figure_check(&f);
-    br_figure_clear(&f);
+    print(out, br_floors_draw(&floors, 2));
 }
 
-static void test_drifts(void **state)
+static void print_drifts(FILE *out)
 {
-    (void)state;
     struct br_error err = {0};
-    struct br_figure f;
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
     struct br_floors d = {.gathered = true,
@@ -328,31 +264,14 @@ static void test_drifts(void **state)
                                      .deviation = {1e-16 * (i + 1), 1e-17},
                                      .predicted = 1e-13 * (i + 1)};
     drift[11].steps = 0;
-    f = br_floors_draw(&d, 0);
-    MUST(br_figure_check(&f, &err));
-    for (size_t scene = 0; scene < 2; scene++) {
-        const struct br_panel *p = &f.panel[scene];
-        figure_axes(p, "steps N", "relative deviation");
-        for (size_t c = 0; c < 2; c++)
-            for (size_t j = 0; j < 3; j++) {
-                const size_t i = (scene * 2 + c) * 3 + j;
-                figure_point(p->series[c], j, (double)steps[j],
-                             i == 11 ? (double)NAN : drift[i].deviation[0]);
-            }
-        figure_point(figure_series(p, "predicted"), 1, 1000, drift[scene * 6 + 1].predicted);
-        assert_int_equal(figure_series(p, "predicted")->pen, BR_PEN_GUIDE);
-    }
-    figure_check(&f);
-    br_figure_clear(&f);
+    print(out, br_floors_draw(&d, 0));
 }
 
-static void test_energy(void **state)
+/* Two schemes, undamped and damped. */
+static void print_energy(FILE *out)
 {
-    (void)state;
-    struct br_error err = {0};
-    struct br_figure f;
     static struct br_vibration_row row[4];
-    for (int i = 0; i < 4; i++) { /* two schemes, undamped and damped */
+    for (int i = 0; i < 4; i++) {
         row[i] = (struct br_vibration_row){
             .scheme = br_time_schemes[i % 2], .kind = BR_AXIAL, .damping = i < 2 ? 0 : 0.01};
         for (int r = 0; r < BR_VIBRATION_RATES; r++)
@@ -362,31 +281,12 @@ static void test_energy(void **state)
                                           .measured = -1e-3 * (r + 1 + 10 * i) * (density + 1),
                                           .predicted = 1e-5 * (r + 1 + 10 * i) * (density + 1)};
     }
-    const struct br_energy_behaviour b = {.vibration = row, .vibrations = 4};
-    f = br_energy_draw(&b);
-    MUST(br_figure_check(&f, &err));
-    for (int i = 0; i < 4; i++) {
-        const struct br_panel *p = &f.panel[i / 2];
-        figure_axes(p, "steps a period", "share lost a period, size");
-        assert_string_equal(p->series[i % 2]->title, row[i].scheme->name);
-        for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
-            const struct br_vibration *v = &row[i].at[r][BR_VIBRATION_DENSITIES / 2];
-            figure_point(p->series[i % 2], r, v->steps, v->predicted);
-            figure_point(p->series[2 + i % 2], r, v->steps, -v->measured);
-        }
-        assert_int_equal(p->series[2 + i % 2]->pen, BR_PEN_RINGS);
-    }
-    figure_check(&f);
-    br_figure_clear(&f);
+    print(out, br_energy_draw(&(struct br_energy_behaviour){.vibration = row, .vibrations = 4}));
 }
 
-/* The cells are those of the planes that the map counts. */
-static void test_map(void **state)
+static void print_map(FILE *out)
 {
-    (void)state;
     enum { CASES = 40 };
-    struct br_error err = {0};
-    struct br_figure f;
     static struct br_extreme_case one[CASES];
     static struct br_extreme_verdict verdict[CASES];
     for (size_t i = 0; i < CASES; i++) {
@@ -394,25 +294,7 @@ static void test_map(void **state)
         verdict[i].which = (enum br_extreme_class)(i % BR_EXTREME_CLASSES);
     }
     const struct br_extreme_map map = {.cases = CASES, .one = one, .verdict = verdict};
-    f = br_extreme_map_draw(&map);
-    MUST(br_figure_check(&f, &err));
-    assert_int_equal(f.kinds, BR_EXTREME_CLASSES);
-    for (size_t i = 0; i < f.kinds; i++)
-        assert_string_equal(f.kind[i], br_extreme_names[i].title);
-    for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
-        const struct br_extreme_plane *plane = &br_extreme_planes[i];
-        const struct br_cells *c = &f.panel[i].cells;
-        double cell[1024];
-        assert_true(c->columns == plane->x.cells && c->rows == plane->y.cells);
-        br_extreme_plane_fill(&map, plane, cell);
-        assert_memory_equal(c->value, cell, c->rows * c->columns * sizeof *cell);
-        figure_axes(&f.panel[i], plane->x.title, plane->y.title);
-        CLOSE(log10(c->x[0]), plane->x.low, 1e-12);
-        CLOSE(log10(c->x[c->columns]), plane->x.high, 1e-12);
-        CLOSE(log10(c->y[c->rows]), plane->y.high, 1e-12);
-    }
-    figure_check(&f);
-    br_figure_clear(&f);
+    print(out, br_extreme_map_draw(&map));
 }
 
 /* ---- a run ---- */
@@ -440,43 +322,24 @@ static void make_record(struct br_history_record *r, struct br_history_row row[L
                                     .field = field};
 }
 
-static void test_letters(void **state)
+static void print_letters(FILE *out)
 {
-    (void)state;
-    struct br_error err = {0};
     struct br_history_record r;
     struct br_history_row row[LOOKS];
     double field[LOOKS * 18];
-    struct br_figure f;
     struct br_scene scene = br_test_bundled("example2");
     make_record(&r, row, field);
-    f = br_history_draw(&scene, &r);
-    MUST(br_figure_check(&f, &err));
-    for (size_t i = 0; i < LOOKS; i++) {
-        const double t = row[i].time;
-        figure_point(figure_series(&f.panel[0], "u"), i, t, row[i].displacement[BR_AXIAL]);
-        figure_point(figure_series(&f.panel[1], "w"), i, t, row[i].displacement[BR_BENDING]);
-        figure_point(figure_series(&f.panel[2], "contact"), i, t, row[i].contact_force);
-        figure_point(figure_series(&f.panel[3], "friction"), i, t, row[i].friction_force);
-        figure_point(figure_series(&f.panel[3], "bound"), i, t, row[i].friction_bound);
-    }
-    figure_axes(&f.panel[0], "time (s)", "horizontal displacement of the tip, u(L) (m)");
-    figure_axes(&f.panel[1], "time (s)", "vertical displacement of the tip, w(L) (m)");
-    figure_axes(&f.panel[2], "time (s)", "contact force (N)");
-    br_figure_clear(&f);
+    print(out, br_history_draw(&scene, &r));
     br_scene_clear(&scene);
 }
 
-int main(void)
+TEST(test_stored)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_data),      cmocka_unit_test(test_colours),
-        cmocka_unit_test(test_hues),      cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_drawn),     cmocka_unit_test(test_names),
-        cmocka_unit_test(test_powers),    cmocka_unit_test(test_floors),
-        cmocka_unit_test(test_drifts),    cmocka_unit_test(test_energy),
-        cmocka_unit_test(test_map),       cmocka_unit_test(test_letters),
-        cmocka_unit_test(test_no_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    br_test_stored("figures", print_made, 1e-12);
+    br_test_stored("powers", print_powers, 1e-12);
+    br_test_stored("floors", print_floors, 1e-12);
+    br_test_stored("drifts", print_drifts, 1e-12);
+    br_test_stored("energy", print_energy, 1e-12);
+    br_test_stored("map", print_map, 1e-12);
+    br_test_stored("letters", print_letters, 1e-12);
 }

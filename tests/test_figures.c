@@ -5,10 +5,10 @@
 #include <stdatomic.h>
 #include <string.h>
 
-#include "figure_check.h"
 #include "plots/pictures.h"
 #include "study/grid/observer.h"
 #include "study/paper/paper.h"
+#include "support.h"
 
 static struct br_paper paper;
 
@@ -57,17 +57,15 @@ static const struct br_history_row *last_row(size_t example)
 }
 
 /* The display hears of every step of an exact solution, and of those that judge the tables. */
-static void test_progress(void **state)
+TEST(test_progress)
 {
-    (void)state;
     assert_true(told > 100);
 }
 
 /* Closed forms at t = 1 s; of Example 2 also the exact discrete solution at k = 1e-3 s, from
  * quadruple precision (at n = 12800; the mesh moves it by 1e-9). */
-static void test_ends(void **state)
+TEST(test_ends)
 {
-    (void)state;
     const struct br_example *e = paper.example;
     CLOSE(e[0].exact[e[0].exacts - 1].displacement[BR_AXIAL], 0.171692329889782302, 1e-13);
     CLOSE(e[1].exact[e[1].exacts - 1].displacement[BR_AXIAL], 0.0429230824724455755, 1e-13);
@@ -81,9 +79,8 @@ static void test_ends(void **state)
 }
 
 /* 3/8 q L reaches the bound. */
-static void test_release(void **state)
+TEST(test_release)
 {
-    (void)state;
     const struct br_finding f = find("release");
     const double theory = 3000 / (0.375 * 10000), k = 1.0 / (double)paper.request.per_second;
     CLOSE(f.exact, theory, 1e-9);
@@ -94,9 +91,8 @@ static void test_release(void **state)
 }
 
 /* The exact tip slips first; a march with k = 0.1 microseconds sees the same. */
-static void test_early_slip(void **state)
+TEST(test_early_slip)
 {
-    (void)state;
     const struct br_finding f = find("stuck");
     const struct br_history_record *r = &paper.early.record;
     double slip = 0, ends = 0;
@@ -112,9 +108,8 @@ static void test_early_slip(void **state)
 }
 
 /* numerics: 7.8e-4 and 7.4e-4 at k = 0.01 s. */
-static void test_tables(void **state)
+TEST(test_tables)
 {
-    (void)state;
     CLOSE(find("table1").value, 7.8e-4, 0.05e-4);
     CLOSE(find("table2").value, 7.4e-4, 0.05e-4);
     CLOSE(find("table1").printed, 5.042e-3, 0);
@@ -163,9 +158,8 @@ static void check_end(const struct br_sweep_point *point, double (*beam)(double,
     CLOSE(point->most[2], most, 0.006 * most);
 }
 
-static void test_sweep(void **state)
+TEST(test_sweep)
 {
-    (void)state;
     const struct br_sweep *s = &paper.sweep[BR_SWEEP_FRICTION];
     check_end(&s->point[0], free_beam);
     check_end(&s->point[s->points - 1], propped_beam);
@@ -174,9 +168,8 @@ static void test_sweep(void **state)
                     0.99e6 * paper.sweep[i].point[0].coefficient);
 }
 
-static void test_verdicts(void **state)
+TEST(test_verdicts)
 {
-    (void)state;
     static const char *const differ[] = {"table1", "table2", "stuck", "release", "stable-printed"};
     size_t differing = 0;
     for (size_t i = 0; br_claims[i].name; i++) {
@@ -191,9 +184,8 @@ static void test_verdicts(void **state)
 }
 
 /* What is no number is never agreed to. */
-static void test_nan(void **state)
+TEST(test_nan)
 {
-    (void)state;
     assert_int_equal(br_below(NAN, 0, 1), BR_UNDECIDED);
     assert_int_equal(br_below(0, NAN, 1), BR_UNDECIDED);
     assert_int_equal(br_above(NAN, 0, 1), BR_UNDECIDED);
@@ -213,9 +205,8 @@ static void test_nan(void **state)
 }
 
 /* Any number of threads gives the same bits. */
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     struct br_paper runs[2];
     struct br_error err = {0};
     for (int i = 0; i < 2; i++)
@@ -243,104 +234,15 @@ static void test_threads(void **state)
     br_paper_clear(&runs[0]);
 }
 
-/* A curve over time has every row of the record: displacement, or force, by its axis' name. */
-static void check_rows(const struct br_panel *p, const struct br_series *s, size_t example)
+/* The figures themselves are in golden/. */
+TEST(test_charts)
 {
-    const struct br_history_record *r = &paper.example[example].record;
-    assert_int_equal(s->count, r->rows);
-    for (size_t i = 0; i < r->rows; i++) {
-        const struct br_history_row *row = &r->row[i];
-        const double force =
-            strstr(s->title, "stress") ? -row->friction_force : row->friction_bound;
-        figure_point(s, i, row->time,
-                     p->y_label[0] == 'h'   ? row->displacement[BR_AXIAL]
-                     : p->y_label[0] == 'v' ? row->displacement[BR_BENDING]
-                                            : force);
-    }
-}
-
-/* Curves over x are nodal values at their times. */
-static void check_field(const struct br_panel *p, size_t example)
-{
-    const struct br_history_record *r = &paper.example[example].record;
-    const enum br_field_kind kind = p->y_label[0] == 'h' ? BR_AXIAL : BR_BENDING;
-    const size_t every = r->n > 200 ? r->n / 200 : 1;
-    assert_int_equal(p->count, r->looks);
-    for (size_t look = 0; look < r->looks; look++) {
-        const double *nodal = br_history_field(r, look, kind, false);
-        char title[32];
-        snprintf(title, sizeof title, "t = %.4g s", r->at[look].time);
-        assert_string_equal(p->series[look]->title, title);
-        for (size_t i = 0; i < p->series[look]->count; i++)
-            figure_point(p->series[look], i, (double)(i * every) / (double)r->n,
-                         nodal[i * every * r->unknowns[kind]]);
-    }
-}
-
-static void check_sweep(const struct br_panel *p, const struct br_sweep *s)
-{
-    for (size_t i = 0; i < s->points; i++) {
-        const struct br_sweep_point *at = &s->point[i];
-        figure_point(p->series[0], i, at->coefficient, at->most[1]);
-        figure_point(p->series[1], i, at->coefficient, at->last[1]);
-        figure_point(p->series[2], i, at->coefficient, at->most[0]);
-    }
-}
-
-static void check_panel(const struct br_paper_figure *row, const struct br_panel *p, size_t place)
-{
-    if (row->number == 10) {
-        assert_non_null(strstr(p->x_label, place ? "c_V (N/m)" : "c_H (N/m)"));
-        check_sweep(p, &paper.sweep[place ? BR_SWEEP_FRICTION : BR_SWEEP_CONTACT]);
-    } else if (strcmp(p->x_label, "x (m)") == 0) {
-        check_field(p, row->example - 1);
-    } else if (strcmp(p->x_label, "time t (s)") == 0) {
-        for (size_t j = 0; j < p->count; j++)
-            if (p->series[j]->pen == BR_PEN_LINE && (row->number != 9 || j != 1)) /* -h(t) */
-                check_rows(p, p->series[j], row->example - 1);
-    } else {
-        const struct br_history_row *e = &paper.early.exact[100];
-        assert_string_equal(p->x_label, "time t (µs)");
-        figure_point(p->series[0], 100, 1e6 * e->time,
-                     row->number == 2 ? 1e9 * e->displacement[BR_BENDING] : -e->friction_force);
-    }
-}
-
-/* Every figure draws its example's rows, along axes that name them with units. */
-static void test_charts(void **state)
-{
-    (void)state;
     struct br_error err = {0};
-    struct br_figure f;
-    int number = 2;
-    for (const struct br_paper_figure *row = br_paper_figures; row->number; row++) {
-        assert_int_equal(row->number, number++);
-        f = br_paper_figure_draw(row, &paper);
-        MUST(br_figure_check(&f, &err));
-        for (size_t p = 0; p < f.panels; p++)
-            check_panel(row, &f.panel[p], p);
-        if (strstr(row->title, "of the contact node"))
-            for (size_t p = 0; p < 2; p++)
-                assert_non_null(strstr(f.panel[p].y_label, row->number == 7 ? "horiz" : "vertic"));
-        figure_check(&f);
-        br_figure_clear(&f);
-    }
-    assert_int_equal(number, 11);
     br_allocation_fails_at(0);
-    f = br_paper_figure_draw(&br_paper_figures[0], &paper);
+    struct br_figure f = br_paper_figure_draw(&br_paper_figures[0], &paper);
     br_allocation_fails_at(-1);
     REFUSED(br_figure_check(&f, &err), BR_NO_MEMORY, "a figure");
     br_figure_clear(&f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_progress), cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_release),  cmocka_unit_test(test_early_slip),
-        cmocka_unit_test(test_tables),   cmocka_unit_test(test_sweep),
-        cmocka_unit_test(test_verdicts), cmocka_unit_test(test_nan),
-        cmocka_unit_test(test_threads),  cmocka_unit_test(test_charts),
-    };
-    return cmocka_run_group_tests(tests, run_paper, clear_paper);
-}
+AROUND_TESTS(run_paper, clear_paper)

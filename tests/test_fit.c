@@ -77,9 +77,8 @@ static struct br_fits fit(struct grid *g)
     return fits;
 }
 
-static void test_recovers(void **state)
+TEST(test_recovers)
 {
-    (void)state;
     static const struct truth truths[] = {
         {0.06, 2, 0.08, 1, -0.79}, {3, 2, 0.5, 1, 0},      {10, 2, 0.1, 1, 0.9},
         {40, 2, 0.2, 2, -0.5},     {0.5, 1, 0.3, 1, 0.25}, {2, 1.5, 0.05, 0.5, 0.6},
@@ -105,9 +104,8 @@ static void test_recovers(void **state)
 
 /* So much of the error is the reference's own that its part in the derivatives matters: with
  * wrong ones the search would stall. */
-static void test_near_reference(void **state)
+TEST(test_near_reference)
 {
-    (void)state;
     const struct truth truth = {20, 1.7, 0.2, 0.8, 0.3};
     struct grid g;
     grid_init(&g, true);
@@ -124,9 +122,8 @@ static void test_near_reference(void **state)
 }
 
 /* With noise of 1 %, the intervals hold the truth in about 95 % of the trials. */
-static void test_coverage(void **state)
+TEST(test_coverage)
 {
-    (void)state;
     enum { TRIALS = 200 };
     const struct truth truth = {20, 2, 0.2, 1, 0.3};
     size_t p = 0, q = 0;
@@ -145,9 +142,8 @@ static void test_coverage(void **state)
     assert_true(p < TRIALS || q < TRIALS); /* intervals that never miss are too wide */
 }
 
-static void test_one_sided(void **state)
+TEST(test_one_sided)
 {
-    (void)state;
     static const struct truth time_only = {1e-9, 2, 0.1, 1, 0}, space_only = {5, 2, 1e-9, 1, 0};
     struct grid g;
     grid_init(&g, true);
@@ -169,9 +165,8 @@ static void test_one_sided(void **state)
 /* The sum C_h h^p + C_k k^q cannot follow an error that grows as the mesh is refined. */
 /* Rows that repeat each other are no more evidence than one: the interval of 36 cells
  * is not narrower than that of one row of 6. */
-static void test_replicates(void **state)
+TEST(test_replicates)
 {
-    (void)state;
     struct grid g;
     grid_init(&g, true);
     for (size_t i = 0; i < CELLS; i++) {
@@ -185,9 +180,8 @@ static void test_replicates(void **state)
 }
 
 /* Two time steps make no order in k, however many meshes there are. */
-static void test_two_steps(void **state)
+TEST(test_two_steps)
 {
-    (void)state;
     const struct truth truth = {1e-9, 2, 0.1, 1, 0};
     struct grid g;
     grid_init(&g, true);
@@ -200,9 +194,8 @@ static void test_two_steps(void **state)
     br_fits_clear(&fits);
 }
 
-static void test_opposed(void **state)
+TEST(test_opposed)
 {
-    (void)state;
     const struct truth truth = {0.0626, 2, 0.0785, 1, -0.79};
     struct grid g;
     grid_init(&g, true);
@@ -216,9 +209,8 @@ static void test_opposed(void **state)
     br_fits_clear(&fits);
 }
 
-static void test_left_out(void **state)
+TEST(test_left_out)
 {
-    (void)state;
     const struct truth truth = {20, 2, 0.2, 1, 0.3};
     struct grid g;
     grid_init(&g, true);
@@ -238,9 +230,8 @@ static void test_left_out(void **state)
     br_fits_clear(&fits);
 }
 
-static void test_flags(void **state)
+TEST(test_flags)
 {
-    (void)state;
     struct grid g;
     grid_init(&g, false);
     const struct truth truth = {20, 2, 0.2, 1, 0.3};
@@ -269,9 +260,8 @@ static void test_flags(void **state)
 
 /* A solver's round-off is its field's own: errors just above that of the one are flagged in the
  * other and in the total, which have more of it. */
-static void test_round_off(void **state)
+TEST(test_round_off)
 {
-    (void)state;
     struct grid g;
     grid_init(&g, false);
     g.study.method.solver = &br_umfpack;
@@ -317,9 +307,8 @@ static void same_orders(const struct br_joint_fit *a, const struct br_joint_fit 
 
 /* Where the minimum is flat (the space error is lost in noise, or three meshes are all there are),
  * the orders are still the same in other units of length, time and error. */
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     static const double unit[] = {1, 1e3, 1e-3, 1e6, 1e-6}; /* m in mm, km; s in ms, us */
     static const struct truth truths[] = {
         {20, 2, 0.2, 1, 0.3}, {1e-4, 2, 0.1, 1, -0.9}, {0.06, 1, 0.08, 1, 0.95}};
@@ -355,9 +344,8 @@ static void test_units(void **state)
 
 /* Hurvich and Tsai's criterion, by hand: n log(S / n) + 2 u n / (n - u - 1) with u unknowns, of
  * which the variance is one. */
-static void test_few_points(void **state)
+TEST(test_few_points)
 {
-    (void)state;
     CLOSE(br_akaike(9, 9, 5), 54, 1e-12);
     CLOSE(br_akaike(9, 9, 2), 10.8, 1e-12);
     CLOSE(br_akaike(36 * exp(-7), 36, 5), -36 * 7 + 12 * 36 / 29.0, 1e-12);
@@ -365,9 +353,8 @@ static void test_few_points(void **state)
     assert_true(isfinite(br_akaike(1, 8, 5)));
 }
 
-static void test_noise_is_no_order(void **state)
+TEST(test_noise_is_no_order)
 {
-    (void)state;
     struct grid g;
     grid_init(&g, true);
     struct br_test_random random = {7};
@@ -380,9 +367,8 @@ static void test_noise_is_no_order(void **state)
 }
 
 /* Slope and interval of y = 2, 5, 7, 10 over x = 0, 1, 2, 3: 2.6 -+ t(0.975, 2) * 0.14142. */
-static void test_slope(void **state)
+TEST(test_slope)
 {
-    (void)state;
     static const size_t n[1] = {10}, doubling[4] = {80, 40, 20, 10};
     static const double y[4] = {2, 5, 7, 10};
     struct grid g;
@@ -408,9 +394,8 @@ static void test_slope(void **state)
     br_fits_clear(&fits);
 }
 
-static void test_nan_passes_nothing(void **state)
+TEST(test_nan_passes_nothing)
 {
-    (void)state;
     const struct br_estimate none = {NAN, NAN, NAN}, wide = {2, 1, 3}, low = {0.1, -0.1, 0.3};
     assert_false(br_order_determined(&none));
     assert_false(br_order_determined(&wide));
@@ -422,9 +407,8 @@ static void test_nan_passes_nothing(void **state)
 }
 
 /* What the reference knows of its own error: the total's is the sum of both. */
-static void test_own_error(void **state)
+TEST(test_own_error)
 {
-    (void)state;
     static const double told[BR_PARTS] = {7e-9, 5e-9, 2e-9};
     const struct truth truth = {20, 2, 0.2, 1, 0.3};
     for (int part = 0; part < BR_PARTS; part++) {
@@ -441,27 +425,4 @@ static void test_own_error(void **state)
         CLOSE(fits.reference_error, told[part], 1e-20);
         br_fits_clear(&fits);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_recovers),
-        cmocka_unit_test(test_near_reference),
-        cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_one_sided),
-        cmocka_unit_test(test_opposed),
-        cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_flags),
-        cmocka_unit_test(test_round_off),
-        cmocka_unit_test(test_units),
-        cmocka_unit_test(test_few_points),
-        cmocka_unit_test(test_slope),
-        cmocka_unit_test(test_noise_is_no_order),
-        cmocka_unit_test(test_nan_passes_nothing),
-        cmocka_unit_test(test_replicates),
-        cmocka_unit_test(test_two_steps),
-        cmocka_unit_test(test_own_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

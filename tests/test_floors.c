@@ -8,9 +8,8 @@
 #include "study/extremes/floors.h"
 #include "support.h"
 
-static void test_floors(void **state)
+TEST(test_floors)
 {
-    (void)state;
     static const size_t n[] = {100, 400};
     static const double k[] = {1e-2, 1e-6};
     const struct br_floors_plan plan = {.n = n, .k = k, .n_count = 2, .k_count = 2};
@@ -38,9 +37,8 @@ static void test_floors(void **state)
 }
 
 /* A mesh whose mass is lost in the factors: a march would grow by 1e50, or does. */
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     static const size_t n[] = {25600};
     static const double k[] = {1e-6};
     const struct br_floors_plan plan = {.n = n, .k = k, .n_count = 1, .k_count = 1};
@@ -59,9 +57,8 @@ static void test_refused(void **state)
     br_floors_clear(&f);
 }
 
-static void test_bad_plans(void **state)
+TEST(test_bad_plans)
 {
-    (void)state;
     static const double k[] = {0.3};
     struct br_error err = {0};
     struct br_floors f;
@@ -74,9 +71,8 @@ static void test_bad_plans(void **state)
     br_floors_clear(&f);
 }
 
-static void test_drift(void **state)
+TEST(test_drift)
 {
-    (void)state;
     static const double k[] = {1, 0.1, 1.0 / 3000, 1e-4};
     const struct br_floors_plan plan = {.gathered = true, .k = k, .k_count = 4};
     struct br_error err = {0};
@@ -99,11 +95,5 @@ int main(void)
         puts("1..0 # SKIP nothing to measure round-off by");
         return 0;
     }
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_floors),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_bad_plans),
-        cmocka_unit_test(test_drift),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return br_test_all();
 }

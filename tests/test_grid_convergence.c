@@ -65,9 +65,8 @@ static const struct {
      BR_OSCILLATORY_CONVERGENCE},
 };
 
-static void test_celik(void **state)
+TEST(test_celik)
 {
-    (void)state;
     struct br_error err = {0};
     for (size_t i = 0; i < sizeof celik / sizeof *celik; i++) {
         double h[3];
@@ -87,9 +86,8 @@ static void test_celik(void **state)
 }
 
 /* As printed in column 2: relative to phi_1. */
-static void test_celik_misprint(void **state)
+TEST(test_celik_misprint)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_gci g;
     double h[3];
@@ -101,9 +99,8 @@ static void test_celik_misprint(void **state)
 
 /* "Examining Spatial (Grid) Convergence", NPARC Alliance. Its 0.997980 is r^p GCI_12/GCI_23, the
  * inverse of the ratio here. */
-static void test_nparc(void **state)
+TEST(test_nparc)
 {
-    (void)state;
     static const double h[] = {4, 2, 1}, value[] = {0.96178, 0.96854, 0.97050};
     struct br_error err = {0};
     struct br_gci g;
@@ -128,9 +125,8 @@ static double iterate_order(double r21, double r32, double e21, double e32)
     return p;
 }
 
-static void test_fixed_point(void **state)
+TEST(test_fixed_point)
 {
-    (void)state;
     struct br_test_random random = {20081};
     struct br_error err = {0};
     for (int i = 0; i < 200; i++) {
@@ -148,9 +144,8 @@ static void test_fixed_point(void **state)
 }
 
 /* phi = 2 + 3 h^p gives back p and 2 for any ratios, also where the iteration runs away. */
-static void test_power_law(void **state)
+TEST(test_power_law)
 {
-    (void)state;
     struct br_test_random random = {1};
     struct br_error err = {0};
     bool ran_away = false;
@@ -190,9 +185,8 @@ struct named {
     enum br_sequence sequence;
 };
 
-static void test_triplet_kinds(void **state)
+TEST(test_triplet_kinds)
 {
-    (void)state;
     static const struct named cases[] = {
         {3, {4, 2, 1}, {1.4, 1.1, 1}, BR_MONOTONE_CONVERGENCE},
         {3, {4, 2, 1}, {-1.4, -1.1, -1}, BR_MONOTONE_CONVERGENCE},
@@ -229,9 +223,8 @@ static void test_triplet_kinds(void **state)
     }
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     assert_string_equal(br_sequence_text(BR_SEQUENCE_UNKNOWN), "not known");
     assert_string_equal(br_sequence_text(BR_SEQUENCE_CONSTANT), "constant");
     assert_string_equal(br_sequence_text(BR_MONOTONE_CONVERGENCE), "monotone convergence");
@@ -240,9 +233,8 @@ static void test_names(void **state)
 }
 
 /* Relative errors of a value 0 are not known; absolute ones are. */
-static void test_zero_value(void **state)
+TEST(test_zero_value)
 {
-    (void)state;
     static const double h[] = {4, 2, 1}, value[] = {5, 1, 0};
     struct br_error err = {0};
     struct br_gci g;
@@ -258,9 +250,8 @@ static void test_zero_value(void **state)
     CLOSE(g.coarse.index, 1.25 * 4 / 3, 1e-12);
 }
 
-static void test_two_grids(void **state)
+TEST(test_two_grids)
 {
-    (void)state;
     static const double h[] = {7, 2, 1}, value[] = {9, 1.3, 1}, same[] = {1, 1};
     struct br_error err = {0};
     struct br_gci g;
@@ -432,9 +423,8 @@ static void compare(const struct named *c, double formal, struct seen *seen)
     seen->kind[r.sequence]++;
 }
 
-static void test_random_sequences(void **state)
+TEST(test_random_sequences)
 {
-    (void)state;
     struct br_test_random random = {2014};
     struct seen seen = {0};
     const int rounds = br_test_quick() ? 10 : 120;
@@ -461,9 +451,8 @@ static void test_random_sequences(void **state)
 }
 
 /* Power laws: the limit is exact, and U is 1.25 eps as with the grid convergence index. */
-static void test_exact_laws(void **state)
+TEST(test_exact_laws)
 {
-    (void)state;
     static const double orders[] = {0.5001, 0.8, 1, 1.3, 1.9, 2};
     struct br_error err = {0};
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
@@ -488,9 +477,8 @@ static void test_exact_laws(void **state)
 }
 
 /* Fits of the paper where the observed order is not believed. */
-static void test_fixed_powers(void **state)
+TEST(test_fixed_powers)
 {
-    (void)state;
     struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
     struct br_error err = {0};
     struct br_least_squares r;
@@ -512,9 +500,8 @@ static void test_fixed_powers(void **state)
 }
 
 /* An order between the formal one and 0.1 more is fitted with the formal one, and reliable. */
-static void test_margin_of_order(void **state)
+TEST(test_margin_of_order)
 {
-    (void)state;
     struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
     static const double orders[] = {2.05, 2.15}, safety[] = {1.25, 3};
     struct br_error err = {0};
@@ -529,9 +516,8 @@ static void test_margin_of_order(void **state)
 }
 
 /* Values that fall with ln h have order 0 and no limit: the fixed fits are used, with care. */
-static void test_logarithm(void **state)
+TEST(test_logarithm)
 {
-    (void)state;
     static const double h[] = {1, 0.6, 0.3, 0.2, 0.1};
     double value[5];
     struct br_error err = {0};
@@ -543,9 +529,8 @@ static void test_logarithm(void **state)
     assert_true(!r.fit.observed && r.safety == 3 && isfinite(r.uncertainty));
 }
 
-static void test_sequence_kinds(void **state)
+TEST(test_sequence_kinds)
 {
-    (void)state;
     static const struct named cases[] = {
         {4, {8, 4, 2, 1}, {9, 5, 3, 2}, BR_MONOTONE_CONVERGENCE},
         {4, {8, 4, 2, 1}, {1, 2, 4, 8}, BR_MONOTONE_DIVERGENCE},
@@ -578,9 +563,8 @@ static void test_sequence_kinds(void **state)
 }
 
 /* Results scale with the values and do not see the unit of h. */
-static void test_units(void **state)
+TEST(test_units)
 {
-    (void)state;
     const struct named c = {5, {1, 0.6, 0.3, 0.2, 0.1}, {3.1, 2.2, 1.45, 1.3, 1.11}, 0};
     static const double scales[] = {1e-150, -1, 1e150};
     struct br_error err = {0};
@@ -603,9 +587,8 @@ static void test_units(void **state)
 
 /* ---- either ---- */
 
-static void test_limit(void **state)
+TEST(test_limit)
 {
-    (void)state;
     static const double h[] = {1, 0.5, 0.25, 0.125}, value[] = {2.1, 1.4, 1.12, 1.03};
     struct br_error err = {0};
     struct br_grid_limit limit;
@@ -659,9 +642,8 @@ static double coverage(size_t count, double finest)
 }
 
 /* The procedures promise 95 %, which holds only where the first term dominates. */
-static void test_coverage(void **state)
+TEST(test_coverage)
 {
-    (void)state;
     for (size_t count = 2; count < 7; count++) {
         AT_MOST(0.93, coverage(count, 0.01));
         AT_MOST(0.5, coverage(count, 0.1));
@@ -669,9 +651,8 @@ static void test_coverage(void **state)
 }
 
 /* Three grids: what cannot be extrapolated is not. */
-static void test_refused_limits(void **state)
+TEST(test_refused_limits)
 {
-    (void)state;
     static const double h[] = {4, 2, 1};
     static const double divergent[] = {1, 1.1, 1.5}, constant[] = {3, 3, 3}, half[] = {2, 3, 3};
     struct br_error err = {0};
@@ -689,9 +670,8 @@ static void test_refused_limits(void **state)
     IS_NAN(limit.value.low);
 }
 
-static void test_order_of_values(void **state)
+TEST(test_order_of_values)
 {
-    (void)state;
     static const double h[] = {1, 0.6, 0.3, 0.2, 0.1};
     double value[5];
     struct br_error err = {0};
@@ -707,9 +687,8 @@ static void test_order_of_values(void **state)
 
 /* ---- bad input ---- */
 
-static void test_bad_input(void **state)
+TEST(test_bad_input)
 {
-    (void)state;
     static const struct {
         double h[4], value[4];
         const char *message;
@@ -739,9 +718,8 @@ static void test_bad_input(void **state)
     }
 }
 
-static void test_bad_counts(void **state)
+TEST(test_bad_counts)
 {
-    (void)state;
     static const double h[] = {4, 2, 1, 0.5}, v[] = {3, 2, 1.5, 1.3};
     struct br_error err = {0};
     struct br_gci g;
@@ -770,28 +748,8 @@ static enum br_status attempt(const void *data, struct br_error *err)
 }
 
 /* An oscillating sequence needs the order of its differences too. */
-static void test_without_memory(void **state)
+TEST(test_without_memory)
 {
-    (void)state;
     const struct named c = {5, {16, 8, 4, 2, 1}, {2, 0.75, 1.0625, 0.984375, 1.00390625}, 0};
     br_test_without_memory(attempt, &c, 3);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_celik),           cmocka_unit_test(test_celik_misprint),
-        cmocka_unit_test(test_nparc),           cmocka_unit_test(test_fixed_point),
-        cmocka_unit_test(test_power_law),       cmocka_unit_test(test_triplet_kinds),
-        cmocka_unit_test(test_names),           cmocka_unit_test(test_zero_value),
-        cmocka_unit_test(test_two_grids),       cmocka_unit_test(test_random_sequences),
-        cmocka_unit_test(test_exact_laws),      cmocka_unit_test(test_fixed_powers),
-        cmocka_unit_test(test_margin_of_order), cmocka_unit_test(test_logarithm),
-        cmocka_unit_test(test_sequence_kinds),  cmocka_unit_test(test_units),
-        cmocka_unit_test(test_limit),           cmocka_unit_test(test_coverage),
-        cmocka_unit_test(test_refused_limits),  cmocka_unit_test(test_order_of_values),
-        cmocka_unit_test(test_bad_input),       cmocka_unit_test(test_bad_counts),
-        cmocka_unit_test(test_without_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

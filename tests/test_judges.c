@@ -106,9 +106,8 @@ static void solve_exactly(const struct br_scene *scene, struct verdict verdict[2
     br_exact_free(exact);
 }
 
-static void test_agreement(void **state)
+TEST(test_agreement)
 {
-    (void)state;
     static const char *const names[] = {"axial", "bending"};
     for (size_t i = 0; i < sizeof meetings / sizeof *meetings; i++) {
         const struct meeting *m = &meetings[i];
@@ -154,9 +153,8 @@ static void run_by(const struct br_judge *judge, const struct br_scene *scene,
 /* The exact reference finds a manufactured solution again, from loads and tip forces alone:
  * by both, a cell has the same error in every norm. By default not of a contact that closes, which
  * takes the reference most of the time. */
-static void test_manufactured(void **state)
+TEST(test_manufactured)
 {
-    (void)state;
     static const char *const scenes[] = {"mms_smooth", "mms_pressed", "mms_slip", "mms_closing"};
     const size_t all = sizeof scenes / sizeof *scenes;
     for (size_t i = 0; i < (br_test_long() ? all : all - 1); i++) {
@@ -179,13 +177,4 @@ static void test_manufactured(void **state)
         }
         br_scene_clear(&scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_agreement),
-        cmocka_unit_test(test_manufactured),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

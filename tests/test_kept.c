@@ -106,9 +106,8 @@ static bool stop_when_kept(void *self)
 }
 
 /* A study in one go, and one that is stopped in the middle and resumed. */
-static void test_stopped_and_resumed(void **state)
+TEST(test_stopped_and_resumed)
 {
-    (void)state;
     struct br_error err;
     struct both whole, cut, resumed;
     const struct br_observer observer = {.stop = stop_when_kept};
@@ -145,9 +144,8 @@ static size_t run_again(struct both *b, const struct br_scene *scene, size_t n,
     return atomic_load(&kept->taken);
 }
 
-static void test_whole_and_larger(void **state)
+TEST(test_whole_and_larger)
 {
-    (void)state;
     struct both again, plain;
     struct br_error err;
     struct br_scene scene = br_test_bundled("example2");
@@ -167,9 +165,8 @@ static void test_whole_and_larger(void **state)
 }
 
 /* What follows from something else has another name. */
-static void test_not_taken(void **state)
+TEST(test_not_taken)
 {
-    (void)state;
     struct both b;
     struct br_scene scene = br_test_bundled("example2");
     struct br_kept other[] = {open_kept(true, "there", "scene"), open_kept(true, "here", "another"),
@@ -181,9 +178,8 @@ static void test_not_taken(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_damaged(void **state)
+TEST(test_damaged)
 {
-    (void)state;
     char key[BR_SHA256_TEXT], twin[BR_SHA256_TEXT], path[1300], there[1300], text[8] = "", end;
     struct br_kept k = open_kept(true, "here", "scene");
     br_kept_key(&k.base, "a", key);
@@ -225,13 +221,4 @@ static void test_damaged(void **state)
     assert_int_equal(atomic_load(&k.lost), 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stopped_and_resumed),
-        cmocka_unit_test(test_whole_and_larger),
-        cmocka_unit_test(test_not_taken),
-        cmocka_unit_test(test_damaged),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+AROUND_TESTS(make_folder, remove_folder)

@@ -93,9 +93,8 @@ static void check_ladder(struct br_test_random *r, enum br_field_kind kind, size
     br_store_clear(&store);
 }
 
-static void test_random_functions(void **state)
+TEST(test_random_functions)
 {
-    (void)state;
     struct br_test_random r = {3};
     for (int repeat = 0; repeat < 20; repeat++)
         for (size_t l = 0; l < LADDERS; l++)
@@ -129,9 +128,8 @@ static double *prolonged(const struct br_field *coarse, const double *v,
 
 /* Functions that agree to 1e-9: the distance still has six digits; with the square of a
  * norm less another's it would have none. And none at all: round-off only. */
-static void test_close_functions(void **state)
+TEST(test_close_functions)
 {
-    (void)state;
     struct br_test_random r = {4};
     for (size_t l = 0; l < LADDERS; l++)
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -159,9 +157,8 @@ static void test_close_functions(void **state)
 }
 
 /* |x| and |x^3| over [0, L]: L^3/3 and L^7/7 under the root. */
-static void test_norms(void **state)
+TEST(test_norms)
 {
-    (void)state;
     const size_t n = 6;
     const struct br_field rod = field_of(BR_AXIAL, n), beam = field_of(BR_BENDING, n);
     double u[7], w[14], zero[14] = {0};
@@ -181,9 +178,8 @@ static void test_norms(void **state)
     br_store_clear(&store);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_ladder *ladder;
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
@@ -197,9 +193,8 @@ static void test_refusals(void **state)
     br_store_clear(&store);
 }
 
-static void test_nan_stays(void **state)
+TEST(test_nan_stays)
 {
-    (void)state;
     const size_t n[] = {2};
     struct br_ladder *ladder = create(BR_BENDING, 4, 1, n);
     const struct br_field fine = field_of(BR_BENDING, 4), coarse = field_of(BR_BENDING, 2);
@@ -213,16 +208,4 @@ static void test_nan_stays(void **state)
     assert_true(isnan(distance(ladder, 0, &coarse, bad, projection)));
     free(projection);
     br_store_clear(&store);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_functions),
-        cmocka_unit_test(test_close_functions),
-        cmocka_unit_test(test_norms),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_nan_stays),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,9 +182,8 @@ static void check_distance(struct br_test_random *r, const struct kernel_case *k
     CLOSE(k->kernel->distance(&a.view, n, b.values), (double)sum, 1e-14 * (double)sum);
 }
 
-static void test_all_kernels(void **state)
+TEST(test_all_kernels)
 {
-    (void)state;
     static const enum br_layout layouts[] = {BR_BY_ELEMENT, BR_BY_NODE, BR_IN_LANES};
     struct br_test_random r = {6};
     for (const struct br_ladder_kernel *const *kernel = br_ladder_kernels; *kernel; kernel++)
@@ -203,9 +202,8 @@ static void test_all_kernels(void **state)
 
 /* The norm of the projected function is that of the function, and every rung has the same
  * squares: what it keeps and what it has lost. */
-static void test_norm(void **state)
+TEST(test_norm)
 {
-    (void)state;
     static struct sample root;
     static const size_t n = 60, rungs[] = {30, 20, 12, 5, 1};
     struct br_test_random r = {7};
@@ -242,9 +240,8 @@ static void test_norm(void **state)
 }
 
 /* On one mesh nothing is rounded: a function is at no distance from itself. */
-static void test_same_mesh(void **state)
+TEST(test_same_mesh)
 {
-    (void)state;
     static struct sample s;
     static const size_t n = 13;
     struct br_test_random r = {8};
@@ -269,9 +266,8 @@ static void test_same_mesh(void **state)
 }
 
 /* --kernel forces both: every kernel of the solver has its counterpart here. */
-static void test_counterparts(void **state)
+TEST(test_counterparts)
 {
-    (void)state;
     for (const struct br_kernel *const *k = br_kernels; *k; k++) {
         const struct br_ladder_kernel *other =
             br_ladder_kernels[br_instruction_set_find((*k)->name)];
@@ -280,15 +276,4 @@ static void test_counterparts(void **state)
         assert_int_equal(other->available(), (*k)->available());
     }
     assert_null(br_ladder_kernels[br_instruction_set_find("sse2")]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_kernels),
-        cmocka_unit_test(test_norm),
-        cmocka_unit_test(test_same_mesh),
-        cmocka_unit_test(test_counterparts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

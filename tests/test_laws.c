@@ -24,9 +24,8 @@ static int bad_flags(void)
 /* ---- contact ---- */
 
 /* Backward Euler's contact force solves r = c_H (u + k (v* - r z) - g)_+. */
-static void test_contact(void **state)
+TEST(test_contact)
 {
-    (void)state;
     struct br_test_random r = {7};
     const struct br_contact_rule *lagged = br_contact_rule_find("lagged");
     const struct br_contact_rule *implicit = br_contact_rule_find("implicit");
@@ -77,9 +76,8 @@ static void check_regularised(struct br_friction_state *s)
     CLOSE(lambda, law, 1e-13 * s->bound + s->bound / s->regularisation * round_off);
 }
 
-static void test_friction(void **state)
+TEST(test_friction)
 {
-    (void)state;
     struct br_test_random r = {8};
     size_t stuck = 0;
     for (int i = 0; i < 10000; i++) {
@@ -96,9 +94,8 @@ static void test_friction(void **state)
     assert_in_range(stuck, 1000, 9000);
 }
 
-static void test_bounds(void **state)
+TEST(test_bounds)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     s.contact = (struct br_contact){true, 0.25, 10};
     assert_true(br_friction_bound(&s, 2) == 0);
@@ -136,9 +133,8 @@ static void check_rule(const struct br_friction_rule *rule, struct br_friction_s
 }
 
 /* Where h v or h z or 1 / mu is no double. */
-static void test_sizes(void **state)
+TEST(test_sizes)
 {
-    (void)state;
     static const double sizes[] = {0, 1e-310, 1e-300, 1e-200, 1e-15, 1, 1e15, 1e100};
     enum { COUNT = sizeof sizes / sizeof *sizes };
     struct br_test_random random = {11};
@@ -159,9 +155,8 @@ static void test_sizes(void **state)
 }
 
 /* A bound that is the reaction of a tip that is held, to the last bit, and one to each side. */
-static void test_corner(void **state)
+TEST(test_corner)
 {
-    (void)state;
     struct br_test_random random = {12};
     for (int i = 0; i < 2000; i++) {
         const double v = br_test_log_uniform(&random, 1e-9, 1e3);
@@ -178,9 +173,8 @@ static void test_corner(void **state)
 }
 
 /* mu so small that it is lost beside h z: the law itself, to the last bits. */
-static void test_without_mu(void **state)
+TEST(test_without_mu)
 {
-    (void)state;
     struct br_test_random random = {13};
     const struct br_friction_rule *exact = br_friction_rule_find("exact");
     const struct br_friction_rule *regularised = br_friction_rule_find("regularised");
@@ -252,9 +246,8 @@ static double most_iterations(const struct br_friction_rule *rule, const struct 
     return q == 0 ? 1 : fmax(1, ceil(log(i->tolerance / 2 / first) / log(q)));
 }
 
-static void test_agreement(void **state)
+TEST(test_agreement)
 {
-    (void)state;
     struct br_test_random r = {71};
     size_t rules = 0, stuck = 0, all = 0;
     EACH_THAT_ITERATES(rule)
@@ -312,9 +305,8 @@ static double printed_penalty_duality(const struct br_friction_state *s)
 }
 
 /* The iterates are those of the literature, whatever form they take in the code. */
-static void test_printed_forms(void **state)
+TEST(test_printed_forms)
 {
-    (void)state;
     static const struct {
         const char *rule;
         double (*printed)(const struct br_friction_state *s);
@@ -335,9 +327,8 @@ static void test_printed_forms(void **state)
 }
 
 /* Parameter 1 is the solution at once, and so is a start at the solution. */
-static void test_one_iteration(void **state)
+TEST(test_one_iteration)
 {
-    (void)state;
     struct br_test_random r = {72};
     EACH_THAT_ITERATES(rule)
     for (int i = 0; i < 1000; i++) {
@@ -360,9 +351,8 @@ static void test_one_iteration(void **state)
 }
 
 /* The contraction is met where all is stick: it is not merely a bound. */
-static void test_contraction(void **state)
+TEST(test_contraction)
 {
-    (void)state;
     EACH_THAT_ITERATES(rule)
     for (double parameter = 0.25; parameter < 2; parameter += 0.25) {
         double tolerance[2] = {1e-3, 1e-11}, count[2];
@@ -406,9 +396,8 @@ static void compare_marches(const char *name, const struct br_friction_rule *rul
     br_scene_clear(&scene);
 }
 
-static void test_marches(void **state)
+TEST(test_marches)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     EACH_THAT_ITERATES(rule)
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
@@ -416,9 +405,8 @@ static void test_marches(void **state)
 }
 
 /* What does not converge is NaN, not some force. */
-static void test_no_convergence(void **state)
+TEST(test_no_convergence)
 {
-    (void)state;
     EACH_THAT_ITERATES(rule)
     {
         struct br_friction_state s = {0.5, 1, 1, 0, 0, {0.01, 1e-10, 20}, 0};
@@ -436,9 +424,8 @@ static void test_no_convergence(void **state)
     }
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     struct br_error err = {0};
     const struct {
         const char *rule;
@@ -469,9 +456,8 @@ static void test_refusals(void **state)
 }
 
 /* A march whose iterations do not end says so; one with which they cannot is refused. */
-static void test_failing_march(void **state)
+TEST(test_failing_march)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     EACH_THAT_ITERATES(rule)
@@ -519,9 +505,8 @@ static void check_friction_nan(const struct br_friction_rule *rule)
     }
 }
 
-static void test_nan_stays(void **state)
+TEST(test_nan_stays)
 {
-    (void)state;
     const struct br_contact contact = {true, 0, 1};
     assert_true(isnan(br_penetration(&contact, NAN)));
     for (size_t i = 0; br_contact_rules[i]; i++) {
@@ -533,9 +518,8 @@ static void test_nan_stays(void **state)
 }
 
 /* Names are unique, every record is complete, and an unknown name is NULL. */
-static void test_registries(void **state)
+TEST(test_registries)
 {
-    (void)state;
     for (size_t i = 0; br_contact_rules[i]; i++) {
         assert_ptr_equal(br_contact_rule_find(br_contact_rules[i]->name), br_contact_rules[i]);
         assert_true(br_contact_rules[i]->title && br_contact_rules[i]->citation);
@@ -551,19 +535,4 @@ static void test_registries(void **state)
     assert_null(br_contact_rule_find("none of these"));
     assert_null(br_friction_rule_find("none of these"));
     assert_null(br_linear_solver_find("none of these"));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_contact),       cmocka_unit_test(test_friction),
-        cmocka_unit_test(test_bounds),        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_corner),        cmocka_unit_test(test_without_mu),
-        cmocka_unit_test(test_agreement),     cmocka_unit_test(test_printed_forms),
-        cmocka_unit_test(test_one_iteration), cmocka_unit_test(test_contraction),
-        cmocka_unit_test(test_marches),       cmocka_unit_test(test_no_convergence),
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_failing_march),
-        cmocka_unit_test(test_nan_stays),     cmocka_unit_test(test_registries),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,9 +49,8 @@ static void same_estimate(struct beamrate_estimate a, struct br_estimate b)
 
 /* ---- scenes ---- */
 
-static void scenes_say_what_they_are(void **state)
+TEST(scenes_say_what_they_are)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example3");
     struct br_scene expected = br_test_bundled("example3");
     struct beamrate_scene_info info;
@@ -70,9 +69,8 @@ static void scenes_say_what_they_are(void **state)
     beamrate_scene_free(NULL);
 }
 
-static void wrong_scenes_are_refused(void **state)
+TEST(wrong_scenes_are_refused)
 {
-    (void)state;
     struct beamrate_scene *scene = (void *)&failure;
     ENDS(beamrate_scene_parse(&scene, "mine.yaml", "title: x\nlength: -1\n", &failure),
          BEAMRATE_BAD_INPUT, "mine.yaml:2: length: found '-1', expected");
@@ -136,9 +134,8 @@ static void march_gives(const char *scene_name, const char *const *method, struc
     beamrate_scene_free(scene);
 }
 
-static void marches_have_the_same_bits(void **state)
+TEST(marches_have_the_same_bits)
 {
-    (void)state;
     static const char *const higher[] = {"scheme", "bdf2", "axial_degree", "2", NULL};
     struct br_method method = br_method_default();
     march_gives("example2", NULL, method);
@@ -151,9 +148,8 @@ static void marches_have_the_same_bits(void **state)
     march_gives("chatter", NULL, br_method_default()); /* unstable */
 }
 
-static void marches_are_refused(void **state)
+TEST(marches_are_refused)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example2");
     struct beamrate_march *march;
 #define METHOD(...) ((const char *const[]){__VA_ARGS__, NULL})
@@ -182,9 +178,8 @@ static void marches_are_refused(void **state)
 }
 
 /* A march that has failed fails again, and says why. */
-static void failed_marches_stay_failed(void **state)
+TEST(failed_marches_stay_failed)
 {
-    (void)state;
     struct beamrate_scene *scene;
     struct beamrate_march *march;
     struct beamrate_tip tip;
@@ -201,9 +196,8 @@ static void failed_marches_stay_failed(void **state)
     beamrate_scene_free(scene);
 }
 
-static void forecasts_are_the_programs(void **state)
+TEST(forecasts_are_the_programs)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("chatter");
     struct br_scene expected = br_test_bundled("chatter");
     const struct br_method method = br_method_default();
@@ -279,9 +273,8 @@ static void same_study(const struct beamrate_study *study, struct br_study *expe
     }
 }
 
-static void studies_have_the_same_bits(void **state)
+TEST(studies_have_the_same_bits)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example2");
     struct br_scene bundled = br_test_bundled("example2");
     struct br_error err = {0};
@@ -325,9 +318,8 @@ static void studies_have_the_same_bits(void **state)
     beamrate_scene_free(scene);
 }
 
-static void studies_are_refused(void **state)
+TEST(studies_are_refused)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example2");
     struct beamrate_study *study = NULL;
     static const size_t falling[] = {8, 4}, zero[] = {0, 4};
@@ -379,9 +371,8 @@ static void fatal(const char *reason, const char *file, int line, int number)
     fail_msg("%s (%s:%d, %d)", reason, file, line, number);
 }
 
-static void callers_keep_their_handler_and_locale(void **state)
+TEST(callers_keep_their_handler_and_locale)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example2");
     struct seen seen = {.most = INT32_MAX};
     const struct beamrate_observer observer = {see, &seen};
@@ -406,9 +397,8 @@ static void callers_keep_their_handler_and_locale(void **state)
     beamrate_scene_free(scene);
 }
 
-static void observers_stop_what_takes_long(void **state)
+TEST(observers_stop_what_takes_long)
 {
-    (void)state;
     struct beamrate_scene *scene = opened("example2");
     struct seen seen = {.most = 1};
     const struct beamrate_observer observer = {see, &seen};
@@ -434,9 +424,8 @@ static const char verified[] =
     "axial:\n  stiffness: 10 N\n  viscosity: 1 N s\n  load: 10*t [N/m]\n"
     "verify:\n  time:\n    n: 8\n    k: 0.01, 0.005, 0.0025, 0.00125, 0.000625 s\n    l2: %s\n";
 
-static void verdicts_are_values(void **state)
+TEST(verdicts_are_values)
 {
-    (void)state;
     static const struct {
         const char *expected;
         enum beamrate_verdict verdict;
@@ -471,9 +460,8 @@ static void verdicts_are_values(void **state)
     beamrate_scene_free(scene);
 }
 
-static void orders_of_numbers(void **state)
+TEST(orders_of_numbers)
 {
-    (void)state;
     double h[16], k[16], error[16], value[16];
     struct beamrate_orders *orders;
     struct beamrate_order order;
@@ -524,9 +512,8 @@ static void orders_of_numbers(void **state)
     beamrate_orders_free(NULL);
 }
 
-static void wrong_numbers_are_refused(void **state)
+TEST(wrong_numbers_are_refused)
 {
-    (void)state;
     double h[] = {4, 2, 1}, error[] = {16, 4, 1};
     struct beamrate_orders *orders;
     struct beamrate_numbers numbers = {.number = error, .count = 3};
@@ -599,9 +586,8 @@ static void *march_and_study(void *self)
     return NULL;
 }
 
-static void threads_do_not_disturb_each_other(void **state)
+TEST(threads_do_not_disturb_each_other)
 {
-    (void)state;
     static const char *const adaptive[] = {"scheme", "adaptive", NULL};
     struct beamrate_scene *one = opened("example2"), *other = opened("release");
     struct job alone[4] = {{.scene = one, .method = adaptive, .n = 8},
@@ -663,33 +649,10 @@ static enum br_status use_all(const void *data, struct br_error *err)
 }
 
 /* A manufactured solution, whose judge allocates little. */
-static void memory_may_end_at_any_place(void **state)
+TEST(memory_may_end_at_any_place)
 {
-    (void)state;
     static const char text[] = "title: a rod\nlength: 1 m\nduration: 1 s\ndensity: 1 kg/m\n"
                                "axial:\n  stiffness: 10 N\n  viscosity: 1 N s\n"
                                "  solution: x^2*t [m]\n";
     br_test_without_memory(use_all, text, 60);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scenes_say_what_they_are),
-        cmocka_unit_test(wrong_scenes_are_refused),
-        cmocka_unit_test(marches_have_the_same_bits),
-        cmocka_unit_test(marches_are_refused),
-        cmocka_unit_test(failed_marches_stay_failed),
-        cmocka_unit_test(forecasts_are_the_programs),
-        cmocka_unit_test(studies_have_the_same_bits),
-        cmocka_unit_test(studies_are_refused),
-        cmocka_unit_test(callers_keep_their_handler_and_locale),
-        cmocka_unit_test(observers_stop_what_takes_long),
-        cmocka_unit_test(verdicts_are_values),
-        cmocka_unit_test(orders_of_numbers),
-        cmocka_unit_test(wrong_numbers_are_refused),
-        cmocka_unit_test(threads_do_not_disturb_each_other),
-        cmocka_unit_test(memory_may_end_at_any_place),
-    };
-    return cmocka_run_group_tests_name("library calls", tests, NULL, NULL);
 }

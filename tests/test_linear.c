@@ -83,9 +83,8 @@ static double largest(const double *x, size_t count)
 }
 
 /* Refinement by elements repairs the error itself. */
-static void test_refinement(void **state)
+TEST(test_refinement)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 800, steps = 20;
     const struct br_method plain = br_test_method("plain", "implicit", NULL);
@@ -148,9 +147,8 @@ static void check_step_lengths(const struct br_linear_solver *solver, const stru
     f->free(there);
 }
 
-static void test_step_lengths(void **state)
+TEST(test_step_lengths)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 20; seed++) {
         struct br_test_random r = {seed};
         const struct problem p = random_problem(&r);
@@ -240,9 +238,8 @@ static void check_combining(const struct br_linear_solver *solver, const struct 
     f->free(self);
 }
 
-static void test_states(void **state)
+TEST(test_states)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 20; seed++) {
         struct br_test_random r = {seed};
         const struct problem p = random_problem(&r);
@@ -297,9 +294,8 @@ static void check_size(const struct br_linear_solver *solver, enum br_field_kind
     f->free(self);
 }
 
-static void test_size(void **state)
+TEST(test_size)
 {
-    (void)state;
     for
         EACH_SOLVER(s)
         {
@@ -324,9 +320,8 @@ static void refuses(const struct br_linear_solver *solver, const struct problem 
     f->free(self);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof assembled / sizeof *assembled; i++)
         for (uint64_t seed = 1; seed <= 40; seed++) {
             struct br_test_random r = {seed};
@@ -349,9 +344,8 @@ static void test_refusals(void **state)
 }
 
 /* A mesh whose matrix has no digits left: a pivot turns negative, or refinement finds out. */
-static void test_too_fine(void **state)
+TEST(test_too_fine)
 {
-    (void)state;
     const struct problem p = {.field = {.kind = BR_BENDING,
                                         .n = 150000,
                                         .h = 1.0 / 150000,
@@ -363,9 +357,8 @@ static void test_too_fine(void **state)
         refuses(assembled[i], &p, 5, assembled[i]->name);
 }
 
-static void test_marches_refused(void **state)
+TEST(test_marches_refused)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_march *march;
     struct br_scene scene = br_test_bare();
@@ -388,9 +381,8 @@ static void test_marches_refused(void **state)
 }
 
 /* A load that is no number, and a march that blows up, are told at once. */
-static void test_not_finite(void **state)
+TEST(test_not_finite)
 {
-    (void)state;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
         struct br_error err = {0};
         struct br_method method = br_method_default();
@@ -420,9 +412,8 @@ static void test_not_finite(void **state)
     }
 }
 
-static void test_degrees_refused(void **state)
+TEST(test_degrees_refused)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     struct br_method method = br_test_method("umfpack", "implicit", NULL);
@@ -445,9 +436,8 @@ static void test_degrees_refused(void **state)
 /* ---- options and kernels ---- */
 
 /* Every scaling and refinement that the options offer gives the same march. */
-static void test_options(void **state)
+TEST(test_options)
 {
-    (void)state;
     static const char *const scalings[] = {"none", "sum", "max"};
     struct br_scene scene = br_test_bundled("example2");
     const struct br_method reference = br_method_default();
@@ -463,9 +453,8 @@ static void test_options(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_find(void **state)
+TEST(test_find)
 {
-    (void)state;
     for (const struct br_kernel *const *k = br_kernels; *k; k++)
         assert_ptr_equal(br_kernel_find((*k)->name), *k);
     assert_null(br_kernel_find("sse2"));
@@ -478,9 +467,8 @@ static bool never(void)
 }
 
 /* One that the machine has not is refused, not run. */
-static void test_unavailable(void **state)
+TEST(test_unavailable)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_march *march;
     const struct br_kernel none = {.name = "none", .available = never};
@@ -506,9 +494,8 @@ static void count_step(const struct br_strip *strip, const struct br_strip_drive
 }
 
 /* The one that is asked for does the work. */
-static void test_heeded(void **state)
+TEST(test_heeded)
 {
-    (void)state;
     struct br_kernel counting = *br_kernel_find("portable");
     counting.name = "counting";
     counting.available = always;
@@ -556,9 +543,8 @@ static void check_least(enum br_field_kind kind, size_t n, int degree,
 }
 
 /* What costs least is taken: on coarse meshes plain, on those of the paper's tables riccati. */
-static void test_taken(void **state)
+TEST(test_taken)
 {
-    (void)state;
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         for (size_t n = 1; n < 3000; n += 1 + n / 7) {
             check_least(BR_AXIAL, n, 1, *s);
@@ -577,9 +563,8 @@ static void test_taken(void **state)
 }
 
 /* It is the solver that is taken, to the last bit. */
-static void test_same_as_taken(void **state)
+TEST(test_same_as_taken)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const size_t n[] = {8, 100};
     for (int i = 0; i < 2; i++) {
@@ -591,26 +576,4 @@ static void test_same_as_taken(void **state)
         assert_true(a.u_tip != 0 && a.w_tip != 0);
     }
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_refinement),
-        cmocka_unit_test(test_step_lengths),
-        cmocka_unit_test(test_states),
-        cmocka_unit_test(test_size),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_too_fine),
-        cmocka_unit_test(test_marches_refused),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_degrees_refused),
-        cmocka_unit_test(test_options),
-        cmocka_unit_test(test_find),
-        cmocka_unit_test(test_unavailable),
-        cmocka_unit_test(test_heeded),
-        cmocka_unit_test(test_taken),
-        cmocka_unit_test(test_same_as_taken),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -56,9 +56,8 @@ static const struct {
 } kinds[] = {{BR_AXIAL, 1}, {BR_AXIAL, 2}, {BR_BENDING, 1}};
 
 /* Smooth loads have a fit, on meshes that cells divide and on others. */
-static void test_smooth(void **state)
+TEST(test_smooth)
 {
-    (void)state;
     static const char *const smooth[] = {
         "sin(x*t)",       "100*tanh(x + t)",        "exp(-((x - t)/0.5)^2)", "1/(1 + x*t)",
         "sin(7*x - 5*t)", "1e-200*sqrt(4 + x + t)", "-1e200*cos(3*x*t)",
@@ -82,9 +81,8 @@ static void test_smooth(void **state)
 
 /* What no few polynomials are has none: jumps, kinks, poles beside the beam, peaks that no sample
  * meets, functions without proofs; nor has a mesh or a march so short that a fit would not pay. */
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     static const char *const rough[] = {
         "step(x - t)",
         "abs(x - t)",
@@ -115,9 +113,8 @@ static void test_refused(void **state)
 }
 
 /* Where f is far smaller than elsewhere, or nothing is proved, the direct way is taken. */
-static void test_direct(void **state)
+TEST(test_direct)
 {
-    (void)state;
     struct br_error err = {0};
     const struct br_field field = field_of(BR_BENDING, 1000, 1);
     struct br_function f = br_test_function("sin(x*t)*exp(20*t)");
@@ -146,21 +143,9 @@ static enum br_status attempt(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     struct br_function f = br_test_function("sin(x*t)");
     br_test_without_memory(attempt, &f, 4);
     br_function_free(&f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_smooth),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_direct),
-        cmocka_unit_test(test_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,9 +46,8 @@ static const struct {
     {"sin(1e7*x)", 100, true}, /* not known */
 };
 
-static void test_rows(void **state)
+TEST(test_rows)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         for (int bending = 0; bending < 2; bending++) {
@@ -63,9 +62,8 @@ static void test_rows(void **state)
 }
 
 /* The share is that of the force, and the place the nearest node. */
-static void test_share(void **state)
+TEST(test_share)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     s.axial.load = br_test_load("1 + 500*(x > 0.7009 && x < 0.7029)"); /* half of the force */
     const struct br_warnings w = warnings_of(&s, 10);
@@ -76,9 +74,8 @@ static void test_share(void **state)
     br_load_clear(&s.axial.load);
 }
 
-static void test_bundled(void **state)
+TEST(test_bundled)
 {
-    (void)state;
     char **name;
     size_t count;
     struct br_error err;
@@ -93,14 +90,4 @@ static void test_bundled(void **state)
         br_scene_clear(&scene);
     }
     br_scene_list_free(name, count);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_share),
-        cmocka_unit_test(test_bundled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

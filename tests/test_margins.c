@@ -15,9 +15,8 @@ static struct br_margins of(size_t count, const double margin[])
     return m;
 }
 
-static void test_dip(void **state)
+TEST(test_dip)
 {
-    (void)state;
     const struct br_margins inside = of(4, (double[]){1, 0.5, 0.7, 0.1});
     const struct br_margins stages = of(4, (double[]){1, -1, -2, 1});
     const struct br_margins end = of(4, (double[]){1, 0.5, 0.7, -0.1});
@@ -45,9 +44,8 @@ static struct br_method adaptive(double tolerance)
  * of itself, for 0.015 of 10 s: far less than a step. The tip must slip by 22 um. The value is that
  * of esdirk3 with 300,000 steps; a tolerance of 1e-11 differs from it by 1e-13 m. With many
  * tolerances it falls on many places of a step, before its first stage, too. */
-static void test_short_slip(void **state)
+TEST(test_short_slip)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     scene.duration = 10;
     scene.density = 1e-3;
@@ -81,9 +79,8 @@ static struct br_scene pressed(const char *axial, const char *bending)
 }
 
 /* A margin of 0 for a while is not the switch, which comes when the load does. */
-static void test_rest_at_gap(void **state)
+TEST(test_rest_at_gap)
 {
-    (void)state;
     struct br_scene scene = pressed("100*(abs(t-0.613)+t-0.613)", "-100*(abs(t-0.613)+t-0.613)");
     for (double tolerance = 1e-3; tolerance > 1e-9; tolerance /= 3) {
         const struct br_method method = adaptive(tolerance);
@@ -97,9 +94,8 @@ static void test_rest_at_gap(void **state)
 
 /* A load that jumps within a step pushes first and foremost velocities. The tolerance is one of a
  * step, of which many see the jump. */
-static void test_load_jump(void **state)
+TEST(test_load_jump)
 {
-    (void)state;
     struct br_scene scene = pressed("100*(tanh(1e8*(t-0.953))+1)", "100*(tanh(1e8*(t-0.971))+1)");
     scene.density = 0.1;
     scene.contact.gap = 0.1;
@@ -114,9 +110,8 @@ static void test_load_jump(void **state)
 
 /* A blow of 10 us in the middle of a second, where a rough march would take it for one of a
  * sixteenth, and its strain of thousands of the true one for what errors are relative to. */
-static void test_blow(void **state)
+TEST(test_blow)
 {
-    (void)state;
     struct br_scene scene = pressed("20*sin(8*t)", "10*sin(10*t)");
     scene.density = 1;
     scene.contact.gap = 0.1;
@@ -132,9 +127,8 @@ static void test_blow(void **state)
 }
 
 /* bdf3 is not stable on the imaginary axis: within 800 steps such a beam is off by its own size. */
-static void test_undamped(void **state)
+TEST(test_undamped)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_march *march;
     struct br_scene scene = br_test_bare();
@@ -149,14 +143,4 @@ static void test_undamped(void **state)
     scene.bending.modelled = false;
     MUST(br_march_create(&march, &scene, 4, 800, &method, &err));
     br_march_free(march);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dip),         cmocka_unit_test(test_short_slip),
-        cmocka_unit_test(test_rest_at_gap), cmocka_unit_test(test_load_jump),
-        cmocka_unit_test(test_blow),        cmocka_unit_test(test_undamped),
-    };
-    return cmocka_run_group_tests_name("margins", tests, NULL, NULL);
 }

@@ -66,9 +66,8 @@ static const char small[] =
     "  viscosity: 1 N s\n  load: t [N/m]\nverify:\n  space:\n    n: 2, 4, 8, 16, 32\n    k: 0.1 s\n"
     "    l2: 2 +- 0.9\n";
 
-static void test_sweep(void **state)
+TEST(test_sweep)
 {
-    (void)state;
     static const struct {
         const char *line;
         long every; /* by default; 0: only where everything is tested */
@@ -93,8 +92,4 @@ static void test_sweep(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_sweep)};
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

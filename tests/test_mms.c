@@ -25,9 +25,8 @@
 #define W "  solution: x^4*t^2 [m]\n"
 #define REST "  solution: x^4 [m]\n"
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } refusals[] = {
@@ -85,9 +84,8 @@ static struct br_scene scene_of(const char *text)
 }
 
 /* u = x^2 (t^2 + t), w = x^4 (t^2 + t), with L = 2 and the constants above. */
-static void test_data(void **state)
+TEST(test_data)
 {
-    (void)state;
     struct br_scene s = scene_of(TOP AXIAL "  solution: x^2*(t^2 + t)  [m]\n" BENDING
                                            "  solution: x^4*(t^2 + t) [m]\n" CONTACT COULOMB);
     const double x = 0.7, t = 0.6, g = t * t + t, g_t = 2 * t + 1, tip = 2;
@@ -109,9 +107,8 @@ static void test_data(void **state)
 }
 
 /* At rest, then slipping back: lambda = stick force, then -b; an open contact gives none. */
-static void test_friction_data(void **state)
+TEST(test_friction_data)
 {
-    (void)state;
     struct br_scene s = scene_of(TOP BENDING "  solution: x^4*(1 - (t - 0.5)^2*step(t - 0.5)) [m]\n"
                                              "  stick_force: 10*t [N]\n" TRESCA);
     CLOSE(at(&s.bending.tip_force, 0, 0.25), 2.5 - 24 * 2 * 11, 1e-11);
@@ -138,9 +135,8 @@ static void test_friction_data(void **state)
 
 /* ---- the judge ---- */
 
-static void test_projection(void **state)
+TEST(test_projection)
 {
-    (void)state;
     static const struct {
         struct br_projected what;
         double square; /* of the L2 norm over [0, 2] at t = 3 of that of exp(x) t^2 */
@@ -183,9 +179,8 @@ static struct br_study study_of(const struct br_scene *scene, const size_t *n, c
 
 /* What both the elements and the Euler steps hold exactly has no error at all: with contact,
  * friction, a tip force and a moment, on any mesh. */
-static void test_exact(void **state)
+TEST(test_exact)
 {
-    (void)state;
     struct br_scene scene =
         scene_of(TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
                            "  solution: x^2*(3 - x)*(1 - 2*t) [m]\n" CONTACT COULOMB);
@@ -204,9 +199,8 @@ static void test_exact(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_judge(void **state)
+TEST(test_judge)
 {
-    (void)state;
     assert_ptr_equal(br_judge_find("mms"), &br_judge_mms);
     static const char *const names[] = {"example2", "example3"}; /* both parts; bending alone */
     static const size_t n[] = {2, 3}, steps[] = {5, 7};
@@ -223,9 +217,8 @@ static void test_judge(void **state)
 }
 
 /* Evaluators are made and used on several threads at once: the same bits. */
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     static const size_t n[] = {4, 6}, steps[] = {20, 30};
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("mms_opening");
@@ -258,9 +251,8 @@ static enum br_status attempt(const void *text, struct br_error *err)
     return status;
 }
 
-static void test_allocation(void **state)
+TEST(test_allocation)
 {
-    (void)state;
     br_test_without_memory(attempt,
                            TOP AXIAL "  solution: x*(1 + t) [m]\n" BENDING
                                      "  solution: x^4*t [m]\n" CONTACT COULOMB,
@@ -290,9 +282,8 @@ static const struct forced {
 };
 
 /* The places where a tip force bends or jumps are found, and no others. */
-static void test_tip_breaks(void **state)
+TEST(test_tip_breaks)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof forced / sizeof *forced; i++) {
         struct br_error err = {0};
         struct br_scene s = scene_of(forced[i].text);
@@ -310,9 +301,8 @@ static void test_tip_breaks(void **state)
 
 /* In random boxes: all values lie within the bounds, and the series from one end reaches the other
  * within its remainder. Bounds and series are there, but for boxes that hold a break. */
-static void test_tip_bounds(void **state)
+TEST(test_tip_bounds)
 {
-    (void)state;
     enum { ORDER = 4, TRIALS = 400 };
     struct br_test_random random = {5};
     for (size_t i = 0; i < TRIALS; i++) {
@@ -344,19 +334,4 @@ static void test_tip_bounds(void **state)
         }
         br_scene_clear(&s);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-
-        cmocka_unit_test(test_refusals),      cmocka_unit_test(test_data),
-        cmocka_unit_test(test_friction_data), cmocka_unit_test(test_projection),
-        cmocka_unit_test(test_exact),         cmocka_unit_test(test_judge),
-        cmocka_unit_test(test_threads),       cmocka_unit_test(test_tip_breaks),
-        cmocka_unit_test(test_tip_bounds),
-
-        cmocka_unit_test(test_allocation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

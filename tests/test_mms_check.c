@@ -49,9 +49,8 @@ static const struct {
     {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2, true, true},
 };
 
-static void test_derivatives(void **state)
+TEST(test_derivatives)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof derivatives / sizeof *derivatives; i++) {
         struct br_error err = {0};
         struct br_function f = br_test_function(derivatives[i].text), d;
@@ -112,9 +111,8 @@ static const struct {
     {BR_AXIAL, "x + 1e-9*x/(t - 0.300001)", "u: "},
 };
 
-static void test_check(void **state)
+TEST(test_check)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof solutions / sizeof *solutions; i++) {
         struct br_error err = {0};
         struct br_function f = br_test_function(solutions[i].text);
@@ -125,11 +123,4 @@ static void test_check(void **state)
             MUST(br_given_check(&s, &err));
         br_function_free(&f);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_derivatives),
-                                       cmocka_unit_test(test_check)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,9 +44,8 @@ static void check_order(const char *name, const double *error, size_t coarse, si
 }
 
 /* The time error is 1e-6 to 2e-6 at these steps; bending is looked at before it matters. */
-static void test_space(void **state)
+TEST(test_space)
 {
-    (void)state;
     static const size_t n[] = {8, 16, 32}, steps = 16000;
     if (br_test_quick())
         skip();
@@ -61,9 +60,8 @@ static void test_space(void **state)
 /* The meshes are so fine that they do not matter. Over a factor of 8: a maximum over time
  * levels halves but unevenly where a contact opens between two of them. By default every other
  * scene; with the lagged rule `check` has an interval of the order of each. */
-static void test_time_implicit(void **state)
+TEST(test_time_implicit)
 {
-    (void)state;
     static const size_t n = 3200, steps[] = {250, 2000};
     if (br_test_quick())
         skip();
@@ -79,9 +77,8 @@ static void test_time_implicit(void **state)
 /* Coulomb's bound takes the axial tip value, which is right to O(h^2) only: on fine meshes
  * the bending's order falls to 2. Seen against a run with the same steps, so that there is
  * no time error at all; with Tresca's bound it stays 4. */
-static void test_coulomb_limit(void **state)
+TEST(test_coulomb_limit)
 {
-    (void)state;
     static const size_t n[] = {96, 128}, steps = 1000;
     double error[2 * BR_PARTS];
     if (br_test_quick())
@@ -90,14 +87,4 @@ static void test_coulomb_limit(void **state)
     check_order("mms_opening", error, 0, 1, BR_PART_BENDING, 4.0 / 3, 2);
     measure("mms_stick", "implicit", &br_judge_fine, 2, n, 1, &steps, error);
     check_order("mms_stick", error, 0, 1, BR_PART_BENDING, 4.0 / 3, 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_space),
-        cmocka_unit_test(test_time_implicit),
-        cmocka_unit_test(test_coulomb_limit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,9 +12,8 @@
 
 /* ---- by hand ---- */
 
-static void test_arithmetic(void **state)
+TEST(test_arithmetic)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     scene.length = 2, scene.duration = 5;
     struct br_sample a = {.time = 1, .weight = 0.5}, b = {.time = 2, .weight = 0.25};
@@ -47,9 +46,8 @@ static bool is_missing(double value)
 }
 
 /* What is not a number is not lost, and what a norm does not need does not matter. */
-static void test_nan(void **state)
+TEST(test_nan)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     for (const struct br_norm *const *norm = br_norms; *norm; norm++)
         for (int measure = 0; measure < BR_MEASURES; measure++) {
@@ -246,23 +244,20 @@ static void check_study(const char *name, const struct br_judge *judge)
     br_scene_clear(&scene);
 }
 
-static void test_against_marches(void **state)
+TEST(test_against_marches)
 {
-    (void)state;
     check_study("example2", &br_judge_fine);
     check_study("example1", &br_judge_fine);
 }
 
-static void test_against_exact(void **state)
+TEST(test_against_exact)
 {
-    (void)state;
     check_study("example2", &br_judge_exact);
 }
 
 /* A norm alone and in company has the same bits; the tips are kept in all. */
-static void test_company(void **state)
+TEST(test_company)
 {
-    (void)state;
     static const size_t n = 6, steps = 30;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example4");
@@ -325,9 +320,8 @@ static void odd_look(void *self, const struct br_sample_at *at, struct br_view *
     view->values[0] = audited_level == 4 ? NAN : 1;
 }
 
-static void test_nan_audit(void **state)
+TEST(test_nan_audit)
 {
-    (void)state;
     static const size_t n = 1, steps = 8;
     static const struct br_judge odd = {.name = "odd",
                                         .create = odd_create,
@@ -343,14 +337,4 @@ static void test_nan_audit(void **state)
     assert_true(isnan(s.reference_error[BR_PART_TOTAL]));
     br_study_clear(&s);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arithmetic),      cmocka_unit_test(test_nan),
-        cmocka_unit_test(test_against_marches), cmocka_unit_test(test_against_exact),
-        cmocka_unit_test(test_company),         cmocka_unit_test(test_nan_audit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

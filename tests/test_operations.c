@@ -61,9 +61,8 @@ static double allowed(enum br_operation operation, const double a[3])
     return (grows && fabs(a[0]) > 709) || (area && fabs(a[0]) > 1e150) ? 2 : 1;
 }
 
-static void test_accuracy(void **state)
+TEST(test_accuracy)
 {
-    (void)state;
     if (LDBL_MANT_DIG < 64)
         skip();
     struct br_test_random r = {.state = 11};
@@ -81,9 +80,8 @@ static void test_accuracy(void **state)
 }
 
 /* Every instruction set that is there gives the same bits. */
-static void test_sets(void **state)
+TEST(test_sets)
 {
-    (void)state;
     enum { COUNT = 4096 };
     static _Alignas(64) double a[3][COUNT], first[COUNT], other[COUNT];
     struct br_test_random r = {.state = 12};
@@ -134,9 +132,8 @@ static void check_derivative(const char *text, const struct br_tree *tree, enum 
 }
 
 /* All rules, with something inside; derived twice, by x and by t. */
-static void test_derivatives(void **state)
+TEST(test_derivatives)
 {
-    (void)state;
     static const char *const texts[] = {
         "3",
         "x + 2*t - x*t",
@@ -189,9 +186,8 @@ static void test_derivatives(void **state)
 }
 
 /* What a derivative leaves behind: nothing that is 0 or 1. */
-static void test_simplified(void **state)
+TEST(test_simplified)
 {
-    (void)state;
     static const struct {
         const char *text;
         size_t nodes;
@@ -209,9 +205,8 @@ static void test_simplified(void **state)
 }
 
 /* One that grows too long is refused, and memory that is missing told. */
-static void test_derivation_refusals(void **state)
+TEST(test_derivation_refusals)
 {
-    (void)state;
     struct br_function f =
         br_test_function("sin(x*exp(t)*sin(x*cos(x*exp(t*x^2)+log(2+x*t))))^t^x");
     struct br_function out;
@@ -231,16 +226,4 @@ static void test_derivation_refusals(void **state)
     assert_true(out.uses_t && !out.uses_x);
     br_function_free(&out);
     br_function_free(&f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_accuracy),
-        cmocka_unit_test(test_sets),
-        cmocka_unit_test(test_derivatives),
-        cmocka_unit_test(test_simplified),
-        cmocka_unit_test(test_derivation_refusals),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -61,9 +61,8 @@ static void is_the_table(const char *text)
     br_numbers_clear(&n);
 }
 
-static void test_formats(void **state)
+TEST(test_formats)
 {
-    (void)state;
     is_the_table("h,l2\n1,3\n.5,2\n.25,1\n");
     is_the_table("h,l2\n.25,1\n1,3\n.5,2"); /* in any order, without an end of line */
     is_the_table("\xef\xbb\xbfh,l2\r\n1,3\r\n.5,2\r\n.25,1\r\n");
@@ -77,9 +76,8 @@ static void test_formats(void **state)
     is_the_table("name,h,l2\ncoarse,1,3\nfine,.5,2\nfiner,.25,1\n"); /* words are left alone */
 }
 
-static void test_names_and_units(void **state)
+TEST(test_names_and_units)
 {
-    (void)state;
     struct br_numbers n = read_with(
         "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,1\n.5,2,2,2\n.25,1,,4\n", &plain);
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
@@ -95,9 +93,8 @@ static void test_names_and_units(void **state)
     br_numbers_clear(&n);
 }
 
-static void test_resolutions(void **state)
+TEST(test_resolutions)
 {
-    (void)state;
     struct columns q = plain;
     q.dimension = 3;
     struct br_numbers n = read_with("dofs,l2\n1000,3\n8000,2\n64000,1\n", &q);
@@ -114,9 +111,8 @@ static void test_resolutions(void **state)
     br_numbers_clear(&n);
 }
 
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     const char *text = "h,l2 rate,l2,drag,cpu\n1,9,3,-7,1\n.5,9,2,-8,1\n.25,9,1,-9,1\n";
     const struct columns q = {"l2", " drag ", 2};
     struct br_numbers n = read_with(text, &q);
@@ -143,49 +139,15 @@ static void test_lists(void **state)
     assert_false(br_lists(",", ""));
 }
 
-static void test_refused_tables(void **state)
+static void refuse_table(char *row)
 {
-    (void)state;
-    static const struct {
-        const char *text, *message;
-    } rows[] = {
-        {"", "t.csv:1: the table is empty"},
-        {"# nothing\n\n", "t.csv:1: the table is empty"},
-        {"a,b\n1,2\n", "found no column of a resolution, expected h, n or dofs, or k, dt or steps"},
-        {"h\n1\n.5\n.25\n", "found no column of numbers beside the resolution"},
-        {"h,name\n1,a\n.5,b\n.25,c\n", "found no column of numbers beside the resolution"},
-        {"h;l2\n1;3\n", "t.csv:1: found ';' between columns, expected ',' or tabs"},
-        {"h,,l2\n1,2,3\n", "t.csv:1: heading 2 is empty, expected a name"},
-        {"h,l2,l2\n1,3,3\n.5,2,2\n.25,1,1\n", "the column 'l2' is there twice"},
-        {"h,l2\n1,3,4\n", "t.csv:2: found more than 2 fields, as the heading has"},
-        {"h,l2\n1,3\n\n2\n", "t.csv:4: found fewer than 2 fields, as the heading has"},
-        {"h,l2\n1,\"3\n.5,2\n", "t.csv:2: a quote is open to the end"},
-        {"h,l2\n1,\"3\"1\n.5,2\n", "t.csv:2: found text behind a quote in its field"},
-        {"h,l2\n1,3\n.5,x\n.25,1\n", "t.csv:3: l2: found 'x', expected a number"},
-        {"h,l2\n1,3\n.5,nan\n.25,1\n", "t.csv:3: l2: found 'nan', expected a number"},
-        {"h,l2\n1,3\n.5,2\n.25,-INF\n", "t.csv:4: l2: found '-INF', expected a number"},
-        {"h,l2\n1,3\n.5,1e999\n.25,1\n", "t.csv:3: l2: found '1e999', expected a number"},
-        {"h,l2\n1,3\n.5,-2\n.25,1\n", "t.csv:3: l2: found -2, expected an error of at least 0"},
-        {"h,l2\n1,3\n.5,1e308\n.25,1\n", "t.csv:3: l2: found 1e+308, expected at most"},
-        {"h,l2\n1,3\n-.5,2\n.25,1\n", "t.csv:3: h: found -0.5, expected a number above 0"},
-        {"h,l2\n1,3\n0,2\n.25,1\n", "t.csv:3: h: found 0, expected a number above 0"},
-        {"h,l2\n1,3\n,2\n.25,1\n", "t.csv:3: h: found nan, expected a number above 0"},
-        {"n,l2\n1,3\n2,2\n1e-310,1\n", "t.csv:4: n: found 1e-310, expected a size within"},
-        {"h,l2\n1,3\n.5,2\n1,1\n", "t.csv:4: the resolution is that of line 2, expected each once"},
-        {"h,l2\n1,3\n.5,2\n1.00000000000001,1\n", "the resolution is that of line"},
-        {"h,l2\n1,3\n.5,2\n", "t.csv: found 2 resolutions, expected at least 3"},
-        {"h,l2\n", "t.csv: found no column of numbers"},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2}\n",
-         "t.csv:2: found 1 keys, expected the first line's 2"},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 2, \"l3\": 3}\n", "t.csv:2: there is no key 'l2'"},
-        {"{\"h\": 1, \"l2\": 3}\n[1]\n", "t.csv:2: expected a JSON object: found another value"},
-        {"{\"h\": 1, \"l2\": NaN}\n", "t.csv:1: expected a JSON object: "},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": .5, \"l2\n", "t.csv:2: expected a JSON object: "},
-        {"{\"h\": 1, \"l2\": 3}\n{\"h\": 0.5, \"l2\": true}\n{\"h\": 2, \"l2\": 1}",
-         "t.csv:2: l2: found '(no number)', expected a number"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        refuse_with(rows[i].text, &plain, rows[i].message);
+    const char *message = br_test_part(row);
+    refuse_with(br_test_unescape(row), &plain, message);
+}
+
+TEST(test_refused_tables)
+{
+    br_test_rows("tables of numbers", refuse_table);
 }
 
 /* ---- numbers that are made ---- */
@@ -235,9 +197,8 @@ static void clear_found(struct found *f)
     br_numbers_clear(&f->numbers);
 }
 
-static void test_lines(void **state)
+TEST(test_lines)
 {
-    (void)state;
     for (double p = 0.5; p < 6; p += 0.75) {
         struct found f;
         find(&f, table_of(5, 0, p, 0), NULL);
@@ -256,9 +217,8 @@ static void test_lines(void **state)
     }
 }
 
-static void test_grid(void **state)
+TEST(test_grid)
 {
-    (void)state;
     struct found f;
     find(&f, table_of(6, 5, 2, 1), NULL);
     const struct br_quantity_orders *of = &f.orders.of[0];
@@ -288,9 +248,8 @@ static void test_grid(void **state)
 }
 
 /* A line at a fine size may begin at a finer mesh than one at a coarser size. */
-static void test_lines_are_sorted(void **state)
+TEST(test_lines_are_sorted)
 {
-    (void)state;
     struct found f;
     find(&f,
          "h,k,l2\n1,1,9\n1,.25,9\n.5,1,4\n.5,.5,4\n.5,.25,4\n.25,1,1\n.25,.5,1\n.25,.25,1\n"
@@ -303,9 +262,8 @@ static void test_lines_are_sorted(void **state)
     clear_found(&f);
 }
 
-static void test_tied(void **state)
+TEST(test_tied)
 {
-    (void)state;
     struct found f;
     find(&f, "h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
     assert_true(f.orders.tied);
@@ -336,9 +294,8 @@ static const char *floor_table(int rows, double level)
     return text;
 }
 
-static void test_floors(void **state)
+TEST(test_floors)
 {
-    (void)state;
     struct found f;
     find(&f, floor_table(12, pow(4, -7)), NULL); /* 6e-5: no round-off */
     const struct br_case *c = &f.orders.of[0].line[0].observed;
@@ -369,9 +326,8 @@ static void test_floors(void **state)
 
 /* ---- values ---- */
 
-static void test_values(void **state)
+TEST(test_values)
 {
-    (void)state;
     static const double even[] = {1, .5, .25, .125, .0625}, uneven[] = {1, .5, .25, .125, .12, .01};
     for (double p = 0.5; p < 4; p += 0.5)
         for (int kind = 0; kind < 2; kind++) {
@@ -401,9 +357,8 @@ static void test_values(void **state)
 }
 
 /* Differences that fall or grow faster than any order: nothing is said of them. */
-static void test_steep_values(void **state)
+TEST(test_steep_values)
 {
-    (void)state;
     struct found f;
     find(&f,
          "h,u\n1,0\n.5,1e300\n.25,1\n.125,2\n.0625,3\n.03125,1e300\n.015625,0\n"
@@ -429,9 +384,8 @@ static void refuse_expectation(const char *text, const char *message)
     free(e);
 }
 
-static void test_grammar(void **state)
+TEST(test_grammar)
 {
-    (void)state;
     struct br_order_expectation *e = NULL;
     size_t count = 0;
     struct br_error err = {0};
@@ -491,9 +445,8 @@ static enum br_verdict verdict_of(const char *table, const char *values, const c
     return verdict;
 }
 
-static void test_verdicts(void **state)
+TEST(test_verdicts)
 {
-    (void)state;
     char reason[768];
     assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 2 +- 0.1", NULL), BR_PASS);
     assert_int_equal(verdict_of(table_of(5, 0, 2, 0), NULL, "l2: h 3 +- 0.1", NULL), BR_FAIL);
@@ -524,9 +477,8 @@ static void test_verdicts(void **state)
                      BR_PASS);
 }
 
-static void test_unknown_expectations(void **state)
+TEST(test_unknown_expectations)
 {
-    (void)state;
     static const struct {
         const char *expected, *message;
     } rows[] = {
@@ -549,9 +501,8 @@ static void test_unknown_expectations(void **state)
 }
 
 /* Errors with noise, of any order and constant; the band does not hold the order. */
-static void test_wrong_orders_never_pass(void **state)
+TEST(test_wrong_orders_never_pass)
 {
-    (void)state;
     struct br_test_random random = {7};
     for (int i = 0; i < 300; i++) {
         char text[1024], expected[64];
@@ -591,9 +542,8 @@ static const char *const full = "title: a study\n"
                                 "  l2: h 2 +- 0.1, k 1 +- 0.1\n"
                                 "  drag: h 2 +- 0.2 down to 1e-9\n";
 
-static void test_study_file(void **state)
+TEST(test_study_file)
 {
-    (void)state;
     struct br_orders_request r;
     struct br_error err = {0};
     MUST(br_orders_request_read("s.yaml", full, &r, &err));
@@ -629,9 +579,8 @@ static void test_study_file(void **state)
     }
 }
 
-static void test_study_table(void **state)
+TEST(test_study_table)
 {
-    (void)state;
     const char *path = br_test_scene_file("h,l2\n1,3\n.5,x\n.25,1\n");
     char text[4096], message[4200];
     struct br_orders_request r;
@@ -655,56 +604,24 @@ static void test_study_table(void **state)
     br_orders_request_clear(&r);
 }
 
-static void test_refused_studies(void **state)
+static void refuse_study(char *row)
 {
-    (void)state;
-    static const struct {
-        const char *text, *message;
-    } rows[] = {
-        {"", "s.yaml:1: study: expected a mapping"},
-        {"- a\n", "s.yaml:1: study: expected a mapping"},
-        {"title: a\n", "s.yaml:1: study: expected 'run' or 'table', one of the two"},
-        {"run: a\ntable: /dev/null\n", "study: expected 'run' or 'table', one of the two"},
-        {"run: a\n", "s.yaml:1: read: missing, expected what is read of the output"},
-        {"run: a\nreed: {}\n",
-         "s.yaml:2: reed: unknown key, expected one of: title, run, table, n"},
-        {"run: a\nrun: b\n", "s.yaml:2: run: is given twice"},
-        {"run: [a]\n", "s.yaml:1: run: expected one text"},
-        {"run: a\nread: x\n", "s.yaml:2: read: expected names with a text each"},
-        {"run: a\nread: {a: [b]}\n", "s.yaml:2: read: expected names with a text each"},
-        {"run: a\nread:\n  a: b\n  a: c\n", "a"},
-        {"run: a\nn: 1, x\n", "s.yaml:2: n: n: found 'x', expected positive numbers"},
-        {"run: a\nn: 1, 2\nh: 1, 2\n", "s.yaml:3: h: n and h are given, expected one of the two"},
-        {"run: a\ndimension: -1\n", "s.yaml:2: dimension: found '-1', expected a number above 0"},
-        {"run: a\nformal_order: x\n", "s.yaml:2: formal_order: found 'x', expected a number above"},
-        {"run: a\nformal_order: 40\n",
-         "s.yaml:2: formal_order: found '40', expected an order from"},
-        {"run: a\ntime_limit: 60\n",
-         "s.yaml:2: time_limit: found '60', expected a number above 0 and its unit, s"},
-        {"table: /nowhere/t.csv\n", "s.yaml:1: table: /nowhere/t.csv: No such file"},
-        {"table: /dev/null\nn: 1, 2\n", "n: is given beside 'table', expected beside 'run' only"},
-        {"table: /dev/null\nread: {a: b}\n", "read: is given beside 'table'"},
-        {"table: /dev/null\ntime_limit: 1 s\n", "time_limit: is given beside 'table'"},
-        {"run: a\nverify:\n  l2: h 2 + 1\n", "s.yaml:3: verify: found '+ 1', expected '+-'"},
-        {"run: a\nverify:\n  l2: h 2 +- 1\n  'l2 ': h 2 +- 1\n",
-         "s.yaml:4: verify: the order of l2 in h is given twice"},
-        {"run: a\nverify: l2\n", "s.yaml:2: verify: expected names with a text each"},
-        {"run: a\n  n: {", "s.yaml:2"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_orders_request r;
-        struct br_error err = {0};
-        REFUSED(br_orders_request_read("s.yaml", rows[i].text, &r, &err), BR_BAD_INPUT,
-                rows[i].message);
-        assert_non_null(strstr(err.message, "s.yaml"));
-        br_orders_request_clear(&r);
-    }
+    struct br_orders_request r;
+    struct br_error err = {0};
+    const char *message = br_test_part(row), *text = br_test_unescape(row);
+    REFUSED(br_orders_request_read("s.yaml", text, &r, &err), BR_BAD_INPUT, message);
+    assert_non_null(strstr(err.message, "s.yaml"));
+    br_orders_request_clear(&r);
+}
+
+TEST(test_refused_studies)
+{
+    br_test_rows("files of studies", refuse_study);
 }
 
 /* A text that is cut would be another expectation. */
-static void test_long_expectation(void **state)
+TEST(test_long_expectation)
 {
-    (void)state;
     char text[3000];
     struct br_orders_request r;
     struct br_error err = {0};
@@ -714,9 +631,8 @@ static void test_long_expectation(void **state)
     br_orders_request_clear(&r);
 }
 
-static void test_is_study_file(void **state)
+TEST(test_is_study_file)
 {
-    (void)state;
     char **names, path[1200];
     size_t count = 0;
     struct br_error err = {0};
@@ -751,9 +667,8 @@ static void problem_of(const char *from, const char *to, char problem[40])
     br_orders_request_clear(&r);
 }
 
-static void test_problems(void **state)
+TEST(test_problems)
 {
-    (void)state;
     static const char *const others[][2] = {
         {"l2={n}", "l2={k}"},
         {"json:/drag", "json:/lift"},
@@ -796,9 +711,8 @@ static void refuse_run(const char *readings, const char *lists, const char *mess
     br_orders_request_clear(&r);
 }
 
-static void test_readings(void **state)
+TEST(test_readings)
 {
-    (void)state;
     refuse_run("a: a=([^ ]*)", "value: b\n", "s.yaml: --value: nothing of the name 'b' is read");
     refuse_run("a: a=([^ ]*)", "error: b\n", "s.yaml: --error: nothing of the name 'b' is read");
     refuse_run("a: a=([^ ]*)", "error: a\nvalue: a\n", "'a' is given as an error and as a value");
@@ -836,9 +750,8 @@ static enum br_status whole_study(const void *text, struct br_error *err)
     return status;
 }
 
-static void test_without_memory(void **state)
+TEST(test_without_memory)
 {
-    (void)state;
     static const char *const csv = "h,k,l2,u\n1,1,2,4\n1,.5,1.5,2\n1,.25,1.2,1.5\n.5,1,1.3,1\n"
                                    ".5,.5,.7,1\n.5,.25,.5,1\n.25,1,1.1,1\n.25,.5,.6,1\n"
                                    ".25,.25,.3,1\n.125,1,1,1\n.125,.5,.5,1\n.125,.25,.25,1\n";
@@ -848,35 +761,4 @@ static void test_without_memory(void **state)
                            "{\"h\":0.25,\"l2\":0.1,\"u\":3}\n",
                            10);
     br_test_without_memory(whole_study, full, 7);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_formats),
-        cmocka_unit_test(test_names_and_units),
-        cmocka_unit_test(test_resolutions),
-        cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_refused_tables),
-        cmocka_unit_test(test_lines),
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_lines_are_sorted),
-        cmocka_unit_test(test_tied),
-        cmocka_unit_test(test_floors),
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_steep_values),
-        cmocka_unit_test(test_grammar),
-        cmocka_unit_test(test_verdicts),
-        cmocka_unit_test(test_unknown_expectations),
-        cmocka_unit_test(test_wrong_orders_never_pass),
-        cmocka_unit_test(test_study_file),
-        cmocka_unit_test(test_study_table),
-        cmocka_unit_test(test_refused_studies),
-        cmocka_unit_test(test_long_expectation),
-        cmocka_unit_test(test_is_study_file),
-        cmocka_unit_test(test_problems),
-        cmocka_unit_test(test_readings),
-        cmocka_unit_test(test_without_memory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -45,9 +45,8 @@ static double tolerance_of(const struct br_linear_solver *s, const struct br_fie
 
 /* A uniform load: nodal values of the exact solution, u = f x (2L - x) / (2a) and
  * w = f x^2 (6L^2 - 4Lx + x^2) / (24a). */
-static void test_uniform_load(void **state)
+TEST(test_uniform_load)
 {
-    (void)state;
     const struct br_function f = {.constant = 8};
     const double length = 2.5;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
@@ -84,9 +83,8 @@ static double compliance_of(const struct br_linear_solver *s, const struct br_fi
  *     z = tanh(y) / (b s),                               b^2 = rho/(k s), y = bL, s = c + ka
  *     z = 2b/f (sinh 2y - sin 2y)/2 / (cosh^2 y + cos^2 y),  4b^4 = f/s, f = rho/k
  * (Hetenyi 1946). The discrete one converges like h^2, and like h^4. */
-static void test_dynamic_compliance(void **state)
+TEST(test_dynamic_compliance)
 {
-    (void)state;
     const double length = 1.5, foundation = 50 / 0.01, s = 0.3 + 0.01 * 20;
     const double b = sqrt(foundation / s), rod = tanh(b * length) / (b * s);
     const double beta = pow(foundation / s / 4, 0.25), y = beta * length;
@@ -110,9 +108,8 @@ static void test_dynamic_compliance(void **state)
 }
 
 /* A rigid motion has no curvature, to the last bit where it is a binary number. */
-static void test_rigid_motion(void **state)
+TEST(test_rigid_motion)
 {
-    (void)state;
     double curvature[2];
     br_curvature((const double[]){0.75, 0.5, 1.25, 0.5}, curvature);
     assert_true(curvature[0] == 0 && curvature[1] == 0);
@@ -134,9 +131,8 @@ static void assert_same_bits(const struct br_march *a, const struct br_march *b,
 }
 
 /* The transverse load turned round: the solution turned round, to the last bit. */
-static void test_mirrored(void **state)
+TEST(test_mirrored)
 {
-    (void)state;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         for (size_t rule = 0; br_friction_rules[rule]; rule++) {
             struct br_method method = br_method_default();
@@ -222,16 +218,14 @@ static void check_creep(const struct br_linear_solver *solver)
     br_march_free(march);
 }
 
-static void test_creep(void **state)
+TEST(test_creep)
 {
-    (void)state;
     for (size_t i = 0; br_linear_solvers[i]; i++)
         check_creep(br_linear_solvers[i]);
 }
 
-static void test_not_finite(void **state)
+TEST(test_not_finite)
 {
-    (void)state;
     struct br_scene scene = creeping_scene();
     scene.bending.tip_moment = br_test_function("1/(1-t)");
     const struct br_method method = br_method_default();
@@ -240,14 +234,4 @@ static void test_not_finite(void **state)
     REFUSED(br_march_step(march, &err), BR_NOT_FINITE, "the tip moment is inf at t = 1 s");
     br_march_free(march);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_uniform_load), cmocka_unit_test(test_dynamic_compliance),
-        cmocka_unit_test(test_rigid_motion), cmocka_unit_test(test_mirrored),
-        cmocka_unit_test(test_creep),        cmocka_unit_test(test_not_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

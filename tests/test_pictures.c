@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* `figures`, and the pictures of `run`, as a user sees them. */
+/* `figures`, and the pictures of `run`, where there is gnuplot; see also data/gnuplot.txt. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,9 +30,8 @@ static bool is_silent(const char *folder, const char *script)
     return pclose(pipe) == 0 && silent && !strstr(said, "arning");
 }
 
-static void test_figures(void **state)
+TEST(test_figures)
 {
-    (void)state;
     cli_expect("figures --out figures", NULL, 0, "11 agree, 5 differ, 0 undecided");
     for (const struct br_paper_figure *f = br_paper_figures; f->number; f++) {
         char name[64];
@@ -45,42 +44,6 @@ static void test_figures(void **state)
         snprintf(name, sizeof name, "figure%d.gp", f->number);
         assert_true(!has_gnuplot() || is_silent("figures", name));
     }
-}
-
-static void test_without_gnuplot(void **state)
-{
-    (void)state;
-    const struct cli_circumstances nowhere = {.path = "/nowhere"};
-    cli_expect("run example2 --animate x.mp4", &nowhere, 2,
-               "needs ffmpeg, and it is not installed");
-    cli_expect("run example2 --n 10 --k 0.1 --quiet --animate bare.gif", &nowhere, 0,
-               "gnuplot is not installed: the animation is written as a script");
-    assert_true(cli_is_there("bare.gp") && cli_is_there("bare.dat"));
-    assert_false(cli_is_there("bare.gif"));
-    cli_expect("run initial_data --n 2 --k 0.1 --axial-degree 2 --quiet --animate two.gif",
-               &nowhere, 0, "");
-    assert_true(cli_file_contains("two.dat", "\n1 0.0833333333 ") &&
-                cli_file_contains("two.dat", "\n2 0.133333333 "));
-    cli_expect("run example2 --n 10 --k 0.1 --quiet --plot", &nowhere, 0,
-               "gnuplot is not installed: --plot shows nothing");
-}
-
-static void test_bad_options(void **state)
-{
-    (void)state;
-    cli_expect("figures here", NULL, 2, "found 'here', expected nothing more");
-    cli_expect("figures --threads x", NULL, 2, "--threads: found 'x'");
-    cli_expect("figures --out ''", NULL, 2, "expected a folder's name");
-    cli_expect("figures --help", NULL, 0, "Usage: beamrate figures [");
-    cli_expect("run example2 --animate x.avi", NULL, 2,
-               "--animate: found 'x.avi', expected a name that ends with: .gif");
-    cli_expect("run example2 --animate no%d.gif", NULL, 2, "expected a file's name");
-    cli_expect("run example2 --n 20001 --animate x.gif", NULL, 2,
-               "n is 20001, expected at most 20000");
-    cli_write_file("wall", "");
-    cli_expect("run example2 --animate wall/x.gif", NULL, 2,
-               "--animate cannot make the folder wall");
-    assert_false(cli_is_there("x.mp4"));
 }
 
 /* The frames of a GIF: image descriptors, found by walking its blocks (GIF89a). */
@@ -111,9 +74,8 @@ static int gif_frames(const char *name)
     return frames;
 }
 
-static void test_animation(void **state)
+TEST(test_animation)
 {
-    (void)state;
     if (!has_gnuplot())
         return; /* not skip(): it counts as a failure for who reads TAP */
     /* 50 steps: every one, and t = 0 */
@@ -137,39 +99,12 @@ static void test_animation(void **state)
     assert_false(cli_is_there("full.gif") || cli_is_there("full.gp"));
 }
 
-static void test_plot(void **state)
+TEST(test_plot)
 {
-    (void)state;
     if (!has_gnuplot())
         return; /* not skip(): it counts as a failure for who reads TAP */
     cli_expect("run example4 --n 10 --plot", NULL, 0, "friction force and its bound (N)");
     cli_expect("run example3 --n 10 --plot", NULL, 0, "vertical displacement of the tip");
 }
 
-/* A gnuplot of our own; what it says is shown, and no file is left behind. */
-static void test_letters(void **state)
-{
-    (void)state;
-    char path[512];
-    cli_write_file("gnuplot", "#!/bin/sh\ngrep -c 'set terminal dumb'\necho letters\n");
-    cli_path("gnuplot", path);
-    assert_int_equal(chmod(path, 0700), 0);
-    cli_path("moment", path);
-    assert_int_equal(mkdir(path, 0777), 0);
-    assert_int_equal(setenv("TMPDIR", path, 1), 0);
-    snprintf(path, sizeof path, "%s:/usr/bin:/bin", cli_folder());
-    cli_expect("run example4 --n 10 --k 0.1 --plot", &(struct cli_circumstances){.path = path}, 0,
-               "1\nletters\n");
-    assert_int_equal(cli_count_files("moment"), 0);
-    assert_int_equal(unsetenv("TMPDIR"), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figures),     cmocka_unit_test(test_without_gnuplot),
-        cmocka_unit_test(test_bad_options), cmocka_unit_test(test_animation),
-        cmocka_unit_test(test_plot),        cmocka_unit_test(test_letters),
-    };
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

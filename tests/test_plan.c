@@ -38,9 +38,8 @@ static struct br_plan_model made_model(const struct made *m)
 }
 
 /* The parts, their orders and r are found, between the trials and beyond. */
-static void test_error_model(void **state)
+TEST(test_error_model)
 {
-    (void)state;
     static const struct made all[] = {{2, 1, 0}, {2, 2, 0.5}, {3, 1, -0.5}, {4, 2, 0.8}};
     static const double at[][2] = {{50, 30}, {200, 100}, {15, 250}, {5000, 500}};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
@@ -62,9 +61,8 @@ static void test_error_model(void **state)
 }
 
 /* What was tried is known, though the model leaves it over; farther away it has no say. */
-static void test_residuals(void **state)
+TEST(test_residuals)
 {
-    (void)state;
     const struct made smooth = {2, 2, 0};
     struct br_plan_point point[MESHES * STEPS];
     struct br_error err = {0};
@@ -87,9 +85,8 @@ static void test_residuals(void **state)
     br_plan_model_clear(&model);
 }
 
-static void test_cost_model(void **state)
+TEST(test_cost_model)
 {
-    (void)state;
     static const double c[BR_PLAN_COSTS] = {4e-5, 2e-8, 1.3e-6, 2e-9};
     struct br_plan_work work[MESHES * STEPS];
     struct br_plan_cost cost;
@@ -185,9 +182,8 @@ static double exhaustive(const struct br_plan *plan, double most)
 
 /* At most E, not less than E/3, and at most twice the work of the best of a fine grid. By default
  * each scene to one of the errors. */
-static void test_promise(void **state)
+TEST(test_promise)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     static const double errors[] = {1e-3, 1e-5};
     for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++)
@@ -216,9 +212,8 @@ static void test_promise(void **state)
 }
 
 /* The least error within some work: more work never is worse. */
-static void test_seconds(void **state)
+TEST(test_seconds)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     static const double seconds[] = {1e-4, 2e-3};
@@ -235,9 +230,8 @@ static void test_seconds(void **state)
 }
 
 /* The coarsest mesh does, and says so. */
-static void test_coarsest(void **state)
+TEST(test_coarsest)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example3");
     struct br_plan *plan = new_plan(&scene, 0.9, NAN);
@@ -249,9 +243,8 @@ static void test_coarsest(void **state)
 }
 
 /* A judge whose own error depends on the mesh is asked where it is best. */
-static void test_own_error(void **state)
+TEST(test_own_error)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("mms_slip");
     struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
@@ -262,9 +255,8 @@ static void test_own_error(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     static const struct {
         double error, seconds;
         const char *message;
@@ -287,15 +279,4 @@ static void test_refused(void **state)
         drop(plan);
     }
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_error_model), cmocka_unit_test(test_residuals),
-        cmocka_unit_test(test_cost_model),  cmocka_unit_test(test_promise),
-        cmocka_unit_test(test_seconds),     cmocka_unit_test(test_coarsest),
-        cmocka_unit_test(test_own_error),   cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

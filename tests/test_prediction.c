@@ -111,9 +111,8 @@ static struct tally measure_bundled(double budget, const char *what)
 }
 
 /* The interval is honest: what is stated as the most is more. */
-static void test_bundled(void **state)
+TEST(test_bundled)
 {
-    (void)state;
     const struct tally t = measure_bundled(0, "bundled scenes");
     assert_true(t.all >= (br_test_quick() ? 10 : 60));
     AT_MOST(0.95 * t.all, t.known);
@@ -124,9 +123,8 @@ static void test_bundled(void **state)
 }
 
 /* The same where the run itself is too dear to be marched beforehand. */
-static void test_extrapolated(void **state)
+TEST(test_extrapolated)
 {
-    (void)state;
     const struct tally t = measure_bundled(1e6, "bundled scenes, extrapolated");
     assert_true(t.all >= (br_test_quick() ? 10 : 60));
     AT_MOST(0.85 * t.all, t.known);
@@ -169,9 +167,8 @@ static struct br_scene draw(struct br_test_random *r)
     return s;
 }
 
-static void test_random(void **state)
+TEST(test_random)
 {
-    (void)state;
     enum { SCENES = 30 };
     static const char *const methods[] = {"euler+lagged", "euler+implicit", "bdf2", "trbdf2",
                                           "esdirk3"};
@@ -207,9 +204,8 @@ static void test_random(void **state)
 
 /* What dies away in a hundredth of a step, and leaves the tip elsewhere: equal steps that are 16
  * times smaller do not see it either. */
-static void test_layer(void **state)
+TEST(test_layer)
 {
-    (void)state;
     static const char text[] = "title: A blow against viscosity\nlength: 1 m\nduration: 1 s\n"
                                "density: 1 kg/m\nbending:\n  stiffness: 0.001 N m^2\n"
                                "  viscosity: 200 N m^2 s\n  velocity: 0.01*x^2 [m/s]\n"
@@ -241,9 +237,8 @@ static struct br_prediction predict(const struct br_scene *scene, const struct b
     return p;
 }
 
-static void test_inaccurate(void **state)
+TEST(test_inaccurate)
 {
-    (void)state;
     struct br_scene s = br_test_bundled("example4");
     const struct br_method method = br_method_default();
     struct br_prediction p = predict(&s, &method, 100, 1);
@@ -263,9 +258,8 @@ static void test_inaccurate(void **state)
 
 /* A solution that is zero is zero; beyond its limit a lagged contact has no error that is known,
  * nor has a march that steps over a blow. */
-static void test_not_known(void **state)
+TEST(test_not_known)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     struct br_method method = br_method_default();
     struct br_prediction p = predict(&s, &method, 10, 10);
@@ -306,9 +300,8 @@ static struct br_warnings warnings_of(const struct br_scene *scene, const struct
 }
 
 /* What is not known is said to be so, with the reason. */
-static void test_says_unknown(void **state)
+TEST(test_says_unknown)
 {
-    (void)state;
     struct br_scene s = br_test_bundled("example2");
     const struct br_method method = br_method_default();
     s.contact.stiffness = 1e9;
@@ -320,9 +313,8 @@ static void test_says_unknown(void **state)
     br_scene_clear(&s);
 }
 
-static void test_warnings(void **state)
+TEST(test_warnings)
 {
-    (void)state;
     struct br_scene s = br_test_bundled("example2");
     struct br_method method = br_method_default();
     struct br_warnings w = warnings_of(&s, &method, 100, 1000);
@@ -344,9 +336,8 @@ static void test_warnings(void **state)
 }
 
 /* A blow of 2 ms at 0.4567 s: steps of 10 ms may see it or not, those of 0.1 ms do. */
-static void test_blow(void **state)
+TEST(test_blow)
 {
-    (void)state;
     struct br_scene s = br_test_bare();
     const struct br_method method = br_method_default();
     s.bending.modelled = false;
@@ -376,9 +367,8 @@ static void test_blow(void **state)
 }
 
 /* However short it is, wherever it is, and however many steps there are; its share of all. */
-static void test_short_blows(void **state)
+TEST(test_short_blows)
 {
-    (void)state;
     static const struct {
         const char *load;
         size_t steps;
@@ -438,9 +428,8 @@ static struct br_prediction told(const char *text, struct br_warnings *w)
 }
 
 /* What no march of a prediction sees makes it not known, with that reason. */
-static void test_unseen(void **state)
+TEST(test_unseen)
 {
-    (void)state;
     static const struct {
         const char *text, *why;
         enum br_warning_kind kind;
@@ -464,9 +453,8 @@ static void test_unseen(void **state)
 
 /* A layer at the tip that is far narrower than any element: what it moves grows with each finer
  * mesh. By the exact solutions, L2, relative to the largest. */
-static void test_thin_layers(void **state)
+TEST(test_thin_layers)
 {
-    (void)state;
     static const struct {
         const char *text;
         size_t n, steps;
@@ -504,9 +492,8 @@ static void test_thin_layers(void **state)
 /* Uzawa's iteration stops at 1e-10 of the bound at each step; the tip, which ought to stick, creeps
  * by that. Over 1208 steps it is 1.3e-3 of what this stiff beam bends, and the steps' own error is
  * far smaller. */
-static void test_iteration(void **state)
+TEST(test_iteration)
 {
-    (void)state;
     static const char text[] =
         "title: t\nlength: 0.2 m\nduration: 1 s\ndensity: 0 kg/m\nbending:\n"
         "  stiffness: 3000 N m^2\n  viscosity: 0 N m^2 s\n"
@@ -527,9 +514,8 @@ static void test_iteration(void **state)
 
 /* A beam that is let go bent vibrates a hundred times within any step, and its tip slips meanwhile:
  * no march sees it. */
-static void test_unseen_start(void **state)
+TEST(test_unseen_start)
 {
-    (void)state;
     static const char text[] =
         "title: t\nlength: 0.3 m\nduration: 1 s\ndensity: 0.04 kg/m\nbending:\n"
         "  stiffness: 400 N m^2\n  viscosity: 0.003 N m^2 s\n  tip_force: -1000 [N]\n"
@@ -550,9 +536,8 @@ static void test_unseen_start(void **state)
 /* A beam without mass and viscosity follows its load at once. The load just tops the bound at t =
  * 0, less than a hundredth of T: steps that do not see that slip agree among themselves, and are
  * off by 3.9e-4. Nor do loads that top it between two steps escape. */
-static void test_followers(void **state)
+TEST(test_followers)
 {
-    (void)state;
     static const char *const texts[] = {
         "tip_force: 0.007 [N]\n  tip_moment: 0.02*(t^3 - 2*t^2) [N m]\nfriction:\n"
         "  law: tresca\n  bound: 0.006994069305199177 N\n",
@@ -596,9 +581,8 @@ static void test_followers(void **state)
 }
 
 /* Of each kind the first is kept, the others are counted. */
-static void test_list(void **state)
+TEST(test_list)
 {
-    (void)state;
     struct br_warnings w = {0};
     br_warn(&w, BR_WARN_LONG, NULL, "%d days", 3);
     br_warn(&w, BR_WARN_UNSTABLE, "less", "grows");
@@ -611,19 +595,4 @@ static void test_list(void **state)
     assert_null(br_warnings_find(&w, BR_WARN_ROUND_OFF));
     for (int kind = 0; kind < BR_WARNINGS; kind++)
         assert_non_null(br_warning_words[kind]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bundled),      cmocka_unit_test(test_random),
-        cmocka_unit_test(test_inaccurate),   cmocka_unit_test(test_not_known),
-        cmocka_unit_test(test_warnings),     cmocka_unit_test(test_list),
-        cmocka_unit_test(test_blow),         cmocka_unit_test(test_short_blows),
-        cmocka_unit_test(test_layer),        cmocka_unit_test(test_extrapolated),
-        cmocka_unit_test(test_says_unknown), cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_thin_layers),  cmocka_unit_test(test_iteration),
-        cmocka_unit_test(test_unseen_start), cmocka_unit_test(test_followers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,9 +15,8 @@ static enum br_status read_text(const char *text, struct br_printed *printed, st
     return br_printed_read(br_test_scene_file(text), printed, err);
 }
 
-static void test_good(void **state)
+TEST(test_good)
 {
-    (void)state;
     struct br_error err;
     struct br_printed p;
     MUST(read_text("n,k,error\n100,0.01,5.042e-3\n200,1e-4,3.5E-6\r\n7,2,8", &p, &err));
@@ -39,9 +38,8 @@ static void test_good(void **state)
     br_printed_clear(&p);
 }
 
-static void test_bad_lines(void **state)
+TEST(test_bad_lines)
 {
-    (void)state;
     static const char *const lines[] = {
         "",
         "100",
@@ -79,9 +77,8 @@ static void test_bad_lines(void **state)
     }
 }
 
-static void test_bad_files(void **state)
+TEST(test_bad_files)
 {
-    (void)state;
     static const char *const headings[][2] = {
         {"100,0.01,5e-3\n", ":1: found '100,0.01,5e-3'"},
         {"n,h,error\n", ":1: found 'n,h,error'"},
@@ -111,9 +108,8 @@ static void test_bad_files(void **state)
 }
 
 /* A line longer than the buffer must not be cut into two that look right. */
-static void test_long_line(void **state)
+TEST(test_long_line)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_printed p;
     char text[1024] = "n,k,error\n100,0.01,0.";
@@ -125,9 +121,8 @@ static void test_long_line(void **state)
 }
 
 /* The paper's: 36 cells each, and their first. */
-static void test_the_paper(void **state)
+TEST(test_the_paper)
 {
-    (void)state;
     static const char *const files[] = {"reference/printed/table1.csv",
                                         "reference/printed/table2.csv"};
     static const double first[] = {5.042e-3, 1.522e-2};
@@ -145,14 +140,4 @@ static void test_the_paper(void **state)
         CLOSE(br_printed_error(&p, 100, 0.01), first[i], 0);
         br_printed_clear(&p);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good),      cmocka_unit_test(test_bad_lines),
-        cmocka_unit_test(test_bad_files), cmocka_unit_test(test_long_line),
-        cmocka_unit_test(test_the_paper),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,7 +14,13 @@
 #include "study/run/run.h"
 #include "tables/fields_file.h"
 #include "tables/reports.h"
-#include "tests/document_reader.h"
+#include "tests/support.h"
+
+/* A column with the number, count or truth (0, 1) that belongs in it; NAN: nothing does. */
+struct expected {
+    const char *key;
+    double value;
+};
 
 /* As it is printed: with six digits at least. */
 static void is(const char *where, const char *key, double found, double expected)
@@ -123,6 +129,7 @@ static char *read_file(const struct watched *w, const char *name)
 /* What the test program does as the command does it: rows and fields go to files as they come. */
 static void march_and_write(struct watched *w)
 {
+    const struct br_provenance provenance = {.version = "1", .commit = "c"};
     struct br_error err = {0};
     char path[64];
     const struct br_history_observer output[] = {
@@ -147,8 +154,8 @@ static void march_and_write(struct watched *w)
     br_history_csv_head(w->history);
     for (size_t f = 0; br_fields_formats[f]; f++) {
         path_of(w, br_fields_formats[f]->file_name, path);
-        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,           STEPS,
-                                                 LOOKS, 1,         &br_made_provenance};
+        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
+                                                 LOOKS, 1,         &provenance};
         MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
     }
     MUST(br_run(&request, &w->report, &err));
@@ -177,9 +184,9 @@ static int tear_down(void **state)
     return system(command);
 }
 
-static void history_is_printed(void **state)
+TEST(history_is_printed)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     char *text = read_file(w, "history.csv"), *rest = text, *head = next_line(&rest);
     assert_int_equal(w->record.rows, STEPS + 1);
     for (size_t i = 0; i < w->record.rows; i++) {
@@ -209,9 +216,9 @@ static double field_value(const struct watched *w, size_t look, size_t node, con
 }
 
 /* The rows' tip is that of the fields. */
-static void tip_is_the_last_node(void **state)
+TEST(tip_is_the_last_node)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     for (size_t look = 0; look < LOOKS; look++) {
         const struct br_history_row *row = &w->record.row[levels[look]];
         is("row", "u", row->displacement[BR_AXIAL], field_value(w, look, ELEMENTS, "u"));
@@ -221,9 +228,9 @@ static void tip_is_the_last_node(void **state)
     }
 }
 
-static void fields_are_printed(void **state)
+TEST(fields_are_printed)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     char *text = read_file(w, "fields.csv"), *rest = text, *head = next_line(&rest);
     for (size_t look = 0; look < LOOKS; look++)
         for (size_t node = 0; node <= ELEMENTS; node++) {
@@ -263,9 +270,9 @@ static void check_axes(hid_t file, const char *name)
     H5Dclose(set);
 }
 
-static void fields_are_in_hdf5(void **state)
+TEST(fields_are_in_hdf5)
 {
-    const struct watched *w = *state;
+    const struct watched *w = *fixture;
     double x[ELEMENTS + 1], t[LOOKS], values[LOOKS][ELEMENTS + 1];
     char path[64];
     path_of(w, "fields.h5", path);
@@ -289,15 +296,34 @@ static void fields_are_in_hdf5(void **state)
 }
 #endif
 
-int main(void)
+/* Of quadratic elements the fields have the middles, of others not. */
+TEST(middles_are_fields)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(history_is_printed),
-        cmocka_unit_test(tip_is_the_last_node),
-        cmocka_unit_test(fields_are_printed),
-#ifdef BR_HAVE_HDF5
-        cmocka_unit_test(fields_are_in_hdf5),
-#endif
-    };
-    return cmocka_run_group_tests_name("printed_values", tests, set_up, tear_down);
+    enum { N = 3, NODES = N + 1 };
+    struct br_scene scene = br_test_bare();
+    struct br_method method = br_method_default();
+    scene.axial.displacement = br_test_function("x*(2 - x)");
+    scene.axial.velocity = br_test_function("x^2");
+    assert_int_equal(br_field_variable_count(1), 6);
+    assert_int_equal(br_field_variable_count(2), 8);
+    for (int degree = 1; degree <= 2; degree++) {
+        double values[BR_FIELD_VARIABLES * NODES], work[4 * NODES];
+        method.axial_degree = degree;
+        struct br_march *march = br_test_march(&scene, N, 1, &method);
+        br_field_values(march, values, work);
+        for (size_t i = 1; i < NODES; i++) {
+            const double x = (double)i / N, middle = x - 0.5 / N;
+            CLOSE(values[i], x * (2 - x), 1e-15);
+            CLOSE(values[NODES + i], x * x, 1e-15);
+            if (degree == 2) {
+                CLOSE(values[6 * NODES + i], middle * (2 - middle), 1e-15);
+                CLOSE(values[7 * NODES + i], middle * middle, 1e-15);
+            }
+        }
+        assert_true(degree == 1 || isnan(values[6 * NODES]));
+        br_march_free(march);
+    }
+    br_scene_clear(&scene);
 }
+
+AROUND_TESTS(set_up, tear_down)

@@ -107,9 +107,8 @@ static struct br_orders_request on_grid(int jobs)
     return p;
 }
 
-static void test_grid(void **state)
+TEST(test_grid)
 {
-    (void)state;
     static const double n[] = {4, 4, 8, 8, 16, 16}, k[] = {0.1, 0.05, 0.1, 0.05, 0.1, 0.05};
     for (int jobs = 1; jobs <= 4; jobs += 3) {
         const struct br_orders_request p = on_grid(jobs);
@@ -132,9 +131,8 @@ static void test_grid(void **state)
 }
 
 /* Each waits for the others. */
-static void test_at_once(void **state)
+TEST(test_at_once)
 {
-    (void)state;
 #ifdef _OPENMP
     write_script("meet", "touch $0.$1\n"
                          "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
@@ -148,9 +146,8 @@ static void test_at_once(void **state)
 #endif
 }
 
-static void test_unknowns(void **state)
+TEST(test_unknowns)
 {
-    (void)state;
     static const double list[] = {64, 8000};
     struct br_orders_request p = program("/usr/bin/printf 'err={dofs}\\n'");
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&unknowns, list, 2};
@@ -164,9 +161,8 @@ static void test_unknowns(void **state)
 }
 
 /* A program as another one sees it: words, folder, environment, input. */
-static void test_words(void **state)
+TEST(test_words)
 {
-    (void)state;
     static const double list[] = {1e6}, dt[] = {1.25e-7};
     write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
                           "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
@@ -193,9 +189,8 @@ static void test_words(void **state)
 }
 
 /* The language is there once, whatever the caller's is. */
-static void test_environment(void **state)
+TEST(test_environment)
 {
-    (void)state;
     static char language[] = "language";
     const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX};
     struct br_orders_request p = program("/usr/bin/env err={n}");
@@ -211,9 +206,8 @@ static void test_environment(void **state)
 }
 
 /* Without a folder to run in nothing is run, and nothing removed. */
-static void test_no_folder(void **state)
+TEST(test_no_folder)
 {
-    (void)state;
     struct br_orders_request p = program("true {n}");
     struct br_numbers numbers;
     struct br_error err;
@@ -234,9 +228,8 @@ static void test_no_folder(void **state)
 }
 
 /* A path with a slash is the caller's; a name is of PATH. */
-static void test_relative(void **state)
+TEST(test_relative)
 {
-    (void)state;
     char before[512];
     assert_non_null(getcwd(before, sizeof before));
     assert_int_equal(chdir(folder), 0);
@@ -253,9 +246,8 @@ static void test_relative(void **state)
 
 /* ---- what is refused ---- */
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"", "empty"},
         {"  ", "empty"},
@@ -294,9 +286,8 @@ static void test_refused(void **state)
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "cannot be run");
 }
 
-static void test_refused_lists(void **state)
+TEST(test_refused_lists)
 {
-    (void)state;
     static const char *const lists[][2] = {
         {"4,8,4", "n: 4 is given twice"},
         {"4,0,8", "expected positive numbers"},
@@ -329,9 +320,8 @@ static void test_refused_lists(void **state)
 
 /* ---- bad programs ---- */
 
-static void test_failures(void **state)
+TEST(test_failures)
 {
-    (void)state;
     static const struct {
         const char *script, *failure;
     } cases[] = {
@@ -371,9 +361,8 @@ static void test_failures(void **state)
 }
 
 /* Of what is long its end is shown, in at most 300 bytes, beginning with a whole character. */
-static void test_long_complaint(void **state)
+TEST(test_long_complaint)
 {
-    (void)state;
     write_script("long", "{ awk 'BEGIN { for (i = 0; i < 400; i++) printf \"\303\244\" }'\n"
                          "[ $1 = 8 ] && odd=x; echo; echo \"${odd}the reason\"; } >&2; exit 1");
     const struct br_orders_request p = program(command_of("long", "{n}"));
@@ -420,9 +409,8 @@ static void expect_dead(const char *name)
 
 /* The first obeys SIGTERM, the second and what it starts do not, the third leaves what it has
  * started; no child of theirs survives. */
-static void test_hanging(void **state)
+TEST(test_hanging)
 {
-    (void)state;
     write_script("hang", "[ $1 = 8 ] && trap '' TERM\n"
                          "sleep 60 & echo $! > $0.$1\n"
                          "echo before >&2\n"
@@ -448,9 +436,8 @@ static void test_hanging(void **state)
 
 /* ---- cost ---- */
 
-static void test_cost(void **state)
+TEST(test_cost)
 {
-    (void)state;
     write_script("cost", "case $1 in\n"
                          "4) sleep 0.3;;\n"
                          "8) awk 'BEGIN { for (i = 0; i < 4000000; i++) s += i }';;\n"
@@ -489,9 +476,8 @@ static void expect_run(struct br_orders_request *p, size_t runs, double factor)
     unlink(path_of("count.runs"));
 }
 
-static void test_kept(void **state)
+TEST(test_kept)
 {
-    (void)state;
     static const double four[] = {4, 8, 16, 32};
     write_script("count", counting);
     char kept[128];
@@ -519,9 +505,8 @@ static void test_kept(void **state)
 }
 
 /* A script that an interpreter runs counts, too, also behind a =. */
-static void test_kept_script(void **state)
+TEST(test_kept_script)
 {
-    (void)state;
     static const char *const forms[] = {
         "script {n}",
         "/bin/sh %s {n}",
@@ -570,9 +555,8 @@ static int spoil(const char *path, const struct stat *info, int type, struct FTW
 
 /* Failed cells are not kept, nor read those that are broken; a program that changes while it runs
  * is not kept under its old name. */
-static void test_not_kept(void **state)
+TEST(test_not_kept)
 {
-    (void)state;
     char kept[128];
     snprintf(kept, sizeof kept, "%s", path_of("kept-not"));
     write_script("count", counting);
@@ -608,9 +592,8 @@ static void test_not_kept(void **state)
 }
 
 /* The kernel tells no exit codes to those who ignore SIGCHLD. */
-static void test_unseen(void **state)
+TEST(test_unseen)
 {
-    (void)state;
     write_script("unseen", "echo err=1; exit 3");
     const struct br_orders_request p = program(command_of("unseen", "{n}"));
     struct br_numbers numbers;
@@ -622,9 +605,8 @@ static void test_unseen(void **state)
 }
 
 /* Studies that run beside each other with one folder of kept cells. */
-static void test_together(void **state)
+TEST(test_together)
 {
-    (void)state;
     char kept[128];
     snprintf(kept, sizeof kept, "%s", path_of("kept-together"));
     struct br_orders_request p = on_grid(1);
@@ -669,9 +651,8 @@ static void take_progress(void *self, double fraction)
     *last = fraction;
 }
 
-static void test_interrupted(void **state)
+TEST(test_interrupted)
 {
-    (void)state;
     double last = 0;
     const struct br_observer observer = {
         .progress = take_progress, .stop = has_started, .self = &last};
@@ -701,9 +682,8 @@ static void test_interrupted(void **state)
 
 /* ---- readings ---- */
 
-static void test_readings(void **state)
+TEST(test_readings)
 {
-    (void)state;
     enum { REGEX = BR_READING_REGEX, JSON = BR_READING_JSON, CSV = BR_READING_CSV };
     static const struct {
         int kind;
@@ -786,9 +766,8 @@ static void test_readings(void **state)
     }
 }
 
-static void test_refused_readings(void **state)
+TEST(test_refused_readings)
 {
-    (void)state;
     static const struct {
         struct br_reading reading;
         const char *message;
@@ -821,9 +800,8 @@ static enum br_status attempt(const void *data, struct br_error *err)
     return status;
 }
 
-static void test_without_memory(void **state)
+TEST(test_without_memory)
 {
-    (void)state;
     static const double list[] = {4};
     struct br_orders_request p = program("/usr/bin/printf '{{\"a\": {n}}'");
     const struct br_reading reading = {"a", "/a", BR_READING_JSON};
@@ -855,31 +833,4 @@ static int remove_folder(void **state)
     return nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_at_once),
-        cmocka_unit_test(test_unknowns),
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_relative),
-        cmocka_unit_test(test_environment),
-        cmocka_unit_test(test_no_folder),
-        cmocka_unit_test(test_together),
-        cmocka_unit_test(test_unseen),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_refused_lists),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_long_complaint),
-        cmocka_unit_test(test_hanging),
-        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_kept),
-        cmocka_unit_test(test_kept_script),
-        cmocka_unit_test(test_not_kept),
-        cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_readings),
-        cmocka_unit_test(test_refused_readings),
-        cmocka_unit_test(test_without_memory),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+AROUND_TESTS(make_folder, remove_folder)

@@ -56,9 +56,8 @@ static const struct {
     {"cosh(711*x)", 1},
 };
 
-static void test_poles(void **state)
+TEST(test_poles)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof poles / sizeof *poles; i++) {
         struct br_function f = br_test_function(poles[i].text);
         struct br_interval value;
@@ -115,9 +114,8 @@ static const struct {
 };
 
 /* ... and bounds of the values hold, and are as tight as is said. */
-static void test_finite(void **state)
+TEST(test_finite)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
         struct br_function f = br_test_function(sound[i].text);
         const double low = sound[i].low, high = sound[i].high, room = 0.06 * (high - low);
@@ -137,9 +135,8 @@ static void test_finite(void **state)
 }
 
 /* What nobody bounds, and what a budget does not reach. */
-static void test_unbounded(void **state)
+TEST(test_unbounded)
 {
-    (void)state;
     struct br_function f = br_test_function("1/(x^2 - 2*x*t + t^2 + 1e-9)");
     struct br_interval value;
     struct br_box where;
@@ -169,9 +166,8 @@ static enum br_status read_load(const char *load, struct br_scene *scene, struct
 }
 
 /* A scene with one is refused, with the place. */
-static void test_scene(void **state)
+TEST(test_scene)
 {
-    (void)state;
     static const struct {
         const char *load, *message;
     } rows[] = {
@@ -201,9 +197,8 @@ static void test_scene(void **state)
 
 /* Where a load bends at zero, its values there are the round-off of its argument, which may double
  * from one number to the next: that is no value alone. */
-static void test_bend_at_zero(void **state)
+TEST(test_bend_at_zero)
 {
-    (void)state;
     static const char *const bent[] = {"abs(x/%.9f - 0.25717)", "max(0, %.9f*t - 0.31)",
                                        "min(0, x/%.9f - 0.61)*sin(x)", "1e9*abs(t*%.9f - 0.2)^2"};
     struct br_test_random random = {3};
@@ -244,9 +239,8 @@ static const struct {
     {"(t > 0.5)*x", 1, {0.5}},
 };
 
-static void test_breaks(void **state)
+TEST(test_breaks)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof broken / sizeof *broken; i++) {
         struct br_function f = br_test_function(broken[i].text);
         struct br_breaks b = {0};
@@ -264,9 +258,8 @@ static void test_breaks(void **state)
 }
 
 /* A thousand, each the nearest number or beside it; too many are refused. */
-static void test_many_breaks(void **state)
+TEST(test_many_breaks)
 {
-    (void)state;
     struct br_function f = br_test_function("step(sin(1000*pi*t))");
     struct br_breaks b = {0};
     struct br_error err;
@@ -284,9 +277,8 @@ static void test_many_breaks(void **state)
     br_function_free(&f);
 }
 
-static void test_fronts(void **state)
+TEST(test_fronts)
 {
-    (void)state;
     static const struct {
         const char *text;
         bool complete;
@@ -382,9 +374,8 @@ static size_t check_mesh(const char *text, double tolerance)
     return count;
 }
 
-static void test_meshes(void **state)
+TEST(test_meshes)
 {
-    (void)state;
     AT_MOST((double)check_mesh("exp(t) - 1", 1e-9), 2);
     AT_MOST((double)check_mesh("step(t - 0.3)", 1e-9), 2);
     AT_MOST((double)check_mesh("sqrt(t)", 1e-9), 60);
@@ -396,9 +387,8 @@ static void test_meshes(void **state)
 }
 
 /* Blows of any width at any place are found. */
-static void test_blows(void **state)
+TEST(test_blows)
 {
-    (void)state;
     struct br_test_random r = {3};
     const size_t cases = br_test_long() ? 3000 : 150;
     for (size_t i = 0; i < cases; i++) {
@@ -414,9 +404,8 @@ static void test_blows(void **state)
 }
 
 /* For all x at once; and what cannot be resolved is refused. */
-static void test_both(void **state)
+TEST(test_both)
 {
-    (void)state;
     const struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-8};
     struct br_function f = br_test_function("sin(3*x)*cos(7*t)*exp(-x*t)");
     struct br_mesh m;
@@ -431,17 +420,4 @@ static void test_both(void **state)
     f = br_test_function("sin(1e7*t)");
     REFUSED(br_resolve(&f, BR_T, unit, &aim, &m, &err), BR_BAD_INPUT, "after 20000 pieces");
     br_function_free(&f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_poles),        cmocka_unit_test(test_finite),
-        cmocka_unit_test(test_unbounded),    cmocka_unit_test(test_scene),
-        cmocka_unit_test(test_bend_at_zero), cmocka_unit_test(test_breaks),
-        cmocka_unit_test(test_many_breaks),  cmocka_unit_test(test_fronts),
-        cmocka_unit_test(test_meshes),       cmocka_unit_test(test_blows),
-        cmocka_unit_test(test_both),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

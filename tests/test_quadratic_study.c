@@ -54,9 +54,8 @@ static void check_orders(const char *what, const char *norm, const double error[
 
 /* h^3 in L2, h^2 of the strain rate, and h^4 at the tip, where a Galerkin solution is better than
  * anywhere else. The velocity's L2 norm is that of a displacement over time: order 3, too. */
-static void test_orders_in_space(void **state)
+TEST(test_orders_in_space)
 {
-    (void)state;
     static const char *const scenes[] = {"mms_smooth", "mms_implicit", "initial_data", "example2"};
     static const size_t n[MESHES + 1] = {8, 16, 32, 64, 128};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
@@ -73,9 +72,8 @@ static void test_orders_in_space(void **state)
 
 /* Jointly, with k going as h^3, against the continuous problem: what converges is the right thing.
  */
-static void test_joint_orders(void **state)
+TEST(test_joint_orders)
 {
-    (void)state;
     static const char *const scenes[] = {"mms_smooth", "mms_implicit", "mms_pressed"};
     static const size_t n[] = {10, 20, 40}, steps[] = {100, 800, 6400};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes && br_judge_find("mms"); i++) {
@@ -97,9 +95,8 @@ static void test_joint_orders(void **state)
 
 /* So fine in time that only space counts: the error against the solution is of order 3, also in
  * what the modes of an element cannot hold. */
-static void test_against_exact(void **state)
+TEST(test_against_exact)
 {
-    (void)state;
     static const size_t n[] = {4, 8}, steps = 25000;
     if (br_test_quick())
         skip();
@@ -169,18 +166,16 @@ static void check_judge(const struct br_judge *judge, const char *name)
     br_scene_clear(&scene);
 }
 
-static void test_judges(void **state)
+TEST(test_judges)
 {
-    (void)state;
     check_judge(&br_judge_exact, "example2");
     if (br_judge_find("mms"))
         check_judge(br_judge_find("mms"), "mms_smooth");
 }
 
 /* Looked at: a parabola's modes by Gauss quadrature in all measures. */
-static void test_look(void **state)
+TEST(test_look)
 {
-    (void)state;
     enum { N = 5 };
     struct br_scene scene = br_test_bare();
     scene.length = 2;
@@ -224,9 +219,8 @@ static void test_look(void **state)
 
 /* ---- refusals, and what is kept ---- */
 
-static void test_other_degree(void **state)
+TEST(test_other_degree)
 {
-    (void)state;
     static const size_t n = 4, steps = 10;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
@@ -239,9 +233,8 @@ static void test_other_degree(void **state)
 }
 
 /* One element, every judge and norm: the smallest arrays. */
-static void test_one_element(void **state)
+TEST(test_one_element)
 {
-    (void)state;
     const struct br_elements elements = {BR_AXIAL, 2};
     assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 1), 4); /* two nodes */
     assert_int_equal(br_measure_size(elements, BR_DISPLACEMENT, 9), 27);
@@ -266,9 +259,8 @@ static void test_one_element(void **state)
 }
 
 /* The extrapolation of the tip counts with its order: 4. */
-static void test_extrapolation(void **state)
+TEST(test_extrapolation)
 {
-    (void)state;
     static const size_t n[] = {4, 8, 16, 32}, steps[] = {10, 20, 40, 80};
     for (int degree = 1; degree <= 2; degree++) {
         struct br_error err = {0};
@@ -286,9 +278,8 @@ static void test_extrapolation(void **state)
     }
 }
 
-static void test_record(void **state)
+TEST(test_record)
 {
-    (void)state;
     enum { N = 4 };
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("initial_data");
@@ -321,20 +312,4 @@ static void test_record(void **state)
     br_history_record_clear(&record);
     br_march_free(march);
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders_in_space),
-        cmocka_unit_test(test_joint_orders),
-        cmocka_unit_test(test_against_exact),
-        cmocka_unit_test(test_judges),
-        cmocka_unit_test(test_look),
-        cmocka_unit_test(test_other_degree),
-        cmocka_unit_test(test_one_element),
-        cmocka_unit_test(test_extrapolation),
-        cmocka_unit_test(test_record),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,9 +42,8 @@ static const char *quoted(const struct br_quoting *target, const char *text)
     return buffer;
 }
 
-static void test_targets(void **state)
+TEST(test_targets)
 {
-    (void)state;
     static const struct {
         const struct br_quoting *target;
         const char *text, *written;
@@ -93,9 +92,8 @@ static void test_targets(void **state)
 }
 
 /* No byte comes out of any target that a terminal would obey. */
-static void test_nothing_hidden(void **state)
+TEST(test_nothing_hidden)
 {
-    (void)state;
     for (unsigned long code = 1; code < 0x3000; code++) {
         char text[8] = {(char)code};
         if (code >= 0x800)
@@ -116,9 +114,8 @@ static void test_nothing_hidden(void **state)
 }
 
 /* A buffer of any size is filled with whole pieces, and its quotes are closed. */
-static void test_room(void **state)
+TEST(test_room)
 {
-    (void)state;
     char buffer[64];
     for (size_t size = 3; size < sizeof buffer; size++) {
         memset(buffer, 'x', sizeof buffer);
@@ -132,9 +129,8 @@ static void test_room(void **state)
 }
 
 /* Comments end with their line, and a data file goes on below. */
-static void test_comment(void **state)
+TEST(test_comment)
 {
-    (void)state;
     char text[128] = "";
     FILE *out = fmemopen(text, sizeof text, "w");
     br_write_comment(out, "a\nsystem('x')\x1b \\");
@@ -143,9 +139,8 @@ static void test_comment(void **state)
     assert_string_equal(text, "a system('x')\\x1b \\.\n\n");
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     static const char *const cases[][2] = {
         {"example2", "example2"},
         {"My beam_1.5-x+y", "My beam_1.5-x+y"},
@@ -172,14 +167,4 @@ static void test_names(void **state)
     strcpy(name + 99, "\xc3\xa4 and more");
     br_make_name(name);
     assert_int_equal(strlen(name), 99); /* no half of a character */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_targets), cmocka_unit_test(test_nothing_hidden),
-        cmocka_unit_test(test_room),    cmocka_unit_test(test_comment),
-        cmocka_unit_test(test_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,9 +47,8 @@ static void check_missing(const char *folder)
 }
 
 /* One of those that are at work fails and says why, the others are done all the same. */
-static void test_side_by_side(void **state)
+TEST(test_side_by_side)
 {
-    (void)state;
     enum { SCRIPTS = 4, BAD = 2 };
     struct br_gnuplot at_work[SCRIPTS];
     struct br_error err = {0};
@@ -84,10 +83,4 @@ static void test_side_by_side(void **state)
     }
     check_missing(folder);
     assert_int_equal(rmdir(folder), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_side_by_side)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

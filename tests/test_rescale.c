@@ -368,9 +368,8 @@ static void compare_marches(const struct march *m, const struct br_units_change 
     br_scene_clear(&scene);
 }
 
-static void test_certificates(void **state)
+TEST(test_certificates)
 {
-    (void)state;
     static const struct br_units_change fours = {1024, 0.25, 16}, thousand = {1000, 1e-3, 1e3};
     for (size_t i = 0; i < sizeof marches / sizeof *marches; i++) {
         compare_marches(&marches[i], &fours, 0);
@@ -379,9 +378,8 @@ static void test_certificates(void **state)
 }
 
 /* Powers of two round nothing: a beam of 1024 m has the digits of one of 1 m. */
-static void test_powers_of_two(void **state)
+TEST(test_powers_of_two)
 {
-    (void)state;
     struct br_scene now = in_units(&(struct br_units_change){1024, 0.125, 32});
     const struct factors f = {1024, 0.125, 1, 1e-12};
     for (size_t j = 0; j < JUDGES; j++)
@@ -389,9 +387,8 @@ static void test_powers_of_two(void **state)
     br_scene_clear(&now);
 }
 
-static void test_other_units(void **state)
+TEST(test_other_units)
 {
-    (void)state;
     struct br_scene now = in_units(&(struct br_units_change){0.001, 700, 11});
     const struct factors f = {0.001, 700, 1, 1e-7};
     compare_studies(0, &now, &f);
@@ -399,9 +396,8 @@ static void test_other_units(void **state)
     br_scene_clear(&now);
 }
 
-static void test_upside_down(void **state)
+TEST(test_upside_down)
 {
-    (void)state;
     struct br_scene now = made(-1);
     const struct factors f = {1, 1, -1, 1e-12};
     compare_studies(1, &now, &f);
@@ -409,13 +405,4 @@ static void test_upside_down(void **state)
     br_scene_clear(&now);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_powers_of_two),
-        cmocka_unit_test(test_other_units),
-        cmocka_unit_test(test_upside_down),
-        cmocka_unit_test(test_certificates),
-    };
-    return cmocka_run_group_tests_name("rescale", tests, run_once, forget);
-}
+AROUND_TESTS(run_once, forget)

@@ -37,9 +37,8 @@ static void compare(const struct br_scene *scene, const struct br_method *method
     AT_MOST(br_march_bytes(&o), 5 * bytes);
 }
 
-static void test_memory(void **state)
+TEST(test_memory)
 {
-    (void)state;
     enum { N = 8000 };
     static const char *const schemes[] = {"euler", "bdf2", "esdirk4", "adaptive"};
     struct br_scene scene = br_test_bare();
@@ -65,9 +64,8 @@ static void test_memory(void **state)
     br_function_free(&scene.bending.load.term[0].space);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     const struct br_method method = br_method_default();
     struct br_error err;
@@ -103,11 +101,4 @@ static void test_refused(void **state)
     o.steps = 10000000000;
     MUST(br_look_ahead(&o, &w, &err));
     assert_non_null(br_warnings_find(&w, BR_WARN_LONG));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_memory),
-                                       cmocka_unit_test(test_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

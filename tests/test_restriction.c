@@ -137,9 +137,8 @@ static void check_all(const struct br_restriction_shape *shape)
     check(shape, series);
 }
 
-static void test_definition(void **unused)
+TEST(test_definition)
 {
-    (void)unused;
     static const size_t elements[] = {1, 7, 100, 3200, 12800};
     const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
     for (size_t i = 0; i < count; i++)
@@ -148,16 +147,14 @@ static void test_definition(void **unused)
 }
 
 /* Elements that do not fill groups: the last one overlaps. */
-static void test_primes(void **unused)
+TEST(test_primes)
 {
-    (void)unused;
     check_all(&(struct br_restriction_shape){20, 3203, 3, 1, 0, 1});
     check_all(&(struct br_restriction_shape){19, 997, 1, 1, 0, 1});
 }
 
-static void test_lengths(void **unused)
+TEST(test_lengths)
 {
-    (void)unused;
     static const size_t lengths[] = {1, 2, 3, 5, 60, 150};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         check_all(&(struct br_restriction_shape){lengths[i], 13, 3, 1, 0, 1});
@@ -167,9 +164,8 @@ static void test_lengths(void **unused)
 
 /* A derivative has lost a degree for each order; a polynomial of the elements' degree leaves
  * nothing out, and the zero series nothing at all. */
-static void test_nothing_left(void **unused)
+TEST(test_nothing_left)
 {
-    (void)unused;
     struct br_error err = {0};
     for (size_t degree = 0; degree <= 3; degree++) {
         const struct br_restriction_shape shape = {25, 3200, degree, 1, 0, 1};
@@ -192,9 +188,8 @@ static void test_nothing_left(void **unused)
 }
 
 /* None is lost. */
-static void test_not_finite(void **unused)
+TEST(test_not_finite)
 {
-    (void)unused;
     struct br_error err = {0};
     const struct br_restriction_shape shape = {20, 3200, 3, 1, 0, 1};
     struct br_restriction *r = NULL;
@@ -212,10 +207,9 @@ static void test_not_finite(void **unused)
     free(c);
 }
 
-static void test_combiners(void **unused)
+TEST(test_combiners)
 {
     enum { ROWS = 7, COUNT = 9, MOST = 111 };
-    (void)unused;
     struct br_test_random random = {3};
     double factor[ROWS * COUNT], table[COUNT * MOST], sum[ROWS * MOST], expected[ROWS * MOST];
     for (size_t i = 0; i < ROWS * COUNT; i++)
@@ -242,9 +236,8 @@ static void test_combiners(void **unused)
 }
 
 /* Sums of any length. */
-static void test_sums(void **unused)
+TEST(test_sums)
 {
-    (void)unused;
     struct br_test_random random = {7};
     double a[40] = {0}, b[40] = {0};
     for (size_t count = 0; count <= 40; count++) {
@@ -325,9 +318,8 @@ static void check_stages(const struct br_radau *radau, const struct br_stage_sys
 
 /* From free waves to those that resist all motion, damped or not; modes of all frequencies at once:
  * each instruction set gives the same bits. */
-static void test_stages(void **unused)
+TEST(test_stages)
 {
-    (void)unused;
     struct br_error err = {0};
     struct br_test_random random = {5};
     struct br_radau radau;
@@ -353,15 +345,4 @@ static void test_stages(void **unused)
             assert_memory_equal(y, portable, sizeof y);
         }
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_definition), cmocka_unit_test(test_primes),
-        cmocka_unit_test(test_lengths),    cmocka_unit_test(test_nothing_left),
-        cmocka_unit_test(test_not_finite), cmocka_unit_test(test_combiners),
-        cmocka_unit_test(test_sums),       cmocka_unit_test(test_stages),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

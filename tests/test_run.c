@@ -38,9 +38,8 @@ static double twice(double x)
 }
 
 /* On L = 2: u = x, w = x^2 lie in the spaces, so their energies are exact. */
-static void test_energy_of_states(void **state)
+TEST(test_energy_of_states)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     scene.length = 2;
     scene.density = 3;
@@ -75,9 +74,8 @@ static struct br_run_report run(const struct br_scene *scene, size_t n, size_t s
 
 /* A balance that round-off alone may spoil by more than says something is not judged; others are.
  */
-static void test_energy_that_says_nothing(void **state)
+TEST(test_energy_that_says_nothing)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_run_report report;
     struct br_scene s = br_test_bare();
@@ -108,9 +106,8 @@ static void test_energy_that_says_nothing(void **state)
 /* A cantilever that creeps to rest under q: q^2 L^5/(40 a) but for the elements' bubbles, which
  * have (h/L)^4/36 of it. The load does twice that work; viscosity and the scheme have the other
  * half. */
-static void test_energy_at_rest(void **state)
+TEST(test_energy_at_rest)
 {
-    (void)state;
     const double q = 3, a = 2, exact = q * q / (40 * a) * (1 - pow(1.0 / 8, 4) / 36);
     struct br_scene scene = br_test_bare();
     scene.duration = 60;
@@ -128,9 +125,8 @@ static void test_energy_at_rest(void **state)
 
 /* Without a load energy is only lost; with smaller steps, less of it to the scheme, in proportion.
  */
-static void test_free_decay(void **state)
+TEST(test_free_decay)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     scene.duration = 2;
     scene.axial.viscosity = scene.bending.viscosity = 0.05;
@@ -172,9 +168,8 @@ static void watch_rows(struct br_tip_watch *w, const double rows[][4], size_t co
     }
 }
 
-static void test_events(void **state)
+TEST(test_events)
 {
-    (void)state;
     static const double rows[][4] = {
         {0, NAN, 0, 0},  {0, 0, 0, 1}, /* open: free */
         {2, 5, 5, 1},                  /* closed, slips up */
@@ -213,9 +208,8 @@ static void test_events(void **state)
 }
 
 /* Example 3 lets go at 0.8 s: within a step. */
-static void test_release(void **state)
+TEST(test_release)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example3");
     const struct br_run_report p = run(&scene, 20, 10000, NULL);
     assert_int_equal(p.watch.count[BR_TIP_SLIPPED], 1);
@@ -229,9 +223,8 @@ static void test_release(void **state)
 
 /* ---- the history ---- */
 
-static void test_rows_and_looks(void **state)
+TEST(test_rows_and_looks)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     const struct br_method method = br_method_default();
@@ -279,9 +272,8 @@ static void test_rows_and_looks(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_stride(void **state)
+TEST(test_stride)
 {
-    (void)state;
     for (size_t steps = 1; steps < 300; steps++)
         for (size_t rows = 2; rows < 40; rows++) {
             const size_t stride = br_history_stride(steps, rows);
@@ -292,9 +284,8 @@ static void test_stride(void **state)
 }
 
 /* Measuring the parts of a step changes no bit of it. */
-static void test_cost(void **state)
+TEST(test_cost)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_run_request request = {
@@ -317,9 +308,8 @@ static void test_cost(void **state)
 }
 
 /* Nor where a scheme has several stages, or the rod quadratic elements. */
-static void test_cost_of_methods(void **state)
+TEST(test_cost_of_methods)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
@@ -356,9 +346,8 @@ static enum br_status stop(void *self, const struct br_march *march,
 }
 
 /* An observer's failure is the run's; a march's is a result. */
-static void test_failures(void **state)
+TEST(test_failures)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_run_report report;
     struct br_scene scene = br_test_bare();
@@ -400,9 +389,8 @@ static const struct br_model_row *find(const struct br_run_report *p, const char
     return NULL;
 }
 
-static void test_model(void **state)
+TEST(test_model)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_run_report p;
     struct br_scene scene = br_test_bundled("example2");
@@ -439,23 +427,4 @@ static void test_model(void **state)
     assert_non_null(strstr(find(&p, "axial_load")->why, "one evaluation of its history a step"));
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_energy_of_states),
-        cmocka_unit_test(test_energy_at_rest),
-        cmocka_unit_test(test_energy_that_says_nothing),
-        cmocka_unit_test(test_free_decay),
-        cmocka_unit_test(test_events),
-        cmocka_unit_test(test_release),
-        cmocka_unit_test(test_rows_and_looks),
-        cmocka_unit_test(test_stride),
-        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_cost_of_methods),
-        cmocka_unit_test(test_failures),
-        cmocka_unit_test(test_model),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

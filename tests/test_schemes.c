@@ -117,9 +117,8 @@ static void check_order(const struct br_time_scheme *scheme, double density, dou
 }
 
 /* Viscosity from that of the paper's Example 1 in its units to one that leaves nothing else. */
-static void test_orders(void **state)
+TEST(test_orders)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++)
         if (has_order(br_time_schemes[i])) {
             check_order(br_time_schemes[i], 1, 1);
@@ -130,9 +129,8 @@ static void test_orders(void **state)
 /* A light beam that follows its load, its transients being over in c/a = 1e-3 s, as in the paper's
  * examples: with k far above that stages count by their own order, and the first errors are small
  * by chance. Seen are 1.3 to 2.9. */
-static void test_stiff_orders(void **state)
+TEST(test_stiff_orders)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (int kind = BR_AXIAL; kind <= BR_BENDING && has_order(br_time_schemes[i]); kind++) {
             double difference[LADDER];
@@ -178,18 +176,16 @@ static void check_across(const struct br_time_scheme *scheme, size_t which)
     br_scene_clear(&scene);
 }
 
-static void test_orders_across_switches(void **state)
+TEST(test_orders_across_switches)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (size_t s = 0; s < SWITCHING && has_order(br_time_schemes[i]); s++)
             check_across(br_time_schemes[i], s);
 }
 
 /* The adaptive schemes find the switches: the error follows the tolerance. */
-static void test_adaptive_errors(void **state)
+TEST(test_adaptive_errors)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (size_t s = 0; s < SWITCHING && br_time_schemes[i]->adaptive; s++) {
             struct br_scene scene = br_test_bundled(switching[s].scene);
@@ -232,9 +228,8 @@ static void march_apart(struct br_march *march, size_t steps)
     }
 }
 
-static void test_fields_apart(void **state)
+TEST(test_fields_apart)
 {
-    (void)state;
     enum { STEPS = 150 };
     for (size_t i = 0; br_time_schemes[i]; i++)
         for (int solver = 0; solver < 2 && has_order(br_time_schemes[i]); solver++) {
@@ -273,9 +268,8 @@ static void study_by(const struct br_scene *scene, const struct br_method *metho
     br_study_clear(&s);
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++) {
         struct br_scene scene = br_test_bundled("chatter");
         const struct br_method method = method_of(br_time_schemes[i], 1e-5);
@@ -288,17 +282,4 @@ static void test_threads(void **state)
         assert_true(one[0] > 0 && isfinite(one[3]));
         br_scene_clear(&scene);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_orders),
-        cmocka_unit_test(test_stiff_orders),
-        cmocka_unit_test(test_orders_across_switches),
-        cmocka_unit_test(test_adaptive_errors),
-        cmocka_unit_test(test_fields_apart),
-        cmocka_unit_test(test_threads),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -66,9 +66,8 @@ static void expect(const struct br_seen_order *seen, double order, const char *r
 }
 
 /* An error in k a million times larger hides the order in h from the grid, not from differences. */
-static void test_hidden_in_h(void **state)
+TEST(test_hidden_in_h)
 {
-    (void)state;
     struct made m;
     make(&m, 1e-3, 2, 10, 1);
     see(&m);
@@ -89,9 +88,8 @@ static void test_hidden_in_h(void **state)
 }
 
 /* No order in k where space is in the way, and none of the joint fit. */
-static void test_hidden_in_k(void **state)
+TEST(test_hidden_in_k)
 {
-    (void)state;
     struct made m;
     make(&m, 10, 2, 1e-6, 1);
     for (size_t i = 0; i < CELLS; i++)
@@ -113,9 +111,8 @@ static void expect_of(const double error[COLUMNS], double order, const char *rem
     expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_K], order, remark);
 }
 
-static void test_remarks(void **state)
+TEST(test_remarks)
 {
-    (void)state;
     expect_of((const double[]){1, 2, 3, 2.5}, NAN, "the errors do not fall, 1.0e+00, 2.0e+00");
     expect_of((const double[]){8, 7, 6, 5.2}, NAN,
               "not seen: the errors fall by orders of 0.19, 0.22, 0.21 from size to size");
@@ -129,9 +126,8 @@ static void test_remarks(void **state)
 }
 
 /* Of all that marches can come to, nothing is claimed that is not above zero. */
-static void test_no_order_of_zero(void **state)
+TEST(test_no_order_of_zero)
 {
-    (void)state;
     struct br_test_random random = {7};
     for (int trial = 0; trial < 300; trial++) {
         struct made m;
@@ -157,9 +153,8 @@ static void expect_theory(const struct made *m, enum br_part part, double in_h, 
     assert_true(r.seen[part][BR_OVER_K].theory == in_k);
 }
 
-static void test_theory(void **state)
+TEST(test_theory)
 {
-    (void)state;
     struct made m;
     make(&m, 1, 2, 1, 1);
     expect_theory(&m, BR_PART_TOTAL, 2, 1);
@@ -182,9 +177,8 @@ static void test_theory(void **state)
 }
 
 /* Coulomb's friction gives the order of the axial part to the bending part, Tresca's does not. */
-static void test_bending_by_friction(void **state)
+TEST(test_bending_by_friction)
 {
-    (void)state;
     struct made m;
     make(&m, 1, 2, 1, 1);
     m.scene.bending.modelled = true;
@@ -198,9 +192,8 @@ static void test_bending_by_friction(void **state)
 }
 
 /* Digits stand as far as the width allows, and nothing is minus zero. */
-static void test_uncertain(void **state)
+TEST(test_uncertain)
 {
-    (void)state;
     static const struct {
         double value, half;
         const char *text;
@@ -226,15 +219,4 @@ static void test_uncertain(void **state)
     assert_string_equal(br_digits_text(-0.163812, 2, text, sizeof text), "-0.16");
     assert_string_equal(br_digits_text(1.90822e-7, 3, text, sizeof text), "1.91e-07");
     assert_string_equal(br_digits_text(-0.0, 3, text, sizeof text), "0");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hidden_in_h), cmocka_unit_test(test_hidden_in_k),
-        cmocka_unit_test(test_remarks),     cmocka_unit_test(test_no_order_of_zero),
-        cmocka_unit_test(test_theory),      cmocka_unit_test(test_bending_by_friction),
-        cmocka_unit_test(test_uncertain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

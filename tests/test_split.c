@@ -69,9 +69,8 @@ static void check_sums(const struct br_split *split)
     check_tip(split, BR_BENDING);
 }
 
-static void test_sums(void **state)
+TEST(test_sums)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "reversal"};
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct br_scene scene = br_test_bundled(scenes[i]);
@@ -85,9 +84,8 @@ static void test_sums(void **state)
 }
 
 /* The parts against marches that this test makes itself. */
-static void test_links(void **state)
+TEST(test_links)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     scene.friction.regularisation = 1e-3;
     const struct br_method given = br_test_method("umfpack", "lagged", "regularised");
@@ -113,9 +111,8 @@ static void test_links(void **state)
 }
 
 /* The whole is what a study says of the run. */
-static void test_whole(void **state)
+TEST(test_whole)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 30, 40, br_method_default());
@@ -144,9 +141,8 @@ static void check_none(const struct br_split *split, const char *name, const cha
     assert_true(share->tip[BR_AXIAL] == 0 && share->tip[BR_BENDING] == 0);
 }
 
-static void test_none(void **state)
+TEST(test_none)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     struct br_split split = split_of(&scene, 10, 20, br_test_method(NULL, "implicit", NULL));
     check_none(&split, "round-off", "auto");
@@ -179,9 +175,8 @@ static void check_order(const char *name, enum br_part part, const double *error
 
 enum { SIZES = 3 };
 
-static void test_space_order(void **state)
+TEST(test_space_order)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     double error[BR_PARTS][SIZES];
     for (size_t i = 0; i < SIZES; i++) {
@@ -211,18 +206,16 @@ static void check_time_order(const char *scheme, double order)
     br_scene_clear(&scene);
 }
 
-static void test_time_order(void **state)
+TEST(test_time_order)
 {
-    (void)state;
     check_time_order("euler", 1);
     check_time_order("bdf2", 2);
 }
 
 /* In Example 2 the lag is of order k, and at the end, the start's transients gone, what the time
  * steps leave beside it. */
-static void test_lag_order(void **state)
+TEST(test_lag_order)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     double lag[SIZES], end[2][SIZES];
     for (size_t i = 0; i < SIZES; i++) {
@@ -238,9 +231,8 @@ static void test_lag_order(void **state)
 }
 
 /* One source alone moves its part, and no other. */
-static void test_independence(void **state)
+TEST(test_independence)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const struct br_split lagged = split_of(&scene, 20, 50, br_method_default());
     const struct br_split implicit =
@@ -255,9 +247,8 @@ static void test_independence(void **state)
 }
 
 /* A tip that sticks creeps where friction is smoothed, in proportion to mu. */
-static void test_mu(void **state)
+TEST(test_mu)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     double error[SIZES];
     for (size_t i = 0; i < SIZES; i++) {
@@ -273,9 +264,8 @@ static void test_mu(void **state)
 }
 
 /* A tip that sticks creeps by what an iteration leaves: the less, the smaller its tolerance. */
-static void test_iteration(void **state)
+TEST(test_iteration)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example1");
     for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++) {
         double last = INFINITY;
@@ -295,9 +285,8 @@ static void test_iteration(void **state)
 }
 
 /* What is at the round-off is below the floor, and what is not is above it. */
-static void test_floors(void **state)
+TEST(test_floors)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
@@ -312,9 +301,8 @@ static void test_floors(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_refused(void **state)
+TEST(test_refused)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example1");
     struct br_split split = {
@@ -331,17 +319,4 @@ static void test_refused(void **state)
     scene.bending.load = br_test_load("sin(1e9*x)");
     REFUSED(br_split_run(&split, 1, NULL, &err), BR_NOT_FINITE, "no exact solution");
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sums),        cmocka_unit_test(test_links),
-        cmocka_unit_test(test_none),        cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_space_order), cmocka_unit_test(test_time_order),
-        cmocka_unit_test(test_lag_order),   cmocka_unit_test(test_mu),
-        cmocka_unit_test(test_iteration),   cmocka_unit_test(test_independence),
-        cmocka_unit_test(test_floors),      cmocka_unit_test(test_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

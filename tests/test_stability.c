@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The part `stability` of extremes: the matrix of a step, what marches say of the limit, a verdict
- * that sees what is wrong, its report and its figure. */
+/* The part `stability` of extremes: the matrix of a step, what marches say of the limit, and a
+ * verdict that sees what is wrong. Its report and figure are in golden/. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "figure_check.h"
-#include "plots/pictures.h"
 #include "solver/laws.h"
 #include "study/extremes/stability.h"
 #include "study/grid/observer.h"
 #include "support.h"
-#include "tables/reports.h"
 
 static struct br_stability found;
 
@@ -32,9 +29,8 @@ static int clear(void **state)
 }
 
 /* One element without inertia: u_n = (c/k - c_H L)/(a + c/k) u_{n-1}, whatever the velocity was. */
-static void test_matrix(void **state)
+TEST(test_matrix)
 {
-    (void)state;
     struct br_error err = {0};
     const struct br_field rod = {
         .kind = BR_AXIAL, .n = 1, .h = 2, .stiffness = 3, .viscosity = 0.5, .k = 0.25, .degree = 1};
@@ -51,9 +47,8 @@ static void test_matrix(void **state)
 }
 
 /* Of a quadratic rod the bubbles are states, too, and nothing else than a march is asked. */
-static void test_quadratic_matrix(void **state)
+TEST(test_quadratic_matrix)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_field rod = br_stability_field(&br_stability_rods[5], 2, 1e-3);
     double radius;
@@ -65,9 +60,8 @@ static void test_quadratic_matrix(void **state)
     assert_true(radius < 1);
 }
 
-static void test_found(void **state)
+TEST(test_found)
 {
-    (void)state;
     struct br_error err = {0};
     MUST(br_stability_verdict(&found, &err));
     assert_int_equal(found.rows, 3);
@@ -97,9 +91,8 @@ static void test_found(void **state)
         REFUSED(br_stability_verdict(&wrong, &err), BR_VERDICT, text); \
     } while (0)
 
-static void test_verdict(void **state)
+TEST(test_verdict)
 {
-    (void)state;
     WRONG(limit_error, 1e-8, "limit");
     WRONG(limit_error, NAN, "limit");
     WRONG(growth_error, 1e-8, "growth");
@@ -120,9 +113,8 @@ static void test_verdict(void **state)
 }
 
 /* A limit that is a little wrong is found: the one without inertia, say, in the paper's rod. */
-static void test_planted_limit(void **state)
+TEST(test_planted_limit)
 {
-    (void)state;
     const struct br_stability_row *r = &found.row[1];
     assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
     const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
@@ -131,9 +123,8 @@ static void test_planted_limit(void **state)
 }
 
 /* Between the two limits a bouncing rod does gain energy: the narrower promise is not idle. */
-static void test_bounce(void **state)
+TEST(test_bounce)
 {
-    (void)state;
     double most = 0;
     for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
         const struct br_stability_bounce *b = &found.bounce[i];
@@ -143,9 +134,8 @@ static void test_bounce(void **state)
     assert_true(most > 1.5);
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     static const double wrong[] = {0, -1, NAN, 1e4, 1e-12};
     struct br_error err = {0};
     struct br_stability s;
@@ -167,9 +157,8 @@ static bool stop_now(void *self)
     return true;
 }
 
-static void test_interrupted(void **state)
+TEST(test_interrupted)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_stability s;
     const struct br_observer observer = {.stop = stop_now};
@@ -178,65 +167,4 @@ static void test_interrupted(void **state)
     br_stability_clear(&s);
 }
 
-/* ---- what is shown ---- */
-
-static void test_report(void **state)
-{
-    (void)state;
-    static char text[1 << 18];
-    struct br_error err = {0};
-    struct br_document d = {0};
-    br_report_stability(&found, &d);
-    for (const struct br_document_format *const *f = br_document_formats; *f; f++) {
-        FILE *file = fmemopen(text, sizeof text, "w");
-        size_t block = 0;
-        const struct br_document_table *t = NULL;
-        while ((*f)->by_table && (t = br_document_next_table(&d, &block)))
-            MUST(br_document_print(file, *f, &d, t, &err));
-        if (!(*f)->by_table)
-            MUST(br_document_print(file, *f, &d, NULL, &err));
-        assert_int_equal(fclose(file), 0);
-        assert_true(strlen(text) < sizeof text - 1);
-        assert_true((*f)->by_table || strstr(text, "exactly where it is predicted"));
-        assert_non_null(strstr(text, "quasi-static"));
-        assert_non_null(strstr(text, "trbdf2"));
-    }
-    br_document_clear(&d);
-}
-
-static void test_figure(void **state)
-{
-    (void)state;
-    struct br_error err = {0};
-    struct br_figure f;
-    f = br_stability_draw(&found);
-    MUST(br_figure_check(&f, &err));
-    assert_int_equal(f.panels, BR_STABILITY_RODS);
-    for (size_t i = 0; i < f.panels; i++) {
-        const struct br_cells *c = &f.panel[i].cells;
-        const struct br_stability_row *row = &found.row[i * found.rows];
-        figure_axes(&f.panel[i], "c_H (N/m)", "k (s)");
-        for (size_t j = 0; j < c->columns; j++)
-            assert_true(c->x[j] < found.stiffness[j] && found.stiffness[j] < c->x[j + 1]);
-        for (size_t j = 0; j < c->rows; j++) {
-            assert_true(c->y[j] < row[j].k && row[j].k < c->y[j + 1]);
-            figure_point(figure_series(&f.panel[i], "predicted limit"), j, row[j].limit, row[j].k);
-            figure_point(f.panel[i].series[1], j, row[j].bouncing, row[j].k);
-            assert_memory_equal(c->value + j * c->columns, row[j].radius, sizeof row[j].radius);
-        }
-    }
-    figure_check(&f);
-    br_figure_clear(&f);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_matrix),   cmocka_unit_test(test_quadratic_matrix),
-        cmocka_unit_test(test_found),    cmocka_unit_test(test_verdict),
-        cmocka_unit_test(test_bounce),   cmocka_unit_test(test_planted_limit),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_interrupted),
-        cmocka_unit_test(test_report),   cmocka_unit_test(test_figure),
-    };
-    return cmocka_run_group_tests(tests, run_small, clear);
-}
+AROUND_TESTS(run_small, clear)

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes from strangers: names of files, titles and remarks that would be commands, markup or
  * control characters, through every command that takes a scene. Nothing is run, nothing reaches a
- * terminal or a text raw, and what is written is well formed. And gnuplot, which may fail or hang,
- * costs no table. */
+ * terminal or a text raw, and what is written is well formed. */
 #include <ctype.h>
 #include <ftw.h>
 #include <jansson.h>
@@ -177,9 +176,8 @@ static bool has_gnuplot(void)
 }
 
 /* Pictures and plans take most of the time: in the short test some scenes go without. */
-static void test_every_command(void **state)
+TEST(test_every_command)
 {
-    (void)state;
     for (size_t i = 0; i < STRANGERS; i++) {
         const bool drawn = i < 1 || br_test_long(), planned = i % 5 == 0 || br_test_long();
         write_scene(&strangers[i]);
@@ -218,9 +216,8 @@ static int draw_script(const char *path, const struct stat *info, int kind, stru
     return 0;
 }
 
-static void test_scripts(void **state)
+TEST(test_scripts)
 {
-    (void)state;
     if (!has_gnuplot())
         skip();
     assert_int_equal(nftw(cli_folder(), draw_script, 8, FTW_PHYS), 0);
@@ -228,9 +225,8 @@ static void test_scripts(void **state)
 }
 
 /* A name as long as a file's may be: what is written for it has names that the disk takes. */
-static void test_long(void **state)
+TEST(test_long)
 {
-    (void)state;
     char name[256], title[1200];
     memset(name, 'n', 240);
     memset(title, '\'', 1100);
@@ -241,83 +237,4 @@ static void test_long(void **state)
         run_command(&s, c, c == 1 ? NULL : "/nonexistent");
 }
 
-/* ---- gnuplot fails, or hangs ---- */
-
-/* A gnuplot that is a shell script; its PATH. */
-static const char *make_gnuplot(const char *script)
-{
-    static char path[1024];
-    char program[512];
-    cli_path("bin", program);
-    mkdir(program, 0777);
-    snprintf(path, sizeof path, "%s:/usr/bin:/bin", program);
-    cli_write_file("bin/gnuplot", script);
-    cli_path("bin/gnuplot", program);
-    assert_int_equal(chmod(program, 0755), 0);
-    return path;
-}
-
-#define STUDY "study example2 --n 2,4 --k 0.5,0.25 --reference exact --quiet --out "
-
-static void test_failing_gnuplot(void **state)
-{
-    (void)state;
-    const struct cli_circumstances failing = {
-        .path = make_gnuplot(
-            "#!/bin/sh\nfor s; do :; done\ntouch \"${s%.gp}.svg\"\necho '\"x\" line 3: no "
-            "\033[31m' >&2\nexit 1\n")};
-    cli_expect(STUDY "failing", &failing, 0,
-               "warning: example2-h.gp is not drawn: gnuplot failed on example2-h.gp: \"x\" line "
-               "3: no \\x1b[31m");
-    assert_true(cli_is_there("failing/example2.json") && cli_is_there("failing/example2-h.gp"));
-    assert_false(cli_is_there("failing/example2-h.svg")); /* half a picture is none */
-    if (has_gnuplot()) { /* nor does an earlier run's stay beside new tables */
-        cli_expect(STUDY "failing", NULL, 0, "");
-        assert_true(cli_is_there("failing/example2-h.svg"));
-        cli_expect(STUDY "failing", &failing, 0, "is not drawn");
-        assert_false(cli_is_there("failing/example2-h.svg"));
-        assert_false(cli_file_contains("failing/manifest.json", "example2-h.svg"));
-    }
-    cli_expect("trade example2 --split --methods euler --n 2 --k 0.5,0.25 --out failing", &failing,
-               0, "warning: example2-split.gp is not drawn");
-    assert_true(cli_is_there("failing/example2-split.json"));
-    cli_expect("trade example2 --methods euler --n 2 --k 0.5 --repeats 1 --out failing", &failing,
-               0, "warning: example2-schemes.gp is not drawn");
-    cli_expect("run example2 --n 2 --k 0.5 --plot --out failing", &failing, 0,
-               "warning: --plot is not drawn");
-    assert_true(cli_is_there("failing/summary.json"));
-}
-
-static bool is_alive(void)
-{
-    return system("ps -eo args | grep -q '^sleep 98.7654$'") == 0;
-}
-
-static void test_hanging_gnuplot(void **state)
-{
-    (void)state;
-    struct cli_circumstances hanging = {.path = make_gnuplot("#!/bin/sh\nsleep 98.7654\n")};
-    const double start = br_seconds();
-    assert_int_equal(setenv("BEAMRATE_GNUPLOT_SECONDS", "0.5", 1), 0);
-    cli_expect(STUDY "hung", &hanging, 0, "gnuplot did not end on example2-h.gp within 0.5 s");
-    assert_true(cli_is_there("hung/example2.json"));
-    assert_false(is_alive());
-    assert_int_equal(unsetenv("BEAMRATE_GNUPLOT_SECONDS"), 0);
-    hanging.interrupt_after = 1500;
-    cli_expect(STUDY "stopped", &hanging, -SIGINT, "interrupted; no file is half written");
-    assert_false(is_alive());
-    assert_int_equal(cli_count_files("stopped"), 0);
-    assert_true(br_seconds() - start < 30); /* of 60 that it may take, and 98 that it wants */
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_command),
-        cmocka_unit_test(test_scripts),
-        cmocka_unit_test(test_long),
-        cmocka_unit_test(test_failing_gnuplot),
-        cmocka_unit_test(test_hanging_gnuplot),
-    };
-    return cmocka_run_group_tests(tests, cli_make_folder, cli_remove_folder);
-}
+AROUND_TESTS(cli_make_folder, cli_remove_folder)

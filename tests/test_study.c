@@ -90,9 +90,8 @@ static void check_against_oracle(const char *name, struct br_resolution referenc
     br_scene_clear(&scene);
 }
 
-static void test_errors(void **state)
+TEST(test_errors)
 {
-    (void)state;
     check_against_oracle("example2", (struct br_resolution){40, 400}, 3,
                          (const size_t[]){5, 10, 20}, 3, (const size_t[]){10, 40, 200});
     /* unordered, not a chain, time levels that hardly coincide, the reference itself */
@@ -103,17 +102,15 @@ static void test_errors(void **state)
 }
 
 /* More levels than a batch holds, and more batches than buffers. */
-static void test_many_batches(void **state)
+TEST(test_many_batches)
 {
-    (void)state;
     check_against_oracle("example1", (struct br_resolution){8, 1200}, 2, (const size_t[]){2, 4}, 2,
                          (const size_t[]){1200, 300});
 }
 
 /* A cell that is the reference has no error at all. */
-static void test_reference_cell(void **state)
+TEST(test_reference_cell)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 12, steps = 30;
@@ -147,9 +144,8 @@ static void errors_on(int threads, double *out)
     }
 }
 
-static void test_threads(void **state)
+TEST(test_threads)
 {
-    (void)state;
     double one[2 * 9 * BR_PARTS], other[2 * 9 * BR_PARTS];
     errors_on(1, one);
     for (size_t i = 0; i < sizeof one / sizeof *one; i++)
@@ -163,9 +159,8 @@ static void test_threads(void **state)
 
 /* ---- refusals ---- */
 
-static void test_steps_of(void **state)
+TEST(test_steps_of)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     size_t steps;
@@ -190,9 +185,8 @@ static void test_steps_of(void **state)
     CLOSE(br_mesh_size(&scene, 8), 0.25, 0);
 }
 
-static void test_nesting(void **state)
+TEST(test_nesting)
 {
-    (void)state;
     static const struct {
         size_t n, steps;
         const char *text;
@@ -230,9 +224,8 @@ static void test_nesting(void **state)
 }
 
 /* One bad study of several fails the call, and nothing is left of the others. */
-static void test_one_of_two_refused(void **state)
+TEST(test_one_of_two_refused)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     const size_t n[] = {4, 5}, steps = 10;
@@ -267,9 +260,8 @@ static void assert_well(const struct br_cell *cell)
 
 /* A load that is no number near x = 1/8: a Gauss point of n = 4, and of no finer mesh
  * here. Once at all times, once from t = 0.35 s on. */
-static void test_failing_row(void **state)
+TEST(test_failing_row)
 {
-    (void)state;
     static const char *const loads[] = {"sqrt(abs(x - 0.125) - 1e-6)",
                                         "t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1"};
     for (int i = 0; i < 2; i++) {
@@ -292,9 +284,8 @@ static void test_failing_row(void **state)
 
 /* The lagged contact is only conditionally stable: without viscosity the coarse steps
  * blow up, or reach values whose squares are no numbers; the fine ones do neither. */
-static void test_unstable_cell(void **state)
+TEST(test_unstable_cell)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.duration = 1000;
@@ -314,9 +305,8 @@ static void test_unstable_cell(void **state)
 }
 
 /* Beyond the limit of the lagged contact the tip chatters, bounded: the cell is told. */
-static void test_contact_limit(void **state)
+TEST(test_contact_limit)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 4, steps[] = {10, 100, 4000};
@@ -335,9 +325,8 @@ static void test_contact_limit(void **state)
 }
 
 /* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
-static void test_audit(void **state)
+TEST(test_audit)
 {
-    (void)state;
     static const char *const names[] = {"example1", "example2", "example3", "example4"};
     const size_t n = 20, steps = 50;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -365,9 +354,8 @@ static void test_audit(void **state)
 
 /* Lagged contact is stable below k = c / (c_H L - a) * 2 = 4.4 ms here: a fine run says of itself
  * whether it was. */
-static void test_unstable_reference(void **state)
+TEST(test_unstable_reference)
 {
-    (void)state;
     static const size_t steps[] = {20, 2000};
     const size_t n = 4;
     struct br_scene scene = br_test_bundled("chatter");
@@ -384,9 +372,8 @@ static void test_unstable_reference(void **state)
 }
 
 /* The reference failing fails the call. */
-static void test_failing_reference(void **state)
+TEST(test_failing_reference)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.bending.load = br_test_load("t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1");
@@ -418,9 +405,8 @@ static bool stop(void *self)
     return atomic_fetch_add(&w->stops, 1) >= atomic_load(&w->stop_after);
 }
 
-static void test_observer(void **state)
+TEST(test_observer)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 4, steps = 500;
     for (int threads = 1; threads <= 3; threads++) {
@@ -444,25 +430,4 @@ static void test_observer(void **state)
         br_study_clear(&s);
     }
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_many_batches),
-        cmocka_unit_test(test_reference_cell),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_steps_of),
-        cmocka_unit_test(test_nesting),
-        cmocka_unit_test(test_one_of_two_refused),
-        cmocka_unit_test(test_failing_row),
-        cmocka_unit_test(test_unstable_cell),
-        cmocka_unit_test(test_failing_reference),
-        cmocka_unit_test(test_observer),
-        cmocka_unit_test(test_contact_limit),
-        cmocka_unit_test(test_audit),
-        cmocka_unit_test(test_unstable_reference),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

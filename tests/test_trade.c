@@ -25,9 +25,8 @@ static struct br_trial made(int named, double error, double seconds, size_t solv
     };
 }
 
-static void test_cheapest(void **state)
+TEST(test_cheapest)
 {
-    (void)state;
     struct br_trial t[] = {
         made(0, 1e-3, 5, 9),   made(1, 1e-3, 3, 9), made(0, 1e-2, 1, 9),     made(0, NAN, 0.1, 9),
         made(1, 1e-9, NAN, 9), made(1, 1e-3, 3, 7), made(0, 1e-12, 0.01, 9),
@@ -44,9 +43,8 @@ static void test_cheapest(void **state)
 }
 
 /* The judge's own error is added: what it cannot tell is no success. */
-static void test_own_error(void **state)
+TEST(test_own_error)
 {
-    (void)state;
     struct br_trial t = made(0, 0.9e-3, 1, 1);
     assert_int_equal(br_trials_cheapest(&t, 1, 1e-3, NULL), 0);
     t.own = 2 * 0.2e-3;
@@ -60,9 +58,8 @@ static void test_own_error(void **state)
     assert_int_equal(br_trials_cheapest(&t, 1, 1, NULL), 1);
 }
 
-static void test_front(void **state)
+TEST(test_front)
 {
-    (void)state;
     struct br_trial t[] = {
         made(0, 1e-2, 1, 1),
         made(0, 1e-3, 2, 1),
@@ -85,9 +82,8 @@ static void test_front(void **state)
             fail_msg("trial %zu: found %d, expected %d", i, front[i], expected[i]);
 }
 
-static void test_digits(void **state)
+TEST(test_digits)
 {
-    (void)state;
     struct br_trial t = made(0, 1e-4, 0.5, 1);
     CLOSE(br_trade_digits_per_second(&t), 8, 1e-9);
     t.end = BR_TRIAL_FAILED;
@@ -98,9 +94,8 @@ static void test_digits(void **state)
 
 /* ---- names ---- */
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_named_method c;
     MUST(br_named_method_read("euler", &c, &err));
@@ -122,9 +117,8 @@ static void test_names(void **state)
     REFUSED(br_named_method_read("bdf2+scaled", &c, &err), BR_BAD_INPUT, "does not heed");
 }
 
-static void test_lists(void **state)
+TEST(test_lists)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_named_methods all;
     MUST(br_named_methods_read("--methods", "euler+implicit,bdf2", &all, &err));
@@ -135,9 +129,8 @@ static void test_lists(void **state)
 }
 
 /* All schemes are there, and none twice that is the same in this scene. */
-static void test_default_named_methods(void **state)
+TEST(test_default_named_methods)
 {
-    (void)state;
     const char *const scenes[] = {"example2", "example3"};
     for (size_t s = 0; s < 2; s++) {
         struct br_scene scene = br_test_bundled(scenes[s]);
@@ -157,9 +150,8 @@ static void test_default_named_methods(void **state)
 /* ---- trials ---- */
 
 /* Errors are those of a study's cells, in each norm; counts are the march's. */
-static void test_errors_are_a_study_s(void **state)
+TEST(test_errors_are_a_study_s)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_named_methods all;
@@ -201,9 +193,8 @@ static void test_errors_are_a_study_s(void **state)
 }
 
 /* What fails, or takes too long, stays in the list with its reason. */
-static void test_ends(void **state)
+TEST(test_ends)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_named_methods all;
@@ -236,9 +227,8 @@ static bool stop_at_once(void *self)
     return true;
 }
 
-static void test_stops(void **state)
+TEST(test_stops)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_named_method c;
@@ -272,9 +262,8 @@ static void drop(struct br_trade *t)
 }
 
 /* The printed cells are the paper's method's, each once. */
-static void test_printed(void **state)
+TEST(test_printed)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     struct br_printed_cell cells[] = {{100, 0.01, 1}, {200, 0.0005, 1}, {3200, 1e-4, 1}};
     const struct br_printed printed = {cells, 3};
@@ -295,9 +284,8 @@ static void test_printed(void **state)
 }
 
 /* Lists that are given are tried whole. */
-static void test_lists_are_tried(void **state)
+TEST(test_lists_are_tried)
 {
-    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const size_t n[] = {100000}, steps[] = {10, 1000000};
     const double tolerance[] = {1e-3, 1e-5, 1e-7};
@@ -336,9 +324,8 @@ static struct br_trade *small_trade(const struct br_scene *scene)
 }
 
 /* By the steps of each: whether the seconds are right as well is a question for a quiet machine. */
-static void test_outlook(void **state)
+TEST(test_outlook)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_trade *t = small_trade(&scene);
@@ -362,9 +349,8 @@ static void test_outlook(void **state)
 }
 
 /* The dearest are left out, and have no result. */
-static void test_left_out(void **state)
+TEST(test_left_out)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
     struct br_trade *t = small_trade(&scene);
@@ -391,25 +377,12 @@ static void test_left_out(void **state)
     br_scene_clear(&scene);
 }
 
-int main(void)
+static int make_pair(void **state)
 {
+    (void)state;
     for (int i = 0; i < 2; i++)
         pair[i] = (struct br_named_method){.method = br_method_default()};
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cheapest),
-        cmocka_unit_test(test_own_error),
-        cmocka_unit_test(test_front),
-        cmocka_unit_test(test_digits),
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_lists),
-        cmocka_unit_test(test_default_named_methods),
-        cmocka_unit_test(test_errors_are_a_study_s),
-        cmocka_unit_test(test_ends),
-        cmocka_unit_test(test_stops),
-        cmocka_unit_test(test_printed),
-        cmocka_unit_test(test_lists_are_tried),
-        cmocka_unit_test(test_outlook),
-        cmocka_unit_test(test_left_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return 0;
 }
+
+AROUND_TESTS(make_pair, NULL)

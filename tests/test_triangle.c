@@ -83,9 +83,9 @@ static size_t contradictions(const struct br_study *s, const double *printed)
     return found;
 }
 
-static void test_sound(void **state)
+TEST(test_sound)
 {
-    const struct br_study *s = &((const struct made *)*state)->study;
+    const struct br_study *s = &((const struct made *)*fixture)->study;
     double printed[CELLS];
     for (size_t i = 0; i < CELLS; i++)
         printed[i] = four_digits(s->cell[i].error[BR_PART_TOTAL]);
@@ -94,9 +94,9 @@ static void test_sound(void **state)
 
 /* One cell much too large: it is too far from its neighbours. All much too small: the
  * solutions are farther apart than the sum of their errors. */
-static void test_planted(void **state)
+TEST(test_planted)
 {
-    const struct br_study *s = &((const struct made *)*state)->study;
+    const struct br_study *s = &((const struct made *)*fixture)->study;
     double printed[CELLS];
     for (size_t i = 0; i < CELLS; i++)
         printed[i] = s->cell[i].error[BR_PART_TOTAL] * (i == 0 ? 10 : 1);
@@ -107,9 +107,9 @@ static void test_planted(void **state)
 }
 
 /* Of many pairs that would do the cheapest is marched. */
-static void test_cheapest(void **state)
+TEST(test_cheapest)
 {
-    const struct br_study *s = &((const struct made *)*state)->study;
+    const struct br_study *s = &((const struct made *)*fixture)->study;
     struct br_error err = {0};
     struct br_triangle triangle;
     size_t count;
@@ -123,9 +123,9 @@ static void test_cheapest(void **state)
     assert_int_equal(triangle.b.n * triangle.b.steps, 10 * 20);
 }
 
-static void test_nothing_printed(void **state)
+TEST(test_nothing_printed)
 {
-    const struct br_study *s = &((const struct made *)*state)->study;
+    const struct br_study *s = &((const struct made *)*fixture)->study;
     double printed[CELLS];
     for (size_t i = 0; i < CELLS; i++)
         printed[i] = NAN;
@@ -135,9 +135,9 @@ static void test_nothing_printed(void **state)
 
 /* With unequal time levels the finer cell's error may well be the larger; with equal ones
  * the two may not be further apart than the solutions. */
-static void test_unequal_levels(void **state)
+TEST(test_unequal_levels)
 {
-    const struct br_study *s = &((const struct made *)*state)->study;
+    const struct br_study *s = &((const struct made *)*fixture)->study;
     double printed[CELLS];
     size_t tried[2] = {0};
     for (size_t j = 1; j < CELLS; j++) {
@@ -157,9 +157,8 @@ static void test_unequal_levels(void **state)
 }
 
 /* Pairs that the printed tables break, from the printed files. */
-static void test_printed_tables(void **state)
+TEST(test_printed_tables)
 {
-    (void)state;
     static const struct {
         const char *scene, *file;
         struct br_resolution a, b;
@@ -188,12 +187,4 @@ static void test_printed_tables(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sound),          cmocka_unit_test(test_planted),
-        cmocka_unit_test(test_cheapest),       cmocka_unit_test(test_nothing_printed),
-        cmocka_unit_test(test_printed_tables), cmocka_unit_test(test_unequal_levels),
-    };
-    return cmocka_run_group_tests(tests, make, drop);
-}
+AROUND_TESTS(make, drop)

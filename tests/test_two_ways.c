@@ -210,9 +210,8 @@ static struct br_scene second_way(const struct br_scene *plain, const struct dra
     return rescaled;
 }
 
-static void test_pairs(void **state)
+TEST(test_pairs)
 {
-    (void)state;
     const size_t pairs = br_test_long() ? 300 : 3 * WAYS;
     size_t refused = 0, closed = 0;
     for (size_t i = 0; i < pairs; i++) {
@@ -334,9 +333,8 @@ static void compare_functions(const char *title, struct br_scene *a, struct br_s
         }
 }
 
-static void test_files(void **state)
+TEST(test_files)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         struct br_error err = {0};
         struct br_scene a, b;
@@ -347,10 +345,4 @@ static void test_files(void **state)
         br_scene_clear(&a);
         br_scene_clear(&b);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pairs), cmocka_unit_test(test_files)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

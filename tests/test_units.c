@@ -83,9 +83,8 @@ static const struct {
     {"lb/ft", GSL_CONST_MKSA_POUND_MASS / GSL_CONST_MKSA_FOOT, {-1, 0, 1}},
 };
 
-static void test_known(void **state)
+TEST(test_known)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
         const double size = known[i].size;
         CLOSE(convert("1", known[i].text), size, 2e-15 * size);
@@ -94,9 +93,8 @@ static void test_known(void **state)
     }
 }
 
-static void test_unknown(void **state)
+TEST(test_unknown)
 {
-    (void)state;
     static const char *const none[] = {
         "mn",  "M",   "kkm",  "mmin",  "N/",  "/s",     "m/s/s",    "N/m s",
         "m^",  "m^0", "m^10", "m^+2",  "s-1", "(m)",    "m)",       "1 m",
@@ -110,9 +108,8 @@ static void test_unknown(void **state)
 
 /* 12.345 mm is the double of 0.012345, whatever the digits: the same digits behind another point.
  */
-static void test_decimals(void **state)
+TEST(test_decimals)
 {
-    (void)state;
     static const struct {
         const char *unit;
         int ten;
@@ -137,9 +134,8 @@ static void test_decimals(void **state)
 }
 
 /* Of inches and hours: whole numbers make quotients of exact ones, which round once. */
-static void test_others(void **state)
+TEST(test_others)
 {
-    (void)state;
     struct br_test_random random = {8};
     for (int i = 0; i < 20000; i++) {
         const double count = floor(br_test_log_uniform(&random, 1, 1e11));
@@ -152,9 +148,8 @@ static void test_others(void **state)
 }
 
 /* Hexadecimal numbers have no decimal point to move; exponents may be absurd. */
-static void test_odd_numbers(void **state)
+TEST(test_odd_numbers)
 {
-    (void)state;
     assert_true(convert("0x1.8p1", "m") == 3);
     assert_true(convert("0x10", "km") == 16000);
     assert_true(convert("-0", "km") == 0);
@@ -168,9 +163,8 @@ static void test_odd_numbers(void **state)
     assert_false(br_unit_convert(&unit, digits, sizeof digits, &q));
 }
 
-static void test_expressions(void **state)
+TEST(test_expressions)
 {
-    (void)state;
     static const struct {
         const char *unit, *expression, *applied;
     } rows[] = {{"N/m", "x + 1", "x + 1"},
@@ -185,14 +179,4 @@ static void test_expressions(void **state)
         assert_string_equal(text, rows[i].applied);
         assert_false(br_unit_apply(&unit, rows[i].expression, text, strlen(rows[i].applied)));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known),       cmocka_unit_test(test_unknown),
-        cmocka_unit_test(test_decimals),    cmocka_unit_test(test_others),
-        cmocka_unit_test(test_odd_numbers), cmocka_unit_test(test_expressions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,9 +52,8 @@ static void reach(struct made *m, enum br_verdict expected, const char *reason)
                  m->it.reason, br_verdict_names[expected], reason);
 }
 
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     static const struct {
         double order;
         enum br_verdict verdict;
@@ -81,9 +80,8 @@ static void test_order(void **state)
 }
 
 /* Errors against the next finer grid, with ratios that differ, tell the same order. */
-static void test_differences(void **state)
+TEST(test_differences)
 {
-    (void)state;
     static const double parts[] = {10, 20, 60, 120, 480};
     struct made m;
     make_power(&m, 1, 4);
@@ -99,9 +97,8 @@ static void test_differences(void **state)
     CLOSE(m.it.constant, 5, 1e-12);
 }
 
-static void test_straddling(void **state)
+TEST(test_straddling)
 {
-    (void)state;
     static const double rising[] = {1e-2, 6.0e-3, 3.3e-3, 1.7e-3, 8.6e-4};  /* towards order 1 */
     static const double noisy[] = {1e-2, 5.9e-3, 2.2e-3, 1.4e-3, 6.0e-4};   /* about 1 */
     static const double stalled[] = {1e-2, 5.0e-3, 2.6e-3, 1.5e-3, 1.0e-3}; /* away from it */
@@ -117,9 +114,8 @@ static void test_straddling(void **state)
 }
 
 /* Many coarse points neither outvote a stall at the end, nor hold back an order that is reached. */
-static void test_many_points(void **state)
+TEST(test_many_points)
 {
-    (void)state;
     struct made m;
     for (size_t count = 4; count <= MOST; count++) {
         make_power(&m, 1, count);
@@ -145,9 +141,8 @@ static void test_many_points(void **state)
 }
 
 /* What is advised would do. */
-static void test_advice(void **state)
+TEST(test_advice)
 {
-    (void)state;
     static const double error[] = {1, .5, .25, .132};
     struct made m;
     make(&m, error, 4);
@@ -157,9 +152,8 @@ static void test_advice(void **state)
 }
 
 /* What is not a number fails, wherever it stands and whatever else is well. */
-static void test_not_a_number(void **state)
+TEST(test_not_a_number)
 {
-    (void)state;
     static const double bad[] = {NAN, INFINITY, -INFINITY, -1e-3};
     for (size_t b = 0; b < sizeof bad / sizeof *bad; b++)
         for (size_t i = 0; i < 5; i++)
@@ -179,9 +173,8 @@ static void test_not_a_number(void **state)
     reach(&m, BR_FAIL, "n = 160");
 }
 
-static void test_errors_that_do_not_fall(void **state)
+TEST(test_errors_that_do_not_fall)
 {
-    (void)state;
     static const double zero[] = {0, 0, 0, 0, 0}, constant[] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3},
                         growing[] = {1e-3, 2e-3, 4e-3, 8e-3, 16e-3};
     struct made m;
@@ -193,9 +186,8 @@ static void test_errors_that_do_not_fall(void **state)
     reach(&m, BR_FAIL, "");
 }
 
-static void test_too_few(void **state)
+TEST(test_too_few)
 {
-    (void)state;
     struct made m;
     for (size_t count = 0; count < BR_VERIFY_LEAST_POINTS; count++) {
         make_power(&m, 1, count);
@@ -213,9 +205,8 @@ static void test_too_few(void **state)
 }
 
 /* A point that is left out must not count, however far off it is. */
-static void test_left_out(void **state)
+TEST(test_left_out)
 {
-    (void)state;
     struct made m;
     make_power(&m, 1, 6);
     m.point[5].error *= 1e3;
@@ -226,9 +217,8 @@ static void test_left_out(void **state)
     reach(&m, BR_FAIL, "");
 }
 
-static void test_constant(void **state)
+TEST(test_constant)
 {
-    (void)state;
     struct made m;
     make_power(&m, 1, 5);
     m.it.expected.ceiling = 3.001;
@@ -247,9 +237,8 @@ static void test_constant(void **state)
 }
 
 /* Of 400 noisy power laws about 95 % have their order within its interval. */
-static void test_coverage(void **state)
+TEST(test_coverage)
 {
-    (void)state;
     struct br_test_random random = {20261121};
     int within = 0;
     const int trials = 400;
@@ -268,22 +257,4 @@ static void test_coverage(void **state)
     }
     if (!(within >= 0.93 * trials))
         fail_msg("%d of %d intervals hold the order", within, trials);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_differences),
-        cmocka_unit_test(test_straddling),
-        cmocka_unit_test(test_many_points),
-        cmocka_unit_test(test_advice),
-        cmocka_unit_test(test_not_a_number),
-        cmocka_unit_test(test_errors_that_do_not_fall),
-        cmocka_unit_test(test_too_few),
-        cmocka_unit_test(test_left_out),
-        cmocka_unit_test(test_constant),
-        cmocka_unit_test(test_coverage),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

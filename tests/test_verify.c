@@ -37,9 +37,8 @@ static enum br_status read_part(const char *part, struct br_scene *scene, struct
     return br_scene_read_verify(br_test_scene_file(with(part)), scene, verify, err);
 }
 
-static void test_whole(void **state)
+TEST(test_whole)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -92,9 +91,8 @@ static void test_whole(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_method(void **state)
+TEST(test_method)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -116,9 +114,8 @@ static void test_method(void **state)
     br_scene_clear(&scene);
 }
 
-static void test_default(void **state)
+TEST(test_default)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -135,116 +132,20 @@ static void test_default(void **state)
     br_scene_clear(&scene);
 }
 
-#define GRID "    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
-#define TIMES "    n: 10\n    k: 0.5, 0.25, 0.125, 0.0625, 0.03125 s\n"
-
-static void test_refusals(void **state)
+static void refuse(char *row)
 {
-    (void)state;
-    static const struct {
-        const char *part, *message;
-    } rows[] = {
-        {"verify: 3\n", ":14: verify: expected a mapping with space, time or joint"},
-        {"verify: {}\n", ":14: verify: it is empty"},
-        {"verify: []\n", ":14: verify: expected a mapping"},
-        {"verify:\n  spaces:\n" GRID, ":15: spaces: unknown key in verify"},
-        {"verify:\n  space: 3\n", ":15: space: expected a mapping with n, k"},
-        {"verify:\n  space:\n    k: 0.1 s\n    l2: 2 +- 1\n", ":16: n: missing"},
-        {"verify:\n  space:\n    n: 10\n    l2: 2 +- 1\n", ":16: k: missing"},
-        {"verify:\n  space:\n" GRID, ":16: verify: nothing is expected"},
-        {"verify:\n  space:\n" GRID "  space:\n" GRID, ":19: space: given twice"},
-        {"verify:\n  space:\n" GRID "    n: 3\n", ":18: n: given twice"},
-        {"verify:\n  space:\n    n: 10, 20, 40, 80\n    k: 0.1 s\n    l2: 2 +- 1\n",
-         ":16: verify: found 4 cells, which give 3 errors, expected at least 4 errors"},
-        {"verify:\n  space:\n    n: 10, 20, 40, 80, 100\n    k: 0.1 s\n    l2: 2 +- 1\n",
-         "n = 80 does not divide n = 100"},
-        {"verify:\n  space:\n    n: 10, 20, 40, 80, 160\n    k: 0.3 s\n    l2: 2 +- 1\n",
-         ":17: k: k = 0.3 s does not divide the duration"},
-        {"verify:\n  space:\n    n: 10, 20, 40\n    k: 0.1, 0.05 s\n    l2: 2 +- 1\n",
-         ":16: space: found 3 n and 2 k, expected meshes and one time step"},
-        {"verify:\n  time:\n    n: 10, 20\n    k: 0.1 s\n    l2: 2 +- 1\n",
-         "expected one mesh and time steps"},
-        {"verify:\n  joint:\n    n: 10, 20, 40\n    k: 0.1, 0.05 s\n    l2: 2 +- 1\n",
-         "expected as many meshes as time steps, or one mesh for all"},
-        {"verify:\n  joint:\n    n: 10, 20, 40, 80\n    k: 0.0125, 0.025, 0.05, 0.1 s\n    l2: 1 +- .1\n",
-         ":16: joint: n = 20 and k = 0.025 s follow n = 10 and k = 0.0125 s"},
-        {"verify:\n  joint:\n    n: 10, 20, 40, 80\n    k: 0.1 s\n    l2: 2 +- 1\n",
-         ":16: joint: found 4 n and 1 k, expected as many"},
-        {"verify:\n  time:\n    n: 10\n    k: 0.5, 0.25, 0.25, 0.1, 0.05 s\n    l2: 1 +- .1\n",
-         ":17: k: the list: 0.25 is given twice"},
-        {"verify:\n  time:\n    n: 10\n    k: 0.5, 0.25, 0.2, 0.1, 0.05 s\n    l2: 1 +- .1\n",
-         "the time levels of k = 0.25 s are not all among those of k = 0.2 s"},
-        {"verify:\n  time:\n    n: 10\n    k: 0.5, 0.25\n",
-         ":17: k: found '0.5, 0.25', expected time "
-         "steps and their unit"},
-        {"verify:\n  time:\n    n: 10\n    k: a s\n", ":17: k: the list: found 'a'"},
-        {"verify:\n  time:\n    n: [10]\n", ":16: time: found a list or a mapping"},
-        {"verify:\n  time:\n    n: -3\n", ":16: n: the list: found '-3'"},
-        {"verify:\n  time:\n    n: 0\n", ":16: n: the list: found '0'"},
-        {"verify:\n  time:\n    n: 2.5\n", ":16: n: the list: found 2.5"},
-        {"verify:\n  time:\n" TIMES "    l3: 1 +- .1\n", ":18: l3: unknown key in verify time"},
-        {"verify:\n  time:\n" TIMES "    l2 shear: 1 +- .1\n", ":18: l2 shear: unknown key"},
-        {"verify:\n  time:\n" TIMES "    l2 axial tip: 1 +- .1\n",
-         ":18: l2 axial tip: unknown key"},
-        {"verify:\n  time:\n" TIMES "    solver: magic\n", ":18: solver: found 'magic'"},
-        {"verify:\n  time:\n" TIMES "    solver: riccati\n    solver: umfpack\n",
-         ":19: solver: given twice"},
-        {"verify:\n  time:\n" TIMES "    scheme: magic\n", ":18: scheme: found 'magic'"},
-        {"verify:\n  time:\n" TIMES "    axial_degree: 3\n",
-         ":18: axial_degree: found '3', expected one of: 1, 2"},
-        {"verify:\n  time:\n" TIMES "    scaling: rows\n",
-         ":18: scaling: found 'rows', expected one of: none, sum, max"},
-        {"verify:\n  time:\n" TIMES "    refinement: -1\n",
-         ":18: refinement: found '-1', expected a whole number from 0 to 100"},
-        {"verify:\n  time:\n" TIMES "    refinement: 2\n    l2: 1 +- .1\n",
-         "refinement: solver auto does not heed it, as solver: umfpack does"},
-        {"verify:\n  time:\n" TIMES "    solver: banded\n    scaling: sum\n    l2: 1 +- .1\n",
-         "scaling: solver banded does not heed it"},
-        {"verify:\n  time:\n" TIMES "    scheme: adaptive\n    tolerance: a\n",
-         ":19: tolerance: found 'a', expected a number above 1e-14 and below 1"},
-        {"verify:\n  time:\n" TIMES "    scheme: adaptive\n    tolerance: 2\n    l2: 1 +- .1\n",
-         ":19: tolerance: found '2', expected a number above 1e-14 and below 1"},
-        {"verify:\n  time:\n" TIMES "    tolerance: 1e-3\n    l2: 1 +- .1\n",
-         ":16: time: tolerance: time scheme euler does not heed it, as scheme: adaptive does"},
-        {"verify:\n  time:\n" TIMES "    friction_parameter: 1\n    l2: 1 +- .1\n",
-         ":16: time: friction_parameter: friction rule exact does not heed it, as friction: "},
-        {"verify:\n  time:\n" TIMES "    friction_parameter: 2\n    friction: uzawa\n",
-         ":18: friction_parameter: found '2', expected a number above 0 and below 2"},
-        {"verify:\n  time:\n" TIMES "    kernel: portable\n    l2: 1 +- .1\n",
-         ":18: kernel: unknown key in verify time"},
-        {"verify:\n  time:\n" TIMES "    scheme: bdf2\n    contact: lagged\n    l2: 1 +- .1\n",
-         ":16: time: contact rule 'lagged' does not go with time scheme 'bdf2', expected 'implicit'"},
-        {"verify:\n  time:\n" TIMES "    l2: \"1 +- .1\\0, at most 1 m\"\n",
-         ":18: scene: found '1 +- .1' followed by a zero byte"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1\n---\nverify: 3\n",
-         ":19: scene: a second document begins"},
-        {"verify:\n  time:\n" TIMES "    l2: 1\n",
-         ":18: l2: found '1', expected an order with its"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +-\n", ":18: l2: found '1 +-'"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1 at most 3\n", ":18: l2: found"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1, at most 3\n", ":18: l2: found"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1, at most 3 m\n", "at most 3e-4 m^(3/2)"},
-        {"verify:\n  time:\n" TIMES "    l2: nan +- .1\n", ":18: l2: found 'nan +- .1'"},
-        {"verify:\n  time:\n" TIMES "    l2: 0 +- .1\n",
-         ":18: verify: found 0 +- 0.1, expected an order"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- 0\n", "a tolerance > 0"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- 1\n", "which an error that does not fall at all"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1, at most 0 m^(3/2)\n", "a constant of 0"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1, constant 2 to 1 m^(3/2)\n", "from 2 to 1"},
-        {"verify:\n  time:\n" TIMES "    l2: 1 +- .1\n    l2 total: 1 +- .2\n",
-         ":19: verify: l2 total is given twice"},
-        {"verify:\n  time:\n" TIMES
-         "    l2: 2 +- .1\n    l2 axial: 1 +- .1\n    l2 bending: 2 +- .1\n",
-         ":18: verify: 2 +- 0.1 contradicts what is expected of the parts"},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        br_test_scene_refused(with(rows[i].part), true, rows[i].message);
+    const char *message = br_test_part(row);
+    br_test_scene_refused(with(br_test_unescape(row)), true, message);
+}
+
+TEST(test_refusals)
+{
+    br_test_rows("verify parts, behind the scene of test_verify.c", refuse);
 }
 
 /* A part that the scene does not model has no order. */
-static void test_missing_part(void **state)
+TEST(test_missing_part)
 {
-    (void)state;
     struct br_scene scene = br_test_bare();
     struct br_verify v;
     struct br_error err = {0};
@@ -257,9 +158,8 @@ static void test_missing_part(void **state)
 }
 
 /* Nobody but the check asks for it: a study is not stopped by what it does not need. */
-static void test_ignored_by_others(void **state)
+TEST(test_ignored_by_others)
 {
-    (void)state;
     struct br_scene scene;
     struct br_verify v;
     struct br_error err = {0};
@@ -268,14 +168,4 @@ static void test_ignored_by_others(void **state)
     br_scene_clear(&scene);
     MUST(br_scene_read(br_test_scene_file(with("verify: 3\n")), &scene, &err));
     br_scene_clear(&scene);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_whole),        cmocka_unit_test(test_method),
-        cmocka_unit_test(test_default),      cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_missing_part), cmocka_unit_test(test_ignored_by_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,9 +65,8 @@ static void check_differences(const struct br_textbook *t, int order)
 }
 
 /* A start of one order less costs no order: it is a single step. */
-static void test_tables(void **state)
+TEST(test_tables)
 {
-    (void)state;
     for (size_t i = 0; br_time_schemes[i]; i++) {
         const struct br_time_scheme *scheme = br_time_schemes[i];
         for (size_t since = 0; since < 4; since++) {
@@ -197,9 +196,8 @@ static void pass_scene(const char *name, const char *solver, int degree, size_t 
     }
 }
 
-static void test_bundled_scenes(void **state)
+TEST(test_bundled_scenes)
 {
-    (void)state;
     struct br_error err = {0};
     char **names;
     size_t count;
@@ -216,9 +214,8 @@ static void test_bundled_scenes(void **state)
 /* A switch on a time level, as at 0.8 s of Example 3: no step is left that is so short that its
  * force is noise. A load that jumps just behind a switch: the search for that jump does not begin
  * with such a step, either. */
-static void test_switches(void **state)
+TEST(test_switches)
 {
-    (void)state;
     for (size_t n = 10; n <= 100; n += br_test_long() ? 6 : 18) {
         pass_scene("example3", NULL, 1, n, 100);
         pass_scene("mms_reversal", NULL, 1, n, 100);
@@ -226,9 +223,8 @@ static void test_switches(void **state)
 }
 
 /* Every rule, from one element to very fine meshes. */
-static void test_rules_and_meshes(void **state)
+TEST(test_rules_and_meshes)
 {
-    (void)state;
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     static const size_t meshes[] = {1, 2, 7, 100, 400, 3200, 12800};
     for (size_t i = 0; i < 4 * 7 * 2; i++)
@@ -246,9 +242,8 @@ static void test_rules_and_meshes(void **state)
         }
 }
 
-static void test_solvers_and_meshes(void **state)
+TEST(test_solvers_and_meshes)
 {
-    (void)state;
     static const size_t meshes[] = {3, 100, 2000};
     for (size_t i = 0; staged(i) && !staged(i)->adaptive; i++)
         for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
@@ -281,9 +276,8 @@ static void random_scene(struct br_test_random *random, struct br_scene *s)
     };
 }
 
-static void test_random_scenes(void **state)
+TEST(test_random_scenes)
 {
-    (void)state;
     struct br_test_random random = {20061};
     for (int trial = 0; trial < 300; trial++) {
         struct watched w = {0};
@@ -322,9 +316,8 @@ static void pass_onto_gap(struct br_scene scene, double tolerance, size_t n)
     passes(&w, "a rod that comes to rest on the gap", n, 1);
 }
 
-static void test_rest_on_gap(void **state)
+TEST(test_rest_on_gap)
 {
-    (void)state;
     pass_onto_gap(rod_onto_gap(0, "-0.30000000000000004*x", 90), 4.6965672746957507e-08, 1);
     struct br_scene decayed = rod_onto_gap(1, "1e-8*x", 1);
     decayed.bending.stiffness = 100;
@@ -353,9 +346,8 @@ static struct br_scene heavy_scene(double length)
     return s;
 }
 
-static void test_heavy_beams(void **state)
+TEST(test_heavy_beams)
 {
-    (void)state;
     static const size_t meshes[] = {1, 20, 21, 40, 59, 100, 150, 200, 400};
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++)
         for (double length = 1e3; length < 1e6; length *= 10)
@@ -366,9 +358,8 @@ static void test_heavy_beams(void **state)
 }
 
 /* To be watched changes nothing. */
-static void test_watched_is_unwatched(void **state)
+TEST(test_watched_is_unwatched)
 {
-    (void)state;
     enum { N = 21, SIZE = 2 * (N + 1) };
     for (size_t i = 0; staged(i); i++)
         for (int solver = 0; solver < 2; solver++) {
@@ -413,9 +404,8 @@ static struct br_scene spoilt(const struct br_scene *scene, size_t offset, doubl
     return out;
 }
 
-static void test_spoilt_scenes(void **state)
+TEST(test_spoilt_scenes)
 {
-    (void)state;
     for (size_t i = 0; staged(i); i++)
         for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
             struct watched w = {.scene = br_test_bundled("chatter")};
@@ -432,9 +422,8 @@ static void test_spoilt_scenes(void **state)
 }
 
 /* Where only the tip moves, round-off hides more, but not much more. */
-static void test_spoilt_heavy_beams(void **state)
+TEST(test_spoilt_heavy_beams)
 {
-    (void)state;
     static const struct {
         size_t n;
         double by;
@@ -475,9 +464,8 @@ static void check_other_scheme(const char *scene, const struct br_time_scheme *i
     finish(&w);
 }
 
-static void test_other_scheme(void **state)
+TEST(test_other_scheme)
 {
-    (void)state;
     for (size_t i = 0; staged(i); i++)
         for (size_t j = 0; staged(j); j++)
             if (!same_tables(staged(i), staged(j))) {
@@ -485,9 +473,8 @@ static void test_other_scheme(void **state)
             }
 }
 
-static void test_refusals(void **state)
+TEST(test_refusals)
 {
-    (void)state;
     struct br_error err = {0};
     struct br_step_checker *checker;
     struct watched w = {.scene = br_test_bundled("release"), .method = br_method_default()};
@@ -506,9 +493,8 @@ static void test_refusals(void **state)
 /* ---- the sums of a whole march ---- */
 
 /* Each term of the sums of a whole march is needed; a NaN in one is seen. */
-static void test_every_term(void **state)
+TEST(test_every_term)
 {
-    (void)state;
     static const size_t offsets[] = {
         offsetof(struct br_work, loads[0]),   offsetof(struct br_work, loads[1]),
         offsetof(struct br_work, viscous[0]), offsetof(struct br_work, viscous[1]),
@@ -537,9 +523,8 @@ static void test_every_term(void **state)
 
 /* Undamped, unloaded: what a scheme has taken is what is gone; Euler's by itself, the others of
  * higher order less. bdf3 is refused. */
-static void test_free_vibration(void **state)
+TEST(test_free_vibration)
 {
-    (void)state;
     double lost[8] = {0};
     for (size_t i = 0; staged(i); i++) {
         struct watched m = {.scene = br_test_bare()};
@@ -581,9 +566,8 @@ static void lag(const char *contact, double stiffness, struct br_work *work)
     finish(&m);
 }
 
-static void test_lagged_contact_adds(void **state)
+TEST(test_lagged_contact_adds)
 {
-    (void)state;
     struct br_work work;
     lag("lagged", 2e4, &work);
     assert_true(br_energy_added(&work, BR_AXIAL) > 0 && work.gaining[BR_AXIAL] > 100);
@@ -592,27 +576,4 @@ static void test_lagged_contact_adds(void **state)
     CLOSE(br_energy_added(&work, BR_AXIAL), -(work.scheme_contact + work.scheme[BR_AXIAL]), 0);
     lag("implicit", 2e4, &work);
     assert_true(br_energy_added(&work, BR_AXIAL) == 0 && work.gaining[BR_AXIAL] == 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tables),
-        cmocka_unit_test(test_bundled_scenes),
-        cmocka_unit_test(test_switches),
-        cmocka_unit_test(test_rules_and_meshes),
-        cmocka_unit_test(test_solvers_and_meshes),
-        cmocka_unit_test(test_random_scenes),
-        cmocka_unit_test(test_rest_on_gap),
-        cmocka_unit_test(test_heavy_beams),
-        cmocka_unit_test(test_watched_is_unwatched),
-        cmocka_unit_test(test_spoilt_scenes),
-        cmocka_unit_test(test_spoilt_heavy_beams),
-        cmocka_unit_test(test_other_scheme),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_every_term),
-        cmocka_unit_test(test_free_vibration),
-        cmocka_unit_test(test_lagged_contact_adds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -150,29 +150,25 @@ static size_t try_everywhere(const char *what, long every)
     return sets[0] * sets[1] * sets[2];
 }
 
-static void test_killed(void **state)
+TEST(test_killed)
 {
-    (void)state;
     assert_true(try_everywhere("kill", 1) > 0); /* each of the three was seen */
 }
 
-static void test_broken_disk(void **state)
+TEST(test_broken_disk)
 {
-    (void)state;
     assert_true(try_everywhere("fail", br_test_long() ? 1 : 3) > 0);
 }
 
 /* The disk fails for good, then is mended. */
-static void test_dead_disk(void **state)
+TEST(test_dead_disk)
 {
-    (void)state;
     assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
 }
 
 /* A signal is never lost: it comes in time, or when all is written. */
-static void test_stopped(void **state)
+TEST(test_stopped)
 {
-    (void)state;
     size_t in_time = 0, late = 0;
     for (long n = 1;; n++) {
         make_old();
@@ -200,9 +196,8 @@ static pid_t start_slow(const char *line)
     _exit(out.exit_code);
 }
 
-static void test_two_at_once(void **state)
+TEST(test_two_at_once)
 {
-    (void)state;
     int ending;
     make_old();
     const pid_t first = start_slow(new_line);
@@ -217,9 +212,8 @@ static void test_two_at_once(void **state)
 }
 
 /* Whatever the order: of those that begin together one at least ends well, and its set is whole. */
-static void test_many_at_once(void **state)
+TEST(test_many_at_once)
 {
-    (void)state;
     enum { PROGRAMS = 4 };
     pid_t child[PROGRAMS];
     clear_set();
@@ -236,117 +230,6 @@ static void test_many_at_once(void **state)
     assert_true(set_that_is_there() != '-');
 }
 
-/* ---- what is not ours ---- */
-
-static void test_foreign(void **state)
-{
-    (void)state;
-    make_old();
-    cli_write_file("set/notes.txt", "mine");
-    cli_expect(new_line, NULL, 0, "");
-    assert_string_equal(cli_read("set/notes.txt"), "mine");
-    assert_false(cli_is_there("set/summary.csv")); /* of the old set */
-    cli_write_file("set/history.csv", "changed");
-    cli_expect(old_line, NULL, 0, "history.csv is of an earlier run and was changed since");
-    assert_string_equal(cli_read("set/history.csv"), "changed");
-    cli_expect(new_line, NULL, 3, "history.csv was not written by an earlier run");
-    assert_string_equal(cli_read("set/history.csv"), "changed");
-    cli_expect("run example2 --n 5 --k 0.1 --out set", NULL, 3, "Example 2, slip"); /* is shown */
-    assert_true(cli_is_there("set/summary.csv"));
-    assert_false(cli_is_there("set/.beamrate"));
-}
-
-/* Nothing is lost: the results are beside it. */
-static void test_scene_in_the_way(void **state)
-{
-    (void)state;
-    char path[512];
-    clear_set();
-    cli_run_line("scenes example1", NULL, &out);
-    cli_write_file("set/summary.txt", out.output);
-    cli_run_line("run set/summary.txt --n 4 --k 0.1 --quiet --out set", NULL, &out);
-    assert_int_equal(out.exit_code, 3);
-    const char *there = strstr(out.output, "set/set-");
-    assert_non_null(there);
-    snprintf(path, sizeof path, "%.*s/summary.json", (int)strcspn(there, " "), there);
-    assert_true(cli_is_there(path));
-    assert_true(cli_file_contains("set/summary.txt", "sticks"));
-    cli_write_file("set/manifest.json", "{\"name\": \"somebody else's\"}");
-    cli_expect(new_line, NULL, 2, "manifest.json is not a manifest of this program");
-    assert_true(cli_file_contains("set/manifest.json", "somebody"));
-}
-
-static mode_t permissions_of(const char *name)
-{
-    char path[512];
-    struct stat info;
-    cli_path(name, path);
-    assert_int_equal(stat(path, &info), 0);
-    return info.st_mode & 07777;
-}
-
-/* What is new has the permissions that the user's mask leaves; a replaced file keeps its own. */
-static void test_permissions(void **state)
-{
-    (void)state;
-    static const char line[] = "run example1 --n 4 --k 0.1 --quiet --json set/one.json";
-    char path[512];
-    const mode_t mask = umask(027);
-    clear_set();
-    cli_expect(line, NULL, 0, "");
-    assert_int_equal(permissions_of("set/one.json"), 0640);
-    cli_path("set/one.json", path);
-    assert_int_equal(chmod(path, 0604), 0);
-    cli_expect(line, NULL, 0, "");
-    assert_int_equal(permissions_of("set/one.json"), 0604);
-    cli_write_file("set/history.csv", "mine");
-    cli_run_line(new_line, NULL, &out);
-    assert_int_equal(out.exit_code, 3);
-    const char *there = strstr(out.output, "set/set-");
-    assert_non_null(there);
-    snprintf(path, sizeof path, "%.*s", (int)strcspn(there, " \n"), there);
-    assert_int_equal(permissions_of(path), 0750);
-    umask(mask);
-}
-
-/* Sets that share no name live side by side, but for the page, which is of the last one; one of
- * other formats takes the old one's place. */
-static void test_several_sets(void **state)
-{
-    (void)state;
-    clear_set();
-    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
-    cli_expect("study example2 --n 4 --k 0.1 --no-plots --quiet --out set", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 17);
-    assert_true(cli_file_contains("set/report.html", "<title>Example 2"));
-    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --norm tip", NULL, 0, "");
-    assert_int_equal(cli_count_files("set"), 25);
-    assert_true(cli_file_contains("set/report.html", "<title>Example 1"));
-    const char *page = strstr(cli_read("set/manifest.json"), "report.html");
-    assert_true(page && !strstr(page + 1, "report.html")); /* in one set */
-    assert_true(cli_file_contains("set/manifest.json", "study example2"));
-    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format csv", NULL, 0,
-               "");
-    assert_int_equal(cli_count_files("set"), 21);
-    cli_expect("study example1 --n 4 --k 0.1 --no-plots --quiet --out set --format json", NULL, 0,
-               "");
-    assert_true(cli_is_there("set/example1.json") && !cli_is_there("set/example1.csv"));
-    assert_int_equal(cli_count_files("set"), 18);
-}
-
-/* A movie's set and the other one do not disturb one another. */
-static void test_two_sets(void **state)
-{
-    (void)state;
-    clear_set();
-    cli_expect("run example1 --n 4 --k 0.1 --quiet --out set --animate set/tip.gif", NULL, 0, "");
-    assert_true(cli_is_there("set/manifest.json"));
-    assert_true(cli_is_there("set/tip.manifest.json"));
-    cli_expect(old_line, NULL, 0, "");
-    assert_true(cli_is_there("set/tip.gp"));
-    assert_false(cli_is_there("set/history.csv"));
-}
-
 static int make_folder(void **state)
 {
     if (cli_make_folder(state))
@@ -356,15 +239,4 @@ static int make_folder(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_killed),      cmocka_unit_test(test_broken_disk),
-        cmocka_unit_test(test_dead_disk),   cmocka_unit_test(test_two_at_once),
-        cmocka_unit_test(test_stopped),     cmocka_unit_test(test_many_at_once),
-        cmocka_unit_test(test_foreign),     cmocka_unit_test(test_scene_in_the_way),
-        cmocka_unit_test(test_two_sets),    cmocka_unit_test(test_several_sets),
-        cmocka_unit_test(test_permissions),
-    };
-    return cmocka_run_group_tests(tests, make_folder, cli_remove_folder);
-}
+AROUND_TESTS(make_folder, cli_remove_folder)

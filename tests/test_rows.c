@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The program as a user meets it: the rows of a file, in order, each command in a process of its
+ * own, in a folder of its own.
+ * usage: test_rows FILE, of which a line is
+ *   # REMARK
+ *   = NAME                      a test begins
+ *   @ FILE | TEXT               the file is written
+ *   COMMAND | CODE | MESSAGE    of `beamrate COMMAND`: exit code, and a part of what it says
+ *   $ COMMAND | CODE            a line of sh, where $BEAMRATE is the program
+ *   with NAME=VALUE ...         circumstances of the next command of the program, see there
+ *   says TEXT, silent TEXT      whether the last command has said that, too
+ *   has FILE | TEXT, lacks FILE | TEXT
+ *   there FILE ..., gone FILE ...
+ *   files FOLDER | COUNT
+ * In commands of the program words are parted by single blanks, and '' is an empty one. In texts \n
+ * is a line's end, and " ... " anything. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+
+#include "cli_driver.h"
+#include "support.h"
+
+enum { MOST_TESTS = 64, MOST_ROW = 4096 };
+
+/* A test: its rows, of the file. */
+struct test {
+    char name[64];
+    char **row;
+    size_t rows, first; /* line of the first one, from 1 */
+};
+
+static struct cli_outcome out;
+static struct cli_circumstances circumstances;
+
+static void set_circumstance(char *pair)
+{
+    static char path[600], errors[64];
+    char *value = strchr(pair, '=');
+    assert_non_null(value);
+    *value++ = '\0';
+    if (strcmp(pair, "size") == 0) /* of a file, bytes */
+        circumstances.file_size = strtoul(value, NULL, 10);
+    else if (strcmp(pair, "interrupt") == 0) /* ms */
+        circumstances.interrupt_after = atoi(value);
+    else if (strcmp(pair, "programs") == 0) { /* of this folder before the system's */
+        snprintf(path, sizeof path, "%s/%s:/usr/bin:/bin", cli_folder(), value);
+        circumstances.path = path;
+    } else if (strcmp(pair, "errors") == 0) { /* the file of standard error */
+        snprintf(errors, sizeof errors, "%s", value);
+        circumstances.errors = errors;
+    } else if (strcmp(pair, "path") == 0) /* none: no other program is found */
+        circumstances.path = "/nowhere";
+    else if (strcmp(pair, "data") == 0) /* here: there are no scenes but in the folder */
+        circumstances.data = cli_folder();
+    else
+        fail_msg("no circumstance '%s'", pair);
+}
+
+/* Whether the text has the part; of one with " ... " in it, what stands before, then the rest. */
+static bool contains(const char *text, const char *part)
+{
+    const char *dots = strstr(part, " ... ");
+    const size_t length = dots ? (size_t)(dots - part) : strlen(part);
+    const char *at = memmem(text, strlen(text), part, length);
+    return at && (!dots || contains(at + length, dots + strlen(" ... ")));
+}
+
+static void check_text(const char *where, const char *text, const char *part, bool expected)
+{
+    if (contains(text, part) != expected)
+        fail_msg("%s %s '%s':\n%s", where, expected ? "lacks" : "has", part, text);
+}
+
+/* Returns the shell's exit code; what it says is the outcome's. */
+static int run_shell(const char *line)
+{
+    char command[MOST_ROW + 100];
+    snprintf(command, sizeof command, "exec 2>&1; cd '%s'; %s", cli_folder(), line);
+    FILE *pipe = popen(command, "r");
+    assert_non_null(pipe);
+    out.output[fread(out.output, 1, sizeof out.output - 1, pipe)] = '\0';
+    const int status = pclose(pipe);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+/* What concerns the options is refused before there are warnings. */
+static void run_command(char *row)
+{
+    char *code = br_test_part(row), *message = br_test_unescape(br_test_part(code)), *end;
+    const long expected = strtol(code, &end, 10);
+    if (end == code || *end)
+        fail_msg("'%s' is no exit code", code);
+    if (row[0] == '$')
+        out.exit_code = run_shell(row + 2);
+    else
+        cli_run_line(row, &circumstances, &out);
+    if (out.exit_code != expected)
+        fail_msg("exit code %d, expected %ld; it said:\n%s", out.exit_code, expected, out.output);
+    check_text("the output", out.output, message, true);
+    if (out.exit_code == 2 && strstr(message, "--"))
+        check_text("the refusal", out.output, "beamrate: warning: ", false);
+    circumstances = (struct cli_circumstances){0};
+}
+
+/* Calls for each word. */
+static void each_word(char *words, void (*call)(char *word))
+{
+    char *rest;
+    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
+        call(word);
+}
+
+static void is_there(char *name)
+{
+    if (!cli_is_there(name))
+        fail_msg("%s is not there", name);
+}
+
+static void is_gone(char *name)
+{
+    if (cli_is_there(name))
+        fail_msg("%s is there", name);
+}
+
+static void check_count(char *folder)
+{
+    const size_t expected = strtoul(br_test_part(folder), NULL, 10),
+                 found = cli_count_files(folder);
+    if (found != expected)
+        fail_msg("%zu files in %s, expected %zu", found, folder, expected);
+}
+
+static void write_file(char *row)
+{
+    char *text = br_test_part(row);
+    cli_write_file(row, br_test_unescape(text));
+}
+
+static void set_circumstances(char *row)
+{
+    each_word(row, set_circumstance);
+}
+
+static void says(char *text)
+{
+    check_text("the output", out.output, br_test_unescape(text), true);
+}
+
+static void is_silent(char *text)
+{
+    check_text("the output", out.output, br_test_unescape(text), false);
+}
+
+static void has(char *row)
+{
+    const char *text = br_test_unescape(br_test_part(row));
+    check_text(row, cli_read(row), text, true);
+}
+
+static void lacks(char *row)
+{
+    const char *text = br_test_unescape(br_test_part(row));
+    check_text(row, cli_read(row), text, false);
+}
+
+static void are_there(char *row)
+{
+    each_word(row, is_there);
+}
+
+static void are_gone(char *row)
+{
+    each_word(row, is_gone);
+}
+
+static void run_row(char *row)
+{
+    static const struct {
+        const char *begin;
+        void (*call)(char *rest);
+    } kinds[] = {
+        {"@ ", write_file},      {"with ", set_circumstances},
+        {"says ", says},         {"silent ", is_silent},
+        {"has ", has},           {"lacks ", lacks},
+        {"there ", are_there},   {"gone ", are_gone},
+        {"files ", check_count}, {"", run_command},
+    };
+    size_t k = 0;
+    while (strncmp(row, kinds[k].begin, strlen(kinds[k].begin)) != 0)
+        k++;
+    kinds[k].call(row + strlen(kinds[k].begin));
+}
+
+static void test_rows(void **state)
+{
+    const struct test *t = *state;
+    for (size_t i = 0; i < t->rows; i++) {
+        if (*t->row[i] == '#' || !*t->row[i])
+            continue;
+        print_message("# line %zu: %.100s\n", t->first + i, t->row[i]);
+        run_row(t->row[i]);
+    }
+}
+
+/* The rows of the file, by tests; returns their number. */
+static size_t read_tests(const char *path, struct test *test)
+{
+    static char *row[MOST_ROW];
+    char *line = NULL;
+    size_t room = 0, rows = 0, tests = 0;
+    FILE *file = fopen(path, "r");
+    if (!file)
+        return 0;
+    for (; getline(&line, &room, file) >= 0 && rows < MOST_ROW; rows++) {
+        line[strcspn(line, "\n")] = '\0';
+        if (strncmp(line, "= ", 2) == 0 && tests < MOST_TESTS) {
+            test[tests] = (struct test){.row = &row[rows + 1], .first = rows + 2};
+            snprintf(test[tests++].name, sizeof test->name, "%s", line + 2);
+        } else if (tests > 0)
+            test[tests - 1].rows++;
+        row[rows] = strdup(line);
+    }
+    free(line);
+    fclose(file);
+    return tests;
+}
+
+int main(int argc, char **argv)
+{
+    static struct test test[MOST_TESTS];
+    struct CMUnitTest tests[MOST_TESTS];
+    const size_t count = argc == 2 ? read_tests(argv[1], test) : 0;
+    for (size_t i = 0; i < count; i++)
+        tests[i] = (struct CMUnitTest){
+            .name = test[i].name, .test_func = test_rows, .initial_state = &test[i]};
+    return count ? _cmocka_run_group_tests("rows", tests, count, cli_make_folder, cli_remove_folder)
+                 : 99;
+}
