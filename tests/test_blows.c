@@ -57,7 +57,9 @@ static void find_truth(const struct hard_load *c, struct truth *truth)
 
 enum outcome { RIGHT, REFUSED, UNSURE, WRONG, OUTCOMES }; /* unsure: the oracle is */
 
-/* An estimate is the distance of two solutions; a good one may be that much too small. */
+/* An estimate is the distance of two solutions; a good one may be that much too small. So may the
+ * oracle's own: of case 865, 800 modes in 60 digits agree with the reference to 2e-12, and are 2 of
+ * the oracle's estimates from the oracle. */
 static const double estimate_factor = 3;
 
 /* Processor time, s. What takes longer counts as wrong; of the kinds that may be refused, of which
@@ -105,7 +107,7 @@ static void tell(const struct hard_load *c, const char *what)
 static bool is_right(const struct hard_load *c, double t, const char *what, const double value[3],
                      const long double truth[2])
 {
-    const long double allowed = estimate_factor * value[1] + value[2] + truth[1];
+    const long double allowed = estimate_factor * (value[1] + truth[1]) + value[2];
     const long double off = fabsl(value[0] - truth[0]);
     if (off <= allowed)
         return true;
