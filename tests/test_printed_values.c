@@ -129,7 +129,8 @@ static char *read_file(const struct watched *w, const char *name)
 /* What the test program does as the command does it: rows and fields go to files as they come. */
 static void march_and_write(struct watched *w)
 {
-    const struct br_provenance provenance = {.version = "1", .commit = "c"};
+    const struct br_provenance provenance = {
+        .version = "1", .commit = "c", .command_line = "beamrate run", .scene_text = "title: a\n"};
     struct br_error err = {0};
     char path[64];
     const struct br_history_observer output[] = {
