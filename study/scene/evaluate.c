@@ -273,12 +273,13 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
 
 /* A tree as a function: node by node over arrays of places. What does not use x is computed once a
  * call. */
-enum { CHUNK = 128 }; /* places at a time: those of usual expressions stay in the first caches */
+enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
 
 struct expression {
     struct br_tree tree;
     const struct br_elementary *set;
-    double *room;              /* CHUNK values of each node */
+    double **array; /* of each node: CHUNK values, in a slot of `room` */
+    double *room;
     struct br_function *guard; /* guards: without arrays or guards, in `work`; clone to keep */
     size_t guards;
     struct br_interval *work, *own_work; /* for proofs; of a guard that of the whole */
@@ -294,13 +295,39 @@ static void expression_free(void *self)
     br_tree_clear(&e->tree);
     free(e->guard);
     free(e->own_work);
+    free(e->array);
     free(e->room);
     free(e);
 }
 
-static double *array(const struct expression *e, size_t i)
+/* last[i]: the last node that needs node i; those that do not use x are kept for the whole call. */
+static void find_last_uses(const struct br_tree *tree, size_t *last)
 {
-    return e->room + i * CHUNK;
+    for (size_t i = 0; i < tree->count; i++) {
+        const struct br_node *n = &tree->node[i];
+        last[i] = n->uses_x ? i : tree->count;
+        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
+            if (last[n->argument[k]] < i)
+                last[n->argument[k]] = i;
+    }
+}
+
+/* Gives each node a slot; one whose node is needed no more is given again. slot, spare, last: out
+ * and workspace, tree->count each. Returns how many slots there are. */
+static size_t give_slots(const struct br_tree *tree, size_t *slot, size_t *spare, size_t *last)
+{
+    size_t slots = 0, spares = 0;
+    find_last_uses(tree, last);
+    for (size_t i = 0; i < tree->count; i++) {
+        const struct br_node *n = &tree->node[i];
+        slot[i] = n->uses_x && spares ? spare[--spares] : slots++;
+        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
+            if (last[n->argument[k]] == i) {
+                spare[spares++] = slot[n->argument[k]];
+                last[n->argument[k]] = tree->count; /* once, where it is both arguments */
+            }
+    }
+    return slots;
 }
 
 static void fill(double *array, size_t count, double value)
@@ -309,14 +336,21 @@ static void fill(double *array, size_t count, double value)
         array[i] = value;
 }
 
-static bool make_values(struct expression *e)
+static bool make_arrays(struct expression *e)
 {
     const size_t count = e->tree.count;
-    e->room = br_allocate_aligned(count * CHUNK, sizeof *e->room);
-    for (size_t i = 0; e->room && i < count; i++)
+    size_t *slot = br_allocate(3 * count, sizeof *slot);
+    e->array = br_allocate(count, sizeof *e->array);
+    const size_t slots = slot ? give_slots(&e->tree, slot, slot + count, slot + 2 * count) : 0;
+    e->room = slots ? br_allocate_aligned(slots * CHUNK, sizeof *e->room) : NULL;
+    const bool done = e->array && e->room;
+    for (size_t i = 0; i < count && done; i++) {
+        e->array[i] = e->room + slot[i] * CHUNK;
         if (e->tree.node[i].operation == BR_OP_NUMBER)
-            fill(array(e, i), CHUNK, e->tree.node[i].number);
-    return e->room;
+            fill(e->array[i], CHUNK, e->tree.node[i].number);
+    }
+    free(slot);
+    return done;
 }
 
 /* Takes the tree over, even where it fails. */
@@ -370,7 +404,7 @@ static bool add_guards(struct expression *e)
 static struct expression *create(struct br_tree *tree)
 {
     struct expression *e = wrap(tree);
-    if (e && make_values(e) && add_guards(e)) {
+    if (e && make_arrays(e) && add_guards(e)) {
         e->set = br_elementary_all[br_instruction_set_best()];
         return e;
     }
@@ -396,9 +430,9 @@ static size_t round_up(size_t count, size_t width)
 static void apply(const struct expression *e, size_t i, size_t count)
 {
     const struct br_node *n = &e->tree.node[i];
-    const double *const argument[] = {array(e, n->argument[0]), array(e, n->argument[1]),
-                                      array(e, n->argument[2])};
-    br_operation_apply(e->set, n->operation, count, argument, array(e, i));
+    const double *const argument[] = {e->array[n->argument[0]], e->array[n->argument[1]],
+                                      e->array[n->argument[2]]};
+    br_operation_apply(e->set, n->operation, count, argument, e->array[i]);
 }
 
 /* What does not use x, in as many values as will be wanted at a time. */
@@ -409,10 +443,10 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
         if (n->uses_x || n->operation == BR_OP_NUMBER)
             continue;
         if (n->operation == BR_OP_T)
-            array(e, i)[0] = t;
+            e->array[i][0] = t;
         else
             apply(e, i, e->set->width);
-        fill(array(e, i), count, array(e, i)[0]);
+        fill(e->array[i], count, e->array[i][0]);
     }
 }
 
@@ -423,8 +457,8 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
     for (size_t i = 0; i < e->tree.count; i++) {
         const struct br_node *n = &e->tree.node[i];
         if (n->operation == BR_OP_X) {
-            memcpy(array(e, i), x, count * sizeof *x);
-            fill(array(e, i) + count, full - count, x[count - 1]);
+            memcpy(e->array[i], x, count * sizeof *x);
+            fill(e->array[i] + count, full - count, x[count - 1]);
         } else if (n->uses_x) {
             apply(e, i, full);
         }
@@ -434,7 +468,7 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
 static void expression_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
     const struct expression *e = self;
-    const double *root = array(e, e->tree.count - 1);
+    const double *root = e->array[e->tree.count - 1];
     const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
