@@ -392,12 +392,17 @@ static void draw_times(struct hard_load *c)
     qsort(c->t, HARD_TIMES, sizeof *c->t, ascending_times);
 }
 
-void hard_load_draw(struct hard_load *c, size_t number)
+static void begin(struct hard_load *c, size_t number)
 {
-    static char load[3][HARD_TEXT];
     memset(c, 0, sizeof *c);
     c->random.state = 20261122 + 7919 * number;
     c->number = number;
+}
+
+void hard_load_draw(struct hard_load *c, size_t number)
+{
+    static char load[3][HARD_TEXT];
+    begin(c, number);
     c->kind = (enum hard_kind)(number % HARD_KINDS);
     load[0][0] = load[1][0] = load[2][0] = '\0';
     draw_beam(c, c->kind == HARD_FRONT || c->kind == HARD_PULSE);
@@ -411,6 +416,27 @@ void hard_load_draw(struct hard_load *c, size_t number)
     if (c->kind == HARD_BLOW || c->kind == HARD_STRONG || c->terms == 0 ||
         br_test_index(&c->random, 3))
         add_smooth(c, load);
+    write_scene(c, load);
+    draw_times(c);
+}
+
+void hard_load_draw_at_clamp(struct hard_load *c, size_t number)
+{
+    static char load[3][HARD_TEXT];
+    static struct drawn d;
+    begin(c, number);
+    c->kind = HARD_PATCH;
+    load[0][0] = load[1][0] = load[2][0] = '\0';
+    while (!c->problem.bending)
+        draw_beam(c, false);
+    struct oracle_term term = {.place = ORACLE_SPREAD};
+    const double width = decades(c, 1e-8, 1e-2) * c->problem.length;
+    const double middle = width * (coin(c) ? 0.5 : uniform(c, 0.5, 20));
+    d.sharp = 1; /* numbers this small know their last place */
+    term.time = draw_smooth(c, c->duration, "t", d.time);
+    term.space = draw_narrow(c, middle, width, "x", c->step[0][0], d.space);
+    term.amplitude = c->unit / size_of(&term.time, c->duration) * pow(c->problem.length / width, 3);
+    add_term(c, term, &d, load);
     write_scene(c, load);
     draw_times(c);
 }

@@ -50,4 +50,8 @@ extern const struct hard_kind_row {
 /* The scene of a number: always the same. */
 void hard_load_draw(struct hard_load *c, size_t number);
 
+/* The same of a beam under a patch within a few of its widths, 1e-8 to 1e-2 L, from the clamp. What
+ * a mode is there is a difference of what is larger by up to 1e16. */
+void hard_load_draw_at_clamp(struct hard_load *c, size_t number);
+
 #endif

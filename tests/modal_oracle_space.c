@@ -74,10 +74,32 @@ struct oracle_mode oracle_mode(bool bending, size_t i)
     return m;
 }
 
+/* The value at x = y / b beside the clamp, where its four parts cancel: cosh y - cos y - sine
+ * (sinh y - sin y) by its series, which has every fourth power of either. */
+static real value_at_clamp(const struct oracle_mode *m, real y)
+{
+    const real y4 = y * y * y * y;
+    real even = y * y, odd = y * y * y / 3, sum = 0; /* of y^n, twice over n! */
+    for (int n = 2; n < 22; n += 4) {
+        sum += even - m->sine * odd;
+        even *= y4 / (real)((n + 1) * (n + 2) * (n + 3) * (n + 4));
+        odd *= y4 / (real)((n + 2) * (n + 3) * (n + 4) * (n + 5));
+    }
+    return sum;
+}
+
+/* Whether x is so close to the clamp that a beam's mode is small there. */
+static bool at_clamp(const struct oracle_mode *m, real x)
+{
+    return m->bending && m->b * x < 1;
+}
+
 real oracle_mode_value(const struct oracle_mode *m, real x)
 {
     if (!m->bending)
         return root2 * sinl(m->b * x);
+    if (at_clamp(m, x))
+        return value_at_clamp(m, m->b * x);
     return m->start * expl(-m->b * x) + m->end * expl(-m->b * (1 - x)) - cosl(m->b * x) +
            m->sine * sinl(m->b * x);
 }
@@ -90,7 +112,7 @@ static real mode_slope(const struct oracle_mode *m)
     return m->b * (m->end - m->start * expl(-m->b) + sinl(m->b) + m->sine * cosl(m->b));
 }
 
-/* The integral from x0 to x1, without cancellation where they are close. */
+/* The integral from x0 to x1, without cancellation where they are close; not at the clamp. */
 static real mode_integral(const struct oracle_mode *m, real x0, real x1)
 {
     const real b = m->b, middle = b * (x0 + x1) / 2, sine = 2 * sinl(b * (x1 - x0) / 2) / b;
@@ -184,7 +206,8 @@ static real step_piece(const struct oracle_weight *w, real x0, real x1)
 {
     static const struct oracle_factor one = {.kind = ORACLE_POWER};
     const real none[] = {0, 1};
-    return w->mode ? mode_integral(w->mode, x0, x1) : smooth_piece(w, &one, none, x0, x1);
+    return w->mode && !at_clamp(w->mode, x1) ? mode_integral(w->mode, x0, x1)
+                                             : smooth_piece(w, &one, none, x0, x1);
 }
 
 /* The integral of exp(-((x - s) / w)^2) times a mode over the whole line: the beam's, where the
@@ -218,7 +241,8 @@ real oracle_spread(const struct oracle_weight *w, const struct oracle_factor *f,
         return sum;
     const size_t edges = oracle_edges(f, edge);
     if (f->kind == ORACLE_GAUSS && w->mode && w->mode->b * f->p[1] <= 12 * length &&
-        shift + edge[0] >= 0 && shift + edge[edges - 1] <= length)
+        shift + edge[0] >= 0 && shift + edge[edges - 1] <= length &&
+        !at_clamp(w->mode, (shift + edge[edges - 1]) / length))
         return whole_gauss(w->mode, (shift + f->p[0]) / length, f->p[1] / length);
     for (size_t i = 0; i <= edges; i++) {
         const real x1 = i < edges ? clipped((shift + edge[i]) / length) : 1;

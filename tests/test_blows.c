@@ -103,6 +103,22 @@ static void tell(const struct hard_load *c, const char *what)
     print_message("# case %zu, %s: %s\n", c->number, hard_kinds[c->kind].text, what);
 }
 
+static const double acceptable = 1e-5; /* as study does */
+
+/* Whether an answer states no more than was asked for. */
+static bool is_useful(const struct hard_load *c, const struct br_exact *exact)
+{
+    const enum br_exact_field field = c->problem.bending ? BR_EXACT_BENDING : BR_EXACT_AXIAL;
+    const struct br_exact_report report = br_exact_report(exact, field);
+    if (report.error.displacement <= acceptable * report.largest.displacement)
+        return true;
+    char text[100];
+    snprintf(text, sizeof text, "WRONG: states %.2g m of displacements up to %.2g m",
+             report.error.displacement, report.largest.displacement);
+    tell(c, text);
+    return false;
+}
+
 /* One value against the truth: NaN is wrong. */
 static bool is_right(const struct hard_load *c, double t, const char *what, const double value[3],
                      const long double truth[2])
@@ -168,17 +184,16 @@ static enum outcome refused(const struct hard_load *c, const struct br_error *er
     return reason ? REFUSED : WRONG;
 }
 
-static enum outcome try(const struct hard_load *c)
+/* useful: it may not state too much either. */
+static enum outcome try(const struct hard_load *c, bool useful)
 {
     struct br_error err = {0};
     struct br_scene scene = {0};
     struct br_exact *exact = NULL;
     struct patience patience = {clock(), may_be_refused(c) && !br_test_long() ? short_patience
                                                                               : usual_patience};
-    const struct br_exact_options options = {/* as study does */
-                                             .acceptable = 1e-5,
-                                             .stop = out_of_patience,
-                                             .stop_self = &patience};
+    const struct br_exact_options options = {
+        .acceptable = acceptable, .stop = out_of_patience, .stop_self = &patience};
     enum br_status status = br_scene_read_text("blows", c->text, &scene, &err);
     if (!status)
         status = br_exact_create(&exact, &scene, &options, &err);
@@ -186,7 +201,7 @@ static enum outcome try(const struct hard_load *c)
     if (!status) {
         struct truth truth;
         find_truth(c, &truth);
-        outcome = compare(c, exact, &truth);
+        outcome = !useful || is_useful(c, exact) ? compare(c, exact, &truth) : WRONG;
         if (outcome == RIGHT && !is_sure(&truth))
             outcome = UNSURE;
     }
@@ -206,7 +221,7 @@ TEST(test_hard_loads)
     const size_t cases = br_test_long() ? 2000 : 60;
     for (size_t i = 0; i < cases; i++) {
         hard_load_draw(&c, i);
-        count[c.kind][try(&c)]++;
+        count[c.kind][try(&c, false)]++;
     }
     for (size_t k = 0; k < HARD_KINDS; k++) {
         const size_t all = count[k][RIGHT] + count[k][REFUSED] + count[k][UNSURE] + count[k][WRONG];
@@ -220,4 +235,18 @@ TEST(test_hard_loads)
     assert_int_equal(wrong, 0);
     assert_true(100 * unsure <= cases);
     assert_int_equal(refusals, 0); /* kinds of which too many are refused */
+}
+
+/* Those were once wrong in the exact reference, whose modes had round-off of their largest values
+ * there, and later in the oracle, whose modes had it, too. */
+TEST(test_patches_at_the_clamp)
+{
+    static struct hard_load c;
+    const size_t cases = br_test_long() ? 500 : 40;
+    size_t right = 0;
+    for (size_t i = 0; i < cases; i++) {
+        hard_load_draw_at_clamp(&c, i);
+        right += try(&c, true) == RIGHT;
+    }
+    assert_int_equal(right, cases);
 }

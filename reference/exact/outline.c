@@ -402,6 +402,23 @@ static void find_layers(struct work *w)
 
 /* ---- what is proved ---- */
 
+/* A cell as far as functions are surely smooth there. The end that it shares with a place where
+ * they jump is one end of the place, which may be the other one. */
+static struct br_interval smooth_part(const struct work *w, enum br_variable along, double low,
+                                      double high)
+{
+    const struct br_breaks *breaks = &w->breaks[along];
+    struct br_interval cell = {low, high};
+    for (size_t i = 0; i < breaks->count; i++) {
+        const struct br_interval at = breaks->at[i];
+        if (at.low <= low && low <= at.high)
+            cell.low = at.high;
+        if (at.low <= high && high <= at.high)
+            cell.high = at.low;
+    }
+    return (struct br_interval){cell.low * (1 + apart), cell.high * (1 - apart)};
+}
+
 /* Adds to what may be missed how far polynomials of the highest degree may be from a function in
  * the cells: Radau's and Gauss's rules integrate these. */
 static void count_proved(struct work *w, const struct subject *s, enum br_variable along,
@@ -409,7 +426,7 @@ static void count_proved(struct work *w, const struct subject *s, enum br_variab
 {
     double sum = 0;
     for (size_t i = 0; i + 1 < ends->count; i++) {
-        const struct br_interval cell = {ends->at[i] * (1 + apart), ends->at[i + 1] * (1 - apart)};
+        const struct br_interval cell = smooth_part(w, along, ends->at[i], ends->at[i + 1]);
         struct br_interval value;
         if (!(cell.low < cell.high && br_function_bound(s->f, line(along, cell), &value)))
             continue;
