@@ -164,8 +164,9 @@ static void begin(struct solver *s)
             *rest = part(s, &w);
         for (size_t i = 0; i < (s->term->moving ? s->panels.count * NODES : 1); i++)
             rest[i] *= factor;
-        if (!s->term->moving) /* modes are taken away from it until little is left */
-            s->round_off[power - 1] = 4 * LDBL_EPSILON * fabsl(*rest);
+        /* Modes are taken away from it until little is left; b^8 has lost some digits. */
+        if (!s->term->moving)
+            s->round_off[power - 1] = 16 * LDBL_EPSILON * fabsl(*rest);
     }
     if (!s->term->moving)
         slow_response(s, s->time, s->slow);

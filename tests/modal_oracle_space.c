@@ -74,31 +74,28 @@ struct oracle_mode oracle_mode(bool bending, size_t i)
     return m;
 }
 
-/* The value at x = y / b beside the clamp, where its four parts cancel: cosh y - cos y - sine
- * (sinh y - sin y) by its series, which has every fourth power of either. */
-static real value_at_clamp(const struct oracle_mode *m, real y)
-{
-    const real y4 = y * y * y * y;
-    real even = y * y, odd = y * y * y / 3, sum = 0; /* of y^n, twice over n! */
-    for (int n = 2; n < 22; n += 4) {
-        sum += even - m->sine * odd;
-        even *= y4 / (real)((n + 1) * (n + 2) * (n + 3) * (n + 4));
-        odd *= y4 / (real)((n + 2) * (n + 3) * (n + 4) * (n + 5));
-    }
-    return sum;
-}
-
-/* Whether x is so close to the clamp that a beam's mode is small there. */
-static bool at_clamp(const struct oracle_mode *m, real x)
+/* Whether a beam's mode is so close to the clamp that its parts cancel. */
+static bool is_at_clamp(const struct oracle_mode *m, real x)
 {
     return m->bending && m->b * x < 1;
+}
+
+/* cosh y - cos y - sine (sinh y - sin y) by its series. */
+static real value_at_clamp(const struct oracle_mode *m, real y)
+{
+    real sum = 0, power = y * y; /* y^k / k!, twice */
+    for (int k = 2; k < 26; k += 4) {
+        sum += power * (1 - m->sine * y / (k + 1));
+        power *= y * y * y * y / (real)((k + 1) * (k + 2) * (k + 3) * (k + 4));
+    }
+    return sum;
 }
 
 real oracle_mode_value(const struct oracle_mode *m, real x)
 {
     if (!m->bending)
         return root2 * sinl(m->b * x);
-    if (at_clamp(m, x))
+    if (is_at_clamp(m, x))
         return value_at_clamp(m, m->b * x);
     return m->start * expl(-m->b * x) + m->end * expl(-m->b * (1 - x)) - cosl(m->b * x) +
            m->sine * sinl(m->b * x);
@@ -112,7 +109,7 @@ static real mode_slope(const struct oracle_mode *m)
     return m->b * (m->end - m->start * expl(-m->b) + sinl(m->b) + m->sine * cosl(m->b));
 }
 
-/* The integral from x0 to x1, without cancellation where they are close; not at the clamp. */
+/* The integral from x0 to x1, without cancellation where they are close. */
 static real mode_integral(const struct oracle_mode *m, real x0, real x1)
 {
     const real b = m->b, middle = b * (x0 + x1) / 2, sine = 2 * sinl(b * (x1 - x0) / 2) / b;
@@ -153,9 +150,19 @@ struct oracle_factor oracle_one(void)
     return (struct oracle_factor){.kind = ORACLE_STEPS, .step = &step, .steps = 1};
 }
 
+static bool is_narrow(const struct oracle_factor *f)
+{
+    return f->kind == ORACLE_GAUSS || f->kind == ORACLE_HAT;
+}
+
+/* A narrow factor at its middle + y of its widths. */
+static real narrow_value(const struct oracle_factor *f, real y)
+{
+    return f->kind == ORACLE_GAUSS ? expl(-y * y) : fmaxl(0, 1 - fabsl(y));
+}
+
 real oracle_value(const struct oracle_factor *f, real s)
 {
-    const real y = (s - f->p[0]) / (f->kind == ORACLE_GAUSS || f->kind == ORACLE_HAT ? f->p[1] : 1);
     real sum = 0;
     switch (f->kind) {
     case ORACLE_STEPS:
@@ -166,10 +173,8 @@ real oracle_value(const struct oracle_factor *f, real s)
         return powl(s, f->p[0]);
     case ORACLE_WAVE:
         return sinl(f->p[0] * s);
-    case ORACLE_GAUSS:
-        return expl(-y * y);
     default:
-        return fmaxl(0, 1 - fabsl(y));
+        return narrow_value(f, (s - f->p[0]) / f->p[1]);
     }
 }
 
@@ -183,12 +188,17 @@ size_t oracle_edges(const struct oracle_factor *f, real edge[ORACLE_EDGES])
 
 /* ---- integrals of a load over the beam ---- */
 
-/* The integral of a factor of x - shift times the weight from x0 to x1, in units of the length. */
+/* The integral of a factor of x - shift times the weight from x0 to x1, in units of the length; of
+ * a narrow factor from its middle + x0 to its middle + x1 of its widths, for x itself has lost
+ * digits of the distance from the middle. */
 static real smooth_piece(const struct oracle_weight *w, const struct oracle_factor *f,
                          const real shift[2], real x0, real x1)
 {
+    const bool narrow = is_narrow(f);
+    const real middle = narrow ? (shift[0] + f->p[0]) / shift[1] : 0;
+    const real unit = narrow ? f->p[1] / shift[1] : 1;
     const real wave = f->kind == ORACLE_WAVE ? (real)f->p[0] * shift[1] : 0;
-    const real angle = (x1 - x0) * fmaxl(w->mode ? w->mode->b : 0, fabsl(wave));
+    const real angle = (x1 - x0) * unit * fmaxl(w->mode ? w->mode->b : 0, fabsl(wave));
     const size_t parts = 1 + (size_t)(angle / 12);
     const real width = (x1 - x0) / (real)parts;
     const struct oracle_gauss *g = oracle_gauss();
@@ -196,8 +206,8 @@ static real smooth_piece(const struct oracle_weight *w, const struct oracle_fact
     for (size_t i = 0; i < parts; i++)
         for (int j = 0; j < NODES; j++) {
             const real x = x0 + width * ((real)i + g->node[j]);
-            sum += g->weight[j] * width * oracle_weight_value(w, x) *
-                   oracle_value(f, x * shift[1] - shift[0]);
+            sum += g->weight[j] * width * unit * oracle_weight_value(w, middle + unit * x) *
+                   (narrow ? narrow_value(f, x) : oracle_value(f, x * shift[1] - shift[0]));
         }
     return sum;
 }
@@ -206,8 +216,8 @@ static real step_piece(const struct oracle_weight *w, real x0, real x1)
 {
     static const struct oracle_factor one = {.kind = ORACLE_POWER};
     const real none[] = {0, 1};
-    return w->mode && !at_clamp(w->mode, x1) ? mode_integral(w->mode, x0, x1)
-                                             : smooth_piece(w, &one, none, x0, x1);
+    return w->mode && !is_at_clamp(w->mode, x1) ? mode_integral(w->mode, x0, x1)
+                                                : smooth_piece(w, &one, none, x0, x1);
 }
 
 /* The integral of exp(-((x - s) / w)^2) times a mode over the whole line: the beam's, where the
@@ -230,7 +240,7 @@ real oracle_spread(const struct oracle_weight *w, const struct oracle_factor *f,
                    real length)
 {
     const real by[] = {shift, length};
-    real sum = 0, level = 0, edge[ORACLE_EDGES], x0 = 0;
+    real sum = 0, level = 0, edge[ORACLE_EDGES];
     for (size_t i = 0; f->kind == ORACLE_STEPS && i < f->steps; i++) {
         level += f->step[i].height;
         const real x = clipped((shift + f->step[i].at) / length);
@@ -241,14 +251,15 @@ real oracle_spread(const struct oracle_weight *w, const struct oracle_factor *f,
         return sum;
     const size_t edges = oracle_edges(f, edge);
     if (f->kind == ORACLE_GAUSS && w->mode && w->mode->b * f->p[1] <= 12 * length &&
-        shift + edge[0] >= 0 && shift + edge[edges - 1] <= length &&
-        !at_clamp(w->mode, (shift + edge[edges - 1]) / length))
+        !is_at_clamp(w->mode, (shift + f->p[0]) / length) && shift + edge[0] >= 0 &&
+        shift + edge[edges - 1] <= length)
         return whole_gauss(w->mode, (shift + f->p[0]) / length, f->p[1] / length);
-    for (size_t i = 0; i <= edges; i++) {
-        const real x1 = i < edges ? clipped((shift + edge[i]) / length) : 1;
-        const bool outside = edges && (i == 0 || i == edges); /* nothing is left there */
-        sum += x1 > x0 && !outside ? smooth_piece(w, f, by, x0, x1) : 0;
-        x0 = x1;
+    if (!edges)
+        return smooth_piece(w, f, by, 0, 1);
+    const real low = -(shift + f->p[0]) / f->p[1], high = low + length / f->p[1];
+    for (size_t i = 0; i + 1 < edges; i++) { /* nothing is left outside of the edges */
+        const real y = (real)i - (real)(edges / 2), y0 = fmaxl(y, low), y1 = fminl(y + 1, high);
+        sum += y1 > y0 ? smooth_piece(w, f, by, y0, y1) : 0;
     }
     return sum;
 }

@@ -57,9 +57,7 @@ static void find_truth(const struct hard_load *c, struct truth *truth)
 
 enum outcome { RIGHT, REFUSED, UNSURE, WRONG, OUTCOMES }; /* unsure: the oracle is */
 
-/* An estimate is the distance of two solutions; a good one may be that much too small. So may the
- * oracle's own: of case 865, 800 modes in 60 digits agree with the reference to 2e-12, and are 2 of
- * the oracle's estimates from the oracle. */
+/* An estimate is the distance of two solutions; a good one may be that much too small. */
 static const double estimate_factor = 3;
 
 /* Processor time, s. What takes longer counts as wrong; of the kinds that may be refused, of which
@@ -123,7 +121,7 @@ static bool is_useful(const struct hard_load *c, const struct br_exact *exact)
 static bool is_right(const struct hard_load *c, double t, const char *what, const double value[3],
                      const long double truth[2])
 {
-    const long double allowed = estimate_factor * (value[1] + truth[1]) + value[2];
+    const long double allowed = estimate_factor * value[1] + value[2] + truth[1];
     const long double off = fabsl(value[0] - truth[0]);
     if (off <= allowed)
         return true;
@@ -210,6 +208,37 @@ static enum outcome try(const struct hard_load *c, bool useful)
     br_exact_free(exact);
     br_scene_clear(&scene);
     return outcome;
+}
+
+/* A narrow patch, in mid-beam and near the clamp, within its blow: by 800 modes in 60 digits, in
+ * which both factors' integrals are in closed form. There the oracle's static deflections cancel
+ * its modes to 14 digits. */
+TEST(test_oracle_on_narrow_patch)
+{
+    static const double truth[][3] = {
+        {0.86664907269995628, 0.018460612042939982, -0.59645511265069192},
+        {0.0022, 4.0001902741220698e-8, -1.3949214582753512e-6},
+    };
+    const double t[] = {136.042, 136.10519410000001};
+    const struct oracle_problem beam = {.bending = true,
+                                        .length = 2.2496388435787869,
+                                        .density = 7.4793210899687708,
+                                        .stiffness = 0.00070549869033074302,
+                                        .viscosity = 0.025476402833308241};
+    for (size_t i = 0; i < 2; i++) {
+        struct oracle_tip tip[2] = {0};
+        const struct oracle_term term = {
+            .place = ORACLE_SPREAD,
+            .amplitude = 27436111227.973743,
+            .space = {.kind = ORACLE_GAUSS, .p = {truth[i][0], 2.2796748509035939e-07}},
+            .time = {.kind = ORACLE_GAUSS, .p = {136.042, 0.042129399999999997}}};
+        oracle_term(&beam, &term, 2, t, tip);
+        for (size_t k = 0; k < 2; k++) {
+            const long double off = fabsl(tip[k].velocity - truth[i][k + 1]);
+            assert_true(off <= tip[k].velocity_error);
+            assert_true(tip[k].velocity_error < 1e-8L);
+        }
+    }
 }
 
 TEST(test_hard_loads)
