@@ -146,4 +146,15 @@ configured 'its tests' '-Dtests=enabled --reconfigure$'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build
 
+# A message that quotes "\nnot ok 2" is no failed case.
+mkdir -p "$work/log/meson-logs"
+printf '%s\n' '{"stdout": "# has \\\\nnot ok 2\nok 1 - a\nnot ok 2 - b\n", "result": "FAIL"}' \
+    >"$work/log/meson-logs/testlog.json"
+eval "$(sed -n '/^count_cases()/,/^}/p' "${0%/*}/../bootstrap")"
+count=$(build=$work/log count_cases 1)
+[ "$count" = '1 passed, 1 failed' ] || {
+    echo "the count of one good and one bad case is '$count'"
+    failures=$((failures + 1))
+}
+
 [ "$failures" -eq 0 ]
