@@ -12,7 +12,6 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
 }
 
 static const char *const limit_methods[] = {
-    [BR_LIMIT_TWO_GRIDS] = "GCI of two grids",
     [BR_LIMIT_GCI] = "GCI, Celik et al. 2008",
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };

@@ -25,33 +25,20 @@ static const double deep = 1e-6;
 /* What is less than this many times the level at which errors stay is off by that level. */
 static const double beside = 10;
 
-/* ln((a^p - b^p)/(b^p - c^p)) of sizes a > b > c; it grows with p. */
-static double growth(double a, double b, double c, double p)
-{
-    const double coarse = log(a / b), fine = log(b / c);
-    if (fabs(p) * fmax(coarse, fine) < 1e-6)
-        return log(coarse / fine) + p * (coarse + fine) / 2;
-    return log(expm1(p * coarse) / -expm1(-p * fine));
-}
-
-/* Orders of differences are looked for up to this one, of either sign. */
+/* Orders of differences are believed up to this one, of either sign. */
 static const double steepest = 60;
 
 /* The order that two errors show. Differences from the next finer value, where `fine` is that of
  * the value that `coarse` is compared with, are C |z^p - z_against^p|. */
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
-    const double falls = log(coarse->error / fine->error);
+    const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
     if (!(coarse->error > 0 && fine->error > 0))
         return NAN;
     if (coarse->z_against == 0)
-        return falls / log(coarse->z / fine->z);
-    double low = -steepest, high = steepest;
-    for (int i = 0; i < 64; i++) {
-        const double p = (low + high) / 2;
-        *(growth(coarse->z, fine->z, fine->z_against, p) < falls ? &low : &high) = p;
-    }
-    return (low + high) / 2;
+        return falls / ratio;
+    const double order = br_order_of_differences(log(fine->z / fine->z_against), ratio, falls, 1);
+    return fmax(-steepest, fmin(order, steepest));
 }
 
 /* Takes a number that is there out of sorted ones. */
