@@ -570,10 +570,7 @@ TEST(test_not_kept)
     unlink(path_of("count.fails"));
     unlink(path_of("count.runs"));
     expect_run(&p, 1, 1);
-    static const char *const texts[] = {"{\"format\": \"beamrate-cell 1\", \"numbers\": [7",
-                                        "{\"format\": \"beamrate-cell 1\", \"numbers\": [null]}",
-                                        "{\"format\": \"beamrate-cell 1\", \"numbers\": [7, 8]}",
-                                        "{\"format\": \"beamrate-cell 2\", \"numbers\": [7]}", ""};
+    static const char *const texts[] = {"", "beamrate kept 1\n", "beamrate kept 2\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
         spoilt = texts[i];
         assert_int_equal(nftw(kept, spoil, 8, FTW_PHYS), 0);

@@ -53,7 +53,7 @@ struct br_orders_request {
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
     size_t readings;
-    double seconds; /* limit of one run; 0: BR_PROGRAM_SECONDS */
+    double seconds; /* limit of one run */
     /* borrowed, and not of a study file */
     int jobs;                           /* runs at once; 0: one a core */
     const char *kept;                   /* the folder of finished cells, made where it is missing;
@@ -126,6 +126,16 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
  */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
+
+/* A command at one resolution. */
+struct br_command_words {
+    char **word;   /* owned, as they are; a NULL at the end */
+    char *program; /* absolute path; owned */
+};
+enum br_status br_command_split(const struct br_orders_request *request,
+                                const struct br_numbers_row *row, struct br_command_words *words,
+                                struct br_error *err);
+void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
 /* BR_BAD_INPUT: it cannot find a number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);
