@@ -159,9 +159,8 @@ struct br_order_expectation {
 };
 
 /* Reads "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2 down to 1e-9", on that line, and adds it to
- * a list, which is owned by the caller. Fails with BR_BAD_INPUT, beginning with `where`, or
- * BR_NO_MEMORY. */
-enum br_status br_expectations_read(const char *where, const char *text, size_t line,
+ * a list, which is owned by the caller. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 

@@ -66,17 +66,9 @@ void br_orders_request_clear(struct br_orders_request *request);
 
 /* ---- sources ---- */
 
-/* Where numbers come from: a registry. */
-struct br_orders_source {
-    bool (*applies)(const struct br_orders_request *request);
-    /* *numbers (in): zeros. Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_IO or BR_INTERRUPTED. */
-    enum br_status (*read)(const struct br_orders_request *request, struct br_numbers *numbers,
-                           struct br_error *err);
-};
-extern const struct br_orders_source br_orders_sources[]; /* ends with zeros */
-
-/* Reads the numbers from the source that applies (out; clear them even after a failure), and checks
- * them. Fails as the source does, or with BR_BAD_INPUT where none applies. */
+/* Reads the numbers of the table, or of the program (out; clear them even after a failure), and
+ * checks them. Fails as br_table_read, br_program_run and br_numbers_check do, or with BR_BAD_INPUT
+ * where there is neither. */
 enum br_status br_orders_read(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
