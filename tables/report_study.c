@@ -29,8 +29,6 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-static const char *const directions[BR_DIRECTIONS] = {"h", "k"};
-
 /* Says how well a reference is known. own: its own error; NaN: not known. */
 static void say_own_error(struct br_document *d, const struct br_study *s, double own)
 {
@@ -141,11 +139,11 @@ static void put_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = br_report_fitted(r);
     char text[64];
-    for (int i = 0; i < BR_DIRECTIONS; i++) {
+    for (int i = 0; i < BR_AXES; i++) {
         const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
         if (!seen->asked)
             continue;
-        br_put_answer(d, "Order in %s: ", directions[i]);
+        br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
         if (isfinite(seen->order.value))
             br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
                         seen->theory, seen->remark, seen->by);
@@ -231,8 +229,8 @@ static void put_grid(struct br_document *d, const struct br_report *r, const str
             br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
         }
         if (g->fits)
-            BR_PUT(d, br_text(slope_text(&g->fits->by_n[i].order, buffer)), .key = "slope",
-                   .heading = "slope in k [95 %]");
+            BR_PUT(d, br_text(slope_text(&g->fits->slope[BR_AXIS_TIME][i].order, buffer)),
+                   .key = "slope", .heading = "slope in k [95 %]");
     }
     if (!g->fits)
         return;
@@ -240,7 +238,7 @@ static void put_grid(struct br_document *d, const struct br_report *r, const str
     br_put_shown(d, "slope in h");
     br_put_rule(d);
     for (size_t j = 0; j < s->k_count; j++) {
-        const struct br_estimate *slope = &g->fits->by_k[j].order;
+        const struct br_estimate *slope = &g->fits->slope[BR_AXIS_SPACE][j].order;
         BR_PUT_CELLS(d, br_number(slope->value));
         if (slope->value <= 0 || slope->low <= 0)
             br_put_shown(d, "%s", slope_text(slope, buffer));
@@ -377,6 +375,8 @@ static void put_estimate(struct br_document *d, const struct br_column *column,
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
+    static const char *const orders[] = {"p", "q"}, *const headings[] = {"p [95 %]", "q [95 %]"},
+                             *const constants[] = {"C_h", "C_k"};
     bool told = r->rates;
     for (enum br_part part = 0; part < BR_PARTS; part++)
         told |= is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
@@ -385,27 +385,25 @@ static void put_fits(struct br_document *d, const struct br_report *r)
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         const struct br_joint_fit *j = &r->fits[part].joint;
         const bool claims = br_joint_describes(j);
-        const char *constant = claims ? NULL : "-";
-        char p[64] = "not claimed", q[64] = "not claimed", both[64] = "-";
+        char text[64];
         if (!is_shown(r, part))
             continue;
-        if (claims && br_order_determined(&j->p))
-            br_order_text(&j->p, p, sizeof p);
-        if (claims && br_order_determined(&j->q))
-            br_order_text(&j->q, q, sizeof q);
-        if (claims)
-            snprintf(both, sizeof both, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
         br_put_row(d);
         BR_PUT(d, br_text(br_part_names[part]), .key = "part");
         BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
                .flags = BR_FILES_ONLY);
         if (!j->converged)
             br_put_shown(d, "none");
-        PUT_ESTIMATE(d, &j->p, p, .key = "p", .heading = "p [95 %]");
-        PUT_ESTIMATE(d, &j->c_h, constant, .key = "C_h", .format = "%.3g");
-        PUT_ESTIMATE(d, &j->q, q, .key = "q", .heading = "q [95 %]");
-        PUT_ESTIMATE(d, &j->c_k, constant, .key = "C_k", .format = "%.3g");
-        PUT_ESTIMATE(d, &j->r, both, .key = "r", .heading = "r [95 %]");
+        for (int a = 0; a < BR_AXES; a++) {
+            const bool sure = claims && br_order_determined(&j->order[a]);
+            PUT_ESTIMATE(d, &j->order[a],
+                         sure ? br_order_text(&j->order[a], text, sizeof text) : "not claimed",
+                         .key = orders[a], .heading = headings[a]);
+            PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a], .format = "%.3g");
+        }
+        snprintf(text, sizeof text, claims ? "%.3f [%.3f, %.3f]" : "-", j->r.value, j->r.low,
+                 j->r.high);
+        PUT_ESTIMATE(d, &j->r, text, .key = "r", .heading = "r [95 %]");
         BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
         BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
@@ -539,9 +537,9 @@ static void put_facts(struct br_document *d, const struct br_report *r)
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (int i = 0; i < BR_DIRECTIONS; i++) {
+        for (int i = 0; i < BR_AXES; i++) {
             const struct br_seen_order *seen = &r->seen[part][i];
-            const char *name = br_part_names[part], *in = directions[i];
+            const char *name = br_part_names[part], *in = br_axis_letters[i];
             if (!seen->asked)
                 continue;
             br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
@@ -572,13 +570,13 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     char text[64];
     br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
+        for (int i = 0; is_shown(r, part) && i < BR_AXES; i++) {
             const struct br_seen_order *seen = &r->seen[part][i];
             if (!seen->asked)
                 continue;
             br_put_row(d);
             BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+            BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "seen [95 %]");
             BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
@@ -635,7 +633,8 @@ void br_report_study(const struct br_report *r, struct br_document *d)
         for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
             const bool row = i < s->n_count;
             const size_t j = row ? i : i - s->n_count;
-            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
+            const struct br_slope *slope =
+                &r->fits[part].slope[row ? BR_AXIS_TIME : BR_AXIS_SPACE][j];
             br_put_row(d);
             BR_PUT(d, br_text(br_part_names[part]), .key = "part");
             BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");

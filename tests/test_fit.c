@@ -92,11 +92,11 @@ TEST(test_recovers)
             const struct br_joint_fit *j = &fits.joint;
             assert_true(j->converged && br_joint_describes(j));
             assert_int_equal(j->kind, BR_JOINT_BOTH);
-            CLOSE(j->p.value, truths[i].p, 1e-5);
-            CLOSE(j->q.value, truths[i].q, 1e-5);
+            CLOSE(j->order[0].value, truths[i].p, 1e-5);
+            CLOSE(j->order[1].value, truths[i].q, 1e-5);
             CLOSE(j->r.value, truths[i].r, 1e-4);
-            CLOSE(j->c_h.value / truths[i].c_h, 1, 1e-4);
-            CLOSE(j->c_k.value / truths[i].c_k, 1, 1e-4);
+            CLOSE(j->c[0].value / truths[i].c_h, 1, 1e-4);
+            CLOSE(j->c[1].value / truths[i].c_k, 1, 1e-4);
             AT_MOST(j->worst, 1e-5);
             br_fits_clear(&fits);
         }
@@ -115,8 +115,8 @@ TEST(test_near_reference)
         g.cell[i].against = g.study.reference;
     fill(&g, &truth, 0, 1);
     struct br_fits fits = fit(&g);
-    CLOSE(fits.joint.p.value, truth.p, 1e-7);
-    CLOSE(fits.joint.q.value, truth.q, 1e-7);
+    CLOSE(fits.joint.order[0].value, truth.p, 1e-7);
+    CLOSE(fits.joint.order[1].value, truth.q, 1e-7);
     CLOSE(fits.joint.r.value, truth.r, 1e-6);
     br_fits_clear(&fits);
 }
@@ -132,8 +132,8 @@ TEST(test_coverage)
         grid_init(&g, true);
         fill(&g, &truth, 0.01, seed);
         struct br_fits fits = fit(&g);
-        p += fits.joint.p.low <= truth.p && truth.p <= fits.joint.p.high;
-        q += fits.joint.q.low <= truth.q && truth.q <= fits.joint.q.high;
+        p += fits.joint.order[0].low <= truth.p && truth.p <= fits.joint.order[0].high;
+        q += fits.joint.order[1].low <= truth.q && truth.q <= fits.joint.order[1].high;
         br_fits_clear(&fits);
     }
     /* 190 expected; three standard deviations are 9.2 */
@@ -150,15 +150,15 @@ TEST(test_one_sided)
     fill(&g, &time_only, 1e-4, 3);
     struct br_fits fits = fit(&g);
     assert_int_equal(fits.joint.kind, BR_JOINT_TIME);
-    CLOSE(fits.joint.q.value, 1, 1e-3);
-    assert_true(isnan(fits.joint.p.value));
+    CLOSE(fits.joint.order[1].value, 1, 1e-3);
+    assert_true(isnan(fits.joint.order[0].value));
     br_fits_clear(&fits);
     grid_init(&g, true);
     fill(&g, &space_only, 1e-4, 3);
     fits = fit(&g);
     assert_int_equal(fits.joint.kind, BR_JOINT_SPACE);
-    CLOSE(fits.joint.p.value, 2, 1e-3);
-    assert_true(isnan(fits.joint.q.value));
+    CLOSE(fits.joint.order[0].value, 2, 1e-3);
+    assert_true(isnan(fits.joint.order[1].value));
     br_fits_clear(&fits);
 }
 
@@ -174,7 +174,7 @@ TEST(test_replicates)
         g.cell[i].error[BR_PART_TOTAL] = 0.1 * k * (1 + 0.05 * cos((double)g.cell[i].at.steps));
     }
     struct br_fits fits = fit(&g);
-    const struct br_estimate *one = &fits.by_n[0].order, *all = &fits.joint.q;
+    const struct br_estimate *one = &fits.slope[1][0].order, *all = &fits.joint.order[1];
     assert_true(!isfinite(all->value) || all->high - all->low >= 0.8 * (one->high - one->low));
     br_fits_clear(&fits);
 }
@@ -190,7 +190,7 @@ TEST(test_two_steps)
         if (i % COLUMNS >= 2)
             g.cell[i].error[BR_PART_TOTAL] = NAN;
     struct br_fits fits = fit(&g);
-    assert_true(isnan(fits.joint.q.value));
+    assert_true(isnan(fits.joint.order[1].value));
     br_fits_clear(&fits);
 }
 
@@ -204,8 +204,8 @@ TEST(test_opposed)
     const double fine = br_study_cell(&g.study, ROWS - 1, COLUMNS - 1)->error[BR_PART_TOTAL];
     assert_true(coarse < 0.8 * fine);
     struct br_fits fits = fit(&g);
-    CLOSE(fits.joint.p.value, 2, 1e-4);
-    assert_true(fits.by_k[COLUMNS - 1].order.value < 0); /* the slope is misled */
+    CLOSE(fits.joint.order[0].value, 2, 1e-4);
+    assert_true(fits.slope[0][COLUMNS - 1].order.value < 0); /* the slope is misled */
     br_fits_clear(&fits);
 }
 
@@ -226,7 +226,7 @@ TEST(test_left_out)
     assert_int_equal(g.cell[20].flag[BR_PART_TOTAL], BR_FLAG_FAILED);
     assert_int_equal(g.cell[30].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
     assert_int_equal(fits.joint.points, CELLS - 4);
-    CLOSE(fits.joint.p.value, truth.p, 1e-4);
+    CLOSE(fits.joint.order[0].value, truth.p, 1e-4);
     br_fits_clear(&fits);
 }
 
@@ -254,7 +254,7 @@ TEST(test_flags)
     for (size_t i = 0; i < CELLS; i++)
         assert_int_equal(g.cell[i].flag[BR_PART_TOTAL], BR_FLAG_ROUND_OFF);
     assert_false(fits.joint.converged);
-    assert_true(isnan(fits.joint.p.value) && isnan(fits.by_n[0].order.value));
+    assert_true(isnan(fits.joint.order[0].value) && isnan(fits.slope[1][0].order.value));
     br_fits_clear(&fits);
 }
 
@@ -299,8 +299,8 @@ static void same_estimate(const struct br_estimate *a, const struct br_estimate 
 static void same_orders(const struct br_joint_fit *a, const struct br_joint_fit *b)
 {
     assert_int_equal(a->kind, b->kind);
-    same_estimate(&a->p, &b->p, 1e-9);
-    same_estimate(&a->q, &b->q, 1e-9);
+    same_estimate(&a->order[0], &b->order[0], 1e-9);
+    same_estimate(&a->order[1], &b->order[1], 1e-9);
     same_estimate(&a->r, &b->r, 1e-7);
     CLOSE(a->misfit, b->misfit, 1e-9);
 }
@@ -320,24 +320,26 @@ TEST(test_units)
         const size_t rows = i < 6 ? ROWS : 3;
         struct br_joint_fit first = {0};
         for (size_t j = 0; j < rows * COLUMNS; j++)
-            base[j] =
-                (struct br_observation){1 / (double)g.cell[j].at.n, 1 / (double)g.cell[j].at.steps,
-                                        1 / 12800.0, 1e-5, g.cell[j].error[BR_PART_TOTAL]};
+            base[j] = (struct br_observation){
+                {1 / (double)g.cell[j].at.n, 1 / (double)g.cell[j].at.steps},
+                {1 / 12800.0, 1e-5},
+                g.cell[j].error[BR_PART_TOTAL]};
         for (size_t u = 0; u < 5 * 5; u++) {
             const double m = unit[u / 5], s = unit[u % 5], e = u ? 31.6 : 1;
             for (size_t j = 0; j < rows * COLUMNS; j++)
-                scaled[j] = (struct br_observation){base[j].h * m, base[j].k * s, base[j].h_ref * m,
-                                                    base[j].k_ref * s, base[j].error * e};
+                scaled[j] = (struct br_observation){{base[j].x[0] * m, base[j].x[1] * s},
+                                                    {base[j].ref[0] * m, base[j].ref[1] * s},
+                                                    base[j].error * e};
             struct br_error err = {0};
             struct br_joint_fit fit;
             MUST(br_joint_fit_solve(scaled, rows * COLUMNS, &fit, &err));
             if (u == 0)
                 first = fit;
             same_orders(&fit, &first);
-            if (isfinite(fit.p.value))
-                CLOSE(fit.c_h.value * pow(m, fit.p.value) / e / first.c_h.value, 1, 1e-7);
-            if (isfinite(fit.q.value))
-                CLOSE(fit.c_k.value * pow(s, fit.q.value) / e / first.c_k.value, 1, 1e-7);
+            if (isfinite(fit.order[0].value))
+                CLOSE(fit.c[0].value * pow(m, fit.order[0].value) / e / first.c[0].value, 1, 1e-7);
+            if (isfinite(fit.order[1].value))
+                CLOSE(fit.c[1].value * pow(s, fit.order[1].value) / e / first.c[1].value, 1, 1e-7);
         }
     }
 }
@@ -382,15 +384,15 @@ TEST(test_slope)
         g.cell[i].error[BR_PART_TOTAL] = exp(y[i] * log(2)); /* k doubles: x is log2 */
     }
     struct br_fits fits = fit(&g);
-    CLOSE(fits.by_n[0].order.value, 2.6, 1e-12);
-    CLOSE(fits.by_n[0].order.high - 2.6, 4.3026527 * 0.14142136, 1e-6);
-    CLOSE(2.6 - fits.by_n[0].order.low, 4.3026527 * 0.14142136, 1e-6);
-    assert_true(isnan(fits.by_k[0].order.value)); /* one point is no slope */
+    CLOSE(fits.slope[1][0].order.value, 2.6, 1e-12);
+    CLOSE(fits.slope[1][0].order.high - 2.6, 4.3026527 * 0.14142136, 1e-6);
+    CLOSE(2.6 - fits.slope[1][0].order.low, 4.3026527 * 0.14142136, 1e-6);
+    assert_true(isnan(fits.slope[0][0].order.value)); /* one point is no slope */
     br_fits_clear(&fits);
     g.study.k_count = 2;
     fits = fit(&g);
-    CLOSE(fits.by_n[0].order.value, 3, 1e-12);
-    assert_true(isnan(fits.by_n[0].order.low)); /* two points have no interval */
+    CLOSE(fits.slope[1][0].order.value, 3, 1e-12);
+    assert_true(isnan(fits.slope[1][0].order.low)); /* two points have no interval */
     br_fits_clear(&fits);
 }
 

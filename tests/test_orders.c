@@ -224,9 +224,9 @@ TEST(test_grid)
     const struct br_quantity_orders *of = &f.orders.of[0];
     assert_false(f.orders.tied);
     assert_true(br_joint_describes(&of->joint));
-    CLOSE(of->joint.p.value, 2, 1e-9);
-    CLOSE(of->joint.q.value, 1, 1e-9);
-    CLOSE(of->joint.c_h.value, 3, 1e-8);
+    CLOSE(of->joint.order[0].value, 2, 1e-9);
+    CLOSE(of->joint.order[1].value, 1, 1e-9);
+    CLOSE(of->joint.c[0].value, 3, 1e-8);
     assert_int_equal(of->joint.points, 30);
     assert_int_equal(of->lines, 11);
     for (size_t l = 0; l < of->lines; l++) { /* over space first; each from coarse to fine */

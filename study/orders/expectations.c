@@ -134,11 +134,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
             c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
-    const bool space = line->axis == BR_AXIS_SPACE;
-    const struct br_estimate *joint = space ? &of->joint.p : &of->joint.q;
+    const struct br_estimate *joint = &of->joint.order[line->axis];
     if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
         c->order = *joint;
-        c->constant = fabs(space ? of->joint.c_h.value : of->joint.c_k.value);
+        c->constant = fabs(of->joint.c[line->axis].value);
     }
     return BR_OK;
 }

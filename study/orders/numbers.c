@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *const br_axis_letters[] = {"h", "k"};
-
 const struct br_resolution_column br_resolution_columns[] = {
     {"h", BR_AXIS_SPACE, .is_size = true},
     {"n", BR_AXIS_SPACE, .is_size = false},

@@ -286,9 +286,9 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     for (size_t i = 0; i < numbers->rows; i++) {
         const double error = numbers->row[i].number[of->quantity];
         if (error > 0 && counts(of, i))
-            seen[count++] = (struct br_observation){.h = z_of(numbers, i, BR_AXIS_SPACE),
-                                                    .k = z_of(numbers, i, BR_AXIS_TIME),
-                                                    .error = error};
+            seen[count++] = (struct br_observation){
+                .x = {z_of(numbers, i, BR_AXIS_SPACE), z_of(numbers, i, BR_AXIS_TIME)},
+                .error = error};
     }
     const bool same =
         count > 0 && count == of->joint.points; /* rows are left out, never taken back */

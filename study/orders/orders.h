@@ -13,10 +13,6 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
-/* What is refined. */
-enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
-extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
-
 /* How a column tells a resolution; const records. z = given for a size; 1/given for a number of
  * elements or steps; given^(-1/dimension) for unknowns. */
 struct br_resolution_column {
