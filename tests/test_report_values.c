@@ -104,23 +104,53 @@ static void make(struct br_made_report *m, bool with_exact)
     m->report.tip[BR_BENDING] = (struct br_estimate){-0.0725, -0.0735, -0.0715};
 }
 
-/* For people, and for programs. */
-static void print_report(FILE *out, const struct br_report *report)
+/* For people. */
+static void print_text(FILE *out, struct br_document *d)
 {
     struct br_error err = {0};
-    struct br_document d = {0};
-    br_report_study(report, &d);
-    assert_true(d.answers > 0 && d.answers <= 10);
-    MUST(br_document_print(out, &br_document_text, &d, NULL, &err));
-    MUST(br_document_print(out, &br_document_json, &d, NULL, &err));
-    br_document_clear(&d);
+    MUST(br_document_print(out, &br_document_text, d, NULL, &err));
+}
+
+/* What a format makes of it, to be freed. */
+static char *printed(const struct br_document_format *format, const struct br_document *d)
+{
+    struct br_error err = {0};
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    MUST(br_document_print(out, format, d, NULL, &err));
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* For programs: JSON, with the tables as CSV; and clears the document. */
+static void print_values(FILE *out, struct br_document *d)
+{
+    struct br_error err = {0};
+    const struct br_document_table *t;
+    size_t block = 0;
+    char *text = printed(&br_document_json, d);
+    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
+    json_object_del(root, "tables");
+    json_object_del(root, "provenance");
+    json_dumpf(root, out, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    while ((t = br_document_next_table(d, &block))) {
+        fprintf(out, "\n---- %s\n", t->key);
+        MUST(br_document_print(out, &br_document_csv, d, t, &err));
+    }
+    json_decref(root);
+    free(text);
+    br_document_clear(d);
 }
 
 static void print_study(FILE *out)
 {
     struct br_made_report m;
+    struct br_document d = {0};
     make(&m, true);
-    print_report(out, &m.report);
+    br_report_study(&m.report, &d);
+    print_text(out, &d);
+    print_values(out, &d);
     br_made_report_clear(&m);
 }
 
@@ -129,6 +159,7 @@ static void print_study(FILE *out)
 static void print_other_study(FILE *out)
 {
     struct br_made_report m;
+    struct br_document d = {0};
     make(&m, true);
     m.study.method = br_test_method("umfpack", "implicit", "uzawa");
     m.study.method.axial_degree = 2;
@@ -140,7 +171,9 @@ static void print_other_study(FILE *out)
     m.exact.judged_by.unstable = true;
     for (size_t i = 0; i < BR_MADE_CELLS; i++)
         m.report.printed[i] = 1.04 * m.cell[0][i].error[0];
-    print_report(out, &m.report);
+    br_report_study(&m.report, &d);
+    print_text(out, &d);
+    br_document_clear(&d);
     br_made_report_clear(&m);
 }
 
@@ -148,13 +181,16 @@ static void print_other_study(FILE *out)
 static void print_study_without_judge(FILE *out)
 {
     struct br_made_report m;
+    struct br_document d = {0};
     make(&m, false);
     m.scene.axial.modelled = false;
     m.study.judge = &br_judge_none;
     free(m.report.printed);
     m.report.printed = NULL;
     m.study.events = (char[]){"first event\nsecond event"};
-    print_report(out, &m.report);
+    br_report_study(&m.report, &d);
+    print_text(out, &d);
+    br_document_clear(&d);
     m.study.events = NULL;
     br_made_report_clear(&m);
 }
@@ -279,13 +315,6 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     return p;
 }
 
-static void print_json(FILE *out, struct br_document *d)
-{
-    struct br_error err = {0};
-    MUST(br_document_print(out, &br_document_json, d, NULL, &err));
-    br_document_clear(d);
-}
-
 /* A trade, a split, a plan, and claims. */
 static void print_comparisons(FILE *out)
 {
@@ -300,13 +329,13 @@ static void print_comparisons(FILE *out)
     };
     struct br_document d = {.name = NULL};
     br_report_trade(trade, &provenance, &d);
-    print_json(out, &d);
+    print_values(out, &d);
     br_report_split(&split, 1, &provenance, &d);
-    print_json(out, &d);
+    print_values(out, &d);
     br_report_plan(plan, "made", &provenance, &d);
-    print_json(out, &d);
+    print_values(out, &d);
     br_report_claims(finding, 1000, 500, &d);
-    print_json(out, &d);
+    print_values(out, &d);
     free(trade->trial);
     free(trade->front);
     free(trade);
@@ -379,12 +408,9 @@ static void print_certificate(FILE *out)
     static const char *const keys[] = {"prediction", "energies", "certificate", "work", "seconds"};
     struct br_document d = {0};
     const struct br_warnings none = {0};
-    char *text = NULL;
-    size_t size;
-    FILE *whole = open_memstream(&text, &size);
     report_run(&made_prediction, &none, &d);
-    print_json(whole, &d);
-    assert_int_equal(fclose(whole), 0);
+    char *text = printed(&br_document_json, &d);
+    br_document_clear(&d);
     json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         json_dumpf(json_object_get(root, keys[i]), out, JSON_INDENT(1));
@@ -420,19 +446,6 @@ TEST(certificate_is_printed)
     br_test_stored("certificate", print_certificate, 1e-13);
 }
 
-/* What people get, to be freed; clears the document. */
-static char *printed(struct br_document *d)
-{
-    struct br_error err = {0};
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    MUST(br_document_print(out, &br_document_text, d, NULL, &err));
-    assert_int_equal(fclose(out), 0);
-    br_document_clear(d);
-    return text;
-}
-
 /* People get the digits that the predicted error leaves, or the reason why it is not known. */
 TEST(answer_comes_first)
 {
@@ -447,7 +460,7 @@ TEST(answer_comes_first)
     p.field[BR_AXIAL].high = 0.0162 * sqrt(example.length);
     p.field[BR_BENDING].high = 2e-11 * sqrt(example.length);
     report_run(&p, &none, &d);
-    char *text = printed(&d);
+    char *text = printed(&br_document_text, &d);
     assert_non_null(
         strstr(text, "\nTip at t = 1 s: u = -0.222 +- 0.014 m, w = 3.457e-09 +- 3.4e-11"));
     assert_non_null(strstr(text, "\naxial displacement u: -0.222 +- 0.014 m\n"));
@@ -456,11 +469,12 @@ TEST(answer_comes_first)
     strcpy(p.why, "it is so");
     report.failure = (struct br_error){BR_NOT_FINITE, "it blew up"};
     report_run(&p, &none, &d);
-    text = printed(&d);
+    text = printed(&br_document_text, &d);
     assert_non_null(strstr(text, "\nSTOPPED: it blew up\nTip at t = 1 s (the last good step): "
                                  "u = -0.221612 m, w = 3.4567e-09 m, "));
     assert_non_null(strstr(text, "\nThe discretisation error is not known: it is so; "));
     free(text);
+    br_document_clear(&d);
     report.failure.status = BR_OK;
     *last = kept;
 }
