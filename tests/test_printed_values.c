@@ -16,63 +16,11 @@
 #include "tables/reports.h"
 #include "tests/support.h"
 
-/* A column with the number, count or truth (0, 1) that belongs in it; NAN: nothing does. */
-struct expected {
-    const char *key;
-    double value;
-};
-
 /* As it is printed: with six digits at least. */
 static void is(const char *where, const char *key, double found, double expected)
 {
     if (isnan(expected) ? !isnan(found) : !(fabs(found - expected) <= 1e-5 * fabs(expected)))
         fail_msg("%s: %s is %.17g, expected %.17g", where, key, found, expected);
-}
-
-/* ---- CSV ---- */
-
-/* The next line of a text, without its end; NULL: none. Advances *text. */
-static char *next_line(char **text)
-{
-    return *text && **text ? strsep(text, "\n") : NULL;
-}
-
-/* The place of a name among a line's fields. */
-static size_t place_of(const char *line, const char *name, char separator)
-{
-    const size_t size = strlen(name);
-    for (size_t i = 0; line; i++) {
-        line += strspn(line, " ");
-        if (strncmp(line, name, size) == 0 && strchr(" ,|", line[size]))
-            return i;
-        line = strchr(line, separator);
-        line = line ? line + 1 : NULL;
-    }
-    fail_msg("there is no column %s", name);
-    return 0;
-}
-
-/* The number in a place of a line, 1 or 0 for a truth; NAN: it is empty. */
-static double number_at(const char *line, size_t place, char separator)
-{
-    for (; place > 0 && line; place--) {
-        line = strchr(line, separator);
-        line = line ? line + 1 : NULL;
-    }
-    assert_non_null(line);
-    if (strncmp(line, "true", 4) == 0 || strncmp(line, "false", 5) == 0)
-        return *line == 't';
-    char *end;
-    const double value = strtod(line, &end);
-    return end == line ? NAN : value;
-}
-
-static void row_has(const char *what, const char *head, const char *row, char separator,
-                    const struct expected *e, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        is(what, e[i].key, number_at(row, place_of(head, e[i].key, separator), separator),
-           e[i].value);
 }
 
 /* ---- run ---- */
@@ -113,17 +61,30 @@ static void path_of(const struct watched *w, const char *name, char path[64])
     snprintf(path, 64, "%s/%s", w->folder, name);
 }
 
-static char *read_file(const struct watched *w, const char *name)
+/* A file of CSV, which must begin with that heading. */
+static FILE *open_csv(const struct watched *w, const char *name, const char *heading)
 {
-    char path[64];
+    char path[64], line[256] = "";
     path_of(w, name, path);
-    FILE *in = fopen(path, "r");
-    assert_non_null(in);
-    char *text = calloc(1, 1 << 16);
-    assert_non_null(text);
-    assert_true(fread(text, 1, (1 << 16) - 1, in) > 0);
-    fclose(in);
-    return text;
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    assert_non_null(fgets(line, sizeof line, file));
+    assert_string_equal(line, heading);
+    return file;
+}
+
+/* The next line has these numbers, and no more. */
+static void has_row(FILE *file, const char *name, const double *expected, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        double found = NAN; /* an empty field is no number */
+        char column[32];
+        snprintf(column, sizeof column, "column %zu", i);
+        if (!isnan(expected[i]))
+            assert_int_equal(fscanf(file, "%lf", &found), 1);
+        assert_int_equal(getc(file), i + 1 < count ? ',' : '\n');
+        is(name, column, found, expected[i]);
+    }
 }
 
 /* What the test program does as the command does it: rows and fields go to files as they come. */
@@ -188,22 +149,19 @@ static int tear_down(void **state)
 TEST(history_is_printed)
 {
     const struct watched *w = *fixture;
-    char *text = read_file(w, "history.csv"), *rest = text, *head = next_line(&rest);
+    FILE *file = open_csv(w, "history.csv",
+                          "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n");
     assert_int_equal(w->record.rows, STEPS + 1);
     for (size_t i = 0; i < w->record.rows; i++) {
         const struct br_history_row *row = &w->record.row[i];
-        const struct expected numbers[] = {{"step", (double)i},
-                                           {"t", (double)i / STEPS},
-                                           {"u", row->displacement[BR_AXIAL]},
-                                           {"w", row->displacement[BR_BENDING]},
-                                           {"u_t", row->velocity[BR_AXIAL]},
-                                           {"w_t", row->velocity[BR_BENDING]},
-                                           {"contact_force", row->contact_force},
-                                           {"friction_force", row->friction_force},
-                                           {"friction_bound", row->friction_bound}};
-        row_has("history.csv", head, next_line(&rest), ',', numbers, 9);
+        has_row(file, "history.csv",
+                (double[]){(double)i, (double)i / STEPS, row->displacement[BR_AXIAL],
+                           row->displacement[BR_BENDING], row->velocity[BR_AXIAL],
+                           row->velocity[BR_BENDING], row->contact_force, row->friction_force,
+                           row->friction_bound},
+                9);
     }
-    free(text);
+    fclose(file);
 }
 
 /* What a variable of the fields is at a node, of the march's own nodal values. */
@@ -232,20 +190,16 @@ TEST(tip_is_the_last_node)
 TEST(fields_are_printed)
 {
     const struct watched *w = *fixture;
-    char *text = read_file(w, "fields.csv"), *rest = text, *head = next_line(&rest);
+    FILE *file = open_csv(w, "fields.csv", "t,x,u,u_t,w,w_slope,w_t,w_t_slope\n");
     for (size_t look = 0; look < LOOKS; look++)
         for (size_t node = 0; node <= ELEMENTS; node++) {
-            const char *row = next_line(&rest);
-            const struct expected place[] = {{"t", (double)levels[look] / STEPS},
-                                             {"x", w->scene.length * (double)node / ELEMENTS}};
-            row_has("fields.csv", head, row, ',', place, 2);
-            for (size_t v = 0; v < br_field_variable_count(1); v++) {
-                const char *name = br_field_variables[v].name;
-                const struct expected e = {name, field_value(w, look, node, name)};
-                row_has("fields.csv", head, row, ',', &e, 1);
-            }
+            double expected[2 + BR_FIELD_VARIABLES] = {(double)levels[look] / STEPS,
+                                                       w->scene.length * (double)node / ELEMENTS};
+            for (size_t v = 0; v < br_field_variable_count(1); v++)
+                expected[2 + v] = field_value(w, look, node, br_field_variables[v].name);
+            has_row(file, "fields.csv", expected, 2 + br_field_variable_count(1));
         }
-    free(text);
+    fclose(file);
 }
 
 #ifdef BR_HAVE_HDF5
