@@ -100,20 +100,9 @@ static json_t *verdict(struct page *p, const struct br_document_verdict *v)
 static json_t *provenance(struct page *p)
 {
     const struct br_provenance *from = &p->d->provenance;
-    const char *const rows[][2] = {
-        {"version", from->version},
-        {"commit", from->commit},
-        {"compiler", from->compiler},
-        {"flags", from->flags},
-        {"command_line", from->command_line},
-        {"machine", from->machine},
-        {"date", from->date},
-        {"scene_path", from->scene_path},
-        {"scene_text", from->scene_text},
-    };
     json_t *o = json_object();
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        put(p, o, rows[i][0], br_json_string(rows[i][1]));
+    for (const struct br_provenance_text *t = br_provenance_texts; t->key; t++)
+        put(p, o, t->key, br_json_string(*(const char *const *)((const char *)from + t->at)));
     put(p, o, "threads", json_integer(from->threads));
     return o;
 }
