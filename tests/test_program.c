@@ -2,11 +2,9 @@
 /* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
 #include "support.h"
 
-#include <dirent.h>
-#include <errno.h>
-#include <ftw.h>
 #include <math.h>
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,26 +61,22 @@ static const char *command_of(const char *name, const char *words)
     return command;
 }
 
-static size_t lines_of(const char *name)
+/* A shell command, in the folder, that must succeed. */
+__attribute__((format(printf, 1, 2))) static void shell(const char *format, ...)
 {
-    FILE *file = fopen(path_of(name), "r");
-    size_t lines = 0;
-    for (int c; file && (c = getc(file)) != EOF;)
-        lines += c == '\n';
-    if (file)
-        fclose(file);
-    return lines;
+    char command[1024];
+    va_list arguments;
+    const int used = snprintf(command, sizeof command, "cd %s && ", folder);
+    va_start(arguments, format);
+    vsnprintf(command + used, sizeof command - (size_t)used, format, arguments);
+    va_end(arguments);
+    if (system(command) != 0)
+        fail_msg("failed: %s", command);
 }
 
-static size_t entries_of(const char *path)
+static void has_entries(const char *name, size_t count)
 {
-    DIR *open = opendir(path);
-    size_t count = 0;
-    assert_non_null(open);
-    while (readdir(open))
-        count++;
-    closedir(open);
-    return count - 2;
+    shell("test $(ls -A %s | wc -l) -eq %zu", name, count);
 }
 
 static struct br_numbers run(const struct br_orders_request *p)
@@ -90,7 +84,7 @@ static struct br_numbers run(const struct br_orders_request *p)
     struct br_numbers numbers;
     struct br_error err;
     MUST(br_program_run(p, &numbers, &err));
-    assert_int_equal(entries_of(path_of("tmp")), 0);
+    has_entries("tmp", 0);
     return numbers;
 }
 
@@ -180,11 +174,7 @@ TEST(test_words)
     assert_string_equal(text, "[a b][c  d][e \"f\" \\g][;][|][][xyz][$(touch][PWN)][`touch][PWN`]"
                               "[; touch PWN][1000000/1.25e-07][{n} 1000000][}] C  \n");
     assert_int_not_equal(access("PWN", F_OK), 0);
-    assert_int_not_equal(access(path_of("PWN"), F_OK), 0);
-    file = fopen(path_of("words.where"), "r");
-    assert_non_null(fgets(text, sizeof text, file));
-    fclose(file);
-    assert_ptr_equal(strstr(text, path_of("tmp")), text);
+    shell("test ! -e PWN && grep -q ^%s words.where", path_of("tmp"));
     br_numbers_clear(&numbers);
 }
 
@@ -272,16 +262,9 @@ TEST(test_refused)
         REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i][1]);
         assert_null(numbers.row);
     }
-    write_script("nobody", "");
-    FILE *script = fopen(path_of("nobody"), "w");
-    fputs("#!/no/such/interpreter\n", script);
-    fclose(script);
+    shell("echo '#!/no/such/interpreter' > nobody; echo echo err=1 > noshell; chmod +x no*");
     const struct br_orders_request nobody = program(command_of("nobody", "{n}"));
     REFUSED(br_program_run(&nobody, &numbers, &err), BR_BAD_INPUT, "(its interpreter?)");
-    write_script("noshell", "");
-    FILE *file = fopen(path_of("noshell"), "w");
-    fputs("echo err=1\n", file);
-    fclose(file);
     const struct br_orders_request p = program(command_of("noshell", "{n}"));
     REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "cannot be run");
 }
@@ -377,34 +360,13 @@ TEST(test_long_complaint)
     br_numbers_clear(&numbers);
 }
 
-/* Whether the process whose number is in the file does something. A dead one may wait to be buried
- * by others. */
-static bool is_alive(const char *name)
-{
-    char path[64], text[256] = "", *end;
-    int number = 0;
-    FILE *file = fopen(path_of(name), "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%d", &number), 1);
-    fclose(file);
-    snprintf(path, sizeof path, "/proc/%d/stat", number);
-    file = fopen(path, "r");
-    if (!file)
-        return false;
-    const size_t length = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[length] = '\0';
-    end = strrchr(text, ')');
-    return length && end && end[2] != 'Z' && end[2] != 'X';
-}
-
-/* A moment after it was killed, which it may need to die. */
+/* The process whose number is in the file does nothing, a moment after it was killed, which it may
+ * need to die. A dead one may wait to be buried by others. */
 static void expect_dead(const char *name)
 {
-    static const struct timespec moment = {.tv_nsec = 20000000};
-    for (int tries = 0; tries < 100 && is_alive(name); tries++)
-        nanosleep(&moment, NULL);
-    assert_false(is_alive(name));
+    shell("for i in $(seq 100); do grep -qs '^State:.[^ZX]' /proc/$(cat %s)/status || exit 0; "
+          "sleep 0.02; done; exit 1",
+          name);
 }
 
 /* The first obeys SIGTERM, the second and what it starts do not, the third leaves what it has
@@ -427,7 +389,7 @@ TEST(test_hanging)
     assert_string_equal(numbers.row[0].failure, "it did not end within 1 s; it printed: before");
     assert_non_null(strstr(numbers.row[1].failure, "within 1 s; it printed: before"));
     assert_null(numbers.row[2].failure);
-    assert_int_equal(lines_of("hang.terms"), 1);
+    shell("test $(wc -l < hang.terms) -eq 1");
     expect_dead("hang.4");
     expect_dead("hang.8");
     expect_dead("hang.16");
@@ -472,8 +434,7 @@ static void expect_run(struct br_orders_request *p, size_t runs, double factor)
     }
     assert_int_equal(kept, numbers.rows - runs);
     br_numbers_clear(&numbers);
-    assert_int_equal(lines_of("count.runs"), runs);
-    unlink(path_of("count.runs"));
+    shell("touch count.runs; test $(wc -l < count.runs) -eq %zu && rm count.runs", runs);
 }
 
 TEST(test_kept)
@@ -489,7 +450,7 @@ TEST(test_kept)
     p.anew = true;
     expect_run(&p, 3, 1);
     p.anew = false;
-    assert_int_equal(entries_of(kept), 3);
+    has_entries(kept, 3);
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
     expect_run(&p, 1, 1);
     const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX};
@@ -499,7 +460,7 @@ TEST(test_kept)
     write_script("count", "echo run >> $0.runs; echo err=$(($1 * 2))");
     expect_run(&p, 4, 2);
     expect_run(&p, 0, 2);
-    assert_int_equal(entries_of(kept), 12);
+    has_entries(kept, 12);
     write_script("count", counting); /* as it was */
     expect_run(&p, 0, 1);
 }
@@ -537,22 +498,6 @@ TEST(test_kept_script)
     free(before);
 }
 
-static const char *spoilt;
-
-static int spoil(const char *path, const struct stat *info, int type, struct FTW *where)
-{
-    (void)info;
-    (void)where;
-    if (type != FTW_F)
-        return 0;
-    FILE *file = fopen(path, "r+");
-    assert_non_null(file);
-    fputs(spoilt, file);
-    assert_int_equal(ftruncate(fileno(file), ftell(file)), 0);
-    fclose(file);
-    return 0;
-}
-
 /* Failed cells are not kept, nor read those that are broken; a program that changes while it runs
  * is not kept under its old name. */
 TEST(test_not_kept)
@@ -566,20 +511,18 @@ TEST(test_not_kept)
     struct br_numbers numbers = run(&p);
     assert_non_null(numbers.row[1].failure);
     br_numbers_clear(&numbers);
-    assert_int_equal(entries_of(kept), 2);
-    unlink(path_of("count.fails"));
-    unlink(path_of("count.runs"));
+    has_entries(kept, 2);
+    shell("rm count.fails count.runs");
     expect_run(&p, 1, 1);
     static const char *const texts[] = {"", "beamrate kept 1\n", "beamrate kept 2\n"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
-        spoilt = texts[i];
-        assert_int_equal(nftw(kept, spoil, 8, FTW_PHYS), 0);
+        shell("for cell in %s/*; do printf '%s' > $cell; done", kept, texts[i]);
         expect_run(&p, 3, 1);
     }
     expect_run(&p, 0, 1);
     write_script("count", "echo run >> $0.runs; echo '#' >> $0; echo err=$1");
     expect_run(&p, 3, 1);
-    assert_int_equal(entries_of(kept), 3);
+    has_entries(kept, 3);
     struct br_error err = {0};
     write_script("count", counting);
     p.kept = "/dev/null";
@@ -621,7 +564,7 @@ TEST(test_together)
         assert_int_equal(waitpid(child[i], &status, 0), child[i]);
         assert_int_equal(status, 0);
     }
-    assert_int_equal(entries_of(kept), 6);
+    has_entries(kept, 6);
     struct br_numbers numbers = run(&p);
     p.kept = NULL;
     struct br_numbers anew = run(&p);
@@ -667,8 +610,8 @@ TEST(test_interrupted)
     AT_MOST(br_seconds() - start, 5);
     assert_null(numbers.row);
     expect_dead("slow.pid");
-    assert_int_equal(entries_of(path_of("tmp")), 0);
-    assert_int_equal(entries_of(kept), 2);
+    has_entries("tmp", 0);
+    has_entries(kept, 2);
     static const double done[] = {4, 8};
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, done, 2};
     p.observer = NULL;
@@ -807,14 +750,6 @@ TEST(test_without_memory)
     br_test_without_memory(attempt, &p, 10);
 }
 
-static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
-{
-    (void)info;
-    (void)type;
-    (void)where;
-    return remove(path);
-}
-
 static int make_folder(void **state)
 {
     (void)state;
@@ -827,7 +762,8 @@ static int make_folder(void **state)
 static int remove_folder(void **state)
 {
     (void)state;
-    return nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+    br_remove_folder(folder);
+    return 0;
 }
 
 AROUND_TESTS(make_folder, remove_folder)
