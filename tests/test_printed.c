@@ -38,7 +38,8 @@ TEST(test_good)
     br_printed_clear(&p);
 }
 
-TEST(test_bad_lines)
+/* Lines that are none behind a good one; headings that are none, with the line that is refused. */
+TEST(test_bad_files)
 {
     static const char *const lines[] = {
         "",
@@ -65,20 +66,6 @@ TEST(test_bad_lines)
         "100,0.01,1e999",
         "-100,0.01,1e-3",
     };
-    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-        char text[128], where[128];
-        struct br_error err;
-        struct br_printed p;
-        snprintf(text, sizeof text, "n,k,error\n100,0.01,5e-3\n%s\n200,0.01,5e-3\n", lines[i]);
-        snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error",
-                 br_test_scene_file(text), lines[i]);
-        REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, where);
-        br_printed_clear(&p);
-    }
-}
-
-TEST(test_bad_files)
-{
     static const char *const headings[][2] = {
         {"100,0.01,5e-3\n", ":1: found '100,0.01,5e-3'"},
         {"n,h,error\n", ":1: found 'n,h,error'"},
@@ -88,6 +75,14 @@ TEST(test_bad_files)
     };
     struct br_error err = {0};
     struct br_printed p;
+    char many[100000], where[128];
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        snprintf(many, sizeof many, "n,k,error\n100,0.01,5e-3\n%s\n200,0.01,5e-3\n", lines[i]);
+        snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error",
+                 br_test_scene_file(many), lines[i]);
+        REFUSED(read_text(many, &p, &err), BR_BAD_INPUT, where);
+        br_printed_clear(&p);
+    }
     for (size_t i = 0; i < sizeof headings / sizeof *headings; i++) {
         REFUSED(read_text(headings[i][0], &p, &err), BR_BAD_INPUT, headings[i][1]);
         br_printed_clear(&p);
@@ -96,15 +91,11 @@ TEST(test_bad_files)
     br_printed_clear(&p);
     REFUSED(br_printed_read("/proc", &p, &err), BR_IO, "/proc: "); /* a folder */
     br_printed_clear(&p);
-
-    char *many = malloc(100000);
-    assert_non_null(many);
     size_t used = (size_t)sprintf(many, "n,k,error\n");
     for (int i = 1; i <= 4097; i++)
         used += (size_t)sprintf(many + used, "%d,0.01,1e-3\n", i);
     REFUSED(read_text(many, &p, &err), BR_BAD_INPUT, "more than 4096 cells");
     br_printed_clear(&p);
-    free(many);
 }
 
 /* A line longer than the buffer must not be cut into two that look right. */
