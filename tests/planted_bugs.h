@@ -827,7 +827,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(p->goal.seconds)", "br_number(p->goal.error)"},
     {"model_without_its_cost", "printed", "tables/report_plan.c", "golden plan_seconds",
      "br_number(c[3])", "br_number(c[2])"},
-    {"steps_taken_back_are_set_ups", "printed", "tables/report_trade.c", "tests/test_report_values",
+    {"steps_taken_back_are_set_ups", "printed", "tables/report_trade.c", "golden trade_schemes",
      "br_count(c->rejected)", "br_count(c->set_ups)"},
     {"imbalance_of_the_worst_step", "printed", "tables/report_run.c", "tests/test_report_values",
      "br_number(imbalance)", "br_number(r->energy_worst)"},

@@ -11,9 +11,6 @@
 #include "study/foresee/prediction.h"
 #include "study/paper/paper.h"
 #include "study/run/run.h"
-#include "study/trade/plan.h"
-#include "study/trade/split.h"
-#include "study/trade/trade.h"
 #include "study/verify/comparison.h"
 #include "tables/reports.h"
 #include "tests/made_report.h"
@@ -195,153 +192,17 @@ static void print_study_without_judge(FILE *out)
     br_made_report_clear(&m);
 }
 
-/* ---- a trade, a split, a plan ---- */
+/* ---- claims ---- */
 
-/* Two trials whose numbers are all different. */
-static struct br_trade *made_trade(const struct br_scene *scene)
+static void print_claims(FILE *out)
 {
-    struct br_error err = {0};
-    struct br_trade *t = calloc(1, sizeof *t);
-    assert_non_null(t);
-    MUST(br_named_methods_read("--methods", "euler,adaptive", &t->methods, &err));
-    t->request = br_trial_request_default(scene);
-    t->request.norm = &br_norm_l2;
-    t->count = 2;
-    t->trial = calloc(2, sizeof *t->trial);
-    t->front = calloc(2, sizeof *t->front);
-    assert_true(t->trial && t->front);
-    for (size_t i = 0; i < t->count; i++)
-        t->trial[i] = (struct br_trial){
-            .named = &t->methods.list[i],
-            .at = {11 + i, 20 + i},
-            .tolerance = i ? 0.0625 : 0,
-            .printed = i == 0,
-            .cost = {i ? 0.5 : 2.5,
-                     i ? 0.75 : 3.75,
-                     4,
-                     {.steps = 5, .stages = 6, .rejected = 7, .set_ups = 8, .iterations = 9}},
-            .error = {0.125, 0.25, 0.375},
-            .scale = 1.5,
-            .own = 0.0078125,
-        };
-    t->front[1] = true;
-    t->wall_seconds = 10.5;
-    for (size_t d = 0; d < BR_TRADE_DIGITS; d++) {
-        t->best[d] = d == 1 || d == 3 ? 1 : 2;
-        t->best_of[0][d] = t->best_of[1][d] = d == 3 ? 0 : 2;
-    }
-    return t;
-}
-
-/* A split whose part i has errors, floors and tips that are i + 1 times what the first has. */
-static struct br_split made_split(struct br_scene *scene)
-{
-    struct br_split s = {
-        .scene = scene,
-        .method = br_test_method("umfpack", "implicit", "uzawa"),
-        .unstable = true,
-        .refined = {.name = "made finer"},
-        .at = {12, 16},
-        .norm = {&br_norm_l2},
-        .norms = 1,
-        .judge = &br_judge_exact,
-        .whole = {.error = {{16, 32, 48}}, .floor = {{0.5, 0.625, 0.75}}, .tip = {17, 33}},
-        .sum = {{64, 128, 192}},
-        .tip_sum = {65, 129},
-        .tip = {66, 130},
-        .solution_tip = {67, 131},
-        .scale = {4},
-        .predicted_round_off = 0.03125,
-    };
-    s.method.scheme = br_time_scheme_find("adaptive");
-    s.method.tolerance = 0.0009765625;
-    s.method.linear.refinement = 3;
-    s.method.iteration = (struct br_iteration){0.25, 0.0001220703125, 77};
-    for (; br_sources[s.shares].name; s.shares++) {
-        const double times = (double)(s.shares + 1);
-        s.share[s.shares] = (struct br_share){
-            .source = &br_sources[s.shares],
-            .error = {{times, 2 * times, 3 * times}},
-            .floor = {{0.125 * times, 0.25 * times, 0.375 * times}},
-            .tip = {5 * times, -7 * times},
-        };
-    }
-    return s;
-}
-
-static double seconds_of_plan(const struct br_trial *trial)
-{
-    return 2 * br_trial_seconds(trial);
-}
-
-/* Two trials and models of two methods; the second is not known. */
-static struct br_plan *made_plan(const struct br_scene *scene)
-{
-    struct br_error err = {0};
-    struct br_plan *p = calloc(1, sizeof *p);
-    assert_non_null(p);
-    br_plan_default(p, scene);
-    MUST(br_named_methods_read("--methods", "euler,bdf2", &p->methods, &err));
-    p->goal = (struct br_plan_goal){0.5, NAN};
-    p->request.norm = &br_norm_l2;
-    p->seconds = seconds_of_plan;
-    p->count = 2;
-    p->trial = calloc(2, sizeof *p->trial);
-    p->forecast = calloc(2, sizeof *p->forecast);
-    assert_true(p->trial && p->forecast);
-    for (size_t i = 0; i < p->count; i++) {
-        p->trial[i] = (struct br_trial){
-            .named = &p->methods.list[0],
-            .at = {11 + i, 20 + i},
-            .cost = {2.5, 3.75, 4, {.steps = 5, .stages = 6, .set_ups = 8}},
-            .error = {0.125, 0.25, 0.375},
-            .scale = 1.5,
-            .own = 0.25,
-        };
-        p->forecast[i] = (struct br_plan_forecast){i, 0.0625, 7.5};
-    }
-    p->first = 0;
-    p->chosen = 1;
-    p->rounds = 9;
-    p->own = 0.0078125;
-    p->wall_seconds = 10.5;
-    struct br_plan_models *m = &p->model[0];
-    m->known = true;
-    m->error = (struct br_plan_model){.r = 0.75, .scatter = 0.875, .points = 13};
-    m->error.space = m->error.time = (struct br_plan_curve){1, {1.25}, {-2.25}};
-    m->error.time.value[0] = -3.25;
-    m->cost =
-        (struct br_plan_cost){.c = {1, 2, 3, 4}, .scatter = 0.9375, .solves = {1, {4.25}, {5.25}}};
-    return p;
-}
-
-/* A trade, a split, a plan, and claims. */
-static void print_comparisons(FILE *out)
-{
-    struct br_scene scene = br_test_bare();
-    scene.name = (char[]){"made"};
-    struct br_trade *trade = made_trade(&scene);
-    const struct br_split split = made_split(&scene);
-    struct br_plan *plan = made_plan(&scene);
     struct br_finding finding[BR_MOST_CLAIMS] = {
         {.value = 0.75, .exact = 0.5, .error = 0.25, .printed = 0.625, .agreement = BR_DIFFERS},
         {.agreement = BR_UNDECIDED},
     };
     struct br_document d = {.name = NULL};
-    br_report_trade(trade, &provenance, &d);
-    print_values(out, &d);
-    br_report_split(&split, 1, &provenance, &d);
-    print_values(out, &d);
-    br_report_plan(plan, "made", &provenance, &d);
-    print_values(out, &d);
     br_report_claims(finding, 1000, 500, &d);
     print_values(out, &d);
-    free(trade->trial);
-    free(trade->front);
-    free(trade);
-    free(plan->trial);
-    free(plan->forecast);
-    free(plan);
 }
 
 TEST(reports_are_as_stored)
@@ -349,7 +210,7 @@ TEST(reports_are_as_stored)
     br_test_stored("study", print_study, 1e-13);
     br_test_stored("study_other", print_other_study, 1e-13);
     br_test_stored("study_without_judge", print_study_without_judge, 1e-13);
-    br_test_stored("comparisons", print_comparisons, 1e-13);
+    br_test_stored("claims", print_claims, 1e-13);
 }
 
 /* ---- run ---- */
