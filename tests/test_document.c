@@ -209,27 +209,6 @@ TEST(test_formats)
     br_test_stored("pages", print_pages, 0);
 }
 
-/* Numbers come back to the bit, awkward texts as they are. */
-TEST(test_json)
-{
-    char *text = printed(&br_document_json, NULL);
-    json_t *root = json_loads(text, JSON_REJECT_DUPLICATES, NULL);
-    assert_non_null(root);
-    const json_t *rows = json_object_get(json_object_get(root, "tables"), "all");
-    assert_int_equal(json_array_size(rows), ROWS);
-    for (size_t i = 0; i < ROWS; i++) {
-        const json_t *row = json_array_get(rows, i), *number = json_object_get(row, "number");
-        const double found = json_real_value(number);
-        assert_true(isfinite(numbers[i]) ? memcmp(&found, &numbers[i], sizeof found) == 0
-                                         : json_is_null(number));
-        assert_true(json_integer_value(json_object_get(row, "count")) == (json_int_t)counts[i]);
-        if (strcmp(texts[i], "b\xe4m") != 0) /* no UTF-8 */
-            assert_string_equal(json_string_value(json_object_get(row, "text")), texts[i]);
-    }
-    json_decref(root);
-    free(text);
-}
-
 /* ---- what is not printed ---- */
 
 /* Each case is built wrongly in its own way; what begins a table comes before it. */

@@ -554,10 +554,11 @@ TEST(test_together)
     pid_t child[3];
     for (int i = 0; i < 3; i++) {
         struct br_numbers numbers;
+        struct br_error err;
         child[i] = fork();
         assert_true(child[i] >= 0);
         if (child[i] == 0)
-            _exit(br_program_run(&p, &numbers, NULL) || numbers.row[5].failure);
+            _exit(br_program_run(&p, &numbers, &err) || numbers.row[5].failure);
     }
     for (int i = 0; i < 3; i++) {
         int status;

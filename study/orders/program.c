@@ -30,9 +30,8 @@ enum {
 struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers;
-    struct br_command_words *cell; /* by row; owned */
-    char **environment;            /* owned; its texts are not */
-    struct br_kept kept;
+    char **environment; /* owned; its texts are not */
+    struct br_kept *kept;
 };
 
 /* ---- one run ---- */
@@ -298,8 +297,8 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     return tell_failure(p, r, why.message, row, err);
 }
 
-static enum br_status run_cell(const struct job *j, const struct br_command_words *cell,
-                               struct br_numbers_row *row, struct br_error *err)
+static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
+                                struct br_numbers_row *row, struct br_error *err)
 {
     struct run r = {.child = 0};
     enum br_status status = begin(j, cell, &r, err);
@@ -358,7 +357,7 @@ static enum br_status key_of(const struct job *j, const struct br_command_words 
                              char key[BR_SHA256_TEXT], struct br_error *err)
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
-    struct br_sha256 sum = j->kept.base;
+    struct br_sha256 sum = j->kept->base;
     add_text(&sum, "program", cell->program);
     enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
     for (char **word = cell->word; *word && !status; word++) {
@@ -377,40 +376,46 @@ static enum br_status key_of(const struct job *j, const struct br_command_words 
     return status;
 }
 
-/* A cell whose program has changed meanwhile is not kept. An entry has the seconds, the bytes and
- * the numbers. */
-static enum br_status take_cell(void *self, size_t i, struct br_error *err)
+/* A row that is not kept is run; where its program has changed meanwhile, it is not kept then. An
+ * entry has the seconds, the bytes and the numbers. */
+static enum br_status take_row(const struct job *j, const struct br_command_words *words,
+                               struct br_numbers_row *row, struct br_error *err)
 {
-    struct job *j = self;
-    const struct br_command_words *cell = &j->cell[i];
-    struct br_numbers_row *row = &j->numbers->row[i];
     const size_t numbers = j->program->readings, size = (numbers + 2) * sizeof(double);
     char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
     if (!j->program->kept)
-        return run_cell(j, cell, row, err);
+        return run_words(j, words, row, err);
     double *entry = br_allocate(1, size);
-    enum br_status status =
-        entry ? key_of(j, cell, key, err) : br_no_memory(err, "a finished cell");
-    row->kept = !status && br_kept_read_into(&j->kept, key, entry, size);
-    if (row->kept) {
+    bool failed = !entry ? br_no_memory(err, "a finished cell") : key_of(j, words, key, err);
+    if (!failed && br_kept_read_into(j->kept, key, entry, size)) {
+        row->kept = true;
         row->seconds = entry[0];
         row->bytes = entry[1];
         memcpy(row->number, entry + 2, numbers * sizeof *entry);
-    } else if (!status) {
-        status = run_cell(j, cell, row, err);
-        const bool sound = !status && !row->failure;
-        if (sound)
-            status = key_of(j, cell, now, err);
-        if (sound && !status && strcmp(key, now) == 0) {
+    } else if (!failed) {
+        failed = run_words(j, words, row, err) || (!row->failure && key_of(j, words, now, err));
+        if (!failed && !row->failure && strcmp(key, now) == 0) {
             entry[0] = row->seconds;
             entry[1] = row->bytes;
             memcpy(entry + 2, row->number, numbers * sizeof *entry);
-            if (!br_kept_write(&j->kept, key, entry, size))
-                status = br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                                 j->program->kept, strerror(errno));
+            failed = !br_kept_write(j->kept, key, entry, size) &&
+                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                             j->program->kept, strerror(errno));
         }
     }
     free(entry);
+    return failed ? err->status : BR_OK;
+}
+
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
+{
+    const struct job *j = self;
+    struct br_numbers_row *row = &j->numbers->row[i];
+    struct br_command_words words = {NULL, NULL};
+    enum br_status status = br_command_split(j->program, row, &words, err);
+    if (!status)
+        status = take_row(j, &words, row, err);
+    br_command_clear(&words);
     return status;
 }
 
@@ -421,13 +426,14 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
+/* *rows: out. */
 static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                                struct br_error *err)
+                                size_t *rows, struct br_error *err)
 {
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
-    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
-    for (size_t r = 0; r < rows && !status; r++) {
+    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
+    const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
+    for (size_t r = 0; r < *rows && !status; r++) {
         const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / inner, [BR_AXIS_TIME] = r % inner};
         struct br_numbers_row *row = &numbers->row[r];
         for (int i = 0; i < BR_AXES; i++) {
@@ -456,12 +462,15 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     return status ? status : br_orders_check_lists(p, numbers, err);
 }
 
-static enum br_status make_cells(struct job *j, struct br_error *err)
+/* What a command is refused for at any resolution, before one is run. */
+static enum br_status check_commands(const struct job *j, struct br_error *err)
 {
-    j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
-    enum br_status status = j->cell ? BR_OK : br_no_memory(err, "the cells of a study");
-    for (size_t i = 0; i < j->numbers->rows && !status; i++)
-        status = br_command_split(j->program, &j->numbers->row[i], &j->cell[i], err);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
+        struct br_command_words words = {NULL, NULL};
+        status = br_command_split(j->program, &j->numbers->row[i], &words, err);
+        br_command_clear(&words);
+    }
     return status;
 }
 
@@ -469,11 +478,10 @@ static enum br_status make_cells(struct job *j, struct br_error *err)
 static enum br_status open_kept(struct job *j, struct br_error *err)
 {
     const char *folder = j->program->kept;
-    const int length = snprintf(j->kept.folder, sizeof j->kept.folder, "%s", folder);
-    const bool fits = (size_t)length < sizeof j->kept.folder;
-    j->kept.take = !j->program->anew;
-    br_sha256_start(&j->kept.base);
-    br_kept_add(&j->kept.base, "beamrate-cell 2");
+    const int length = snprintf(j->kept->folder, sizeof j->kept->folder, "%s", folder);
+    const bool fits = (size_t)length < sizeof j->kept->folder;
+    br_sha256_start(&j->kept->base);
+    br_kept_add(&j->kept->base, "beamrate-cell 2");
     if (fits && (mkdir(folder, 0777) == 0 || errno == EEXIST))
         return BR_OK;
     return br_fail(err, BR_IO, "%.900s: %s", folder, strerror(fits ? errno : ENAMETOOLONG));
@@ -498,35 +506,21 @@ static enum br_status make_environment(struct job *j, struct br_error *err)
 enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
                               struct br_error *err)
 {
-    struct job j = {.program = program, .numbers = numbers};
+    struct br_kept kept = {.take = !program->anew};
+    struct job j = {.program = program, .numbers = numbers, .kept = &kept};
     *numbers = (struct br_numbers){.rows = 0};
-    enum br_status status = BR_OK;
     if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
-        status = br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
-    else if (program->readings == 0)
-        status = br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    if (!status)
-        status = make_rows(program, numbers, err);
-    if (!status)
-        status = make_quantities(program, numbers, err);
-    if (!status)
-        status = make_cells(&j, err);
-    if (!status)
-        status = make_environment(&j, err);
-    if (!status && program->kept)
-        status = open_kept(&j, err);
-    const struct br_each each = {.count = numbers->rows,
-                                 .threads = program->jobs,
-                                 .observer = program->observer,
-                                 .turn = take_cell,
-                                 .self = &j};
-    if (!status)
-        status = br_each(&each, err);
-    for (size_t i = 0; i < numbers->rows && j.cell; i++)
-        br_command_clear(&j.cell[i]);
-    free(j.cell);
+        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    if (program->readings == 0)
+        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+    struct br_each each = {
+        .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
+    const bool failed = make_rows(program, numbers, &each.count, err) ||
+                        make_quantities(program, numbers, err) || check_commands(&j, err) ||
+                        make_environment(&j, err) || (program->kept && open_kept(&j, err)) ||
+                        br_each(&each, err);
     free(j.environment);
-    if (status)
+    if (failed)
         br_numbers_clear(numbers);
-    return status;
+    return failed ? err->status : BR_OK;
 }
