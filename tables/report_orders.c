@@ -154,7 +154,9 @@ static void put_cheapest_of(struct br_document *d, const struct br_orders *o, si
     for (size_t i = 0; i < numbers->rows; i++)
         most = fmax(most, numbers->row[i].number[quantity]);
     double error = pow(10, floor(log10(most)));
-    for (int digit = 0; digit < 17 && (run = br_orders_cheapest(o, quantity, error)); digit++) {
+    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: there is no digit to ask for */
+        if (!(run = br_orders_cheapest(o, quantity, error)))
+            break;
         br_put_row(d);
         BR_PUT(d, br_text(numbers->quantity[quantity].name), .key = "quantity");
         BR_PUT(d, br_number(error), .key = "wanted", .heading = "error at most", .format = "%.0e");

@@ -372,6 +372,28 @@ TEST(test_steep_values)
     clear_found(&f);
 }
 
+/* All runs count, also the finest one of values, which no difference begins at; short ones do not.
+ */
+TEST(test_growth)
+{
+    for (int is_value = 0; is_value < 2; is_value++) {
+        struct br_numbers numbers = read_with("h,u\n1,1\n.5,2\n.25,4\n.125,8\n.0625,16\n",
+                                              &(struct columns){NULL, is_value ? "u" : NULL, 2});
+        struct br_orders orders;
+        struct br_estimate growth;
+        struct br_error err = {0};
+        for (int i = 0; i < 5; i++)
+            numbers.row[i].seconds = i < 2 ? 0.001 : 0.1 * pow(8, i);
+        MUST(br_orders_find(&numbers, 2, &orders, &err));
+        MUST(br_orders_growth(&orders, BR_AXIS_SPACE, &growth, &err));
+        CLOSE(growth.value, 3, 1e-9);
+        MUST(br_orders_growth(&orders, BR_AXIS_TIME, &growth, &err));
+        assert_true(isnan(growth.value));
+        br_orders_clear(&orders);
+        br_numbers_clear(&numbers);
+    }
+}
+
 /* ---- expectations ---- */
 
 static void refuse_expectation(const char *text, const char *message)

@@ -411,8 +411,9 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     struct br_order_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
     if (!line || !point)
         return line ? br_no_memory(err, "the costs") : BR_OK;
+    const size_t rows = line->observed.points + o->numbers->quantity[o->of[0].quantity].is_value;
     size_t count = 0;
-    for (size_t i = 0; i < line->observed.points; i++) {
+    for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (row->seconds >= least_seconds)
             point[count++] = (struct br_order_point){row->z[axis], 0, row->seconds};
