@@ -15,6 +15,8 @@
 
 enum { MOST = 12 };
 
+static struct br_error err;
+
 /* h of two-dimensional grids of so many cells, equation (2) of Celik et al., from coarse to fine.
  */
 static void sizes(const double *cells, size_t count, double *h)
@@ -40,7 +42,6 @@ static const struct {
 
 TEST(test_celik)
 {
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof celik / sizeof *celik; i++) {
         double h[3];
         struct br_gci g;
@@ -67,7 +68,6 @@ TEST(test_celik)
 TEST(test_nparc)
 {
     static const double h[] = {4, 2, 1}, value[] = {0.96178, 0.96854, 0.97050};
-    struct br_error err = {0};
     struct br_gci g;
     MUST(br_gci(h, value, 3, &g, &err));
     PRINTED(g.order, 1.786170, 6);
@@ -85,7 +85,6 @@ TEST(test_nparc)
 TEST(test_power_law)
 {
     struct br_test_random random = {1};
-    struct br_error err = {0};
     for (int i = 0; i < 400; i++) {
         const bool alternates = i % 4 == 0;
         const double p = br_test_uniform(&random, -4, 6);
@@ -144,7 +143,6 @@ TEST(test_triplet_kinds)
         /* only the three finest count */
         {5, {16, 8, 4, 2, 1}, {1, 9, 1.4, 1.1, 1}, BR_MONOTONE_CONVERGENCE},
     };
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct named *c = &cases[i];
         struct br_gci g;
@@ -166,7 +164,6 @@ TEST(test_triplet_kinds)
 TEST(test_zero_value)
 {
     static const double h[] = {4, 2, 1}, value[] = {5, 1, 0};
-    struct br_error err = {0};
     struct br_gci g;
     MUST(br_gci(h, value, 3, &g, &err));
     CLOSE(g.order, 2, 1e-13);
@@ -310,7 +307,6 @@ struct seen {
 
 static void compare(const struct named *c, double formal, struct seen *seen)
 {
-    struct br_error err = {0};
     struct br_least_squares r;
     MUST(br_least_squares(c->h, c->value, c->count, formal, &r, &err));
     const struct oracle o = oracle_of(c, formal);
@@ -367,7 +363,6 @@ TEST(test_random_sequences)
 TEST(test_exact_laws)
 {
     static const double orders[] = {0.5001, 0.8, 1, 1.3, 1.9, 2};
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
         struct named c = {6, {1, 0.7, 0.4, 0.3, 0.2, 0.15}, {0}, BR_MONOTONE_CONVERGENCE};
         for (size_t j = 0; j < c.count; j++)
@@ -402,7 +397,6 @@ TEST(test_fits_of_the_paper)
         {3, 0, 2, 1, false, 2, 3},       {3, 0, 4, 1, true, 3, 1.25},  {1, -1.9, 2, 2, false, 1, 3},
         {2.05, 0, 2, 1, false, 2, 1.25}, {2.15, 0, 2, 1, false, 2, 3},
     };
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
         struct br_least_squares r;
@@ -427,7 +421,6 @@ TEST(test_logarithm)
 {
     static const double h[] = {1, 0.6, 0.3, 0.2, 0.1};
     double value[5];
-    struct br_error err = {0};
     struct br_least_squares r;
     for (int i = 0; i < 5; i++)
         value[i] = 3 + log(h[i]);
@@ -451,7 +444,6 @@ TEST(test_sequence_kinds)
         {3, {4, 2, 1}, {3, 3, 3}, BR_SEQUENCE_CONSTANT},
         {3, {4, 2, 1}, {2, 3, 3}, BR_SEQUENCE_UNKNOWN},
     };
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct named *c = &cases[i];
         const bool constant = c->sequence == BR_SEQUENCE_CONSTANT;
@@ -479,7 +471,6 @@ TEST(test_units)
 {
     const struct named c = {5, {1, 0.6, 0.3, 0.2, 0.1}, {3.1, 2.2, 1.45, 1.3, 1.11}, 0};
     static const double scales[] = {1e-150, -1, 1e150};
-    struct br_error err = {0};
     struct br_least_squares one, other;
     MUST(br_least_squares(c.h, c.value, c.count, 2, &one, &err));
     for (int i = 0; i < 3; i++) {
@@ -502,7 +493,6 @@ TEST(test_units)
 TEST(test_limit)
 {
     static const double h[] = {1, 0.5, 0.25, 0.125}, value[] = {2.1, 1.4, 1.12, 1.03};
-    struct br_error err = {0};
     struct br_grid_limit limit;
     struct br_gci g;
     struct br_least_squares fit;
@@ -528,7 +518,6 @@ TEST(test_limit)
 static double coverage(size_t count, double finest)
 {
     struct br_test_random random = {count};
-    struct br_error err = {0};
     int told = 0, right = 0;
     for (int i = 0; i < (br_test_quick() ? 20 : 100); i++) {
         const double a = br_test_uniform(&random, -1, 1), b = br_test_uniform(&random, -1, 1);
@@ -583,7 +572,6 @@ TEST(test_bad_input)
         {4, 10.1, "expected 1 to 10"},        {4, NAN, "the formal order is nan, expected"},
         {4, -2, "expected 1 to 10"},          {4, INFINITY, "expected 1 to 10"},
     };
-    struct br_error err = {0};
     struct br_gci g;
     struct br_least_squares r;
     struct br_grid_limit l;
@@ -603,11 +591,11 @@ TEST(test_bad_input)
     REFUSED(br_gci(h, v, 2, &g, &err), BR_BAD_INPUT, "2 grids, expected at least 3");
 }
 
-static enum br_status attempt(const void *data, struct br_error *err)
+static enum br_status attempt(const void *data, struct br_error *why)
 {
     const struct named *c = data;
     struct br_grid_limit limit;
-    return br_limit_of_values(c->h, c->value, c->count, 2, &limit, err);
+    return br_limit_of_values(c->h, c->value, c->count, 2, &limit, why);
 }
 
 /* An oscillating sequence needs the order of its differences too. */
