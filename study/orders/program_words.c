@@ -9,12 +9,22 @@
 
 #include "study/orders/request.h"
 #include "study/scene/quote.h"
-#include "study/scene/words.h"
 
 enum {
     NUMBER = 32, /* bytes of a resolution's text, with its end */
     SHOWN = 200  /* bytes of foreign text in a message */
 };
+
+/* Counts have no point, sizes no more digits than they need. */
+static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
+{
+    snprintf(text, NUMBER, "%.0f", x);
+    for (int digits = 1; column->is_size && digits <= 17; digits++) {
+        snprintf(text, NUMBER, "%.*g", digits, x);
+        if (strtod(text, NULL) == x)
+            break;
+    }
+}
 
 /* A command on its way to words. */
 struct split {
@@ -39,10 +49,7 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
         if (!column)
             continue;
         if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
-            if (column->is_size)
-                br_shortest(s->row->given[i], *to, NUMBER);
-            else
-                snprintf(*to, NUMBER, "%.0f", s->row->given[i]);
+            print_number(column, s->row->given[i], *to);
             *to += strlen(*to);
             s->rest += length + 2;
             s->used[i] = true;
