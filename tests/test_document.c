@@ -10,6 +10,8 @@
 #include "support.h"
 #include "tables/document.h"
 
+static struct br_error err;
+
 /* What is awkward. A text stays on its line in all formats but JSON, and what cannot be seen
  * becomes visible. */
 static const char *const texts[] = {
@@ -122,7 +124,6 @@ static void build(struct br_document *d)
 /* What a format prints (NULL: the terminal), of one table where it has a file each; to be freed. */
 static char *printed(const struct br_document_format *format, const char *table)
 {
-    struct br_error err = {0};
     struct br_document d = {0};
     const struct br_document_table *t;
     char *text = NULL;
@@ -143,7 +144,6 @@ static char *printed(const struct br_document_format *format, const char *table)
 /* Two reports on one page, with what is drawn of their picture. */
 static char *made_page(const char *svg)
 {
-    struct br_error err = {0};
     struct br_document d[2] = {{0}};
     char folder[] = "/tmp/beamrate-page-XXXXXX", path[100], *text = NULL;
     size_t size;
@@ -183,7 +183,6 @@ static void print_pages(FILE *out)
 /* Every format; of one that has a file for each table, each. */
 static void print_formats(FILE *out)
 {
-    struct br_error err = {0};
     struct br_document d = {0};
     build(&d);
     for (size_t f = 0; br_document_formats[f]; f++) {
@@ -297,7 +296,6 @@ TEST(test_built_wrongly)
         "no row for the verdict 'v'",
     };
     for (size_t i = 0; i < sizeof messages / sizeof *messages; i++) {
-        struct br_error err = {0};
         struct br_document d = {0};
         br_document_begin(&d, "wrong", "f", 1, "c");
         MUST(br_document_status(&d, &err));
@@ -340,7 +338,6 @@ TEST(test_no_sign_of_zero)
 /* Two values of one name would be one in JSON. */
 TEST(test_two_values)
 {
-    struct br_error err = {0};
     struct br_document d = {0};
     br_document_begin(&d, "twice", "f", 1, "c");
     br_put_fact(&d, &(struct br_column){.key = "a.b"}, br_count(1));
@@ -374,7 +371,6 @@ static void check_whole(const char *text, const char *whole, long failed)
 static enum br_status print_without(const struct br_document_format *format, const char *whole,
                                     long fails, bool jansson)
 {
-    struct br_error err = {0};
     struct br_document d = {0};
     size_t block = 0, size;
     char *text = NULL;

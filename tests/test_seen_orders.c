@@ -11,6 +11,8 @@
 enum { ROWS = 4, COLUMNS = 4, CELLS = ROWS * COLUMNS };
 static const size_t n[ROWS] = {25, 50, 100, 200}, steps[COLUMNS] = {100, 200, 400, 800};
 
+static struct br_error err;
+
 /* A study of errors a h^p + b k^q of a rod, and the differences of its meshes. */
 struct made {
     struct br_scene scene;
@@ -46,7 +48,6 @@ static void make(struct made *m, double a, double p, double b, double q)
 
 static void see(struct made *m)
 {
-    struct br_error err = {0};
     for (int part = 0; part < BR_PARTS; part++) {
         br_fits_clear(&m->report.fits[part]);
         MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
@@ -147,7 +148,6 @@ TEST(test_no_order_of_zero)
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
     struct br_report r = m->report;
-    struct br_error err = {0};
     MUST(br_report_see_orders(&r, &err));
     assert_true(r.seen[part][BR_AXIS_SPACE].theory == in_h);
     assert_true(r.seen[part][BR_AXIS_TIME].theory == in_k);
@@ -171,7 +171,6 @@ TEST(test_theory)
     m.study.norm = &br_norm_tip;
     expect_theory(&m, BR_PART_AXIAL, 4, 1);
     m.study.method.scheme = br_time_scheme_find("adaptive");
-    struct br_error err = {0};
     MUST(br_report_see_orders(&m.report, &err));
     assert_false(m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME].asked); /* it has steps of its own */
 }
