@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/orders/orders.h"
 
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
 
@@ -41,36 +40,21 @@ static double rate(const struct br_point *coarse, const struct br_point *fine)
     return fmax(-steepest, fmin(order, steepest));
 }
 
-/* Takes a number that is there out of sorted ones. */
-static void take_out(double *sorted, size_t count, double number)
-{
-    size_t first = 0, behind = count;
-    while (first < behind) {
-        const size_t middle = (first + behind) / 2;
-        if (sorted[middle] < number)
-            first = middle + 1;
-        else
-            behind = middle;
-    }
-    memmove(&sorted[first], &sorted[first + 1], (count - first - 1) * sizeof *sorted);
-}
-
 /* The first point that is hardly smaller than the one before it, as are all finer ones; count:
- * there is none. sorted: room for as many; it holds the rates of the pairs before a point. */
+ * there is none. sorted: room for as many; it holds the rates of the pairs before a point, whose
+ * median says what is hardly. */
 static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
 {
     size_t first = count;
-    for (size_t i = 1; i + 1 < count; i++)
-        sorted[i - 1] = rate(&p[i - 1], &p[i]);
-    if (count > LEAST_POINTS)
-        gsl_sort(sorted, 1, count - 2);
-    for (size_t i = count; i-- > LEAST_POINTS;) {
-        const double before = sorted[(i - 1) / 2];
+    for (size_t i = 1; i < count; i++) {
+        const double now = rate(&p[i - 1], &p[i]), before = i > 1 ? sorted[(i - 1) / 2] : 0;
         const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
-        if (!(before > stagnates && rate(&p[i - 1], &p[i]) < share * before))
-            break;
-        first = i;
-        take_out(sorted, i - 1, rate(&p[i - 2], &p[i - 1]));
+        const bool stays = i >= LEAST_POINTS && before > stagnates && now < share * before;
+        first = !stays ? count : first < count ? first : i;
+        size_t place = i - 1;
+        for (; place > 0 && sorted[place - 1] > now; place--)
+            sorted[place] = sorted[place - 1];
+        sorted[place] = now;
     }
     return first;
 }
