@@ -75,8 +75,7 @@ bool br_lists(const char *list, const char *name);
 
 /* Brings the rows into their order, takes sizes that differ by round-off for one, and refuses
  * (BR_BAD_INPUT, beginning with `path` and the line) resolutions that are not above 0 or are there
- * twice, fewer than three of them, errors below 0, and numbers too large for their differences.
- * Fails with BR_NO_MEMORY, too. */
+ * twice, fewer than three of them, errors below 0, and numbers too large for their differences. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
 /* ---- orders ---- */
