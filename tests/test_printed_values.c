@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The history and the fields of a run, in CSV and HDF5, are what was marched. What the reports of
+/* The fields of a run, in CSV and HDF5, are what was marched. What the reports of
  * all commands print is compared to the byte in golden/. */
 #include <math.h>
 #include <stdio.h>
@@ -33,18 +33,9 @@ struct watched {
     char folder[32];
     struct br_scene scene;
     struct br_history_record record;
-    FILE *history;
     struct br_fields_file *file[MOST_FORMATS];
     struct br_run_report report;
 };
-
-static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
-{
-    const struct watched *w = self;
-    (void)err;
-    br_history_csv_row(w->history, row);
-    return BR_OK;
-}
 
 static enum br_status write_fields(void *self, const struct br_march *march,
                                    const struct br_history_row *row, struct br_error *err)
@@ -96,7 +87,7 @@ static void march_and_write(struct watched *w)
     char path[64];
     const struct br_history_observer output[] = {
         br_history_recorder(&w->record, ELEMENTS),
-        {.self = w, .row = write_row, .look = write_fields},
+        {.self = w, .look = write_fields},
     };
     const struct br_run_request request = {.scene = &w->scene,
                                            .wanted = 3,
@@ -110,10 +101,6 @@ static void march_and_write(struct watched *w)
                                            .energies = true,
                                            .output = output,
                                            .outputs = 2};
-    path_of(w, "history.csv", path);
-    w->history = fopen(path, "w");
-    assert_non_null(w->history);
-    br_history_csv_head(w->history);
     for (size_t f = 0; br_fields_formats[f]; f++) {
         path_of(w, br_fields_formats[f]->file_name, path);
         const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
@@ -121,7 +108,6 @@ static void march_and_write(struct watched *w)
         MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
     }
     MUST(br_run(&request, &w->report, &err));
-    fclose(w->history);
     for (size_t f = 0; br_fields_formats[f]; f++)
         MUST(br_fields_formats[f]->close(w->file[f], NULL, &err));
 }
@@ -144,24 +130,6 @@ static int tear_down(void **state)
     br_history_record_clear(&w->record);
     br_scene_clear(&w->scene);
     return system(command);
-}
-
-TEST(history_is_printed)
-{
-    const struct watched *w = *fixture;
-    FILE *file = open_csv(w, "history.csv",
-                          "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n");
-    assert_int_equal(w->record.rows, STEPS + 1);
-    for (size_t i = 0; i < w->record.rows; i++) {
-        const struct br_history_row *row = &w->record.row[i];
-        has_row(file, "history.csv",
-                (double[]){(double)i, (double)i / STEPS, row->displacement[BR_AXIAL],
-                           row->displacement[BR_BENDING], row->velocity[BR_AXIAL],
-                           row->velocity[BR_BENDING], row->contact_force, row->friction_force,
-                           row->friction_bound},
-                9);
-    }
-    fclose(file);
 }
 
 /* What a variable of the fields is at a node, of the march's own nodal values. */
