@@ -251,13 +251,6 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
     put_what(d, BR_BLOCK_FACT, &column, value);
 }
 
-void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        BR_FACT(d, fact[i].value, .key = fact[i].key, .heading = fact[i].heading,
-                .unit = fact[i].unit);
-}
-
 void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
                     const char *unit, const char *key)
 {

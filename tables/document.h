@@ -242,14 +242,6 @@ void br_put_more_text(struct br_document *d, const char *text);
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value);
 #define BR_FACT(d, value, ...) br_put_fact((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* Several, a row each. */
-struct br_fact {
-    const char *key, *heading, *unit;
-    struct br_value value;
-};
-void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
-#define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
-
 /* A fact whose key is formatted; for programs alone where there is no heading. unit: NULL, none. */
 #define br_put_fact_as(d, value, heading, unit, ...) \
     br_put_fact_of((d), (value), (heading), (unit), br_format((d), __VA_ARGS__))

@@ -366,13 +366,10 @@ static void put_facts(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study, *fitted = br_report_fitted(r);
     const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(s->scene->name)},
-        {"norm.name", NULL, NULL, br_text(s->norm->name)},
-        {"norm.unit", NULL, NULL, br_text(s->norm->unit)},
-        {"norm.title", NULL, NULL, br_text(s->norm->title)},
-    };
-    BR_FACTS(d, facts);
+    br_hide_fact(d, br_text(s->scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_text(s->norm->name), NULL, "norm.name");
+    br_hide_fact(d, br_text(s->norm->unit), NULL, "norm.unit");
+    br_hide_fact(d, br_text(s->norm->title), NULL, "norm.title");
     br_put_method_facts(d, "method", &s->method, &(struct br_meshes){s->scene, s->n, s->n_count});
     put_reference(d, "reference", s);
     if (r->exact)
