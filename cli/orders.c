@@ -128,9 +128,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
-    q->jobs = r->session.threads;
-    q->kept = br_option_text(o, BR_OPT_KEEP);
-    q->anew = !br_option_given(o, BR_OPT_RESUME);
     struct br_error inner = {0};
     if (!expect || !br_expectations_read(expect, 0, &q->expectation, &q->expectations, &inner))
         return BR_OK;

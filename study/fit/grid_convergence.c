@@ -116,11 +116,11 @@ static double relative_to(double difference, double value)
 }
 
 /* h[0], value[0]: the coarser grid; h[1], value[1]: the finer one. order: NaN if there is none. */
-static struct br_gci_pair pair_of(const double *h, const double *value, double order, double safety)
+static struct br_gci_pair pair_of(const double *h, const double *value, double order)
 {
     const double ratio = h[0] / h[1], fine = value[1];
     const double step = (fine - value[0]) / expm1(order * log(ratio)); /* e/(r^p - 1) */
-    const double limit = fine + step, uncertainty = safety * fabs(step);
+    const double limit = fine + step, uncertainty = safety_observed * fabs(step);
     return (struct br_gci_pair){
         .ratio = ratio,
         .difference = fabs(fine - value[0]),
@@ -155,15 +155,15 @@ static void judge_triplet(const double *h, const double *value, struct br_gci *g
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err)
 {
-    *gci = (struct br_gci){.order = NAN, .safety = safety_observed};
+    *gci = (struct br_gci){.order = NAN};
     if (check_line(h, value, count, 3, err))
         return err->status;
     h += count - 3;
     value += count - 3;
     judge_triplet(h, value, gci);
     const double order = convergent(gci->sequence) ? gci->order : NAN;
-    gci->fine = pair_of(h + 1, value + 1, order, gci->safety);
-    gci->coarse = pair_of(h, value, order, gci->safety);
+    gci->fine = pair_of(h + 1, value + 1, order);
+    gci->coarse = pair_of(h, value, order);
     gci->asymptotic = gci->coarse.index / (pow(gci->fine.ratio, order) * gci->fine.index);
     return BR_OK;
 }

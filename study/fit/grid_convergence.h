@@ -59,7 +59,6 @@ struct br_gci_pair {
 struct br_gci {
     enum br_sequence sequence;
     double order;                    /* p, (3): negative if divergent */
-    double safety;                   /* 1.25 */
     struct br_gci_pair fine, coarse; /* 21 and 32; without convergence only ratio, difference and
                                         relative are known */
     double asymptotic; /* GCI_32/(r21^p GCI_21), near 1 in the asymptotic range. With monotone
