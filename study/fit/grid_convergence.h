@@ -43,7 +43,7 @@ struct br_gci_pair {
     double ratio;                 /* r = h_coarse/h_fine > 1 */
     double difference;            /* |phi_fine - phi_coarse|, in the unit of the values */
     double limit;                 /* phi_ext, equation (4) */
-    double uncertainty;           /* safety |phi_fine - phi_coarse| / (r^p - 1), in that unit */
+    double uncertainty;           /* 1.25 |phi_fine - phi_coarse| / (r^p - 1), in that unit */
     double relative;              /* e_a, (5), of phi_fine; relative ones are NaN beside 0 */
     double relative_extrapolated; /* e_ext, (6), of phi_ext */
     double index;                 /* GCI, (7): the uncertainty relative to phi_fine */
