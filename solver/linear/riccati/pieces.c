@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "solver/instruction_set.h"
-#include "solver/linear/plain.h"
 #include "solver/linear/riccati/pieces.h"
 
 /* ---- the cut ---- */
