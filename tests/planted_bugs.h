@@ -260,7 +260,7 @@ static const struct planted_bug planted_bugs[] = {
 
     /* ---- pieces side by side ---- */
     {"pieces_joins_without_yield", "lost", "solver/linear/riccati/sweep.c",
-     "check smoothed --solver riccati", "add_lanewise((int)d, s, BR_JOIN_YIELD, away, own);", ""},
+     "check smoothed --solver riccati", "add_lanewise(s, BR_JOIN_YIELD, away, own);", ""},
     {"pieces_inner_joins_without_yield", "lost", "solver/linear/riccati/sweep.c",
      "check brake --solver riccati", "next[i] -= yield[i];", ""},
     {"pieces_load_lost_at_the_ends", "lost", "solver/linear/riccati/sweep.c",
@@ -287,7 +287,7 @@ static const struct planted_bug planted_bugs[] = {
     {"pieces_slope_lost_between_spans", "lost", "solver/linear/riccati/pieces.c",
      "check brake --solver riccati", "y[0] += (double)span_length(t) * y[1];", ""},
     {"pieces_costate_without_the_lead", "lost", "solver/linear/riccati/sweep.c",
-     "check brake --solver riccati", "add(d, join + BR_JOIN_REACH * d * d, right, h);", ""},
+     "check brake --solver riccati", "add(1, join + BR_JOIN_REACH * d * d, right, h);", ""},
     {"pieces_inertia_of_the_joint", "coefficient", "solver/linear/riccati/tables.c",
      "check brake --solver riccati",
      "*p = plus(plus(plus(sum, lq->maa), mab_a), transpose(mab_a));",
