@@ -94,7 +94,7 @@ static enum br_status take_forces(struct br_discrete_field *f, const struct br_s
         const struct br_product *p = &f->functions.term[i];
         if (br_product_is_zero(p))
             continue;
-        f->vector[i] = br_allocate(nodal_size(f), sizeof *f->vector[i]);
+        f->vector[i] = br_store_take(&f->store, nodal_size(f), sizeof *f->vector[i]);
         if (!f->vector[i])
             status = br_no_memory(err, "a load vector");
         else if (!p->space.uses_t)
@@ -207,12 +207,12 @@ enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct 
                       .viscosity = axial ? scene->axial.viscosity : scene->bending.viscosity},
         .states = states,
     };
-    bool room = br_recursion_allocate(&f->recursion);
+    br_recursion_take(&f->recursion, &f->store);
     for (size_t i = 0; i < states; i++)
-        room = (f->state[i] = br_allocate(br_recursion_size(&f->recursion), sizeof(real))) && room;
-    f->load = br_allocate(nodal_size(f), sizeof *f->load);
+        f->state[i] = br_store_take(&f->store, br_recursion_size(&f->recursion), sizeof(real));
+    f->load = br_store_take(&f->store, nodal_size(f), sizeof *f->load);
     enum br_status status =
-        room && f->load ? BR_OK : br_no_memory(err, "the exact discrete solution");
+        f->store.failed ? br_no_memory(err, "the exact discrete solution") : BR_OK;
     if (!status)
         status = take_forces(f, scene, err);
     return status ? status : set_initial(f, scene, err);
@@ -220,15 +220,10 @@ enum br_status br_discrete_field_init(struct br_discrete_field *f, const struct 
 
 void br_discrete_field_clear(struct br_discrete_field *f)
 {
-    br_recursion_free(&f->recursion);
-    for (size_t i = 0; i < f->states; i++)
-        free(f->state[i]);
-    free(f->load);
+    br_store_clear(&f->store);
     br_load_clear(&f->functions);
     br_function_free(&f->tip_force);
     br_function_free(&f->tip_moment);
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
-        free(f->vector[i]);
     *f = (struct br_discrete_field){0};
 }
 

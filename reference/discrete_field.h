@@ -18,6 +18,7 @@ enum {
 };
 
 struct br_discrete_field {
+    struct br_store store;           /* of all arrays */
     struct br_recursion recursion;   /* its step is 0 until one is set */
     real *state[BR_DISCRETE_STATES]; /* br_recursion_size each */
     size_t states;                   /* 1, or all */

@@ -138,22 +138,26 @@ static const struct br_step_form esdirk4_form = {
 
 /* ---- stages that are given ---- */
 
+/* Their smallest weight is what the others leave of 1, see balance. */
+
 static const struct br_step_form euler_form = {
     .stages = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}},
 };
 
 /* Y_n = 4/3 Y_{n-1} - 1/3 Y_{n-2} + 2/3 k Y'_n */
 static const struct br_step_form bdf2_form = {
-    .stages = {.count = 1, .stage = {{1, 2.0 / 3, {[BR_NOW] = 4.0 / 3, [BR_BEFORE] = -1.0 / 3}}}},
+    .stages = {.count = 1,
+               .stage = {{1, 2.0 / 3, {[BR_NOW] = 4.0 / 3, [BR_BEFORE] = 1 - 4.0 / 3}}}},
 };
 
 /* Y_n = 18/11 Y_{n-1} - 9/11 Y_{n-2} + 2/11 Y_{n-3} + 6/11 k Y'_n */
 static const struct br_step_form bdf3_form = {
-    .stages =
-        {.count = 1,
-         .stage = {{1,
-                    6.0 / 11,
-                    {[BR_NOW] = 18.0 / 11, [BR_BEFORE] = -9.0 / 11, [BR_BEFORE_THAT] = 2.0 / 11}}}},
+    .stages = {.count = 1,
+               .stage = {{1,
+                          6.0 / 11,
+                          {[BR_NOW] = 18.0 / 11,
+                           [BR_BEFORE] = -9.0 / 11,
+                           [BR_BEFORE_THAT] = 1 - 18.0 / 11 + 9.0 / 11}}}},
 };
 
 /* The trapezoidal rule over 2 gamma k, Y_1 = Y_{n-1} + gamma k (Y'_{n-1} + Y'_1), then a BDF2 of
@@ -259,7 +263,6 @@ void br_time_scheme_step(const struct br_time_scheme *scheme, size_t since, stru
         of_tableau(form, s);
     else
         *s = form->stages;
-    balance(&s->stage[s->count - 1]);
 }
 
 int br_time_scheme_stages(const struct br_time_scheme *scheme)

@@ -325,9 +325,11 @@ static const struct planted_bug planted_bugs[] = {
     /* ---- time schemes ---- */
     {"bdf2_coefficients", "order", "solver/scheme.c",
      "run chatter --scheme bdf2 --n 10 --k 0.02 --check",
-     "[BR_NOW] = 4.0 / 3, [BR_BEFORE] = -1.0 / 3", "[BR_NOW] = 1.3, [BR_BEFORE] = -0.3"},
+     "[BR_NOW] = 4.0 / 3, [BR_BEFORE] = 1 - 4.0 / 3", "[BR_NOW] = 1.3, [BR_BEFORE] = -0.3"},
     {"bdf3_coefficients", "order", "solver/scheme.c", "check mms_implicit",
-     "[BR_NOW] = 18.0 / 11, [BR_BEFORE] = -9.0 / 11, [BR_BEFORE_THAT] = 2.0 / 11",
+     "[BR_NOW] = 18.0 / 11,\n"
+     "                           [BR_BEFORE] = -9.0 / 11,\n"
+     "                           [BR_BEFORE_THAT] = 1 - 18.0 / 11 + 9.0 / 11",
      "[BR_NOW] = 17.0 / 11, [BR_BEFORE] = -7.0 / 11, [BR_BEFORE_THAT] = 1.0 / 11"},
     {"trbdf2_weights", "order", "solver/scheme.c", "check vibration",
      "#define RATIO ((1 - GAMMA2) / (2 * GAMMA2))",

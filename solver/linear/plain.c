@@ -46,16 +46,6 @@ static double tip_compliance(const void *self)
 
 /* ---- states ---- */
 
-static void release(void *self)
-{
-    struct plain *s = self;
-    if (!s)
-        return;
-    br_recursion_free(&s->recursion);
-    br_states_clear(&s->states);
-    free(s);
-}
-
 static enum br_status set_step(void *self, double k, struct br_error *err)
 {
     struct plain *s = self;
@@ -84,8 +74,7 @@ static enum br_status create(const struct br_linear_solver *row, const struct br
         .stiffness = field->stiffness,
         .viscosity = field->viscosity,
     };
-    if (!br_recursion_allocate(&s->recursion))
-        return br_no_memory(err, what);
+    br_recursion_take(&s->recursion, &s->states.store);
     const enum br_status status =
         br_states_add(&s->states, br_recursion_size(&s->recursion), 1, err);
     return status ? status : set_step(s, field->k, err);
@@ -133,7 +122,7 @@ static void size_of(void *self, size_t which, double size[2])
 
 const struct br_field_solver br_plain_form = {
     .create = create,
-    .free = release,
+    .free = br_free_states,
     .tip_compliance = tip_compliance,
     .set = set,
     .get = get,

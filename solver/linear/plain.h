@@ -47,8 +47,7 @@
 
 #ifdef BR_LONG
 typedef long double real;
-#define br_recursion_allocate br_long_recursion_allocate
-#define br_recursion_free br_long_recursion_free
+#define br_recursion_take br_long_recursion_take
 #define br_recursion_fill br_long_recursion_fill
 #define br_recursion_predict br_long_recursion_predict
 #define br_recursion_finish br_long_recursion_finish
@@ -90,9 +89,8 @@ static inline size_t br_recursion_tip_rate(const struct br_recursion *s)
     return br_recursion_size(s) - (size_t)s->m;
 }
 
-/* Room for tables. False: there is none; free it even then. */
-bool br_recursion_allocate(struct br_recursion *s);
-void br_recursion_free(struct br_recursion *s);
+/* Takes room for tables; where there is none the store has failed. */
+void br_recursion_take(struct br_recursion *s, struct br_store *store);
 
 /* All tables, from n to k; who: for a message. Fails with BR_SINGULAR. */
 enum br_status br_recursion_fill(struct br_recursion *s, const char *who, struct br_error *err);

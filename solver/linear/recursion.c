@@ -39,6 +39,12 @@ INLINE real transposed_control(int d, int c, const real *p)
 
 /* ---- tables ---- */
 
+void br_recursion_take(struct br_recursion *s, struct br_store *store)
+{
+    s->gain = br_store_take(store, s->n * (size_t)gain_size(s->d, s->m), sizeof *s->gain);
+    s->drive = br_store_take(store, s->n * (size_t)s->m, sizeof *s->drive);
+}
+
 /* The Riccati recursion, from the tip to the clamp. */
 struct riccati {
     wide mass, r[2];            /* rho h / k; R */
@@ -345,19 +351,4 @@ void br_recursion_get(const struct br_recursion *s, const real *state, real *dis
             memcpy(to, y, m * sizeof *to);
         }
     }
-}
-
-/* ---- memory ---- */
-
-bool br_recursion_allocate(struct br_recursion *s)
-{
-    s->gain = br_allocate(s->n * (size_t)gain_size(s->d, s->m), sizeof *s->gain);
-    s->drive = br_allocate(s->n * (size_t)s->m, sizeof *s->drive);
-    return s->gain && s->drive;
-}
-
-void br_recursion_free(struct br_recursion *s)
-{
-    free(s->gain);
-    free(s->drive);
 }

@@ -10,40 +10,9 @@
 
 /* ---- where everything lies ---- */
 
-static double *take(double *arena, size_t *used, size_t doubles)
+static double *take(struct br_pieces *s, size_t doubles)
 {
-    double *p = arena ? arena + *used : NULL;
-    *used += (doubles + BR_LANES - 1) / BR_LANES * BR_LANES;
-    return p;
-}
-
-/* Lays out all arrays, or with no arena counts their doubles. */
-static size_t lay_out(struct br_pieces *s, double *arena)
-{
-    const size_t d = (size_t)s->d, entry = d * BR_LANES;
-    size_t used = 0, longest = 0;
-    for (int i = 0; i < s->strands; i++) {
-        struct br_strand *t = &s->strand[i];
-        struct br_strip *strip = &t->strip;
-        longest = strip->length > longest ? strip->length : longest;
-        strip->end = take(arena, &used, strip->pieces * BR_ENDS * entry);
-        strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
-        strip->span_join = take(arena, &used, BR_SPAN_JOINS * d * entry);
-        strip->weight = take(arena, &used, strip->length * 2 * d * d);
-        double **const ends[] = {
-            &t->q,          &t->z,         &t->force_right,   &t->force_left,
-            &t->ends.right, &t->ends.left, &t->ends.velocity, &t->ends.displacement};
-        for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
-            *ends[e] = take(arena, &used, entry);
-    }
-    double *gain = take(arena, &used, longest * 3 * d * d);
-    double *scratch = take(arena, &used, longest * entry);
-    for (int i = 0; i < s->strands && arena; i++) { /* gains go by the distance to the right end */
-        struct br_strip *strip = &s->strand[i].strip;
-        strip->gain = gain + (longest - strip->length) * 3 * d * d;
-        strip->scratch = scratch;
-    }
-    return used;
+    return br_store_take(&s->states.store, doubles, sizeof(double));
 }
 
 /* Elements of a span. */
@@ -81,10 +50,27 @@ static void point_at_first(struct br_pieces *s)
     s->tip = at;
 }
 
-/* Cuts the beam and allocates all arrays. */
+/* Arrays of a strand. */
+static void lay_out(struct br_pieces *s, struct br_strand *t)
+{
+    const size_t d = (size_t)s->d, entry = d * BR_LANES;
+    struct br_strip *strip = &t->strip;
+    double **const ends[] = {
+        &t->q,          &t->z,         &t->force_right,   &t->force_left,
+        &t->ends.right, &t->ends.left, &t->ends.velocity, &t->ends.displacement};
+    strip->end = take(s, strip->pieces * BR_ENDS * entry);
+    strip->join = take(s, strip->pieces * BR_JOINS * d * d);
+    strip->span_join = take(s, BR_SPAN_JOINS * d * entry);
+    strip->weight = take(s, strip->length * 2 * d * d);
+    for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
+        *ends[e] = take(s, entry);
+}
+
+/* Cuts the beam and takes all arrays. */
 static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
 {
     const struct br_cut cut = br_choose_cut(s->field.n);
+    const size_t d = (size_t)s->d, longest = cut.odd > cut.length ? cut.odd : cut.length;
     if (cut.odd)
         s->strand[s->strands++] =
             (struct br_strand){.strip = {.lanes = 1, .pieces = 1, .length = cut.odd}};
@@ -92,14 +78,19 @@ static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
         s->strand[s->strands++] = (struct br_strand){
             .first = cut.odd,
             .strip = {.lanes = BR_LANES, .pieces = cut.pieces, .length = cut.length}};
-    s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
-    if (!s->arena)
-        return br_no_memory(err, "a solver");
-    lay_out(s, s->arena);
+    double *gain = take(s, longest * 3 * d * d), *scratch = take(s, longest * d * BR_LANES);
+    for (int i = 0; i < s->strands; i++)
+        lay_out(s, &s->strand[i]);
     const enum br_status status = br_states_add(&s->states, all_strands(s) + TIP_NUMBERS, 1, err);
-    if (!status)
-        point_at_first(s);
-    return status;
+    if (status)
+        return status;
+    for (int i = 0; i < s->strands; i++) { /* gains go by the distance to the right end */
+        struct br_strip *strip = &s->strand[i].strip;
+        strip->gain = gain + (longest - strip->length) * 3 * d * d;
+        strip->scratch = scratch;
+    }
+    point_at_first(s);
+    return BR_OK;
 }
 
 /* kappa_w of an element, kappa_v after it. */
@@ -240,7 +231,7 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
     const size_t d = (size_t)s->d;
     const bool even = !vector || is_uniform(s, vector);
     if (!even && !s->loads) {
-        s->loads = br_allocate_aligned(all_strands(s) / 2, sizeof *s->loads);
+        s->loads = take(s, all_strands(s) / 2);
         if (!s->loads)
             return br_no_memory(err, "the load of a solver");
     }
@@ -265,17 +256,6 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
 
 /* Round-off of the tip's increment is small beside the velocity that it leads to. */
 static const double most_bias = 1e-8;
-
-static void pieces_free(void *self)
-{
-    struct br_pieces *s = self;
-    if (!s)
-        return;
-    free(s->arena);
-    free(s->loads);
-    br_states_clear(&s->states);
-    free(s);
-}
 
 /* The increments and costates at the ends of all spans, for the tip's costate h; the tip's
  * increment goes into y (out). */
@@ -521,7 +501,7 @@ static void pieces_size(void *self, size_t state, double size[2])
 
 const struct br_field_solver br_pieces = {
     .create = pieces_create,
-    .free = pieces_free,
+    .free = br_free_states,
     .tip_compliance = pieces_compliance,
     .set = pieces_set,
     .get = pieces_get,

@@ -33,7 +33,6 @@ struct br_pieces {
     struct br_strand strand[BR_MOST_STRANDS]; /* from the clamped end: the odd rest, and the equal
                                                  spans; what the cut has of them */
     int strands;
-    double *arena; /* all arrays but the loads */
     double *loads; /* of the strips, where they differ from node to node; NULL so far */
     struct br_strip_drive drive;
     double tip_load[2]; /* of the last node over R, for a factor of 1 */
