@@ -177,7 +177,7 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
                                      const struct br_outline *outline, size_t modes,
                                      struct br_store *store, struct br_error *err)
 {
-    const size_t elements = outline->end.count - 1;
+    const size_t elements = outline->end[BR_X].count - 1;
     const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
     struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
     size_t *terms = br_store_take(store, elements, sizeof *terms);
@@ -190,7 +190,7 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
     f->stiffness = f->data.stiffness * power;
     for (size_t e = 0; e < elements; e++)
         terms[e] = br_outline_terms(outline, e, modes);
-    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end.at, terms, store);
+    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end[BR_X].at, terms, store);
     enum br_status status = br_modes_init(&f->modes, outline->degree, store, err);
     if (status)
         return status;
