@@ -202,6 +202,8 @@ static void find_cells(struct work *w)
         mesh(w, &w->subject[i]);
     for (enum br_variable v = BR_X; v <= BR_T; v++)
         br_list_sort(&w->o->end[v]);
+    if (w->o->store.failed && !w->status)
+        w->status = br_no_memory(w->err, "the exact solution");
 }
 
 /* Whether all that depends on x is smooth enough for one element [a, b]. */
