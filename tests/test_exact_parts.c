@@ -5,7 +5,7 @@
 
 #include "reference/exact/field.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/projection.h"
+#include "reference/exact/pieces.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };

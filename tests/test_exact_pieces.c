@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "reference/exact/field.h"
-#include "reference/exact/projection.h"
+#include "reference/exact/pieces.h"
 #include "tests/exact_scenes.h"
 #include "tests/support.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loops are written once, in the vector extension of GCC and Clang, and compiled for each
  * instruction set with vectors of its own size. Nothing is contracted. */
-#include "reference/exact/combine.h"
+#include "reference/exact/legendre.h"
 
 #include <math.h>
 
@@ -29,40 +29,33 @@ INLINE void combine_columns(const struct sum *s, size_t first)
     }
 }
 
-/* In LANES sums, so that their order is the same on every machine, and none waits for the one
- * before. */
-enum { LANES = 8 };
-
-double br_sum_products(size_t count, const double *a, const double *b)
+/* Sum of a[i] b[i], or of its square: in LANES sums, so that their order is the same on every
+ * machine, and none waits for the one before. */
+INLINE double sum_lanes(size_t count, const double *a, const double *b, bool square)
 {
+    enum { LANES = 8 };
     const size_t whole = count / LANES * LANES;
     double sum[LANES] = {0}, all = 0;
     for (size_t i = 0; i < whole; i += LANES)
-        for (size_t l = 0; l < LANES; l++)
-            sum[l] += a[i + l] * b[i + l];
+        for (size_t l = 0; l < LANES; l++) {
+            const double part = a[i + l] * b[i + l];
+            sum[l] += square ? part * part : part;
+        }
     for (size_t i = whole; i < count; i++)
-        sum[i - whole] += a[i] * b[i];
+        sum[i - whole] += square ? a[i] * b[i] * (a[i] * b[i]) : a[i] * b[i];
     for (size_t l = 0; l < LANES; l++)
         all += sum[l];
     return all;
 }
 
+double br_sum_products(size_t count, const double *a, const double *b)
+{
+    return sum_lanes(count, a, b, false);
+}
+
 double br_norm(size_t count, const double *weight, const double *x)
 {
-    const size_t whole = count / LANES * LANES;
-    double sum[LANES] = {0}, all = 0;
-    if (!weight)
-        return sqrt(br_sum_products(count, x, x));
-    for (size_t i = 0; i < whole; i += LANES)
-        for (size_t l = 0; l < LANES; l++) {
-            const double part = weight[i + l] * x[i + l];
-            sum[l] += part * part;
-        }
-    for (size_t i = whole; i < count; i++)
-        sum[i - whole] += weight[i] * x[i] * (weight[i] * x[i]);
-    for (size_t l = 0; l < LANES; l++)
-        all += sum[l];
-    return sqrt(all);
+    return sqrt(weight ? sum_lanes(count, weight, x, true) : sum_lanes(count, x, x, false));
 }
 
 void br_stage_factor(struct br_stage_system *s, const struct br_radau *radau)

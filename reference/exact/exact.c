@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "reference/exact/solution.h"
+#include "reference/exact/march.h"
 
 /* ---- two solutions ---- */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/projection.h"
+#include "reference/exact/pieces.h"
 
 #include <lapacke.h>
 #include <math.h>

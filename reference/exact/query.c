@@ -6,10 +6,9 @@
 #include <pthread.h>
 #include <stdint.h>
 
-#include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/projection.h"
-#include "reference/exact/solution.h"
+#include "reference/exact/march.h"
+#include "reference/exact/pieces.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
 {
