@@ -236,11 +236,9 @@ TEST(test_combiners)
             }
             expected[j] = value;
         }
-        for (size_t i = 0; i < br_combiner_count; i++) {
-            if (!br_combiners[i].available())
-                continue;
+        for (size_t i = br_instruction_set_best(); br_combiners[i]; i++) {
             memset(sum, 0, sizeof sum);
-            br_combiners[i].combine(ROWS, COUNT, factor, width, table, sum);
+            br_combiners[i]->combine(ROWS, COUNT, factor, width, table, sum);
             assert_memory_equal(sum, expected, ROWS * width * sizeof *sum);
         }
     }
@@ -346,13 +344,11 @@ TEST(test_stages)
             r[i] = br_test_uniform(&random, -1, 1);
         br_stage_factor(&system, &radau);
         memcpy(portable, r, sizeof r);
-        br_combiners[br_combiner_count - 1].solve(&system, first, portable);
+        br_combiner_portable.solve(&system, first, portable);
         check_stages(&radau, &system, first, r, portable);
-        for (size_t i = 0; i < br_combiner_count; i++) {
-            if (!br_combiners[i].available())
-                continue;
+        for (size_t i = br_instruction_set_best(); br_combiners[i]; i++) {
             memcpy(y, r, sizeof r);
-            br_combiners[i].solve(&system, first, y);
+            br_combiners[i]->solve(&system, first, y);
             assert_memory_equal(y, portable, sizeof y);
         }
     }

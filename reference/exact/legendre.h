@@ -9,6 +9,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "solver/instruction_set.h"
 #include "solver/status.h"
 
 /* p[k] = p_k(xi), k < count; xi in [0, 1]. */
@@ -57,7 +58,7 @@ static inline double br_radau_sum(const double c[BR_STAGES], const double b[BR_S
     return sum;
 }
 
-/* ---- the loops that take most of the time (combine.c) ----
+/* ---- the loops that take most of the time (combine_loops.c) ----
  *
  * Sums of rows of a table, and the stages' equations of all modes, for each instruction set. */
 
@@ -95,17 +96,16 @@ void br_stage_factor(struct br_stage_system *system, const struct br_radau *rada
 double br_sum_products(size_t count, const double *a, const double *b);
 double br_norm(size_t count, const double *weight, const double *x);
 
-/* Both loops for one instruction set. */
+/* Both loops for one instruction set (combine_loops.c). */
 struct br_combiner {
-    bool (*available)(void);
     void (*combine)(size_t rows, size_t count, const double *factor, size_t width,
                     const double *table, double *out);
     void (*solve)(const struct br_stage_system *system, size_t first, double *x);
 };
+#define BR_COMBINER_DECLARE(set) extern const struct br_combiner br_combiner_##set;
+BR_INSTRUCTION_SETS(BR_COMBINER_DECLARE)
 
-/* The fastest first; the last one runs anywhere, and ends the list. The first that is available is
- * taken. */
-extern const struct br_combiner br_combiners[];
-extern const size_t br_combiner_count;
+/* In the order of instruction_set.h. */
+extern const struct br_combiner *const br_combiners[];
 
 #endif
