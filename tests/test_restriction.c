@@ -161,61 +161,45 @@ TEST(test_definition)
             check_all(&(struct shape){21, {elements[i], degree}, 2.25});
 }
 
-/* Elements that do not fill groups. */
+/* Elements that do not fill groups; series of all lengths. */
 TEST(test_primes)
 {
-    check_all(&(struct shape){20, {3203, 3}, 1});
-    check_all(&(struct shape){19, {997, 1}, 1});
+    static const struct shape rows[] = {
+        {20, {3203, 3}, 1}, {19, {997, 1}, 1},  {1, {13, 3}, 1},  {2, {640, 1}, 1},
+        {3, {13, 3}, 1},    {5, {640, 1}, 1},   {60, {13, 3}, 1}, {60, {640, 1}, 1},
+        {150, {13, 3}, 1},  {150, {640, 1}, 1},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        check_all(&rows[i]);
 }
 
-TEST(test_lengths)
-{
-    static const size_t lengths[] = {1, 2, 3, 5, 60, 150};
-    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        check_all(&(struct shape){lengths[i], {13, 3}, 1});
-        check_all(&(struct shape){lengths[i], {640, 1}, 1});
-    }
-}
-
-/* A derivative has lost a degree for each order; a polynomial of the elements' degree leaves
- * nothing out, and the zero series nothing at all. */
+/* A polynomial of the elements' degree leaves nothing out, and the zero series nothing at all; of
+ * what is not finite, nothing is lost. */
 TEST(test_nothing_left)
 {
+    enum { LENGTH = 25, ELEMENTS = 3200 };
+    static double c[ELEMENTS * 4];
     for (size_t degree = 0; degree <= 3; degree++) {
-        const struct shape shape = {25, {3200, degree}, 1};
+        const struct shape shape = {LENGTH, {ELEMENTS, degree}, 1};
         struct br_store store = {0};
         struct br_piecewise *r = project(&shape, &store);
-        double series[25] = {0}, rest = NAN;
-        double *c = calloc(3200 * (degree + 1), sizeof *c);
+        double series[LENGTH] = {0}, rest = NAN;
         br_piecewise_apply(r, series, c, &rest);
         assert_true(rest == 0);
-        for (size_t i = 0; i < 3200 * (degree + 1); i++)
+        for (size_t i = 0; i < ELEMENTS * (degree + 1); i++)
             assert_true(c[i] == 0);
         for (size_t k = 0; k <= degree; k++)
             series[k] = 1;
         br_piecewise_apply(r, series, c, &rest);
         assert_true(rest == 0);
+        for (size_t k = 0; k < LENGTH; k++) {
+            double bad[LENGTH] = {1};
+            bad[k] = NAN;
+            br_piecewise_apply(r, bad, c, &rest);
+            assert_true(isnan(rest) && isnan(c[0]));
+        }
         br_store_clear(&store);
-        free(c);
     }
-}
-
-/* None is lost. */
-TEST(test_not_finite)
-{
-    const struct shape shape = {20, {3200, 3}, 1};
-    struct br_store store = {0};
-    struct br_piecewise *r = project(&shape, &store);
-    double *c = calloc(3200 * 4, sizeof *c);
-    for (size_t k = 0; k < 20; k++) {
-        double series[20] = {1}, rest = 0;
-        series[k] = NAN;
-        br_piecewise_apply(r, series, c, &rest);
-        assert_true(isnan(rest));
-        assert_true(isnan(c[0]));
-    }
-    br_store_clear(&store);
-    free(c);
 }
 
 TEST(test_combiners)
