@@ -14,9 +14,9 @@ static double to_gsl(double xi)
     return fmin(fmax(2 * xi - 1, -1), 1);
 }
 
-/* Roots take longer than all else: those of low degrees are kept. */
+/* Roots and quotients take longer than all else: those of low degrees are kept. */
 enum { KEPT = 32 };
-static double norms[KEPT], couplings[KEPT];
+static double norms[KEPT], couplings[KEPT], inverses[KEPT];
 
 static double find_norm(size_t k)
 {
@@ -32,6 +32,7 @@ __attribute__((constructor)) static void keep_roots(void)
 {
     for (size_t k = 0; k < KEPT; k++) {
         norms[k] = find_norm(k);
+        inverses[k] = 1.0 / ((double)k + 1);
         couplings[k] = k ? find_coupling(k) : 0; /* nothing comes from below degree 0 */
     }
 }
@@ -68,9 +69,6 @@ double br_legendre_coupling(size_t k)
 
 void br_legendre_integral(size_t count, double xi, double *p, double *q)
 {
-    static const double inverse[BR_MOST_INTEGRALS] = {
-        1.0,     1.0 / 2,  1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,  1.0 / 7, 1.0 / 8,
-        1.0 / 9, 1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14, 1.0 / 15};
     assert(count <= BR_MOST_INTEGRALS);
     const double y = to_gsl(xi);
     double all[BR_MOST_INTEGRALS + 1], before = 0, here = 1;
@@ -79,7 +77,7 @@ void br_legendre_integral(size_t count, double xi, double *p, double *q)
         all[k] = norms[k] * here;
         if (k == count)
             break;
-        const double next = ((2 * n + 1) * y * here - n * before) * inverse[k];
+        const double next = ((2 * n + 1) * y * here - n * before) * inverses[k];
         before = here;
         here = next;
     }

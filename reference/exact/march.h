@@ -95,15 +95,6 @@ struct br_law_state br_law_at(const struct br_law *law, double t, const struct b
 enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
                            double displacement, double velocity);
 
-/* tip->force (in: zero; out): series of the force over a step, from the velocity
- * tip->velocity that the tip has without it, and the velocity's response z (row
- * by row) to the force's coefficients. While the tip sticks, a second call with
- * the velocity that is left improves the force. Fails with BR_SINGULAR
- * or BR_NOT_FINITE. */
-enum br_status br_law_force(const struct br_law *law, const struct br_radau *radau,
-                            const double z[BR_STAGES][BR_STAGES], struct br_tip_step *tip,
-                            struct br_error *err);
-
 /* ---- one step (step.c) ---- */
 
 /* A field at one time. The tip's own values are carried along by increments,

@@ -195,43 +195,6 @@ static size_t choose_group(const struct making *m, size_t elements)
     return best;
 }
 
-/* ---- what is left out ---- */
-
-/* |R_0 c|^2 is what a group's elements leave out of its series c. */
-static enum br_status reduce_group(struct making *m, struct br_error *err)
-{
-    const size_t terms = m->group.columns, kept = m->w->kept;
-    enum br_status status = BR_OK;
-    for (size_t j = 0; j < m->run->group && !status; j++) {
-        move_inside(m, j);
-        for (size_t k = 0; k < terms; k++)
-            for (size_t l = kept; l < terms; l++)
-                *remainder_at(&m->group, terms + l - kept, k) =
-                    scale(m) * (double)m->local.r[k * terms + l];
-        status = remainder_add(&m->group, m->group.block, err);
-    }
-    return status;
-}
-
-/* Adds R_0 times the series on every group. */
-static enum br_status add_groups(struct making *m, struct br_error *err)
-{
-    const size_t length = m->series.count, terms = m->group.columns;
-    enum br_status status = reduce_group(m, err);
-    for (size_t g = 0; g < m->run->groups && !status; g++) {
-        move_to(m, g);
-        for (size_t k = 0; k < length; k++)
-            for (size_t i = 0; i < terms; i++) {
-                long double sum = 0;
-                for (size_t l = i; l < terms && l <= k; l++)
-                    sum += *remainder_at(&m->group, i, l) * m->series.r[k * length + l];
-                *remainder_at(&m->all, length + i, k) = (double)sum;
-            }
-        status = remainder_add(&m->all, terms, err);
-    }
-    return status;
-}
-
 /* ---- the tables ---- */
 
 /* The number of local coefficients that count in any series of norm 1. */
@@ -255,31 +218,51 @@ static size_t count_terms(struct making *m)
     return terms;
 }
 
-static void fill_coarse(struct making *m)
+/* A group's elements: their tables, where there are any, and |R_0 c|^2, what they leave out of its
+ * series c. */
+static enum br_status fill_group(struct making *m, struct br_error *err)
 {
     const struct run *r = m->run;
-    const size_t length = m->series.count;
+    const size_t terms = m->group.columns, kept = m->w->kept;
+    enum br_status status = BR_OK;
+    for (size_t j = 0; j < r->group && !status; j++) {
+        move_inside(m, j);
+        for (size_t k = 0; k < terms; k++)
+            for (size_t l = 0; l < terms; l++) {
+                const double value = scale(m) * (double)m->local.r[k * terms + l];
+                if (l >= kept)
+                    *remainder_at(&m->group, terms + l - kept, k) = value;
+                else if (r->fine)
+                    r->fine[(k * r->group + j) * kept + l] = value;
+            }
+        status = remainder_add(&m->group, m->group.block, err);
+    }
+    return status;
+}
+
+/* The series on every group: its table, and R_0 times it as what is left out. */
+static enum br_status fill_groups(struct making *m, struct br_error *err)
+{
+    const struct run *r = m->run;
+    const size_t length = m->series.count, terms = m->group.columns;
     const double factor = r->fine ? 1 : scale(m);
-    for (size_t g = 0; g < r->groups; g++) {
+    enum br_status status = fill_group(m, err);
+    for (size_t g = 0; g < r->groups && !status; g++) {
         move_to(m, g);
-        for (size_t k = 0; k < length; k++)
+        for (size_t k = 0; k < length; k++) {
             for (size_t l = 0; l < r->terms && l <= k; l++)
                 r->coarse[(k * r->groups + g) * r->terms + l] =
                     factor * (double)m->series.r[k * length + l];
+            for (size_t i = 0; i < terms; i++) {
+                long double sum = 0;
+                for (size_t l = i; l < terms && l <= k; l++)
+                    sum += *remainder_at(&m->group, i, l) * m->series.r[k * length + l];
+                *remainder_at(&m->all, length + i, k) = (double)sum;
+            }
+        }
+        status = remainder_add(&m->all, terms, err);
     }
-}
-
-static void fill_fine(struct making *m)
-{
-    const struct run *r = m->run;
-    const size_t kept = m->w->kept;
-    for (size_t j = 0; j < r->group; j++) {
-        move_inside(m, j);
-        for (size_t k = 0; k < r->terms; k++)
-            for (size_t l = 0; l < kept && l <= k; l++)
-                r->fine[(k * r->group + j) * kept + l] =
-                    scale(m) * (double)m->local.r[k * r->terms + l];
-    }
+    return status;
 }
 
 static enum br_status keep_run(struct br_piecewise *w, const struct run *r, struct br_error *err)
@@ -311,10 +294,7 @@ static enum br_status add_run(struct making *m, struct run *r, size_t elements,
     remainder_init(&m->group, terms, terms > kept ? terms - kept : 0, &m->store);
     if (store->failed || m->store.failed)
         return br_no_memory(err, "a projection");
-    fill_coarse(m);
-    if (r->fine)
-        fill_fine(m);
-    const enum br_status status = add_groups(m, err);
+    const enum br_status status = fill_groups(m, err);
     return status ? status : keep_run(m->w, r, err);
 }
 

@@ -3,6 +3,7 @@
  *     (mass/h + damping X + stiffness h X^2) x = rest - tip force. */
 #include <cblas.h>
 #include <float.h>
+#include <lapacke.h>
 #include <math.h>
 #include <string.h>
 
@@ -150,6 +151,84 @@ static double impulse(struct br_stepper *s)
     return br_oscillators_norm(s->field, most);
 }
 
+/* ---- the force at the tip ---- */
+
+/* x = a \ x; a is destroyed */
+static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
+{
+    lapack_int pivot[S];
+    const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, 1, &a[0][0], S, pivot, x, 1);
+    if (info == LAPACK_TRANSPOSE_MEMORY_ERROR || info == LAPACK_WORK_MEMORY_ERROR)
+        return br_no_memory(err, "the tip's force");
+    if (info < 0) /* LAPACKE looks for NaN */
+        return br_fail(err, BR_NOT_FINITE, "the tip's force is not finite");
+    return info ? br_fail(err, BR_SINGULAR, "the tip's force is not determined") : BR_OK;
+}
+
+/* force = c_H (d + h X (velocity - Z force)), d the tip less the gap */
+static enum br_status close(const struct br_law *law, const struct br_radau *radau,
+                            const double z[S][S], struct br_tip_step *tip, struct br_error *err)
+{
+    const double rate = law->stiffness * tip->length;
+    double a[S][S] = {{0}};
+    for (size_t k = 0; k < S; k++) {
+        for (size_t l = 0; l < S; l++)
+            for (size_t j = 0; j < S; j++)
+                a[k][j] += rate * radau->integral[k][l] * z[l][j];
+        a[k][k] += 1;
+        tip->force[k] = rate * br_radau_sum(radau->integral[k], tip->velocity);
+    }
+    tip->force[0] += law->stiffness * tip->displacement;
+    return solve(a, tip->force, err);
+}
+
+/* force += Z \ velocity, so that nothing is left of it */
+static enum br_status stick(const double z[S][S], struct br_tip_step *tip, struct br_error *err)
+{
+    double a[S][S], change[S];
+    memcpy(a, z, sizeof a);
+    memcpy(change, tip->velocity, sizeof change);
+    const enum br_status status = solve(a, change, err);
+    for (size_t k = 0; k < S; k++)
+        tip->force[k] += change[k];
+    return status;
+}
+
+static void slip(const struct br_law *law, const struct br_radau *radau, struct br_tip_step *tip)
+{
+    const double sign = tip->phase == BR_SLIP_UP ? 1 : -1;
+    double bound[S];
+    for (size_t j = 0; j < S; j++)
+        bound[j] = sign * br_law_bound(law, tip->start + radau->node[j] * tip->length);
+    br_radau_fit(radau, bound, tip->force);
+}
+
+/* tip->force (in: zero; out): series of the force over a step, from the velocity
+ * tip->velocity that the tip has without it, and the velocity's response z (row
+ * by row) to the force's coefficients. While the tip sticks, a second call with
+ * the velocity that is left improves the force. Fails with BR_SINGULAR
+ * or BR_NOT_FINITE. */
+static enum br_status set_force(const struct br_law *law, const struct br_radau *radau,
+                                const double z[S][S], struct br_tip_step *tip, struct br_error *err)
+{
+    switch (tip->phase) {
+    case BR_CLOSED:
+        return close(law, radau, z, tip, err);
+    case BR_STICK:
+        return stick(z, tip, err);
+    case BR_SLIP_UP:
+    case BR_SLIP_DOWN:
+        slip(law, radau, tip);
+        break;
+    case BR_FREE:
+    case BR_OPEN:
+        break;
+    }
+    return BR_OK;
+}
+
+/* ---- the step ---- */
+
 enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err)
 {
     double size, t[S];
@@ -169,7 +248,7 @@ enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *e
     move(s); /* as if the tip were free */
     s->free_size = br_oscillators_norm(s->field, s->series);
     for (int round = 0; round < (s->phase == BR_STICK ? 2 : 1) && !status; round++) {
-        status = br_law_force(s->law, &s->radau, s->tip_response, &s->tip, err);
+        status = set_force(s->law, &s->radau, s->tip_response, &s->tip, err);
         move(s);
     }
     if (s->phase == BR_STICK)
