@@ -200,7 +200,7 @@ unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *n, unsi
 {
     const enum br_operation o = n->operation;
     const unsigned a = n->argument[k];
-    const bool compares = o >= BR_OP_MIN && o <= BR_OP_NOT_EQUAL;
+    const bool compares = o >= BR_OP_MIN && o <= BR_OP_EQUAL;
     const bool itself =
         o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
         (!is_truth(tree->node[a].operation) &&

@@ -84,6 +84,43 @@ unsigned br_tree_number(struct br_tree_builder *b, double number)
     return b->status ? BR_NO_NODE : find_or_append(b, &node);
 }
 
+static bool is(const struct br_tree_builder *b, unsigned i, double number)
+{
+    return b->tree.node[i].operation == BR_OP_NUMBER && b->tree.node[i].number == number;
+}
+
+/* What an operation is where an argument is 0 or 1 or the like; BR_NO_NODE: it remains. */
+static unsigned simplify(struct br_tree_builder *b, enum br_operation operation, unsigned a,
+                         unsigned c)
+{
+    switch (operation) {
+    case BR_OP_NEGATE:
+        return is(b, a, 0)                                 ? a
+               : b->tree.node[a].operation == BR_OP_NEGATE ? b->tree.node[a].argument[0]
+                                                           : BR_NO_NODE;
+    case BR_OP_ADD:
+        if (b->tree.node[c].operation == BR_OP_NEGATE)
+            return br_tree_node(b, BR_OP_SUBTRACT, a, b->tree.node[c].argument[0], 0);
+        return is(b, a, 0) ? c : is(b, c, 0) ? a : BR_NO_NODE;
+    case BR_OP_SUBTRACT:
+        return is(b, c, 0) ? a : is(b, a, 0) ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0) : BR_NO_NODE;
+    case BR_OP_MULTIPLY:
+        if (is(b, a, 0) || is(b, c, 1))
+            return a;
+        if (is(b, c, 0) || is(b, a, 1))
+            return c;
+        return is(b, a, -1)   ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0)
+               : is(b, c, -1) ? br_tree_node(b, BR_OP_NEGATE, a, 0, 0)
+                              : BR_NO_NODE;
+    case BR_OP_DIVIDE:
+        return is(b, a, 0) || is(b, c, 1) ? a : BR_NO_NODE;
+    case BR_OP_POW:
+        return is(b, c, 0) ? br_tree_number(b, 1) : is(b, c, 1) ? a : BR_NO_NODE;
+    default:
+        return BR_NO_NODE;
+    }
+}
+
 unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, unsigned first,
                       unsigned second, unsigned third)
 {
@@ -102,9 +139,17 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
         numbers += a->operation == BR_OP_NUMBER;
         number[i] = a->number;
     }
+    if (b->simplifies && (operation == BR_OP_ADD || operation == BR_OP_MULTIPLY) &&
+        first > second) { /* so that a b and b a are one */
+        node.argument[0] = second;
+        node.argument[1] = first;
+    }
+    const unsigned shorter = b->simplifies ? simplify(b, operation, first, second) : BR_NO_NODE;
+    if (shorter != BR_NO_NODE || b->status)
+        return shorter;
     if (numbers && numbers == operations[operation].arguments)
         return br_tree_number(b, br_operation_value(operation, number[0], number[1], number[2]));
-    return b->status ? BR_NO_NODE : find_or_append(b, &node);
+    return find_or_append(b, &node);
 }
 
 unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, unsigned root)
@@ -234,10 +279,7 @@ void br_operation_apply(const struct br_elementary *set, enum br_operation opera
         LOOP(BR_OP_MAX, isnan(a[i]) || a[i] > b[i] ? a[i] : b[i])
         TRUTH(BR_OP_LESS, a[i] < b[i])
         TRUTH(BR_OP_LESS_EQUAL, a[i] <= b[i])
-        TRUTH(BR_OP_GREATER, a[i] > b[i])
-        TRUTH(BR_OP_GREATER_EQUAL, a[i] >= b[i])
         TRUTH(BR_OP_EQUAL, a[i] == b[i])
-        TRUTH(BR_OP_NOT_EQUAL, a[i] != b[i])
         TRUTH(BR_OP_AND, a[i] != 0 && b[i] != 0)
         TRUTH(BR_OP_OR, a[i] != 0 || b[i] != 0)
         LOOP(BR_OP_CHOOSE, isnan(a[i]) ? NAN : a[i] != 0 ? b[i] : c[i])
@@ -278,11 +320,10 @@ enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches *
 struct expression {
     struct br_tree tree;
     const struct br_elementary *set;
-    double **array; /* of each node: CHUNK values, in a slot of `room` */
-    double *room;
-    struct br_function *guard; /* guards: without arrays or guards, in `work`; clone to keep */
+    double *room;              /* CHUNK values of each node; NULL: of a guard, which has none */
+    struct br_function *guard; /* guards; in `work`, too */
     size_t guards;
-    struct br_interval *work, *own_work; /* for proofs; of a guard that of the whole */
+    struct br_interval *work; /* for proofs; owned by the whole */
 };
 
 static void expression_free(void *self)
@@ -291,43 +332,13 @@ static void expression_free(void *self)
     if (!e)
         return;
     for (size_t i = 0; i < e->guards; i++)
-        br_function_free(&e->guard[i]);
+        expression_free(e->guard[i].self);
     br_tree_clear(&e->tree);
+    if (e->room)
+        free(e->work);
     free(e->guard);
-    free(e->own_work);
-    free(e->array);
     free(e->room);
     free(e);
-}
-
-/* last[i]: the last node that needs node i; those that do not use x are kept for the whole call. */
-static void find_last_uses(const struct br_tree *tree, size_t *last)
-{
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        last[i] = n->uses_x ? i : tree->count;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] < i)
-                last[n->argument[k]] = i;
-    }
-}
-
-/* Gives each node a slot; one whose node is needed no more is given again. slot, spare, last: out
- * and workspace, tree->count each. Returns how many slots there are. */
-static size_t give_slots(const struct br_tree *tree, size_t *slot, size_t *spare, size_t *last)
-{
-    size_t slots = 0, spares = 0;
-    find_last_uses(tree, last);
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        slot[i] = n->uses_x && spares ? spare[--spares] : slots++;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] == i) {
-                spare[spares++] = slot[n->argument[k]];
-                last[n->argument[k]] = tree->count; /* once, where it is both arguments */
-            }
-    }
-    return slots;
 }
 
 static void fill(double *array, size_t count, double value)
@@ -336,35 +347,22 @@ static void fill(double *array, size_t count, double value)
         array[i] = value;
 }
 
+static double *values_of(const struct expression *e, size_t node)
+{
+    return e->room + node * CHUNK;
+}
+
 static bool make_arrays(struct expression *e)
 {
     const size_t count = e->tree.count;
-    size_t *slot = br_allocate(3 * count, sizeof *slot);
-    e->array = br_allocate(count, sizeof *e->array);
-    const size_t slots = slot ? give_slots(&e->tree, slot, slot + count, slot + 2 * count) : 0;
-    e->room = slots ? br_allocate_aligned(slots * CHUNK, sizeof *e->room) : NULL;
-    const bool done = e->array && e->room;
-    for (size_t i = 0; i < count && done; i++) {
-        e->array[i] = e->room + slot[i] * CHUNK;
+    e->room = br_allocate_aligned(count * CHUNK, sizeof *e->room);
+    for (size_t i = 0; i < count && e->room; i++)
         if (e->tree.node[i].operation == BR_OP_NUMBER)
-            fill(e->array[i], CHUNK, e->tree.node[i].number);
-    }
-    free(slot);
-    return done;
+            fill(values_of(e, i), CHUNK, e->tree.node[i].number);
+    return e->room;
 }
 
-/* Takes the tree over, even where it fails. */
-static struct expression *wrap(struct br_tree *tree)
-{
-    struct expression *e = br_allocate(1, sizeof *e);
-    if (e)
-        e->tree = *tree;
-    else
-        br_tree_clear(tree);
-    *tree = (struct br_tree){0};
-    return e;
-}
-
+static struct expression *create(struct br_tree *tree, struct br_interval *work);
 static const struct br_function_ops guard_ops;
 
 /* Appends the guard of a node's argument, if there is one. */
@@ -380,18 +378,15 @@ static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
     const struct br_node *last = &tree.node[tree.count - 1];
     struct br_function *f = &e->guard[e->guards];
     *f = (struct br_function){.ops = &guard_ops, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    struct expression *guard = f->self = wrap(&tree);
-    if (!guard)
-        return false;
-    guard->work = e->work;
-    e->guards++;
-    return true;
+    f->self = create(&tree, e->work);
+    e->guards += f->self != NULL;
+    return f->self;
 }
 
 static bool add_guards(struct expression *e)
 {
     const size_t count = e->tree.count;
-    e->work = e->own_work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
+    e->work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
     e->guard = br_allocate(3 * count, sizeof *e->guard);
     bool done = e->work && e->guard;
     for (const struct br_node *n = e->tree.node; n < e->tree.node + count; n++)
@@ -400,14 +395,19 @@ static bool add_guards(struct expression *e)
     return done;
 }
 
-/* Takes the tree over, even where it fails. */
-static struct expression *create(struct br_tree *tree)
+/* Takes the tree over, even where it fails. work: of the whole, for its guard; NULL: for a whole.
+ */
+static struct expression *create(struct br_tree *tree, struct br_interval *work)
 {
-    struct expression *e = wrap(tree);
-    if (e && make_arrays(e) && add_guards(e)) {
-        e->set = br_elementary_all[br_instruction_set_best()];
+    struct expression *e = br_allocate(1, sizeof *e);
+    if (e)
+        *e = (struct expression){
+            .tree = *tree, .work = work, .set = br_elementary_all[br_instruction_set_best()]};
+    else
+        br_tree_clear(tree);
+    *tree = (struct br_tree){0};
+    if (!e || work || (make_arrays(e) && add_guards(e)))
         return e;
-    }
     expression_free(e);
     return NULL;
 }
@@ -419,7 +419,7 @@ static void *expression_clone(const void *self)
     if (!copy.node)
         return NULL;
     memcpy(copy.node, from->node, from->count * sizeof *copy.node);
-    return create(&copy);
+    return create(&copy, NULL);
 }
 
 static size_t round_up(size_t count, size_t width)
@@ -430,9 +430,9 @@ static size_t round_up(size_t count, size_t width)
 static void apply(const struct expression *e, size_t i, size_t count)
 {
     const struct br_node *n = &e->tree.node[i];
-    const double *const argument[] = {e->array[n->argument[0]], e->array[n->argument[1]],
-                                      e->array[n->argument[2]]};
-    br_operation_apply(e->set, n->operation, count, argument, e->array[i]);
+    const double *const argument[] = {values_of(e, n->argument[0]), values_of(e, n->argument[1]),
+                                      values_of(e, n->argument[2])};
+    br_operation_apply(e->set, n->operation, count, argument, values_of(e, i));
 }
 
 /* What does not use x, in as many values as will be wanted at a time. */
@@ -440,13 +440,14 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
 {
     for (size_t i = 0; i < e->tree.count; i++) {
         const struct br_node *n = &e->tree.node[i];
+        double *value = values_of(e, i);
         if (n->uses_x || n->operation == BR_OP_NUMBER)
             continue;
         if (n->operation == BR_OP_T)
-            e->array[i][0] = t;
+            value[0] = t;
         else
             apply(e, i, e->set->width);
-        fill(e->array[i], count, e->array[i][0]);
+        fill(value, count, value[0]);
     }
 }
 
@@ -457,8 +458,8 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
     for (size_t i = 0; i < e->tree.count; i++) {
         const struct br_node *n = &e->tree.node[i];
         if (n->operation == BR_OP_X) {
-            memcpy(e->array[i], x, count * sizeof *x);
-            fill(e->array[i] + count, full - count, x[count - 1]);
+            memcpy(values_of(e, i), x, count * sizeof *x);
+            fill(values_of(e, i) + count, full - count, x[count - 1]);
         } else if (n->uses_x) {
             apply(e, i, full);
         }
@@ -468,7 +469,7 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
 static void expression_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
     const struct expression *e = self;
-    const double *root = e->array[e->tree.count - 1];
+    const double *root = values_of(e, e->tree.count - 1);
     const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
@@ -517,20 +518,8 @@ static const struct br_function_ops expression_ops = {
     .derive = expression_derive,
 };
 
-/* The middle of what is proved of each point. */
-static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
-{
-    for (size_t i = 0; i < count; i++) {
-        struct br_interval at;
-        const struct br_box point = {br_point(x[i]), br_point(t)};
-        value[i] = expression_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
-    }
-}
-
+/* Nobody evaluates a guard. */
 static const struct br_function_ops guard_ops = {
-    .evaluate = guard_evaluate,
-    .clone = expression_clone,
-    .free = expression_free,
     .bound = expression_bound,
     .taylor = expression_taylor,
 };
@@ -544,7 +533,7 @@ enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, str
         br_tree_clear(tree);
         return BR_OK;
     }
-    f->self = create(tree);
+    f->self = create(tree, NULL);
     if (!f->self) {
         *f = (struct br_function){0};
         return br_no_memory(err, "an expression");

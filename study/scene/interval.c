@@ -172,7 +172,31 @@ iv br_interval_hull(iv a, iv b)
  */
 enum { NEIGHBOURS = 4 };
 
-/* f is exact where its argument is 0 (all that are asked for are 0 or 1 there), or `exact_at`. */
+/* Functions that rise, or fall, where they are defined. */
+static const struct monotone {
+    double (*f)(double);
+    double from, to; /* where it is defined, but for the ends of an open interval */
+    bool open, falls;
+    double exact_at; /* there it is 0 or 1 exactly */
+    double least, most;
+} monotone[] = {
+#define EVERYWHERE -INFINITY, INFINITY
+    [BR_OP_ASIN] = {asin, -1, 1, false, false, 0, EVERYWHERE},
+    [BR_OP_ACOS] = {acos, -1, 1, false, true, 1, EVERYWHERE},
+    [BR_OP_ATAN] = {atan, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_SINH] = {sinh, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_COSH] = {cosh, EVERYWHERE, false, false, 0, 1 - DBL_EPSILON, INFINITY}, /* of |a| */
+    [BR_OP_TANH] = {tanh, EVERYWHERE, false, false, 0, -1, 1},
+    [BR_OP_ASINH] = {asinh, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_ACOSH] = {acosh, 1, INFINITY, false, false, 1, EVERYWHERE},
+    [BR_OP_ATANH] = {atanh, -1, 1, true, false, 0, EVERYWHERE},
+    [BR_OP_EXP] = {exp, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_EXPM1] = {expm1, EVERYWHERE, false, false, 0, -1, INFINITY},
+    [BR_OP_LOG] = {log, 0, INFINITY, true, false, 1, EVERYWHERE},
+    [BR_OP_LOG2] = {log2, 0, INFINITY, true, false, 1, EVERYWHERE},
+    [BR_OP_LOG10] = {log10, 0, INFINITY, true, false, 1, EVERYWHERE},
+};
+
 static iv increasing(double (*f)(double), iv a, double exact_at)
 {
     const double low = f(a.low), high = f(a.high);
@@ -185,9 +209,15 @@ static iv clip(iv a, double low, double high)
     return (iv){fmax(a.low, low), fmin(a.high, high)};
 }
 
-static iv within(double (*f)(double), iv a, bool inside, double exact_at)
+/* An infinite end of the domain is none of its own: the function has a limit or grows there. */
+static iv value_of(const struct monotone *m, iv a)
 {
-    return inside ? increasing(f, a, exact_at) : br_no_interval;
+    const bool left = m->open && isfinite(m->from) ? a.low > m->from : a.low >= m->from;
+    const bool right = m->open && isfinite(m->to) ? a.high < m->to : a.high <= m->to;
+    if (!left || !right)
+        return br_no_interval;
+    const iv ends = m->falls ? (iv){a.high, a.low} : a;
+    return clip(increasing(m->f, ends, m->exact_at), m->least, m->most);
 }
 
 /* Whether phase + k period may be in a, for an integer k. */
@@ -272,25 +302,6 @@ static iv truth(bool certain, bool impossible)
     return certain ? br_point(1) : impossible ? br_point(0) : either;
 }
 
-static iv compare(enum br_operation o, iv a, iv b, bool same)
-{
-    switch (o) {
-    case BR_OP_GREATER:
-        return compare(BR_OP_LESS, b, a, same);
-    case BR_OP_GREATER_EQUAL:
-        return compare(BR_OP_LESS_EQUAL, b, a, same);
-    case BR_OP_LESS:
-        return truth(a.high < b.low && !same, a.low >= b.high || same);
-    case BR_OP_LESS_EQUAL:
-        return truth(a.high <= b.low || same, a.low > b.high && !same);
-    default: {
-        const bool apart = (a.high < b.low || a.low > b.high) && !same,
-                   equal = (br_is_point(a) && br_is_point(b) && a.low == b.low) || same;
-        return o == BR_OP_EQUAL ? truth(equal, apart) : truth(apart, equal);
-    }
-    }
-}
-
 static iv choose(iv condition, iv yes, iv no)
 {
     if (br_is_none(condition))
@@ -318,36 +329,6 @@ static iv unary(enum br_operation o, iv a)
         return wave(cos, a, 0);
     case BR_OP_TAN:
         return tangent(a);
-    case BR_OP_ASIN:
-        return within(asin, a, a.low >= -1 && a.high <= 1, 0);
-    case BR_OP_ACOS:
-        return a.low >= -1 && a.high <= 1 ? (iv){a.high == 1 ? 0 : lower(acos(a.high), NEIGHBOURS),
-                                                 upper(acos(a.low), NEIGHBOURS)}
-                                          : br_no_interval;
-    case BR_OP_ATAN:
-        return increasing(atan, a, 0);
-    case BR_OP_SINH:
-        return increasing(sinh, a, 0);
-    case BR_OP_COSH:
-        return clip(increasing(cosh, absolute(a), 0), 1 - DBL_EPSILON, INFINITY);
-    case BR_OP_TANH:
-        return clip(increasing(tanh, a, 0), -1, 1);
-    case BR_OP_ASINH:
-        return increasing(asinh, a, 0);
-    case BR_OP_ACOSH:
-        return within(acosh, a, a.low >= 1, 1);
-    case BR_OP_ATANH:
-        return within(atanh, a, a.low > -1 && a.high < 1, 0);
-    case BR_OP_EXP:
-        return increasing(exp, a, 0);
-    case BR_OP_EXPM1:
-        return clip(increasing(expm1, a, 0), -1, INFINITY);
-    case BR_OP_LOG:
-        return within(log, a, a.low > 0, 1);
-    case BR_OP_LOG2:
-        return within(log2, a, a.low > 0, 1);
-    case BR_OP_LOG10:
-        return within(log10, a, a.low > 0, 1);
     case BR_OP_SQRT:
         return a.low >= 0 ? (iv){lower(sqrt(a.low), 1), upper(sqrt(a.high), a.high != 0)}
                           : br_no_interval;
@@ -355,8 +336,10 @@ static iv unary(enum br_operation o, iv a)
         return absolute(a);
     case BR_OP_SIGN:
         return (iv){a.low > 0 ? 1 : a.low < 0 ? -1 : 0, a.high > 0 ? 1 : a.high < 0 ? -1 : 0};
+    case BR_OP_STEP:
+        return truth(a.low >= 0, a.high < 0);
     default:
-        return truth(a.low >= 0, a.high < 0); /* step */
+        return value_of(&monotone[o], o == BR_OP_COSH ? absolute(a) : a);
     }
 }
 
@@ -377,12 +360,17 @@ static iv binary(enum br_operation o, iv a, iv b, bool same)
         return (iv){fmin(a.low, b.low), fmin(a.high, b.high)};
     case BR_OP_MAX:
         return (iv){fmax(a.low, b.low), fmax(a.high, b.high)};
+    case BR_OP_LESS:
+        return truth(a.high < b.low && !same, a.low >= b.high || same);
+    case BR_OP_LESS_EQUAL:
+        return truth(a.high <= b.low || same, a.low > b.high && !same);
+    case BR_OP_EQUAL:
+        return truth((br_is_point(a) && br_is_point(b) && a.low == b.low) || same,
+                     a.high < b.low || a.low > b.high);
     case BR_OP_AND:
         return truth(!br_has_zero(a) && !br_has_zero(b), is_zero(a) || is_zero(b));
-    case BR_OP_OR:
+    default: /* or */
         return truth(!br_has_zero(a) || !br_has_zero(b), is_zero(a) && is_zero(b));
-    default:
-        return compare(o, a, b, same);
     }
 }
 
