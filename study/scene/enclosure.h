@@ -6,6 +6,8 @@
 #ifndef BR_STUDY_SCENE_ENCLOSURE_H
 #define BR_STUDY_SCENE_ENCLOSURE_H
 
+#include <math.h>
+
 #include "study/scene/expression.h"
 
 static inline struct br_interval br_point(double a)
@@ -13,13 +15,32 @@ static inline struct br_interval br_point(double a)
     return (struct br_interval){a, a};
 }
 
-extern const struct br_interval br_no_interval;
+static inline bool br_is_none(struct br_interval a)
+{
+    return isnan(a.low) || isnan(a.high);
+}
 
-bool br_is_none(struct br_interval a);
-bool br_is_finite(struct br_interval a); /* both ends, and not none */
-bool br_is_point(struct br_interval a);
-bool br_has_zero(struct br_interval a);
-double br_magnitude(struct br_interval a); /* the largest |a| */
+static inline bool br_is_finite(struct br_interval a) /* both ends, and not none */
+{
+    return isfinite(a.low) && isfinite(a.high);
+}
+
+static inline bool br_is_point(struct br_interval a)
+{
+    return a.low == a.high;
+}
+
+static inline bool br_has_zero(struct br_interval a)
+{
+    return a.low <= 0 && a.high >= 0;
+}
+
+static inline double br_magnitude(struct br_interval a) /* the largest |a| */
+{
+    return fmax(fabs(a.low), fabs(a.high));
+}
+
+extern const struct br_interval br_no_interval;
 
 struct br_interval br_interval_add(struct br_interval a, struct br_interval b);
 struct br_interval br_interval_subtract(struct br_interval a, struct br_interval b);

@@ -317,13 +317,23 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
  * call. */
 enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
 
-struct expression {
+/* A tree of which something is proved. */
+struct enclosed {
     struct br_tree tree;
+    struct br_interval *work; /* of a guard that of the whole */
+};
+
+struct guard {
+    struct enclosed of;
+    struct br_function f;
+};
+
+struct expression {
+    struct enclosed of; /* first: it stands for the expression where something is proved */
     const struct br_elementary *set;
-    double *room;              /* CHUNK values of each node; NULL: of a guard, which has none */
-    struct br_function *guard; /* guards; in `work`, too */
+    double *room; /* CHUNK values of each node */
+    struct guard *guard;
     size_t guards;
-    struct br_interval *work; /* for proofs; owned by the whole */
 };
 
 static void expression_free(void *self)
@@ -332,10 +342,9 @@ static void expression_free(void *self)
     if (!e)
         return;
     for (size_t i = 0; i < e->guards; i++)
-        expression_free(e->guard[i].self);
-    br_tree_clear(&e->tree);
-    if (e->room)
-        free(e->work);
+        br_tree_clear(&e->guard[i].of.tree);
+    br_tree_clear(&e->of.tree);
+    free(e->of.work);
     free(e->guard);
     free(e->room);
     free(e);
@@ -352,61 +361,49 @@ static double *values_of(const struct expression *e, size_t node)
     return e->room + node * CHUNK;
 }
 
-static bool make_arrays(struct expression *e)
-{
-    const size_t count = e->tree.count;
-    e->room = br_allocate_aligned(count * CHUNK, sizeof *e->room);
-    for (size_t i = 0; i < count && e->room; i++)
-        if (e->tree.node[i].operation == BR_OP_NUMBER)
-            fill(values_of(e, i), CHUNK, e->tree.node[i].number);
-    return e->room;
-}
-
-static struct expression *create(struct br_tree *tree, struct br_interval *work);
 static const struct br_function_ops guard_ops;
 
 /* Appends the guard of a node's argument, if there is one. */
 static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
-    struct br_tree tree;
-    const unsigned root = br_tree_guard(&e->tree, n, k, &b);
+    struct guard *g = &e->guard[e->guards];
+    const unsigned root = br_tree_guard(&e->of.tree, n, k, &b);
     if (root == BR_NO_NODE && !b.status)
         return true;
-    if (br_tree_finish(&b, root, &tree, NULL))
+    if (br_tree_finish(&b, root, &g->of.tree, NULL))
         return false;
-    const struct br_node *last = &tree.node[tree.count - 1];
-    struct br_function *f = &e->guard[e->guards];
-    *f = (struct br_function){.ops = &guard_ops, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    f->self = create(&tree, e->work);
-    e->guards += f->self != NULL;
-    return f->self;
+    const struct br_node *last = &g->of.tree.node[g->of.tree.count - 1];
+    g->of.work = e->of.work;
+    g->f = (struct br_function){
+        .ops = &guard_ops, .self = &g->of, .uses_x = last->uses_x, .uses_t = last->uses_t};
+    e->guards++;
+    return true;
 }
 
-static bool add_guards(struct expression *e)
+/* Takes the tree over, even where it fails. */
+static struct expression *create(struct br_tree *tree)
 {
-    const size_t count = e->tree.count;
-    e->work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
-    e->guard = br_allocate(3 * count, sizeof *e->guard);
-    bool done = e->work && e->guard;
-    for (const struct br_node *n = e->tree.node; n < e->tree.node + count; n++)
-        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
-            done = add_guard(e, n, k);
-    return done;
-}
-
-/* Takes the tree over, even where it fails. work: of the whole, for its guard; NULL: for a whole.
- */
-static struct expression *create(struct br_tree *tree, struct br_interval *work)
-{
+    const struct br_tree own = *tree;
     struct expression *e = br_allocate(1, sizeof *e);
-    if (e)
-        *e = (struct expression){
-            .tree = *tree, .work = work, .set = br_elementary_all[br_instruction_set_best()]};
-    else
+    if (!e)
         br_tree_clear(tree);
     *tree = (struct br_tree){0};
-    if (!e || work || (make_arrays(e) && add_guards(e)))
+    if (!e)
+        return NULL;
+    e->of = (struct enclosed){own, br_allocate(own.count + 1, BR_TREE_WORK * sizeof *e->of.work)};
+    e->set = br_elementary_all[br_instruction_set_best()];
+    e->room = br_allocate_aligned(own.count * CHUNK, sizeof *e->room);
+    e->guard = br_allocate(3 * own.count, sizeof *e->guard);
+    bool done = e->of.work && e->room && e->guard;
+    for (size_t i = 0; i < own.count && done; i++) {
+        const struct br_node *n = &own.node[i];
+        if (n->operation == BR_OP_NUMBER)
+            fill(values_of(e, i), CHUNK, n->number);
+        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
+            done = add_guard(e, n, k);
+    }
+    if (done)
         return e;
     expression_free(e);
     return NULL;
@@ -414,12 +411,12 @@ static struct expression *create(struct br_tree *tree, struct br_interval *work)
 
 static void *expression_clone(const void *self)
 {
-    const struct br_tree *from = &((const struct expression *)self)->tree;
+    const struct br_tree *from = &((const struct expression *)self)->of.tree;
     struct br_tree copy = {br_allocate(from->count, sizeof *copy.node), from->count};
     if (!copy.node)
         return NULL;
     memcpy(copy.node, from->node, from->count * sizeof *copy.node);
-    return create(&copy, NULL);
+    return create(&copy);
 }
 
 static size_t round_up(size_t count, size_t width)
@@ -429,7 +426,7 @@ static size_t round_up(size_t count, size_t width)
 
 static void apply(const struct expression *e, size_t i, size_t count)
 {
-    const struct br_node *n = &e->tree.node[i];
+    const struct br_node *n = &e->of.tree.node[i];
     const double *const argument[] = {values_of(e, n->argument[0]), values_of(e, n->argument[1]),
                                       values_of(e, n->argument[2])};
     br_operation_apply(e->set, n->operation, count, argument, values_of(e, i));
@@ -438,8 +435,8 @@ static void apply(const struct expression *e, size_t i, size_t count)
 /* What does not use x, in as many values as will be wanted at a time. */
 static void evaluate_once(const struct expression *e, double t, size_t count)
 {
-    for (size_t i = 0; i < e->tree.count; i++) {
-        const struct br_node *n = &e->tree.node[i];
+    for (size_t i = 0; i < e->of.tree.count; i++) {
+        const struct br_node *n = &e->of.tree.node[i];
         double *value = values_of(e, i);
         if (n->uses_x || n->operation == BR_OP_NUMBER)
             continue;
@@ -455,8 +452,8 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
 static void evaluate_places(const struct expression *e, size_t count, const double *x)
 {
     const size_t full = round_up(count, e->set->width);
-    for (size_t i = 0; i < e->tree.count; i++) {
-        const struct br_node *n = &e->tree.node[i];
+    for (size_t i = 0; i < e->of.tree.count; i++) {
+        const struct br_node *n = &e->of.tree.node[i];
         if (n->operation == BR_OP_X) {
             memcpy(values_of(e, i), x, count * sizeof *x);
             fill(values_of(e, i) + count, full - count, x[count - 1]);
@@ -469,7 +466,7 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
 static void expression_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
     const struct expression *e = self;
-    const double *root = values_of(e, e->tree.count - 1);
+    const double *root = values_of(e, e->of.tree.count - 1);
     const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
@@ -485,27 +482,27 @@ static enum br_status expression_derive(const void *self, const struct br_deriva
 {
     struct br_tree tree;
     const enum br_status status =
-        br_tree_derivation(&((const struct expression *)self)->tree, what, &tree, err);
+        br_tree_derivation(&((const struct expression *)self)->of.tree, what, &tree, err);
     return status ? status : br_tree_function(&tree, out, err);
 }
 
 static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
 {
-    const struct expression *e = self;
+    const struct enclosed *e = self;
     return br_tree_bound(&e->tree, e->work, box, value);
 }
 
 static bool expression_taylor(const void *self, enum br_variable along, struct br_box box,
                               size_t order, struct br_interval *coefficient)
 {
-    const struct expression *e = self;
+    const struct enclosed *e = self;
     return br_tree_taylor(&e->tree, e->work, along, box, order, coefficient);
 }
 
 static const struct br_function *expression_guard(const void *self, size_t i)
 {
     const struct expression *e = self;
-    return i < e->guards ? &e->guard[i] : NULL;
+    return i < e->guards ? &e->guard[i].f : NULL;
 }
 
 static const struct br_function_ops expression_ops = {
@@ -533,7 +530,7 @@ enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, str
         br_tree_clear(tree);
         return BR_OK;
     }
-    f->self = create(tree, NULL);
+    f->self = create(tree);
     if (!f->self) {
         *f = (struct br_function){0};
         return br_no_memory(err, "an expression");
@@ -544,5 +541,5 @@ enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, str
 
 const struct br_tree *br_tree_of(const struct br_function *f)
 {
-    return f->ops == &expression_ops ? &((const struct expression *)f->self)->tree : NULL;
+    return f->ops == &expression_ops ? &((const struct expression *)f->self)->of.tree : NULL;
 }

@@ -11,31 +11,6 @@ typedef struct br_interval iv;
 const iv br_no_interval = {NAN, NAN};
 static const iv all_signs = {-1, 1}, either = {0, 1};
 
-bool br_is_none(iv a)
-{
-    return isnan(a.low) || isnan(a.high);
-}
-
-bool br_is_finite(iv a)
-{
-    return isfinite(a.low) && isfinite(a.high);
-}
-
-bool br_is_point(iv a)
-{
-    return a.low == a.high;
-}
-
-bool br_has_zero(iv a)
-{
-    return a.low <= 0 && a.high >= 0;
-}
-
-double br_magnitude(iv a)
-{
-    return fmax(fabs(a.low), fabs(a.high));
-}
-
 /* ---- rounding outward ---- */
 
 /* The neighbouring number above; of -infinity the least finite one. */
@@ -106,47 +81,51 @@ iv br_interval_subtract(iv a, iv b)
     return br_interval_add(a, negate(b));
 }
 
-/* Of a times or by b at the four corners. Their values: in, rounded. */
-static iv hull_of_corners(const double value[4], const bool exact[4])
+/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
+ */
+enum { NEIGHBOURS = 4 };
+
+/* a * b, a / b or a ^ b of a pair of ends, and by how many neighbours it may be off. */
+static inline int at_corner(enum br_operation o, double a, double b, double *value)
+{
+    if (o == BR_OP_MULTIPLY) {
+        *value = a * b;
+        return !is_product(*value, a, b);
+    }
+    if (o == BR_OP_DIVIDE) {
+        *value = a / b;
+        return !(a == 0 || (fabs(a) > 1e-290 && *value != 0 && is_product(a, *value, b)));
+    }
+    *value = pow(a, b);
+    return a == 0 || a == 1 || b == 0 || b == 1 ? 0 : NEIGHBOURS;
+}
+
+/* Of an operation whose values lie between those of the four pairs of ends. */
+static inline iv hull_of_corners(enum br_operation o, iv a, iv b)
 {
     iv out = {INFINITY, -INFINITY};
     for (int i = 0; i < 4; i++) {
-        out.low = fmin(out.low, exact[i] ? value[i] : lower(value[i], 1));
-        out.high = fmax(out.high, exact[i] ? value[i] : upper(value[i], 1));
+        double value;
+        const int off = at_corner(o, i < 2 ? a.low : a.high, i % 2 ? b.high : b.low, &value);
+        out.low = fmin(out.low, off ? lower(value, off) : value);
+        out.high = fmax(out.high, off ? upper(value, off) : value);
     }
     return out;
 }
 
 iv br_interval_multiply(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    double value[4];
-    bool exact[4];
     if (br_is_none(a) || br_is_none(b) || (br_has_zero(a) && !br_is_finite(b)) ||
         (br_has_zero(b) && !br_is_finite(a)))
         return br_no_interval;
-    for (int i = 0; i < 4; i++) {
-        value[i] = first[i] * second[i];
-        exact[i] = is_product(value[i], first[i], second[i]);
-    }
-    return hull_of_corners(value, exact);
+    return hull_of_corners(BR_OP_MULTIPLY, a, b);
 }
 
 iv br_interval_divide(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    double value[4];
-    bool exact[4];
     if (br_is_none(a) || br_is_none(b) || br_has_zero(b) || !(br_is_finite(a) || br_is_finite(b)))
         return br_no_interval;
-    for (int i = 0; i < 4; i++) {
-        value[i] = first[i] / second[i];
-        exact[i] = first[i] == 0 || (fabs(first[i]) > 1e-290 && value[i] != 0 &&
-                                     is_product(first[i], value[i], second[i]));
-    }
-    return hull_of_corners(value, exact);
+    return hull_of_corners(BR_OP_DIVIDE, a, b);
 }
 
 iv br_interval_square(iv a)
@@ -167,10 +146,6 @@ iv br_interval_hull(iv a, iv b)
 }
 
 /* ---- elementary functions ---- */
-
-/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
- */
-enum { NEIGHBOURS = 4 };
 
 /* Functions that rise, or fall, where they are defined. */
 static const struct monotone {
@@ -258,16 +233,7 @@ static iv absolute(iv a)
 
 static iv positive_power(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    iv out = {INFINITY, 0};
-    for (int i = 0; i < 4; i++) {
-        const double value = pow(first[i], second[i]);
-        const bool exact = first[i] == 0 || first[i] == 1 || second[i] == 0 || second[i] == 1;
-        out.low = fmin(out.low, exact ? value : lower(value, NEIGHBOURS));
-        out.high = fmax(out.high, exact ? value : upper(value, NEIGHBOURS));
-    }
-    return out;
+    return hull_of_corners(BR_OP_POW, a, b);
 }
 
 static iv whole_power(iv a, double n)

@@ -38,10 +38,11 @@ struct recurrence {
 /* How an operation's series are found. */
 struct rule {
     void (*series)(const struct recurrence *r);
-    double sign;               /* of what the recurrence says */
-    double constant, slope;    /* of an inverse function; slope: of a logarithm its unit */
-    bool root;                 /* of an inverse function */
-    enum br_operation partner; /* whose value a recurrence begins with */
+    double sign;
+    double constant, slope; /* of an inverse function; slope: of a logarithm its unit */
+    enum { ITSELF, SQUARE, SLOPE } next; /* of a flow: what its second series is made of */
+    bool root;                           /* of an inverse function */
+    enum br_operation partner;           /* whose value a second series begins with */
 };
 
 /* sum of a_j b_(k-j), j = from .. to */
@@ -110,32 +111,19 @@ static void root(const struct recurrence *r)
                                   scale(2, s[0]));
 }
 
-/* y' = a' y; expm1 has the first coefficient of its partner here */
-static void exponential(const struct recurrence *r)
+/* y' = sign a' v, and v is y' own: y (exp), 1 + slope y^2 (tan and tanh), or of v' = slope a' y
+ * (sin and cos, sinh and cosh) */
+static void flow(const struct recurrence *r)
 {
-    if (r->by->partner)
-        r->out[0] = br_interval_apply(r->by->partner, r->a, false);
-    for (size_t k = 1; k <= r->order; k++)
-        r->out[k] = convolve_slope(r->a, r->out, k, k);
-}
-
-/* y' = a' v, v = 1 + sign y^2: tan and tanh */
-static void tangent(const struct recurrence *r)
-{
-    iv v[BR_TREE_WORK] = {add(br_point(1), scale(r->by->sign, square_at(r->out, 0)))};
+    const struct rule *by = r->by;
+    iv v[BR_TREE_WORK] = {by->next == SQUARE
+                              ? add(br_point(1), scale(by->slope, square_at(r->out, 0)))
+                              : br_interval_apply(by->partner, r->a, false)};
     for (size_t k = 1; k <= r->order; k++) {
-        r->out[k] = convolve_slope(r->a, v, k, k);
-        v[k] = scale(r->by->sign, square_at(r->out, k));
-    }
-}
-
-/* y' = sign a' z, z' = slope a' y: sin and cos, sinh and cosh */
-static void pair(const struct recurrence *r)
-{
-    iv z[BR_TREE_WORK] = {br_interval_apply(r->by->partner, r->a, false)};
-    for (size_t k = 1; k <= r->order; k++) {
-        r->out[k] = scale(r->by->sign, convolve_slope(r->a, z, k, k));
-        z[k] = scale(r->by->slope, convolve_slope(r->a, r->out, k, k));
+        r->out[k] = scale(by->sign, convolve_slope(r->a, v, k, k));
+        v[k] = by->next == ITSELF   ? r->out[k]
+               : by->next == SQUARE ? scale(by->slope, square_at(r->out, k))
+                                    : scale(by->slope, convolve_slope(r->a, r->out, k, k));
     }
 }
 
@@ -280,20 +268,20 @@ static void decided(const struct recurrence *r)
 /* Those that are not here are decided, or chosen. */
 static const struct rule rules[BR_OP_CHOOSE + 1] = {
     [BR_OP_NEGATE] = {negative},
-    [BR_OP_SIN] = {pair, .sign = 1, .slope = -1, .partner = BR_OP_COS},
-    [BR_OP_COS] = {pair, .sign = -1, .slope = 1, .partner = BR_OP_SIN},
-    [BR_OP_TAN] = {tangent, .sign = 1},
+    [BR_OP_SIN] = {flow, .sign = 1, .next = SLOPE, .slope = -1, .partner = BR_OP_COS},
+    [BR_OP_COS] = {flow, .sign = -1, .next = SLOPE, .slope = 1, .partner = BR_OP_SIN},
+    [BR_OP_TAN] = {flow, .sign = 1, .next = SQUARE, .slope = 1},
     [BR_OP_ASIN] = {inverse, .constant = 1, .sign = -1, .root = true, .slope = 1},
     [BR_OP_ACOS] = {inverse, .constant = 1, .sign = -1, .root = true, .slope = -1},
     [BR_OP_ATAN] = {inverse, .constant = 1, .sign = 1, .slope = 1},
-    [BR_OP_SINH] = {pair, .sign = 1, .slope = 1, .partner = BR_OP_COSH},
-    [BR_OP_COSH] = {pair, .sign = 1, .slope = 1, .partner = BR_OP_SINH},
-    [BR_OP_TANH] = {tangent, .sign = -1},
+    [BR_OP_SINH] = {flow, .sign = 1, .next = SLOPE, .slope = 1, .partner = BR_OP_COSH},
+    [BR_OP_COSH] = {flow, .sign = 1, .next = SLOPE, .slope = 1, .partner = BR_OP_SINH},
+    [BR_OP_TANH] = {flow, .sign = 1, .next = SQUARE, .slope = -1},
     [BR_OP_ASINH] = {inverse, .constant = 1, .sign = 1, .root = true, .slope = 1},
     [BR_OP_ACOSH] = {inverse, .constant = -1, .sign = 1, .root = true, .slope = 1},
     [BR_OP_ATANH] = {inverse, .constant = 1, .sign = -1, .slope = 1},
-    [BR_OP_EXP] = {exponential},
-    [BR_OP_EXPM1] = {exponential, .partner = BR_OP_EXP},
+    [BR_OP_EXP] = {flow, .sign = 1, .partner = BR_OP_EXP},
+    [BR_OP_EXPM1] = {flow, .sign = 1, .partner = BR_OP_EXP},
     [BR_OP_LOG] = {logarithm},
     [BR_OP_LOG2] = {logarithm, .slope = 2},
     [BR_OP_LOG10] = {logarithm, .slope = 10},
