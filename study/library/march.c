@@ -22,7 +22,8 @@ static enum br_status read_scene(struct beamrate_scene *s, const char *path, con
                                  struct br_error *err)
 {
     s->path = strdup(path);
-    return s->path ? br_scene_read_verify_text(s->path, text, &s->scene, &s->verify, err)
+    return s->path ? br_scene_parse(s->path, text, &(struct br_scene_asked){.verify = &s->verify},
+                                    &s->scene, err)
                    : br_no_memory(err, "the scene");
 }
 
