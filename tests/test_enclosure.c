@@ -2,7 +2,7 @@
 /* Enclosures of operations and of random trees over random boxes, judged by long
  * double: its value at a point of the box, and what evaluation gives there, lie inside; and they
  * are not much wider than what is seen there. Taylor coefficients against Cauchy's integral. */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <complex.h>
 #include <float.h>

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/elementary.h"
 #include "study/scene/expression.h"
+#include "study/scene/operations.h"
 #include "support.h"
 #include "tests/operation_oracle.h"
 
@@ -48,7 +48,7 @@ static double error_of(double found, real expected)
     return (double)(fabsl((real)found - expected) / unit);
 }
 
-/* As elementary.h has it. */
+/* As operations.h has it. */
 static double allowed(enum br_operation operation, const double a[3])
 {
     const bool exact = operation < BR_OP_SIN || (operation >= BR_OP_SQRT && operation != BR_OP_POW);

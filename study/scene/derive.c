@@ -130,9 +130,7 @@ enum br_status br_tree_derive(const struct br_tree *tree, enum br_variable by, s
 static enum br_status derive_often(const struct br_tree *tree, struct br_partial order,
                                    struct br_tree *out, struct br_error *err)
 {
-    struct br_tree_builder copy = {0};
-    enum br_status status =
-        br_tree_finish(&copy, br_tree_graft(&copy, tree, (unsigned)tree->count - 1), out, err);
+    enum br_status status = br_tree_part(tree, (unsigned)tree->count - 1, out, err);
     for (int i = 0; i < order.x + order.t && !status; i++) {
         struct br_tree last = *out;
         status = br_tree_derive(&last, i < order.x ? BR_X : BR_T, out, err);

@@ -2,7 +2,7 @@
 /* Compiled once for each instruction set, BR_SET (solver/instruction_set.h). */
 #include <sleef.h>
 
-#include "study/scene/elementary.h"
+#include "study/scene/operations.h"
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The values of a tree over a box, and its Taylor coefficients there (series.c), and its guards. */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#include "study/scene/elementary.h"
 
 typedef struct br_interval iv;
 

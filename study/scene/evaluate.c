@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/elementary.h"
-#include "study/scene/enclosure.h"
 #include "study/scene/expression.h"
+#include "study/scene/operations.h"
 
 /* ---- trees ---- */
 
@@ -185,21 +184,33 @@ unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *fro
     return out;
 }
 
-enum br_status br_tree_finish(struct br_tree_builder *b, unsigned root, struct br_tree *tree,
-                              struct br_error *err)
+static enum br_status refuse(enum br_status status, struct br_error *err)
 {
-    struct br_tree_builder out = {0};
-    if (!b->status)
-        br_tree_graft(&out, &b->tree, root);
-    const enum br_status status = b->status ? b->status : out.status;
-    br_tree_clear(&b->tree);
-    *b = (struct br_tree_builder){0};
-    if (status)
-        br_tree_clear(&out.tree);
-    *tree = out.tree;
     return status == BR_NO_MEMORY ? br_no_memory(err, "an expression")
            : status ? br_fail(err, status, "it has more than %d operations", BR_TREE_MOST_NODES)
                     : BR_OK;
+}
+
+enum br_status br_tree_part(const struct br_tree *from, unsigned root, struct br_tree *part,
+                            struct br_error *err)
+{
+    struct br_tree_builder b = {0};
+    br_tree_graft(&b, from, root);
+    if (b.status)
+        br_tree_clear(&b.tree);
+    *part = b.tree;
+    return refuse(b.status, err);
+}
+
+enum br_status br_tree_finish(struct br_tree_builder *b, unsigned root, struct br_tree *tree,
+                              struct br_error *err)
+{
+    *tree = (struct br_tree){0};
+    const enum br_status status =
+        b->status ? refuse(b->status, err) : br_tree_part(&b->tree, root, tree, err);
+    br_tree_clear(&b->tree);
+    *b = (struct br_tree_builder){0};
+    return status;
 }
 
 /* ---- operations on arrays ---- */
@@ -412,11 +423,8 @@ static struct expression *create(struct br_tree *tree)
 static void *expression_clone(const void *self)
 {
     const struct br_tree *from = &((const struct expression *)self)->of.tree;
-    struct br_tree copy = {br_allocate(from->count, sizeof *copy.node), from->count};
-    if (!copy.node)
-        return NULL;
-    memcpy(copy.node, from->node, from->count * sizeof *copy.node);
-    return create(&copy);
+    struct br_tree copy;
+    return br_tree_part(from, (unsigned)from->count - 1, &copy, NULL) ? NULL : create(&copy);
 }
 
 static size_t round_up(size_t count, size_t width)

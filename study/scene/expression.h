@@ -109,8 +109,12 @@ unsigned br_tree_graft(struct br_tree_builder *builder, const struct br_tree *fr
 unsigned br_tree_substitute(struct br_tree_builder *builder, const struct br_tree *from,
                             unsigned root, unsigned x, unsigned t);
 
-/* What `root` uses, as a tree. Clears the builder in any case. Fails with BR_NO_MEMORY or
- * BR_BAD_INPUT (too many nodes); *tree is then empty. */
+/* What `root` uses, as a tree. Fails with BR_NO_MEMORY or BR_BAD_INPUT (too many nodes); *part is
+ * then empty. */
+enum br_status br_tree_part(const struct br_tree *from, unsigned root, struct br_tree *part,
+                            struct br_error *err);
+
+/* The same of a builder, which it clears in any case. */
 enum br_status br_tree_finish(struct br_tree_builder *builder, unsigned root, struct br_tree *tree,
                               struct br_error *err);
 

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Taylor coefficients of operations, by the recurrences of Moore: series of order + 1 intervals. */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "study/scene/elementary.h"
 
 typedef struct br_interval iv;
 
