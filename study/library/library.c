@@ -74,10 +74,10 @@ enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
 
 static enum br_status refuse_key(const char *key, struct br_error *err)
 {
-    char keys[400] = "", name[BR_METHOD_VALUE];
+    char keys[400] = "";
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         br_append(keys, sizeof keys, "%s%s", i ? ", " : "",
-                  br_method_field_key(&br_method_fields[i], name));
+                  br_method_field_key(&br_method_fields[i]));
     return br_fail(err, BR_BAD_INPUT, "method: found '%.200s', expected one of: %s", key, keys);
 }
 
@@ -88,10 +88,8 @@ enum br_status br_library_method(const char *const *list, struct br_method *meth
     const struct br_method *const methods[] = {method};
     *method = br_method_default();
     for (const char *const *at = list; at && *at; at += 2) {
-        char name[BR_METHOD_VALUE];
         size_t i = 0;
-        while (i < BR_METHOD_FIELDS &&
-               strcmp(at[0], br_method_field_key(&br_method_fields[i], name)))
+        while (i < BR_METHOD_FIELDS && strcmp(at[0], br_method_field_key(&br_method_fields[i])))
             i++;
         if (i == BR_METHOD_FIELDS)
             return refuse_key(at[0], err);

@@ -78,8 +78,7 @@ static void mix(const struct form *a, const struct form *b, struct form *f)
 
 static bool is_constant_form(const struct form *f)
 {
-    return f->error == 0 && f->slope[0].low == 0 && f->slope[0].high == 0 && f->slope[1].low == 0 &&
-           f->slope[1].high == 0;
+    return f->error == 0 && br_is_zero(f->slope[0]) && br_is_zero(f->slope[1]);
 }
 
 static void differentiate(enum br_operation o, const struct form *const argument[3], struct form *f)

@@ -277,18 +277,13 @@ static iv choose(iv condition, iv yes, iv no)
 
 /* ---- all ---- */
 
-static bool is_zero(iv a)
-{
-    return a.low == 0 && a.high == 0;
-}
-
 static iv unary(enum br_operation o, iv a)
 {
     switch (o) {
     case BR_OP_NEGATE:
         return negate(a);
     case BR_OP_NOT:
-        return truth(is_zero(a), !br_has_zero(a));
+        return truth(br_is_zero(a), !br_has_zero(a));
     case BR_OP_SIN:
         return wave(sin, a, M_PI / 2);
     case BR_OP_COS:
@@ -334,9 +329,9 @@ static iv binary(enum br_operation o, iv a, iv b, bool same)
         return truth((br_is_point(a) && br_is_point(b) && a.low == b.low) || same,
                      a.high < b.low || a.low > b.high);
     case BR_OP_AND:
-        return truth(!br_has_zero(a) && !br_has_zero(b), is_zero(a) || is_zero(b));
+        return truth(!br_has_zero(a) && !br_has_zero(b), br_is_zero(a) || br_is_zero(b));
     default: /* or */
-        return truth(!br_has_zero(a) || !br_has_zero(b), is_zero(a) && is_zero(b));
+        return truth(!br_has_zero(a) || !br_has_zero(b), br_is_zero(a) && br_is_zero(b));
     }
 }
 

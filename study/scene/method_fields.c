@@ -144,7 +144,7 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                              .range = {1e-14, 1, false}, .by = BR_METHOD_SCHEME, .before = " to "},
     [BR_METHOD_DEGREE] =
         {"axial-degree", "axial elements", "COUNT", "degree of the axial elements: 1 or 2",
-         VALUE(degree),
+         VALUE(degree), .key = "axial_degree",
          .more =
              "2: quadratic, of order 3 in space and 4 at the tip; solvers riccati and plain. A reference run has the same.",
          .words = &degree_words, .by = BR_METHOD_DEGREE, .in = has_axial_field,
@@ -180,19 +180,20 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
     [BR_METHOD_FRICTION_PARAMETER] =
         {"friction-parameter", "friction parameter", "X",
          "of a friction rule that iterates, over the one that converges fastest",
-         VALUE(friction_parameter),
+         VALUE(friction_parameter), .key = "friction_parameter",
          .more =
              "Over 1/z, z being the tip's compliance; penalty-duality converges for all above 0, uzawa below 2.",
          .range = {0, INFINITY, false}, .below = parameter_below, .by = BR_METHOD_FRICTION,
          .in = has_friction, .before = " (parameter ", .group = "iteration", .member = "parameter"},
     [BR_METHOD_FRICTION_TOLERANCE] = {"friction-tolerance", "friction tolerance", "X",
                                       "of such a rule, relative to the friction bound",
-                                      VALUE(friction_tolerance), .range = {1e-14, 1, false},
-                                      .by = BR_METHOD_FRICTION, .in = has_friction,
-                                      .before = ", to ", .group = "iteration",
+                                      VALUE(friction_tolerance), .key = "friction_tolerance",
+                                      .range = {1e-14, 1, false}, .by = BR_METHOD_FRICTION,
+                                      .in = has_friction, .before = ", to ", .group = "iteration",
                                       .member = "tolerance"},
     [BR_METHOD_FRICTION_ITERATIONS] = {"friction-iterations", "friction iterations", "COUNT",
                                        "of such a rule, a step at most", VALUE(friction_iterations),
+                                       .key = "friction_iterations",
                                        .more = "A march that needs more fails.",
                                        .range = {1, 1e9, true}, .by = BR_METHOD_FRICTION,
                                        .in = has_friction, .before = ", at most ",
@@ -201,15 +202,6 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
 };
 
 /* ---- one field ---- */
-
-const char *br_method_field_key(const struct br_method_field *f, char key[BR_METHOD_VALUE])
-{
-    snprintf(key, BR_METHOD_VALUE, "%s", f->name);
-    for (char *c = key; *c; c++)
-        if (*c == '-')
-            *c = '_';
-    return key;
-}
 
 const char *br_method_field_text(const struct br_method_field *f, const struct br_method *m,
                                  char text[BR_METHOD_VALUE])
@@ -278,7 +270,7 @@ static const char *name_of(const struct br_method_field *f, enum br_method_style
                            char name[BR_METHOD_VALUE])
 {
     if (style == BR_METHOD_IN_SCENE)
-        return br_method_field_key(f, name);
+        return br_method_field_key(f);
     snprintf(name, BR_METHOD_VALUE, "--%s", f->name);
     return name;
 }
@@ -320,8 +312,8 @@ static enum br_status refuse(const struct br_method_field *f, enum br_method_sty
                              struct br_error *err)
 {
     const struct br_method_field *by = &br_method_fields[f->by];
-    char name[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
-    name_of(f, style, name);
+    char field[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
+    const char *name = name_of(f, style, field);
     if (count == 1)
         return br_fail(err, BR_BAD_INPUT, "%s: %s %s does not heed it%s", name, by->title,
                        br_method_field_text(by, method[0], value), example(f, style, text));

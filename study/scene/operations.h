@@ -84,6 +84,11 @@ static inline bool br_has_zero(struct br_interval a)
     return a.low <= 0 && a.high >= 0;
 }
 
+static inline bool br_is_zero(struct br_interval a)
+{
+    return a.low == 0 && a.high == 0;
+}
+
 static inline double br_magnitude(struct br_interval a) /* the largest |a| */
 {
     return fmax(fabs(a.low), fabs(a.high));

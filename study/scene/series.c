@@ -194,7 +194,7 @@ static void real_power_series(const struct recurrence *r, double n)
 static bool is_constant(size_t order, const iv *a)
 {
     for (size_t k = 1; k <= order; k++)
-        if (a[k].low != 0 || a[k].high != 0)
+        if (!br_is_zero(a[k]))
             return false;
     return br_is_point(a[0]);
 }
