@@ -22,10 +22,10 @@ struct br_elementary {
     const char *name;
     size_t width; /* the doubles in its vectors */
     bool (*available)(void);
-    /* From sin to log10, and pow. count: a multiple of the width; a, b: in; out: not a or b. All
-     * are aligned for vectors. */
-    void (*apply)(enum br_operation operation, size_t count, const double *a, const double *b,
-                  double *out);
+    /* Any operation with arguments a, b and c: out[i] = operation(a[i], b[i], c[i]). count: a
+     * multiple of the width; out: none of the arguments. All are aligned for vectors. */
+    void (*apply)(enum br_operation operation, size_t count, const double *const argument[3],
+                  double *restrict out);
 };
 
 #define BR_ELEMENTARY_DECLARE(set) extern const struct br_elementary br_elementary_##set;
@@ -33,10 +33,6 @@ BR_INSTRUCTION_SETS(BR_ELEMENTARY_DECLARE)
 
 /* All, the best first; NULL behind the last. Those that this processor has not must not be used. */
 extern const struct br_elementary *const br_elementary_all[];
-
-/* Any operation with arguments: out[i] = operation(a[i], b[i], c[i]); as `apply`. */
-void br_operation_apply(const struct br_elementary *set, enum br_operation operation, size_t count,
-                        const double *const argument[3], double *out);
 
 /* Around what needs rounding to nearest: the mode before, to be set again. */
 static inline int br_round_to_nearest(void)
