@@ -371,21 +371,20 @@ static const char *taken_at(const struct br_meshes *on, const struct br_method *
 const char *br_method_taken(const struct br_meshes *on, const struct br_method *m,
                             char text[BR_METHOD_TEXT])
 {
-    char word[2 * BR_METHOD_VALUE], before[2 * BR_METHOD_VALUE] = "";
-    bool differ = false;
-    snprintf(text, BR_METHOD_TEXT, "%s", on->count ? taken_at(on, m, on->n[0], word) : "none");
-    for (size_t i = 1; i < on->count; i++)
-        differ |= strcmp(taken_at(on, m, on->n[i], word), text) != 0;
-    if (!differ)
-        return text;
+    char word[2 * BR_METHOD_VALUE], before[2 * BR_METHOD_VALUE] = "none";
+    size_t groups = 0;
     text[0] = '\0';
     for (size_t i = 0; i < on->count; i++) {
-        if (strcmp(taken_at(on, m, on->n[i], word), before) != 0)
+        const bool other = strcmp(taken_at(on, m, on->n[i], word), before) != 0 || i == 0;
+        if (other)
             br_append(text, BR_METHOD_TEXT, "%s%s at n = %zu", i ? "; " : "", word, on->n[i]);
         else
             br_append(text, BR_METHOD_TEXT, ", %zu", on->n[i]);
+        groups += other;
         strcpy(before, word);
     }
+    if (groups <= 1)
+        snprintf(text, BR_METHOD_TEXT, "%s", before);
     return text;
 }
 

@@ -100,15 +100,6 @@ static void product(const struct recurrence *r)
     product_series(r->order, r->a, r->b, r->out);
 }
 
-/* s s = a */
-static void root(const struct recurrence *r)
-{
-    iv *s = r->out;
-    for (size_t k = 1; k <= r->order; k++)
-        s[k] = br_interval_divide(br_interval_subtract(r->a[k], convolve(s, s, k, 1, k - 1)),
-                                  scale(2, s[0]));
-}
-
 /* y' = sign a' v, and v is y' own: y (exp), 1 + slope y^2 (tan and tanh), or of v' = slope a' y
  * (sin and cos, sinh and cosh) */
 static void flow(const struct recurrence *r)
@@ -123,6 +114,25 @@ static void flow(const struct recurrence *r)
                : by->next == SQUARE ? scale(by->slope, square_at(r->out, k))
                                     : scale(by->slope, convolve_slope(r->a, r->out, k, k));
     }
+}
+
+/* k a_0 p_k = sum of (n j - (k - j)) a_j p_(k-j) */
+static void real_power_series(const struct recurrence *r, double n)
+{
+    for (size_t k = 1; k <= r->order; k++) {
+        iv sum = {0, 0};
+        for (size_t j = 1; j <= k; j++) {
+            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
+                                                   br_point((double)(k - j)));
+            sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
+        }
+        r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
+    }
+}
+
+static void root(const struct recurrence *r)
+{
+    real_power_series(r, 0.5);
 }
 
 /* w y' = sign a' */
@@ -174,20 +184,6 @@ static void whole_power_series(size_t order, const iv *a, double n, iv *out)
         }
         square_series(order, square, next);
         memcpy(square, next, size);
-    }
-}
-
-/* k a_0 p_k = sum of (n j - (k - j)) a_j p_(k-j) */
-static void real_power_series(const struct recurrence *r, double n)
-{
-    for (size_t k = 1; k <= r->order; k++) {
-        iv sum = {0, 0};
-        for (size_t j = 1; j <= k; j++) {
-            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
-                                                   br_point((double)(k - j)));
-            sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
-        }
-        r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
     }
 }
 
