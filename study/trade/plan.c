@@ -46,9 +46,7 @@ static void place_of(const struct br_trial *t, double at[BR_PLAN_AXES])
 static bool has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
 {
     for (size_t i = 0; i < p->count; i++)
-        if ((p->forecast[i].round > 0 || cheap) && p->trial[i].named == trial->named &&
-            p->trial[i].at.n == trial->at.n && p->trial[i].at.steps == trial->at.steps &&
-            fabs(p->trial[i].tolerance - trial->tolerance) <= 1e-12 * trial->tolerance)
+        if ((p->forecast[i].round > 0 || cheap) && br_trials_same(&p->trial[i], trial))
             return true;
     return false;
 }

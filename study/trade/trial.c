@@ -47,6 +47,12 @@ struct br_method br_trial_method(const struct br_trial *trial)
     return method;
 }
 
+bool br_trials_same(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->named == b->named && a->at.n == b->at.n && a->at.steps == b->at.steps &&
+           a->tolerance == b->tolerance;
+}
+
 double br_trial_seconds(const struct br_trial *trial)
 {
     return trial->cost.set_up + trial->cost.march;
@@ -81,6 +87,8 @@ struct clocked {
     struct br_march *march;
     double set_up; /* s */
     double start;  /* of its steps, s of this thread */
+    size_t every;  /* steps between two looks at the clock */
+    size_t asked;  /* steps since the last one, within those of an adaptive scheme */
 };
 
 /* The seconds that the march surely takes to its end if it goes on like this; only those so far
@@ -93,75 +101,91 @@ static double foreseen(const struct clocked *c, double spent)
     return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
 }
 
-/* Ends a march that takes too long, its set-up included. */
-static enum br_status look_at_clock(const struct clocked *c, struct br_error *err)
+/* Whether a march takes too long, its set-up included. */
+static bool is_over(const struct clocked *c)
 {
     const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
-    const double spent = c->set_up + steps;
+    return limit > 0 && !(c->set_up + steps <= limit && foreseen(c, steps) <= limit);
+}
+
+/* Within the steps of an adaptive scheme. */
+static bool stops(void *self)
+{
+    struct clocked *c = self;
+    if (++c->asked < c->every)
+        return false;
+    c->asked = 0;
+    return br_observer_stops(c->request->observer) || is_over(c);
+}
+
+/* Ends a march that takes too long. */
+static enum br_status look_at_clock(struct clocked *c, struct br_error *err)
+{
     if (br_observer_stops(c->request->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
+    if (!is_over(c))
         return BR_OK;
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
                    "over the time limit of %g s: %.2g s for set-up and %zu of %zu time levels",
-                   limit, spent, br_march_steps_done(c->march), c->trial->at.steps);
+                   c->request->time_limit, c->set_up + br_thread_seconds() - c->start,
+                   br_march_steps_done(c->march), c->trial->at.steps);
 }
 
-static enum br_status make_steps(const struct clocked *c, struct br_error *err)
+static enum br_status make_steps(struct clocked *c, struct br_error *err)
 {
     const size_t steps = c->trial->at.steps;
-    const size_t every = 1 + (size_t)(between_looks / (double)c->trial->at.n);
     const bool adaptive = c->trial->named->method.scheme->adaptive;
-    enum br_status status = BR_OK;
+    enum br_status status = look_at_clock(c, err);
     for (size_t i = 1; i <= steps && !status; i++) {
         status = br_march_step(c->march, &c->trial->failure);
-        if (!status && (i % every == 0 || i == steps || adaptive))
+        if (status == BR_INTERRUPTED || (!status && (i % c->every == 0 || i == steps || adaptive)))
             status = look_at_clock(c, err);
     }
     return status;
 }
 
-/* Marches once; *cost (out) is what it took. */
-static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
-                                 struct br_error *err)
+enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
+                              struct br_trial_cost *cost, struct br_error *err)
 {
-    struct br_trial *t = c->trial;
+    struct clocked c = {.trial = t,
+                        .request = r,
+                        .start = br_thread_seconds(),
+                        .every = 1 + (size_t)(between_looks / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
-    const double start = br_thread_seconds();
     const struct br_planned_march planned = {
-        .scene = c->request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+        .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    *cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
     if (!status)
-        status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
-                                 &t->failure);
-    c->start = br_thread_seconds();
-    cost->set_up = c->set_up = c->start - start;
-    if (!status)
-        status = look_at_clock(c, err);
-    if (!status)
-        status = make_steps(c, err);
-    cost->march = br_thread_seconds() - c->start;
-    if (!status)
-        cost->counts = br_march_counts(c->march);
-    br_march_free(c->march);
-    c->march = NULL;
+        status = br_march_create(&c.march, r->scene, t->at.n, t->at.steps, &method, &t->failure);
+    if (status)
+        return status;
+    const double begin = br_thread_seconds();
+    cost->set_up = c.set_up = begin - c.start;
+    c.start = begin;
+    br_march_stop_when(c.march, stops, &c);
+    status = make_steps(&c, err);
+    cost->march = br_thread_seconds() - begin;
+    cost->counts = br_march_counts(c.march);
+    cost->levels = br_march_steps_done(c.march);
+    br_march_free(c.march);
     return status;
 }
 
 /* The first march warms up; it counts only where it takes so long that it is not repeated. */
-static enum br_status repeat(struct clocked *c, struct br_error *err)
+static enum br_status repeat(struct br_trial *t, const struct br_trial_request *r,
+                             struct br_error *err)
 {
-    const struct br_trial_request *r = c->request;
     struct br_trial_cost least = {.set_up = INFINITY}, now = {0};
-    enum br_status status = march_once(c, &now, err);
+    enum br_status status = br_trial_march(t, r, &now, err);
     double spent = now.set_up + now.march;
     if (!status && !(spent <= r->repeat_seconds))
         least = now, least.repeats = 1;
     for (spent = 0; !status && least.repeats < r->repeats && spent <= r->repeat_seconds;) {
         if (least.repeats == 1 && least.set_up + least.march > r->repeat_seconds)
             break;
-        status = march_once(c, &now, err);
+        status = br_trial_march(t, r, &now, err);
         spent += now.set_up + now.march;
         now.repeats = least.repeats + 1;
         if (now.set_up + now.march < least.set_up + least.march)
@@ -169,7 +193,7 @@ static enum br_status repeat(struct clocked *c, struct br_error *err)
         least.repeats = now.repeats;
     }
     if (!status)
-        c->trial->cost = least;
+        t->cost = least;
     return status;
 }
 
@@ -223,10 +247,9 @@ static void keep_trial(const struct br_trial *t, const struct br_trial_request *
 static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
                                struct br_error *err)
 {
-    struct clocked c = {.trial = trial, .request = request};
     if (take_kept(trial, request))
         return BR_OK;
-    const enum br_status status = repeat(&c, err);
+    const enum br_status status = repeat(trial, request, err);
     if (status == BR_INTERRUPTED)
         return status;
     if (status && trial->end != BR_TRIAL_OVER)
@@ -385,11 +408,40 @@ static void clear(struct groups *g)
     free(g->method);
 }
 
+const struct br_judge *br_trials_judge(const struct br_trial_request *r)
+{
+    return r->judge ? r->judge : br_judge_best(r->scene);
+}
+
+enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
+                                    struct br_error *err)
+{
+    const struct br_judge *judge = br_trials_judge(r);
+    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
+    *self = NULL;
+    return !judge->create || judge->nests
+               ? BR_OK
+               : judge->create(self,
+                               &(struct br_judge_request){.scene = r->scene,
+                                                          .levels = 1,
+                                                          .lead = 1,
+                                                          .stop = o->stop,
+                                                          .stop_self = o->self,
+                                                          .preparing = o->preparing},
+                               err);
+}
+
+void br_trials_forget_judge(const struct br_trial_request *r, void *self)
+{
+    if (self)
+        br_trials_judge(r)->free(self);
+}
+
 /* Judges the trials that came to their end. */
 static enum br_status judge_all(struct br_trial *trial, size_t count,
                                 const struct br_trial_request *request, struct br_error *err)
 {
-    const struct br_judge *judge = request->judge ? request->judge : br_judge_best(request->scene);
+    const struct br_judge *judge = br_trials_judge(request);
     if (!judge->create)
         return br_fail(err, BR_BAD_INPUT, "there is no judge of this scene's errors: %s",
                        judge->title);
