@@ -33,19 +33,6 @@ struct run {
 
 /* ---- what is tried ---- */
 
-/* The scheme of the highest order that does not choose its steps: a fine run's. */
-static struct br_method fine_method(void)
-{
-    struct br_named_method finest = {.method = br_method_default()};
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
-        struct br_named_method c;
-        if (!(*s)->adaptive && (*s)->order > finest.method.scheme->order &&
-            !br_named_method_read((*s)->name, &c, NULL))
-            finest = c;
-    }
-    return finest.method;
-}
-
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
@@ -53,6 +40,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
+    struct br_named_method fine;
     *q = br_trial_request_default(scene);
     q->judge = r->study.judge;
     q->threads = r->session.threads;
@@ -63,7 +51,9 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->norm = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
-    q->reference_method = fine_method();
+    if (br_named_method_read(br_highest_scheme()->name, &fine, err))
+        return err->status;
+    q->reference_method = fine.method;
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 

@@ -140,6 +140,15 @@ enum br_status br_named_methods_read(const char *option, const char *text,
 
 /* ---- the default ones ---- */
 
+const struct br_time_scheme *br_highest_scheme(void)
+{
+    const struct br_time_scheme *highest = br_time_schemes[0];
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        if (!(*s)->adaptive && (*s)->order > highest->order)
+            highest = *s;
+    return highest;
+}
+
 /* Whether a march of the scene begins with it. */
 static bool begins(const struct br_scene *scene, const struct br_method *method)
 {

@@ -10,6 +10,7 @@
 
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
+#include "study/trade/named_method.h"
 
 enum { BR_MOST_SOURCES = 8 };
 
