@@ -3,9 +3,9 @@
  * time levels on one; costs elsewhere are linear in elements and in time levels. */
 #include <math.h>
 
+#include "solver/clock.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/each.h"
-#include "study/grid/sweep.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */
@@ -70,39 +70,87 @@ struct judging {
     double mesh, level;
 };
 
-/* It looks at few time levels of one mesh, and at more of them. A fine run marches anew for each
- * mesh. */
-static enum br_status look_at_judge(const struct br_trial_request *r,
-                                    const struct br_method *method, struct judging *judging,
+static enum br_status create_judge(const struct br_trial_request *r,
+                                   struct br_judge_request *request, void **self,
+                                   struct br_error *err)
+{
+    const struct br_observer *o = r->observer;
+    request->scene = r->scene;
+    request->lead = request->levels;
+    request->stop = o ? o->stop : NULL;
+    request->stop_self = o ? o->self : NULL;
+    request->preparing = o ? o->preparing : NULL;
+    return br_trials_judge(r)->create(self, request, err);
+}
+
+enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
                                     struct br_error *err)
 {
-    static const size_t n = 100, steps[2] = {10, 2000};
+    *self = NULL;
+    if (!br_trials_judge(r)->create || br_trials_judge(r)->nests)
+        return BR_OK;
+    return create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
+}
+
+void br_trials_forget_judge(const struct br_trial_request *r, void *self)
+{
+    if (self)
+        br_trials_judge(r)->free(self);
+}
+
+/* A judge looks at a few levels of one field. */
+static enum br_status sample_levels(const struct br_judge_request *request,
+                                    const struct br_judge *judge, void *self,
+                                    enum br_field_kind kind, struct br_error *err)
+{
+    double *values = br_allocate(BR_MOST_MODES * request->mesh[0], sizeof *values);
+    enum br_status status = values ? BR_OK : br_no_memory(err, "the trials");
+    for (size_t level = 1; level <= request->levels && !status; level++) {
+        status = judge->advance(self, kind, level, err);
+        for (int measure = 0; measure < BR_TIP && !status; measure++) {
+            const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
+            struct br_view view = {.values = values};
+            if (request->measured[kind][measure])
+                judge->sample(self, &at, &view);
+        }
+    }
+    free(values);
+    return status;
+}
+
+/* A fine run marches anew for each mesh. */
+static enum br_status look_at_judge(const struct br_trial_request *r, struct judging *judging,
+                                    struct br_error *err)
+{
+    static const size_t mesh = 100;
+    struct br_judge_request request = {
+        .axial_degree = 1, .levels = 10, .mesh_count = 1, .mesh = &mesh};
     const struct br_judge *judge = br_trials_judge(r);
     const struct br_planned_march fine = {.scene = r->scene,
                                           .method = &r->reference_method,
                                           .n = r->reference.n,
                                           .steps = r->reference.steps};
-    struct br_observer quiet = r->observer ? *r->observer : (struct br_observer){0};
-    double seconds[2] = {0, 0};
-    enum br_status status = BR_OK;
-    quiet.progress = NULL;
-    for (int i = 0; i < 2 && judge->create && !judge->nests && !status; i++) {
-        struct br_study s = {.scene = r->scene,
-                             .norm = r->norm,
-                             .method = *method,
-                             .judge = judge,
-                             .n_count = 1,
-                             .k_count = 1,
-                             .n = &n,
-                             .steps = &steps[i]};
-        status = br_study_run(&s, 1, 1, &quiet, err);
-        seconds[i] = s.judged_by.seconds;
-        br_study_clear(&s);
+    *judging = (struct judging){0, 0};
+    if (judge->nests)
+        judging->mesh = br_march_seconds(&fine);
+    if (!judge->create || judge->nests)
+        return BR_OK;
+    void *self = NULL;
+    for (int measure = 0; measure < BR_TIP; measure++) {
+        const bool needed = br_norm_needs(r->norm, (enum br_measure)measure);
+        request.measured[BR_AXIAL][measure] = needed && r->scene->axial.modelled;
+        request.measured[BR_BENDING][measure] = needed && r->scene->bending.modelled;
     }
-    const double levels = (double)(n * (steps[1] - steps[0]));
-    judging->level = fmax(0, seconds[1] - seconds[0]) / levels;
-    judging->mesh = judge->nests ? br_march_seconds(&fine)
-                                 : fmax(0, seconds[0] - judging->level * (double)(n * steps[0]));
+    double start = br_thread_seconds();
+    enum br_status status = create_judge(r, &request, &self, err);
+    judging->mesh = br_thread_seconds() - start;
+    start = br_thread_seconds();
+    if (!status && r->scene->axial.modelled)
+        status = sample_levels(&request, judge, self, BR_AXIAL, err);
+    if (!status && r->scene->bending.modelled)
+        status = sample_levels(&request, judge, self, BR_BENDING, err);
+    judging->level = (br_thread_seconds() - start) / (double)(request.levels * mesh);
+    judge->free(self);
     return status;
 }
 
@@ -165,9 +213,8 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     *outlook = (struct br_trial_outlook){.held = count};
     struct judging judging;
     struct pace *pace = br_allocate(count, sizeof *pace);
-    const struct br_method method = br_trial_method(trial);
     enum br_status status =
-        pace ? look_at_judge(r, &method, &judging, err) : br_no_memory(err, "the trials");
+        pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
         status = find_pace(r, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +

@@ -209,7 +209,8 @@ static const double most_beyond = 8;
 /* A trial costs at most so many times what one has cost so far: models err. */
 static const double most_growth = 16;
 
-/* A candidate has to promise so much: the logarithm of what it saves, times how likely that is. */
+/* Where the goal is reached, a candidate has to promise so much: the logarithm of what it saves,
+ * times how likely that is. */
 static const double least_promise = 0.1;
 
 /* What any relative error is less than. */
@@ -222,13 +223,12 @@ struct candidate {
     double promise;
 };
 
-/* The most promising candidate of each named method, by its index; and the one with the least
- * error. */
+/* The most promising candidate of each named method, by its index. */
 struct search {
     const struct br_plan *plan;
     double least; /* the price of the best so far, or of what is dearer than anything allowed */
     double most;  /* s */
-    struct candidate best[BR_MOST_NAMED_METHODS], explorer;
+    struct candidate best[BR_MOST_NAMED_METHODS];
 };
 
 /* Whether the nearest trial did not come to a good end. */
@@ -260,24 +260,13 @@ static double promise_of(const struct search *s, const struct br_plan_prediction
                                          fmin(exp(e->log[BR_PLAN_SECONDS]), goal->seconds)));
 }
 
-static double most_error(const struct candidate *c)
-{
-    return c->expected.log[BR_PLAN_ERROR] + c->expected.deviation[BR_PLAN_ERROR];
-}
-
 /* What was a cheap trial is tried anew, with all repeats. */
 static void consider(struct search *s, const struct candidate *c)
 {
-    const struct br_plan *p = s->plan;
-    struct candidate *best = &s->best[c->trial.named - p->methods.list];
-    const bool explores = most_error(c) < most_error(&s->explorer);
-    if ((!(c->promise > best->promise) && !explores) || has(p, &c->trial, false) ||
-        is_near_failure(p, &c->trial))
-        return;
-    if (c->promise > best->promise)
+    struct candidate *best = &s->best[c->trial.named - s->plan->methods.list];
+    if (c->promise > best->promise && !has(s->plan, &c->trial, false) &&
+        !is_near_failure(s->plan, &c->trial))
         *best = *c;
-    if (explores)
-        s->explorer = *c;
 }
 
 /* To three digits, as a person types it. */
@@ -344,14 +333,11 @@ static void search_all(struct search *s)
         s->least = reached ? s->least : s->most;
         s->most = fmin(s->most, s->least);
     }
-    s->explorer = (struct candidate){.expected.log = {INFINITY}};
     for (size_t c = 0; c < p->methods.count; c++) {
-        s->best[c] = (struct candidate){.promise = least_promise};
+        s->best[c] = (struct candidate){.promise = reached ? least_promise : 0};
         if (p->model[c].known)
             look_through(s, &p->methods.list[c]);
     }
-    if (reached || !isfinite(p->goal.error))
-        s->explorer.trial.named = NULL;
 }
 
 /* ---- rounds ---- */
@@ -369,14 +355,6 @@ static bool is_idle(const struct br_plan *p)
                                (isnan(p->goal.error) && p->trial[best].end == BR_TRIAL_DOUBTFUL));
 }
 
-static void propose(struct br_plan *p, const struct candidate *c)
-{
-    const double *expected = c->expected.log;
-    add(p, &c->trial,
-        (struct br_plan_forecast){p->rounds + 1, exp(expected[BR_PLAN_ERROR]),
-                                  exp(expected[BR_PLAN_SECONDS])});
-}
-
 /* One round: whether anything was tried (*tried, out). */
 static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *err)
 {
@@ -392,12 +370,13 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
         for (size_t c = 1; c < p->methods.count; c++)
             if (s->best[c].promise > most->promise)
                 most = &s->best[c];
+        const struct br_plan_forecast forecast = {p->rounds + 1,
+                                                  exp(most->expected.log[BR_PLAN_ERROR]),
+                                                  exp(most->expected.log[BR_PLAN_SECONDS])};
         if (most->trial.named)
-            propose(p, most);
+            add(p, &most->trial, forecast);
         *most = (struct candidate){.promise = 0};
     }
-    if (!status && p->count == from && s->explorer.trial.named)
-        propose(p, &s->explorer);
     free(s);
     *tried = p->count > from;
     if (!status && *tried)

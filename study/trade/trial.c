@@ -9,7 +9,7 @@
 #include "solver/clock.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/observer.h"
+#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 
@@ -148,15 +148,14 @@ static enum br_status make_steps(struct clocked *c, struct br_error *err)
 enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
                               struct br_trial_cost *cost, struct br_error *err)
 {
-    struct clocked c = {.trial = t,
-                        .request = r,
-                        .start = br_thread_seconds(),
-                        .every = 1 + (size_t)(between_looks / (double)t->at.n)};
+    struct clocked c = {
+        .trial = t, .request = r, .every = 1 + (size_t)(between_looks / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
     const struct br_planned_march planned = {
         .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
     *cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
+    c.start = br_thread_seconds();
     if (!status)
         status = br_march_create(&c.march, r->scene, t->at.n, t->at.steps, &method, &t->failure);
     if (status)
@@ -243,28 +242,39 @@ static void keep_trial(const struct br_trial *t, const struct br_trial_request *
     br_kept_write(r->kept, key, &k, sizeof k);
 }
 
-/* A failure of the march is a result of the trial; other failures end the call. */
-static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
-                               struct br_error *err)
+/* Trials that are held together. */
+struct held {
+    struct br_trial *trial;
+    const struct br_trial_request *request;
+};
+
+/* Sets `cost` and, where a trial does not come to its end, `end` and `failure`. A failure of the
+ * march is a result of the trial; an interruption ends the call. */
+static enum br_status time_one(void *self, size_t i, struct br_error *err)
 {
-    if (take_kept(trial, request))
+    const struct held *held = self;
+    struct br_trial *t = &held->trial[i];
+    if (t->end == BR_TRIAL_LEFT || take_kept(t, held->request))
         return BR_OK;
-    const enum br_status status = repeat(trial, request, err);
+    const enum br_status status = repeat(t, held->request, err);
     if (status == BR_INTERRUPTED)
         return status;
-    if (status && trial->end != BR_TRIAL_OVER)
-        trial->end = BR_TRIAL_FAILED;
-    keep_trial(trial, request);
+    if (status && t->end != BR_TRIAL_OVER)
+        t->end = BR_TRIAL_FAILED;
+    keep_trial(t, held->request);
     return BR_OK;
 }
 
 /* What a trial costs, about, for the observer. */
-static double work_of(const struct br_trial *trial)
+static double work_of(const void *self, size_t i)
 {
-    if (trial->foreseen > 0)
-        return trial->foreseen;
-    return (double)trial->at.n * (double)trial->at.steps *
-               br_time_scheme_stages(trial->named->method.scheme) +
+    const struct held *held = self;
+    const struct br_trial *t = &held->trial[i];
+    if (t->end == BR_TRIAL_LEFT)
+        return 0;
+    if (t->foreseen > 0)
+        return t->foreseen;
+    return (double)t->at.n * (double)t->at.steps * br_time_scheme_stages(t->named->method.scheme) +
            1e5;
 }
 
@@ -278,85 +288,58 @@ static void begin(struct br_trial *t)
         t->error[part] = NAN;
 }
 
-/* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
- * `failure`. */
-static enum br_status time_all(struct br_trial *trial, size_t count,
-                               const struct br_trial_request *request, struct br_error *err)
-{
-    const struct br_observer *o = request->observer;
-    double whole = 0, done = 0;
-    for (size_t i = 0; i < count; i++) {
-        begin(&trial[i]);
-        whole += trial[i].end == BR_TRIAL_LEFT ? 0 : work_of(&trial[i]);
-    }
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < count && !status; i++) {
-        if (trial[i].end == BR_TRIAL_LEFT)
-            continue;
-        status = br_observer_stops(o) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                      : time_one(&trial[i], request, err);
-        done += work_of(&trial[i]);
-        if (o && o->progress)
-            o->progress(o->self, done / whole);
-    }
-    return status;
-}
-
 /* ---- errors ---- */
 
-/* Trials as cells of studies: one study for each mesh and degree, whose cells are marched by as
- * many methods, so that the judge looks at that mesh once. */
+/* Trials that came to their end, as cells of studies: one study for each mesh and degree, whose
+ * cells are marched by as many methods, so that the judge looks at that mesh once. Arrays are all
+ * owned. */
 struct groups {
-    size_t count;
-    struct br_study *study;   /* count; the arrays are all owned */
+    size_t count, cells;
+    struct br_study *study;
     struct br_trial **member; /* by cell, those of one study behind those of another; borrowed */
     size_t *steps;
     struct br_method *method;
-    size_t cells;
 };
 
-/* Whether two trials are judged, on the same elements. */
-static bool same_group(const struct br_trial *a, const struct br_trial *b)
+/* By elements, then as they are listed. */
+static int by_elements(const void *a, const void *b)
 {
-    return a->end == BR_TRIAL_DONE && b->end == BR_TRIAL_DONE && a->at.n == b->at.n &&
-           a->named->method.axial_degree == b->named->method.axial_degree;
+    const struct br_trial *x = *(struct br_trial *const *)a, *y = *(struct br_trial *const *)b;
+    const int p = x->named->method.axial_degree, q = y->named->method.axial_degree;
+    if (x->at.n != y->at.n)
+        return x->at.n < y->at.n ? -1 : 1;
+    return p != q ? p - q : (x > y) - (x < y);
 }
 
-/* Whether a trial is to be judged, and none before it on its elements. */
-static bool is_first(const struct br_trial *trial, size_t i)
+static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
+                    const struct br_trial_request *r)
 {
-    for (size_t j = 0; j < i; j++)
-        if (same_group(&trial[j], &trial[i]))
-            return false;
-    return trial[i].end == BR_TRIAL_DONE;
-}
-
-/* The study of a trial and of those behind it on the same elements. */
-static void add_group(struct groups *g, struct br_trial *first, const struct br_trial *end,
-                      const struct br_trial_request *r, const struct br_judge *judge)
-{
-    struct br_study *s = &g->study[g->count++];
-    *s = (struct br_study){
-        .scene = r->scene,
-        .norm = r->norm,
-        .method = br_trial_method(first),
-        .cell_method = &g->method[g->cells],
-        .judge = judge,
-        .reference_method = r->reference_method,
-        .reference = r->reference,
-        .n_count = 1,
-        .n = &first->at.n,
-        .steps = &g->steps[g->cells],
-        .kept = r->kept,
-    };
-    s->reference_method.axial_degree = s->method.axial_degree;
-    for (struct br_trial *t = first; t < end; t++)
-        if (same_group(t, first)) {
-            s->k_count++;
-            g->member[g->cells] = t;
-            g->steps[g->cells] = t->at.steps;
-            g->method[g->cells++] = br_trial_method(t);
+    for (struct br_trial *t = trial; t < trial + count; t++)
+        if (t->end == BR_TRIAL_DONE)
+            g->member[g->cells++] = t;
+    qsort(g->member, g->cells, sizeof(struct br_trial *), by_elements);
+    for (size_t c = 0; c < g->cells; c++) {
+        const struct br_trial *t = g->member[c];
+        struct br_study *s = &g->study[g->count - 1];
+        g->steps[c] = t->at.steps;
+        g->method[c] = br_trial_method(t);
+        if (c == 0 || t->at.n != *s->n || g->method[c].axial_degree != s->method.axial_degree) {
+            s = &g->study[g->count++];
+            *s = (struct br_study){.scene = r->scene,
+                                   .norm = r->norm,
+                                   .method = g->method[c],
+                                   .cell_method = &g->method[c],
+                                   .judge = br_trials_judge(r),
+                                   .reference_method = r->reference_method,
+                                   .reference = r->reference,
+                                   .n_count = 1,
+                                   .n = &t->at.n,
+                                   .steps = &g->steps[c],
+                                   .kept = r->kept};
+            s->reference_method.axial_degree = s->method.axial_degree;
         }
+        s->k_count++;
+    }
 }
 
 /* The judge's own error and round-off. */
@@ -413,30 +396,6 @@ const struct br_judge *br_trials_judge(const struct br_trial_request *r)
     return r->judge ? r->judge : br_judge_best(r->scene);
 }
 
-enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
-                                    struct br_error *err)
-{
-    const struct br_judge *judge = br_trials_judge(r);
-    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
-    *self = NULL;
-    return !judge->create || judge->nests
-               ? BR_OK
-               : judge->create(self,
-                               &(struct br_judge_request){.scene = r->scene,
-                                                          .levels = 1,
-                                                          .lead = 1,
-                                                          .stop = o->stop,
-                                                          .stop_self = o->self,
-                                                          .preparing = o->preparing},
-                               err);
-}
-
-void br_trials_forget_judge(const struct br_trial_request *r, void *self)
-{
-    if (self)
-        br_trials_judge(r)->free(self);
-}
-
 /* Judges the trials that came to their end. */
 static enum br_status judge_all(struct br_trial *trial, size_t count,
                                 const struct br_trial_request *request, struct br_error *err)
@@ -454,9 +413,8 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
     enum br_status status = BR_OK;
     if (!g.study || !g.member || !g.steps || !g.method)
         status = br_no_memory(err, "the trials");
-    for (size_t i = 0; i < count && !status; i++)
-        if (is_first(trial, i))
-            add_group(&g, &trial[i], &trial[count], request, judge);
+    else
+        lay_out(&g, trial, count, request);
     if (g.count && !status)
         status = br_study_run(g.study, g.count, request->threads, request->observer, err);
     if (!status)
@@ -478,7 +436,15 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
         part = br_observer_of(&share);
         own.observer = &part;
     }
-    enum br_status status = time_all(trial, count, &own, err);
+    for (size_t i = 0; i < count; i++)
+        begin(&trial[i]);
+    const struct br_each each = {.count = count,
+                                 .threads = 1,
+                                 .observer = own.observer,
+                                 .turn = time_one,
+                                 .work = work_of,
+                                 .self = &(struct held){trial, &own}};
+    enum br_status status = br_each(&each, err);
     share = (struct br_observer_share){request->observer, 0.75, 0.25};
     return status ? status : judge_all(trial, count, &own, err);
 }
