@@ -784,7 +784,7 @@ static const struct planted_bug planted_bugs[] = {
     {"summary_has_viscosity_twice", "printed", "tables/report_run.c", "golden run",
      "put_two(d, r, w->scheme, ", "put_two(d, r, w->viscous, "},
     {"steps_over_a_peak_agree", "expected", "study/foresee/prediction_probes.c",
-     "tests/test_prediction test_followers", "while (follows_at_once(o) && is_affordable",
+     "tests/test_prediction test_hard", "while (follows_at_once(o) && is_affordable",
      "while (false && is_affordable"},
     {"tip_error_of_the_field", "units", "study/foresee/prediction.c", "golden run",
      "kind == BR_AXIAL ? 3 : 5;", "1;"},
