@@ -110,12 +110,13 @@ TEST(test_links)
     br_scene_clear(&scene);
 }
 
-/* The whole is what a study says of the run. */
+/* The whole is what a study says of the run; what is at the round-off is below the floor, and what
+ * is not is above it. */
 TEST(test_whole)
 {
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    const struct br_split split = split_of(&scene, 30, 40, br_method_default());
+    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
         struct br_study study =
             br_test_study(&scene, &br_judge_exact, 1, &split.at.n, 1, &split.at.steps);
@@ -127,6 +128,15 @@ TEST(test_whole)
         assert_true(split.scale[m] == study.reference_scale);
         br_study_clear(&study);
     }
+    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
+    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
+    AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
+    AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
+    AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
+    struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    share.error[0][0] = 1e-15;
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
     br_scene_clear(&scene);
 }
 
@@ -141,6 +151,7 @@ static void check_none(const struct br_split *split, const char *name, const cha
     assert_true(share->tip[BR_AXIAL] == 0 && share->tip[BR_BENDING] == 0);
 }
 
+/* What is not there is none; and one source alone moves its part, and no other. */
 TEST(test_none)
 {
     struct br_scene scene = br_test_bundled("example2");
@@ -149,8 +160,14 @@ TEST(test_none)
     check_none(&split, "iteration", "directly");
     check_none(&split, "mu", "not smoothed");
     check_none(&split, "lag", "implicit");
-    split = split_of(&scene, 10, 20, br_test_method(NULL, "lagged", NULL));
-    assert_null(share_of(&split, "lag")->none);
+    const struct br_split lagged = split_of(&scene, 10, 20, br_test_method(NULL, "lagged", NULL));
+    assert_null(share_of(&lagged, "lag")->none);
+    for (int part = 0; part < BR_PARTS; part++) {
+        assert_true(share_of(&lagged, "time")->error[0][part] ==
+                    share_of(&split, "time")->error[0][part]);
+        assert_true(share_of(&lagged, "space")->error[0][part] ==
+                    share_of(&split, "space")->error[0][part]);
+    }
     br_scene_clear(&scene);
     scene = br_test_bundled("vibration"); /* no contact, no friction */
     split = split_of(&scene, 10, 50, br_method_default());
@@ -230,22 +247,6 @@ TEST(test_lag_order)
     br_scene_clear(&scene);
 }
 
-/* One source alone moves its part, and no other. */
-TEST(test_independence)
-{
-    struct br_scene scene = br_test_bundled("example2");
-    const struct br_split lagged = split_of(&scene, 20, 50, br_method_default());
-    const struct br_split implicit =
-        split_of(&scene, 20, 50, br_test_method(NULL, "implicit", NULL));
-    for (int part = 0; part < BR_PARTS; part++) {
-        assert_true(share_of(&lagged, "time")->error[0][part] ==
-                    share_of(&implicit, "time")->error[0][part]);
-        assert_true(share_of(&lagged, "space")->error[0][part] ==
-                    share_of(&implicit, "space")->error[0][part]);
-    }
-    br_scene_clear(&scene);
-}
-
 /* A tip that sticks creeps where friction is smoothed, in proportion to mu. */
 TEST(test_mu)
 {
@@ -281,23 +282,6 @@ TEST(test_iteration)
             last = share->error[0][BR_PART_BENDING];
         }
     }
-    br_scene_clear(&scene);
-}
-
-/* What is at the round-off is below the floor, and what is not is above it. */
-TEST(test_floors)
-{
-    struct br_scene scene = br_test_bundled("example2");
-    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
-    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
-    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
-    AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
-    AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
-    AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
-    struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
-    share.error[0][0] = 1e-15;
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
     br_scene_clear(&scene);
 }
 
