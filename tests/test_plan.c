@@ -114,18 +114,23 @@ static double counted(const struct br_trial *t)
 }
 
 #define METHODS "euler+implicit,bdf2,esdirk3,adaptive"
+enum { ALL = 4 };
 
-static struct br_plan *new_plan(const struct br_scene *scene, double error, double seconds)
+/* Made, or with the failure; methods: of these the first so many. */
+static struct br_plan *make(const struct br_scene *scene, struct br_plan_goal goal, size_t methods,
+                            enum br_status *status, struct br_error *failure)
 {
     struct br_error err = {0};
     struct br_plan *plan = calloc(1, sizeof *plan);
     assert_non_null(plan);
     br_plan_default(plan, scene);
     MUST(br_named_methods_read("--methods", METHODS, &plan->methods, &err));
-    plan->goal = (struct br_plan_goal){error, seconds};
+    plan->methods.count = methods;
+    plan->goal = goal;
     plan->seconds = counted;
     plan->request.repeats = 1;
     plan->request.time_limit = 0;
+    *status = br_plan_make(plan, failure);
     return plan;
 }
 
@@ -180,9 +185,11 @@ TEST(test_promise)
             if ((s + e) % 2 && !br_test_long())
                 continue;
             struct br_error err = {0};
+            enum br_status status;
             struct br_scene scene = br_test_bundled(scenes[s]);
-            struct br_plan *plan = new_plan(&scene, errors[e], NAN);
-            MUST(br_plan_make(plan, &err));
+            struct br_plan *plan =
+                make(&scene, (struct br_plan_goal){errors[e], NAN}, ALL, &status, &err);
+            MUST(status);
             assert_true(plan->chosen < plan->count);
             const struct br_trial *t = &plan->trial[plan->chosen];
             const double achieved = br_trial_bound(t), cost = counted(t);
@@ -200,72 +207,47 @@ TEST(test_promise)
         }
 }
 
-/* The least error within some work: more work never is worse. */
-TEST(test_seconds)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    static const double seconds[] = {1e-4, 2e-3};
-    static const double least[] = {1e-4, 1e-6}; /* errors that are possible */
-    for (size_t i = 0; i < 2; i++) {
-        struct br_plan *plan = new_plan(&scene, NAN, seconds[i]);
-        MUST(br_plan_make(plan, &err));
-        assert_int_equal(plan->end, BR_PLAN_MET);
-        AT_MOST(counted(&plan->trial[plan->chosen]), seconds[i]);
-        AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), least[i]);
-        drop(plan);
-    }
-    br_scene_clear(&scene);
-}
-
-/* The coarsest mesh does, and says so. */
-TEST(test_coarsest)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example3");
-    struct br_plan *plan = new_plan(&scene, 0.9, NAN);
-    MUST(br_plan_make(plan, &err));
-    assert_int_equal(plan->end, BR_PLAN_COARSEST);
-    assert_int_equal(plan->trial[plan->chosen].at.n, BR_PLAN_LEAST_N);
-    drop(plan);
-    br_scene_clear(&scene);
-}
-
-/* A judge whose own error depends on the mesh is asked where it is best. */
-TEST(test_own_error)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("mms_slip");
-    struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
-    MUST(br_plan_make(plan, &err));
-    assert_int_equal(plan->end, BR_PLAN_MET);
-    AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), 1e-5);
-    drop(plan);
-    br_scene_clear(&scene);
-}
-
-TEST(test_refused)
+/* The least error within some work: more work never is worse. The coarsest mesh does, and says so.
+ * A judge whose own error depends on the mesh is asked where it is best. What makes no sense is
+ * refused. */
+TEST(test_goals)
 {
     static const struct {
-        double error, seconds;
-        const char *message;
-    } wrong[] = {
-        {NAN, NAN, "needs an error or seconds"},
-        {1e-3, 1, "and not both"},
-        {0, NAN, "between 0 and 1"},
-        {1, NAN, "between 0 and 1"},
-        {-1, NAN, "between 0 and 1"},
-        {NAN, 0, "seconds > 0"},
-        {NAN, INFINITY, "seconds > 0"},
-        {1e-16, NAN, "an error of"},
+        const char *scene;
+        struct br_plan_goal goal;
+        enum br_plan_end end;
+        double error;        /* at most */
+        const char *refusal; /* NULL: none */
+    } rows[] = {
+        {"example2", {NAN, 1e-4}, BR_PLAN_MET, 1e-4, NULL},
+        {"example2", {NAN, 2e-3}, BR_PLAN_MET, 1e-6, NULL},
+        {"example3", {0.9, NAN}, BR_PLAN_COARSEST, 0.9, NULL},
+        {"mms_slip", {1e-5, NAN}, BR_PLAN_MET, 1e-5, NULL},
+        {"example3", {NAN, NAN}, 0, 0, "needs an error or seconds"},
+        {"example3", {1e-3, 1}, 0, 0, "and not both"},
+        {"example3", {0, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {1, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {-1, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {NAN, 0}, 0, 0, "seconds > 0"},
+        {"example3", {NAN, INFINITY}, 0, 0, "seconds > 0"},
+        {"example3", {1e-16, NAN}, 0, 0, "an error of"},
     };
-    struct br_scene scene = br_test_bundled("example3");
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_plan *plan = new_plan(&scene, wrong[i].error, wrong[i].seconds);
-        plan->methods.count = 1;
-        REFUSED(br_plan_make(plan, &err), BR_BAD_INPUT, wrong[i].message);
+        enum br_status status;
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        struct br_plan *plan = make(&scene, rows[i].goal, rows[i].refusal ? 1 : ALL, &status, &err);
+        if (rows[i].refusal) {
+            REFUSED(status, BR_BAD_INPUT, rows[i].refusal);
+        } else {
+            MUST(status);
+            const struct br_trial *t = &plan->trial[plan->chosen];
+            assert_int_equal(plan->end, rows[i].end);
+            AT_MOST(br_trial_bound(t), rows[i].error);
+            assert_false(counted(t) > rows[i].goal.seconds);
+            assert_true(plan->end != BR_PLAN_COARSEST || t->at.n == BR_PLAN_LEAST_N);
+        }
         drop(plan);
+        br_scene_clear(&scene);
     }
-    br_scene_clear(&scene);
 }
