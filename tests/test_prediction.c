@@ -315,54 +315,6 @@ TEST(test_warnings)
     br_scene_clear(&s);
 }
 
-/* However short it is, wherever it is, and however many steps there are; its share of all. */
-TEST(test_short_blows)
-{
-    static const struct {
-        const char *load;
-        size_t steps;
-        const char *said; /* NULL: nothing */
-    } rows[] = {
-        {"exp(-((t - 0.4567)/0.001)^2)", 100, "the bending load does between"},
-        {"exp(-((t - 0.4567)/0.001)^2)", 100, "near t = 0.455 s"},
-        {"exp(-((t - 0.4567)/0.001)^2)", 10000, NULL},
-        {"exp(-((t - 0.4567)/1e-5)^2)", 40000, ""},           /* 2 samples a step */
-        {"sin(2*3.14159265358979*130000.3*t)^2", 130000, ""}, /* a sample of the steps */
-        {"sin(2*3.14159265358979*130000.3*t)^2", 20000000, NULL},
-        {"sin(3*t) + exp(t)", 10, NULL},
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 10, " all of its impulse, most of it near t = 0.35"},
-        {"exp(-((t - 0.3)/1e-7)^2)", 10,
-         " more than all of its impulse, most of it near t = 0."}, /* at a level: they see k of it
-                                                                    */
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 1000000, " all of its impulse"},
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 300000000, " 88 % of its impulse"},
-        {"exp(-((t - 0.31234567)/1e-9)^2)", 4000000000, NULL},
-        {"1 + 1e8/3.1415926^0.5*exp(-((t - 0.31234567)/1e-8)^2)", 60000, " 50 % of its impulse"},
-        {"1 + 1e6*exp(-((t - 0.31234567)/1e-8)^2)", 60000, NULL}, /* 2 % of it */
-        {"exp(-((x - 0.123)/1e-3)^2 - ((t - 0.456)/1e-6)^2)", 100, "near t = 0.455 s"},
-        {"x*1e3*(t > 0.70001 && t < 0.70002)", 200, "near t = 0.7025 s"},
-        {"t < 0.45 ? 0 : x", 3, " 9.1 % of its impulse"},
-        {"exp(-7 - x)*(t < 0.45)", 3, " 11 % of its impulse"},
-        {"t < 0.45 ? 0 : x", 30, NULL},
-        {"1 + 2*(t - 0.4)^2*step(t - 0.4)", 100, NULL}, /* a kink at the end of a smooth piece */
-    };
-    struct br_scene s = br_test_bare();
-    const struct br_method method = br_method_default();
-    struct br_error err;
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        const struct br_planned_march o = {
-            .scene = &s, .method = &method, .n = 4000, .steps = rows[i].steps};
-        struct br_warnings w = {0};
-        s.bending.load = br_test_load(rows[i].load);
-        MUST(br_look_at_loads(&o, &w, &err));
-        const struct br_warning *one = br_warnings_find(&w, BR_WARN_LOAD_TIME);
-        if (rows[i].said ? !one || !strstr(one->text, rows[i].said) : one != NULL)
-            fail_msg("%s, %zu: %s", rows[i].load, rows[i].steps, one ? one->text : "no warning");
-        assert_null(br_warnings_find(&w, BR_WARN_LOAD_SPACE));
-        br_load_clear(&s.bending.load);
-    }
-}
-
 /* What the hard scenes begin with. */
 #define UNIT                                                                                      \
     "length: 1 m\nduration: 1 s\ndensity: 1 kg/m\naxial:\n  stiffness: 1 N\n  viscosity: 1 N s\n" \
