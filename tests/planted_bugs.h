@@ -768,7 +768,7 @@ static const struct planted_bug planted_bugs[] = {
     {"split_tips_exchanged", "printed", "tables/report_split.c", "golden split",
      "br_number(l->tip[BR_AXIAL])", "br_number(l->tip[BR_BENDING])"},
     {"split_floor_of_the_total", "printed", "tables/report_split.c", "golden split",
-     "l->floor ? l->floor[part]", "l->floor ? l->floor[0]"},
+     "l->floor[norm][part]", "l->floor[norm][0]"},
     {"plan_predicts_what_it_achieved", "printed", "tables/report_plan.c", "golden plan",
      "br_number(p->forecast[i].error), .key", "br_number(error_of(p, i)), .key"},
     {"x_off_by_one_element", "printed", "tables/fields_file.c", "tests/test_printed_values",

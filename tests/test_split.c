@@ -45,7 +45,7 @@ static void check_triangle(const struct br_split *split, size_t m, enum br_part 
     AT_MOST(whole, sum - whole + slack);
     for (size_t i = 0; i < split->shares; i++)
         AT_MOST(split->share[i].error[m][part], sum - split->share[i].error[m][part] + slack);
-    CLOSE(split->sum[m][part], sum - whole, 1e-14 * sum);
+    CLOSE(split->sum.error[m][part], sum - whole, 1e-14 * sum);
 }
 
 /* Signed at the tip: exactly the whole, but for the rounding of the sums. */
@@ -57,7 +57,7 @@ static void check_tip(const struct br_split *split, enum br_field_kind kind)
     const double round_off = 1e-15 * (fabs(split->tip[kind]) + fabs(split->solution_tip[kind]));
     CLOSE(sum, split->tip[kind] - split->solution_tip[kind], round_off);
     CLOSE(split->whole.tip[kind], split->tip[kind] - split->solution_tip[kind], round_off);
-    CLOSE(split->tip_sum[kind], sum, round_off);
+    CLOSE(split->sum.tip[kind], sum, round_off);
 }
 
 static void check_sums(const struct br_split *split)

@@ -297,11 +297,6 @@ static void set_time(struct br_probe *p, const struct br_planned_march *o)
         extrapolate_time(p, o, most);
 }
 
-static bool iterates_friction(const struct br_planned_march *o)
-{
-    return o->scene->friction.law != BR_FRICTIONLESS && o->method->friction->iterates;
-}
-
 /* What an iteration leaves in a step adds up over the steps, and is lost among the errors of the
  * few steps of an extrapolation. */
 static void set_iteration(struct br_probe *p, const struct br_probe *time,
@@ -309,6 +304,9 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
 {
     struct br_method direct = *o->method;
     direct.friction = br_friction_rules[0];
+    if (time->measured || o->scene->friction.law == BR_FRICTIONLESS ||
+        !o->method->friction->iterates)
+        return;
     p->scene = *o->scene;
     p->beyond = time->beyond;
     p->n[0] = time->n[0];
@@ -520,8 +518,7 @@ enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_
         return status;
     if (!probe[BR_PROBE_WHOLE].held) {
         set_time(&probe[BR_PROBE_TIME], o);
-        if (!probe[BR_PROBE_TIME].measured && iterates_friction(o))
-            set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], o);
+        set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], o);
         set_space(&probe[BR_PROBE_SPACE], o);
         for (int i = BR_PROBE_TIME; i <= BR_PROBE_SPACE && !status; i++)
             status = march(&probe[i], err);

@@ -74,22 +74,23 @@ static enum br_status create_judge(const struct br_trial_request *r,
                                    struct br_judge_request *request, void **self,
                                    struct br_error *err)
 {
-    const struct br_observer *o = r->observer;
+    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
     request->scene = r->scene;
     request->lead = request->levels;
-    request->stop = o ? o->stop : NULL;
-    request->stop_self = o ? o->self : NULL;
-    request->preparing = o ? o->preparing : NULL;
+    request->stop = o->stop;
+    request->stop_self = o->self;
+    request->preparing = o->preparing;
     return br_trials_judge(r)->create(self, request, err);
 }
 
 enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
                                     struct br_error *err)
 {
+    const struct br_judge *judge = br_trials_judge(r);
     *self = NULL;
-    if (!br_trials_judge(r)->create || br_trials_judge(r)->nests)
-        return BR_OK;
-    return create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
+    return !judge->create || judge->nests
+               ? BR_OK
+               : create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
 }
 
 void br_trials_forget_judge(const struct br_trial_request *r, void *self)
@@ -98,13 +99,12 @@ void br_trials_forget_judge(const struct br_trial_request *r, void *self)
         br_trials_judge(r)->free(self);
 }
 
-/* A judge looks at a few levels of one field. */
-static enum br_status sample_levels(const struct br_judge_request *request,
-                                    const struct br_judge *judge, void *self,
-                                    enum br_field_kind kind, struct br_error *err)
+/* Looks at all levels of a field. */
+static enum br_status sample(const struct br_judge *judge, void *self,
+                             const struct br_judge_request *request, enum br_field_kind kind,
+                             double *values, struct br_error *err)
 {
-    double *values = br_allocate(BR_MOST_MODES * request->mesh[0], sizeof *values);
-    enum br_status status = values ? BR_OK : br_no_memory(err, "the trials");
+    enum br_status status = BR_OK;
     for (size_t level = 1; level <= request->levels && !status; level++) {
         status = judge->advance(self, kind, level, err);
         for (int measure = 0; measure < BR_TIP && !status; measure++) {
@@ -114,42 +114,39 @@ static enum br_status sample_levels(const struct br_judge_request *request,
                 judge->sample(self, &at, &view);
         }
     }
-    free(values);
     return status;
 }
 
-/* A fine run marches anew for each mesh. */
+/* It looks at a few levels of one mesh; a fine run marches anew for each mesh. */
 static enum br_status look_at_judge(const struct br_trial_request *r, struct judging *judging,
                                     struct br_error *err)
 {
-    static const size_t mesh = 100;
+    enum { N = 100, FEW = 10 };
+    static const size_t mesh = N;
+    double values[BR_MOST_MODES * N];
     struct br_judge_request request = {
-        .axial_degree = 1, .levels = 10, .mesh_count = 1, .mesh = &mesh};
+        .axial_degree = 1, .levels = FEW, .mesh_count = 1, .mesh = &mesh};
     const struct br_judge *judge = br_trials_judge(r);
+    const bool modelled[2] = {r->scene->axial.modelled, r->scene->bending.modelled};
     const struct br_planned_march fine = {.scene = r->scene,
                                           .method = &r->reference_method,
                                           .n = r->reference.n,
                                           .steps = r->reference.steps};
-    *judging = (struct judging){0, 0};
-    if (judge->nests)
-        judging->mesh = br_march_seconds(&fine);
+    *judging = (struct judging){judge->nests ? br_march_seconds(&fine) : 0, 0};
     if (!judge->create || judge->nests)
         return BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_TIP; measure++)
+            request.measured[kind][measure] =
+                modelled[kind] && br_norm_needs(r->norm, (enum br_measure)measure);
     void *self = NULL;
-    for (int measure = 0; measure < BR_TIP; measure++) {
-        const bool needed = br_norm_needs(r->norm, (enum br_measure)measure);
-        request.measured[BR_AXIAL][measure] = needed && r->scene->axial.modelled;
-        request.measured[BR_BENDING][measure] = needed && r->scene->bending.modelled;
-    }
-    double start = br_thread_seconds();
+    const double start = br_thread_seconds();
     enum br_status status = create_judge(r, &request, &self, err);
-    judging->mesh = br_thread_seconds() - start;
-    start = br_thread_seconds();
-    if (!status && r->scene->axial.modelled)
-        status = sample_levels(&request, judge, self, BR_AXIAL, err);
-    if (!status && r->scene->bending.modelled)
-        status = sample_levels(&request, judge, self, BR_BENDING, err);
-    judging->level = (br_thread_seconds() - start) / (double)(request.levels * mesh);
+    const double created = br_thread_seconds();
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (modelled[kind])
+            status = sample(judge, self, &request, (enum br_field_kind)kind, values, err);
+    *judging = (struct judging){created - start, (br_thread_seconds() - created) / (N * FEW)};
     judge->free(self);
     return status;
 }

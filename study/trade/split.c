@@ -379,9 +379,9 @@ static void set_shares(struct br_split *split, const struct chain *c)
             set_share(split, c, c->link[i], share);
         for (size_t m = 0; m < split->norms; m++)
             for (int part = 0; part < BR_PARTS; part++)
-                split->sum[m][part] += share->error[m][part];
+                split->sum.error[m][part] += share->error[m][part];
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            split->tip_sum[kind] += share->tip[kind];
+            split->sum.tip[kind] += share->tip[kind];
     }
 }
 
@@ -428,5 +428,5 @@ bool br_share_told(const struct br_share *share, size_t norm, enum br_part part)
 double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
                        enum br_part part)
 {
-    return share->error[norm][part] / split->sum[norm][part];
+    return share->error[norm][part] / split->sum.error[norm][part];
 }
