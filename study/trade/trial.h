@@ -27,8 +27,8 @@ extern const char *const br_trial_end_names[BR_TRIAL_ENDS];
 struct br_trial_cost {
     double set_up, march; /* s of the processor, one thread; NaN: it did not end */
     size_t repeats;       /* marches that were timed */
-    size_t levels;        /* time levels that were reached */
     struct br_counts counts;
+    size_t levels; /* time levels that were reached */
 };
 
 struct br_trial {
