@@ -153,11 +153,6 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
     }
 }
 
-static const struct br_judge *judge_of(const struct br_trade *t)
-{
-    return t->request.judge ? t->request.judge : br_judge_best(t->request.scene);
-}
-
 /* The first trial that has an error: it knows the solution and the judge's own error. */
 static void note_judge(struct br_document *d, const struct br_trade *t)
 {
@@ -165,7 +160,7 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
     while (known < t->trial + t->count && !isfinite(known->scale))
         known++;
     br_put_note(d, "%s", t->request.norm->title);
-    br_put_note(d, "Judged by: %s.", judge_of(t)->title);
+    br_put_note(d, "Judged by: %s.", br_trials_judge(&t->request)->title);
     if (known == t->trial + t->count)
         return;
     br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale,
@@ -238,7 +233,7 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     br_hide_fact(d, br_text(t->request.scene->name), NULL, "scene.name");
     br_hide_fact(d, br_text(t->request.norm->name), NULL, "norm");
     br_hide_fact(d, br_text(t->request.norm->unit), NULL, "unit");
-    br_hide_fact(d, br_text(judge_of(t)->name), NULL, "judge");
+    br_hide_fact(d, br_text(br_trials_judge(&t->request)->name), NULL, "judge");
     br_hide_fact(d, br_count(t->request.repeats), NULL, "repeats");
     br_hide_fact(d, br_number(t->request.repeat_seconds), NULL, "repeat_seconds");
     br_hide_fact(d, br_number(t->request.time_limit), NULL, "time_limit");
