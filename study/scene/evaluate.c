@@ -98,8 +98,6 @@ static unsigned simplify(struct br_tree_builder *b, enum br_operation operation,
                : b->tree.node[a].operation == BR_OP_NEGATE ? b->tree.node[a].argument[0]
                                                            : BR_NO_NODE;
     case BR_OP_ADD:
-        if (b->tree.node[c].operation == BR_OP_NEGATE)
-            return br_tree_node(b, BR_OP_SUBTRACT, a, b->tree.node[c].argument[0], 0);
         return is(b, a, 0) ? c : is(b, c, 0) ? a : BR_NO_NODE;
     case BR_OP_SUBTRACT:
         return is(b, c, 0) ? a : is(b, a, 0) ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0) : BR_NO_NODE;
@@ -137,11 +135,6 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
         node.uses_t |= a->uses_t;
         numbers += a->operation == BR_OP_NUMBER;
         number[i] = a->number;
-    }
-    if (b->simplifies && (operation == BR_OP_ADD || operation == BR_OP_MULTIPLY) &&
-        first > second) { /* so that a b and b a are one */
-        node.argument[0] = second;
-        node.argument[1] = first;
     }
     const unsigned shorter = b->simplifies ? simplify(b, operation, first, second) : BR_NO_NODE;
     if (shorter != BR_NO_NODE || b->status)
