@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The values of a tree over a box, and its Taylor coefficients there (series.c), and its guards. */
+/* The values of a tree over a box, and its Taylor coefficients there (series.c). */
 #include "study/scene/operations.h"
 
 #include <float.h>
@@ -153,29 +153,4 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
     br_round_as_before(rounding);
     *value = forms[tree->count - 1].range;
     return br_is_finite(*value);
-}
-
-/* ---- guards ---- */
-
-static bool is_truth(enum br_operation o)
-{
-    return o == BR_OP_NOT || (o >= BR_OP_LESS && o <= BR_OP_OR);
-}
-
-unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *n, unsigned k,
-                       struct br_tree_builder *b)
-{
-    const enum br_operation o = n->operation;
-    const unsigned a = n->argument[k];
-    const bool compares = o >= BR_OP_MIN && o <= BR_OP_EQUAL;
-    const bool itself =
-        o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
-        (!is_truth(tree->node[a].operation) &&
-         (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
-    if ((compares ? k > 0 : !itself) || !(n->uses_x || n->uses_t))
-        return BR_NO_NODE;
-    const unsigned first = br_tree_graft(b, tree, a);
-    return compares
-               ? br_tree_node(b, BR_OP_SUBTRACT, first, br_tree_graft(b, tree, n->argument[1]), 0)
-               : first;
 }

@@ -280,14 +280,39 @@ static double *values_of(const struct expression *e, size_t node)
 
 static const struct br_function_ops guard_ops;
 
-/* Appends the guard of a node's argument, if there is one. */
+static bool is_truth(enum br_operation o)
+{
+    return o == BR_OP_NOT || (o >= BR_OP_LESS && o <= BR_OP_OR);
+}
+
+static bool compares(enum br_operation o)
+{
+    return o >= BR_OP_MIN && o <= BR_OP_EQUAL;
+}
+
+/* Whether a change of sign of argument k, or of the difference of both that are compared, makes a
+ * node jump or bend. Truths jump where their own arguments change. */
+static bool needs_guard(const struct br_tree *tree, const struct br_node *n, unsigned k)
+{
+    const enum br_operation o = n->operation;
+    if (!n->uses_x && !n->uses_t)
+        return false;
+    if (compares(o))
+        return k == 0;
+    return o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
+           (!is_truth(tree->node[n->argument[k]].operation) &&
+            (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
+}
+
+/* Appends it; it has at most one node more than the tree. */
 static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
     struct guard *g = &e->guard[e->guards];
-    const unsigned root = br_tree_guard(&e->of.tree, n, k, &b);
-    if (root == BR_NO_NODE && !b.status)
-        return true;
+    unsigned root = br_tree_graft(&b, &e->of.tree, n->argument[k]);
+    if (compares(n->operation))
+        root = br_tree_node(&b, BR_OP_SUBTRACT, root,
+                            br_tree_graft(&b, &e->of.tree, n->argument[1]), 0);
     if (br_tree_finish(&b, root, &g->of.tree, NULL))
         return false;
     const struct br_node *last = &g->of.tree.node[g->of.tree.count - 1];
@@ -318,7 +343,7 @@ static struct expression *create(struct br_tree *tree)
         if (n->operation == BR_OP_NUMBER)
             fill(values_of(e, i), CHUNK, n->number);
         for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
-            done = add_guard(e, n, k);
+            done = !needs_guard(&own, n, k) || add_guard(e, n, k);
     }
     if (done)
         return e;

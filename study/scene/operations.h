@@ -124,9 +124,4 @@ bool br_tree_bound(const struct br_tree *tree, struct br_interval *work, struct 
 bool br_tree_taylor(const struct br_tree *tree, struct br_interval *work, enum br_variable along,
                     struct br_box box, size_t order, struct br_interval *coefficient);
 
-/* The guard of argument k of a node of the tree (struct br_function_ops), made in another builder:
- * its place; BR_NO_NODE where there is none. It has at most one node more than the tree. */
-unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *node, unsigned k,
-                       struct br_tree_builder *builder);
-
 #endif
