@@ -130,9 +130,13 @@ static void real_power_series(const struct recurrence *r, double n)
     }
 }
 
+/* s s = a; tighter than as a power */
 static void root(const struct recurrence *r)
 {
-    real_power_series(r, 0.5);
+    iv *s = r->out;
+    for (size_t k = 1; k <= r->order; k++)
+        s[k] = br_interval_divide(br_interval_subtract(r->a[k], convolve(s, s, k, 1, k - 1)),
+                                  scale(2, s[0]));
 }
 
 /* w y' = sign a' */
