@@ -204,6 +204,16 @@ TEST(test_simplified)
     }
 }
 
+static enum br_status derive(const void *f, struct br_error *err)
+{
+    const struct br_derivation what = {2, {{2, {1, 1}}, {3, {0, 2}}}, 0.5, NAN};
+    struct br_function out;
+    const enum br_status status = br_function_derive(f, &what, &out, err);
+    assert_true(status ? !out.ops : out.uses_t && !out.uses_x);
+    br_function_free(&out);
+    return status;
+}
+
 /* One that grows too long is refused, and memory that is missing told. */
 TEST(test_derivation_refusals)
 {
@@ -214,16 +224,6 @@ TEST(test_derivation_refusals)
     REFUSED(br_function_derivative(&f, (struct br_partial){9, 3}, &out, &err), BR_BAD_INPUT,
             "more than 10000 operations");
     assert_null(out.ops);
-    const struct br_derivation what = {2, {{2, {1, 1}}, {3, {0, 2}}}, 0.5, NAN};
-    enum br_status status = BR_NO_MEMORY;
-    for (long i = 0; status == BR_NO_MEMORY; i++) {
-        br_allocation_fails_at(i);
-        status = br_function_derive(&f, &what, &out, &err);
-        br_allocation_fails_at(-1);
-        assert_true(i < 10000);
-    }
-    assert_int_equal(status, BR_OK);
-    assert_true(out.uses_t && !out.uses_x);
-    br_function_free(&out);
+    br_test_without_memory(derive, &f, 50);
     br_function_free(&f);
 }
