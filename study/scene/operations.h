@@ -103,10 +103,6 @@ struct br_interval br_interval_hull(struct br_interval a, struct br_interval b);
 struct br_interval br_interval_apply(enum br_operation operation,
                                      const struct br_interval *argument, bool same);
 
-/* The Taylor coefficients of an operation, order + 1 of them (out), from those of its arguments. */
-void br_series_apply(enum br_operation operation, size_t order,
-                     const struct br_interval *const argument[3], struct br_interval *out);
-
 /* ---- proofs of trees ---- */
 
 /* What is proved of a tree over a box of x and t, by interval arithmetic. */
