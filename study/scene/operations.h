@@ -19,9 +19,7 @@
 
 /* Loops for one instruction set. */
 struct br_elementary {
-    const char *name;
     size_t width; /* the doubles in its vectors */
-    bool (*available)(void);
     /* Any operation with arguments a, b and c: out[i] = operation(a[i], b[i], c[i]). count: a
      * multiple of the width; out: none of the arguments. All are aligned for vectors. */
     void (*apply)(enum br_operation operation, size_t count, const double *const argument[3],
@@ -31,7 +29,8 @@ struct br_elementary {
 #define BR_ELEMENTARY_DECLARE(set) extern const struct br_elementary br_elementary_##set;
 BR_INSTRUCTION_SETS(BR_ELEMENTARY_DECLARE)
 
-/* All, the best first; NULL behind the last. Those that this processor has not must not be used. */
+/* All, the best first; NULL behind the last. Those before br_instruction_set_best must not be used.
+ */
 extern const struct br_elementary *const br_elementary_all[];
 
 /* Around what needs rounding to nearest: the mode before, to be set again. */
