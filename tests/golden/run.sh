@@ -24,7 +24,8 @@ mask() {
         -e 's/"fields\.(h5|csv)"/"fields.FORMAT"/' -e '/^  (avx[0-9a-z]*|portable) /d'
 }
 
-# Runs a command line and prints all that it leaves, these files among it.
+# Runs a command line and prints all that it leaves, these files among it; of a script for gnuplot
+# what the first one has not.
 run() {
     rm -rf "$folder/work" && mkdir "$folder/work" && cd "$folder/work" || exit 99
     (PATH="$folder/bin"; eval "$1") >../out 2>../err
@@ -33,9 +34,17 @@ run() {
     mask <../out
     echo "==== standard error"
     mask <../err
+    script=
     for file in $2; do
         echo "==== $file"
-        if [ -f "$file" ]; then mask <"$file"; else echo "is not there"; fi
+        if [ ! -f "$file" ]; then
+            echo "is not there"
+        elif [ "$script" ] && [ "${file%.gp}" != "$file" ]; then
+            grep -vxFf "$script" "$file" | mask
+        else
+            mask <"$file"
+        fi
+        case $file in *.gp) script=${script:-$file} ;; esac
     done
     cd "$here" || exit 99
 }
