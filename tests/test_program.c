@@ -63,14 +63,22 @@ static const char *command_of(const char *name, const char *words)
     return command;
 }
 
-static size_t lines_of(const char *name)
+/* All of a file, until the next call; "" where there is none. */
+static const char *text_of(const char *path)
 {
-    FILE *file = fopen(path_of(name), "r");
-    size_t lines = 0;
-    for (int c; file && (c = getc(file)) != EOF;)
-        lines += c == '\n';
+    static char text[512];
+    FILE *file = fopen(path, "r");
+    text[file ? fread(text, 1, sizeof text - 1, file) : 0] = '\0';
     if (file)
         fclose(file);
+    return text;
+}
+
+static size_t lines_of(const char *name)
+{
+    size_t lines = 0;
+    for (const char *c = text_of(path_of(name)); *c; c++)
+        lines += *c == '\n';
     return lines;
 }
 
@@ -92,6 +100,15 @@ static struct br_numbers run(const struct br_orders_request *p)
     MUST(br_program_run(p, &numbers, &err));
     assert_int_equal(entries_of(path_of("tmp")), 0);
     return numbers;
+}
+
+/* Runs a script of that name, and keeps nothing. */
+static struct br_numbers run_script(const char *name, const char *text, int jobs)
+{
+    write_script(name, text);
+    struct br_orders_request p = program(command_of(name, "{n}"));
+    p.jobs = jobs;
+    return run(&p);
 }
 
 /* ---- good programs ---- */
@@ -134,12 +151,12 @@ TEST(test_grid)
 TEST(test_at_once)
 {
 #ifdef _OPENMP
-    write_script("meet", "touch $0.$1\n"
-                         "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
-                         "echo err=1");
-    struct br_orders_request p = program(command_of("meet", "{n}"));
-    p.jobs = 3;
-    struct br_numbers numbers = run(&p);
+    struct br_numbers numbers =
+        run_script("meet",
+                   "touch $0.$1\n"
+                   "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
+                   "echo err=1",
+                   3);
     for (size_t i = 0; i < 3; i++)
         assert_null(numbers.row[i].failure);
     br_numbers_clear(&numbers);
@@ -172,19 +189,13 @@ TEST(test_words)
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
     p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, dt, 1};
     struct br_numbers numbers = run(&p);
-    char text[512] = "";
-    FILE *file = fopen(path_of("words.out"), "r");
-    assert_non_null(file);
-    assert_non_null(fgets(text, sizeof text, file));
-    fclose(file);
-    assert_string_equal(text, "[a b][c  d][e \"f\" \\g][;][|][][xyz][$(touch][PWN)][`touch][PWN`]"
-                              "[; touch PWN][1000000/1.25e-07][{n} 1000000][}] C  \n");
+    assert_string_equal(text_of(path_of("words.out")),
+                        "[a b][c  d][e \"f\" \\g][;][|][][xyz][$(touch][PWN)][`touch][PWN`]"
+                        "[; touch PWN][1000000/1.25e-07][{n} 1000000][}] C  \n");
     assert_int_not_equal(access("PWN", F_OK), 0);
     assert_int_not_equal(access(path_of("PWN"), F_OK), 0);
-    file = fopen(path_of("words.where"), "r");
-    assert_non_null(fgets(text, sizeof text, file));
-    fclose(file);
-    assert_ptr_equal(strstr(text, path_of("tmp")), text);
+    assert_int_equal(
+        strncmp(text_of(path_of("words.where")), path_of("tmp"), strlen(path_of("tmp"))), 0);
     br_numbers_clear(&numbers);
 }
 
@@ -246,64 +257,68 @@ TEST(test_relative)
 
 /* ---- what is refused ---- */
 
+/* What a program is asked with; NULL, 0: as in program(). */
+static const struct {
+    const char *command, *list;
+    struct br_reading reading;
+    const char *message;
+} refused[] = {
+    {.command = "", .message = "empty"},
+    {.command = "  ", .message = "empty"},
+    {.command = "'' {n}", .message = "empty"},
+    {.command = "true", .message = "no {n}"},
+    {.command = "true {{n}", .message = "no {n}"},
+    {.command = "true {n} {k}", .message = "expected {n}"},
+    {.command = "true {n} {m}", .message = "'m}'"},
+    {.command = "true {n", .message = "expected {n}"},
+    {.command = "true '{n}", .message = "' is not closed"},
+    {.command = "true \"{n}", .message = "\" is not closed"},
+    {.command = "true {n} \\", .message = "quote \\ is not closed"},
+    {.command = "no-such-program-here {n}", .message = "'no-such-program-here' is no program"},
+    {.command = "/no/such/program {n}", .message = "'/no/such/program' is no program"},
+    {.command = "/tmp {n}", .message = "'/tmp' is no program"},
+    {.command = "/etc/passwd {n}", .message = "'/etc/passwd' is no program"},
+    {.list = "4,8,4", .message = "n: 4 is given twice"},
+    {.list = "4,0,8", .message = "expected positive numbers"},
+    {.list = "4,-8,16", .message = "expected positive numbers"},
+    {.list = "4,nan,8", .message = "expected positive numbers"},
+    {.list = "4,inf,8", .message = "expected positive numbers"},
+    {.list = "", .message = "expected positive numbers"},
+    {.list = "4,8.5,16", .message = "n: found 8.5, expected a whole number above 0"},
+    {.list = "4,8,1e300", .message = "n: found 1e+300, expected a whole number above 0"},
+    {.reading = {"", "(.)", BR_READING_REGEX}, .message = "no name"},
+    {.reading = {"q", "(", BR_READING_REGEX}, .message = "q: '(' is no extended regular"},
+    {.reading = {"q", "a", BR_READING_REGEX}, .message = "has 0 groups, expected one"},
+    {.reading = {"q", "(a)(b)", BR_READING_REGEX}, .message = "has 2 groups"},
+    {.reading = {"q", "a", BR_READING_JSON}, .message = "'a' is no JSON pointer"},
+    {.reading = {"q", "/a~2", BR_READING_JSON}, .message = "is no JSON pointer"},
+    {.reading = {"q", "/a~", BR_READING_JSON}, .message = "is no JSON pointer"},
+    {.reading = {"q", "", BR_READING_CSV}, .message = "no column"},
+};
+
 TEST(test_refused)
 {
-    static const char *const cases[][2] = {
-        {"", "empty"},
-        {"  ", "empty"},
-        {"'' {n}", "empty"},
-        {"true", "no {n}"},
-        {"true {{n}", "no {n}"},
-        {"true {n} {k}", "expected {n}"},
-        {"true {n} {m}", "'m}'"},
-        {"true {n", "expected {n}"},
-        {"true '{n}", "' is not closed"},
-        {"true \"{n}", "\" is not closed"},
-        {"true {n} \\", "quote \\ is not closed"},
-        {"no-such-program-here {n}", "'no-such-program-here' is no program"},
-        {"/no/such/program {n}", "'/no/such/program' is no program"},
-        {"/tmp {n}", "'/tmp' is no program"},
-        {"/etc/passwd {n}", "'/etc/passwd' is no program"},
-    };
     struct br_numbers numbers;
     struct br_error err;
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct br_orders_request p = program(cases[i][0]);
-        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i][1]);
-        assert_null(numbers.row);
-    }
-    write_script("nobody", "");
-    FILE *script = fopen(path_of("nobody"), "w");
-    fputs("#!/no/such/interpreter\n", script);
-    fclose(script);
-    const struct br_orders_request nobody = program(command_of("nobody", "{n}"));
-    REFUSED(br_program_run(&nobody, &numbers, &err), BR_BAD_INPUT, "(its interpreter?)");
-    write_script("noshell", "");
-    FILE *file = fopen(path_of("noshell"), "w");
-    fputs("echo err=1\n", file);
-    fclose(file);
-    const struct br_orders_request p = program(command_of("noshell", "{n}"));
-    REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, "cannot be run");
-}
-
-TEST(test_refused_lists)
-{
-    static const char *const lists[][2] = {
-        {"4,8,4", "n: 4 is given twice"},
-        {"4,0,8", "expected positive numbers"},
-        {"4,-8,16", "expected positive numbers"},
-        {"4,nan,8", "expected positive numbers"},
-        {"4,inf,8", "expected positive numbers"},
-        {"", "expected positive numbers"},
-        {"4,8.5,16", "n: found 8.5, expected a whole number above 0"},
-        {"4,8,1e300", "n: found 1e+300, expected a whole number above 0"},
-    };
-    struct br_numbers numbers;
-    struct br_error err;
-    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) {
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        const char *list = refused[i].list, *command = refused[i].command;
         struct br_orders_request r = br_orders_request_default();
-        REFUSED(br_orders_request_axis(&r, "n", lists[i][0], &err), BR_BAD_INPUT, lists[i][1]);
+        struct br_orders_request p = program(command ? command : "true {n}");
+        p.reading = refused[i].reading.name ? &refused[i].reading : p.reading;
+        REFUSED(list ? br_orders_request_axis(&r, "n", list, &err)
+                     : br_program_run(&p, &numbers, &err),
+                BR_BAD_INPUT, refused[i].message);
         br_orders_request_clear(&r);
+    }
+    static const char *const scripts[][2] = {{"#!/no/such/interpreter\n", "(its interpreter?)"},
+                                             {"echo err=1\n", "cannot be run"}};
+    for (size_t i = 0; i < 2; i++) {
+        write_script("nobody", "");
+        FILE *script = fopen(path_of("nobody"), "w");
+        fputs(scripts[i][0], script);
+        fclose(script);
+        const struct br_orders_request p = program(command_of("nobody", "{n}"));
+        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, scripts[i][1]);
     }
     struct br_orders_request r = br_orders_request_default();
     MUST(br_orders_request_reading(&r, "err", "err=(.*)", &err));
@@ -347,9 +362,7 @@ TEST(test_failures)
         char text[256];
         snprintf(text, sizeof text, "if [ $1 != 8 ]; then echo err=$1; exit; fi\n%s",
                  cases[i].script);
-        write_script("bad", text);
-        const struct br_orders_request p = program(command_of("bad", "{n}"));
-        struct br_numbers numbers = run(&p);
+        struct br_numbers numbers = run_script("bad", text, 1);
         assert_null(numbers.row[0].failure);
         assert_null(numbers.row[2].failure);
         assert_true(numbers.row[2].number[0] == 16);
@@ -363,10 +376,11 @@ TEST(test_failures)
 /* Of what is long its end is shown, in at most 300 bytes, beginning with a whole character. */
 TEST(test_long_complaint)
 {
-    write_script("long", "{ awk 'BEGIN { for (i = 0; i < 400; i++) printf \"\303\244\" }'\n"
-                         "[ $1 = 8 ] && odd=x; echo; echo \"${odd}the reason\"; } >&2; exit 1");
-    const struct br_orders_request p = program(command_of("long", "{n}"));
-    struct br_numbers numbers = run(&p);
+    struct br_numbers numbers =
+        run_script("long",
+                   "{ awk 'BEGIN { for (i = 0; i < 400; i++) printf \"\303\244\" }'\n"
+                   "[ $1 = 8 ] && odd=x; echo; echo \"${odd}the reason\"; } >&2; exit 1",
+                   1);
     for (size_t i = 0; i < 2; i++) {
         const char *tail = strstr(numbers.row[i].failure, "printed: ") + 9;
         AT_MOST((double)strlen(tail), 300);
@@ -381,21 +395,10 @@ TEST(test_long_complaint)
  * by others. */
 static bool is_alive(const char *name)
 {
-    char path[64], text[256] = "", *end;
-    int number = 0;
-    FILE *file = fopen(path_of(name), "r");
-    assert_non_null(file);
-    assert_int_equal(fscanf(file, "%d", &number), 1);
-    fclose(file);
-    snprintf(path, sizeof path, "/proc/%d/stat", number);
-    file = fopen(path, "r");
-    if (!file)
-        return false;
-    const size_t length = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[length] = '\0';
-    end = strrchr(text, ')');
-    return length && end && end[2] != 'Z' && end[2] != 'X';
+    char path[64];
+    snprintf(path, sizeof path, "/proc/%d/stat", atoi(text_of(path_of(name))));
+    const char *end = strrchr(text_of(path), ')');
+    return end && end[2] != 'Z' && end[2] != 'X';
 }
 
 /* A moment after it was killed, which it may need to die. */
@@ -438,13 +441,14 @@ TEST(test_hanging)
 
 TEST(test_cost)
 {
-    write_script("cost", "case $1 in\n"
-                         "4) sleep 0.3;;\n"
-                         "8) awk 'BEGIN { for (i = 0; i < 4000000; i++) s += i }';;\n"
-                         "16) awk 'BEGIN { s = \"x\"; while (length(s) < 1e8) s = s s }';;\n"
-                         "esac; echo err=1");
-    const struct br_orders_request p = program(command_of("cost", "{n}"));
-    struct br_numbers numbers = run(&p);
+    struct br_numbers numbers =
+        run_script("cost",
+                   "case $1 in\n"
+                   "4) sleep 0.3;;\n"
+                   "8) awk 'BEGIN { for (i = 0; i < 4000000; i++) s += i }';;\n"
+                   "16) awk 'BEGIN { s = \"x\"; while (length(s) < 1e8) s = s s }';;\n"
+                   "esac; echo err=1",
+                   1);
     AT_MOST(numbers.row[0].seconds, 0.1);
     AT_MOST(0.05, numbers.row[1].seconds);
     AT_MOST(numbers.row[1].seconds, 5);
@@ -763,30 +767,6 @@ TEST(test_readings)
             fail_msg("'%s' in '%s': %g, %s", cases[i].what, output, number, err.message);
         if (cases[i].failure)
             assert_memory_equal(err.message, "q: ", 3);
-    }
-}
-
-TEST(test_refused_readings)
-{
-    static const struct {
-        struct br_reading reading;
-        const char *message;
-    } cases[] = {
-        {{"", "(.)", BR_READING_REGEX}, "no name"},
-        {{"q", "(", BR_READING_REGEX}, "q: '(' is no extended regular expression"},
-        {{"q", "a", BR_READING_REGEX}, "has 0 groups, expected one"},
-        {{"q", "(a)(b)", BR_READING_REGEX}, "has 2 groups"},
-        {{"q", "a", BR_READING_JSON}, "'a' is no JSON pointer"},
-        {{"q", "/a~2", BR_READING_JSON}, "is no JSON pointer"},
-        {{"q", "/a~", BR_READING_JSON}, "is no JSON pointer"},
-        {{"q", "", BR_READING_CSV}, "no column"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct br_orders_request p = program("true {n}");
-        struct br_numbers numbers;
-        struct br_error err;
-        p.reading = &cases[i].reading;
-        REFUSED(br_program_run(&p, &numbers, &err), BR_BAD_INPUT, cases[i].message);
     }
 }
 
