@@ -391,6 +391,33 @@ static size_t same_bytes(const char *text, const char *stored, double tolerance)
     return (size_t)(at - text) + (*stored != '\0');
 }
 
+/* Brings the innermost brackets of JSON, as the cells of a table, to a line each, in place. */
+static void join_lines(char *text)
+{
+    char *to = text, *open = NULL;
+    for (const char *from = text; *from;) {
+        const char *first = from + strspn(from, " "), *end = from + strcspn(from, "\n");
+        const bool opens = end > first && strchr("{[", end[-1]) && strchr("\"{[", *first);
+        const bool closes = *first == '}' || *first == ']';
+        const size_t length = (size_t)(end - from) + (*end != '\0');
+        memmove(to, from, length);
+        to += length;
+        from += length;
+        if (closes && open) {
+            char *joined = open;
+            for (const char *c = open; c < to - 1; c++) {
+                *joined++ = *c == '\n' ? ' ' : *c;
+                while (*c == '\n' && c[1] == ' ')
+                    c++;
+            }
+            *joined++ = '\n';
+            to = joined;
+        }
+        open = opens ? to - 1 : closes ? NULL : open;
+    }
+    *to = '\0';
+}
+
 void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance)
 {
     static char stored[1 << 18];
@@ -400,6 +427,8 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     assert_non_null(out);
     print(out);
     assert_int_equal(fclose(out), 0);
+    join_lines(text);
+    size = strlen(text);
     snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
     if (getenv("BR_TEST_UPDATE"))
         write_file(path, "", text);
