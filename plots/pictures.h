@@ -116,7 +116,7 @@ void br_rows_add(struct br_figure *figure, const char *title,
 struct br_figure br_history_draw(const struct br_scene *scene,
                                  const struct br_history_record *record);
 
-/* ---- movie.c: beam, obstacle, and the forces at the tip, moving ---- */
+/* ---- run.c, too: beam, obstacle, and the forces at the tip, moving ---- */
 
 /* A row of the registry. */
 struct br_movie_format {
