@@ -115,8 +115,8 @@ bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, 
     if (file < 0)
         return false;
     flock(file, LOCK_EX | LOCK_NB); /* or the next program would sweep it away */
-    const bool put = fchmod(file, mode) == 0 && write_out(file, bytes, count) &&
-                     renameat(folder, hidden, folder, name) == 0;
+    (void)!fchmod(file, mode);      /* some file systems have no permissions */
+    const bool put = write_out(file, bytes, count) && renameat(folder, hidden, folder, name) == 0;
     const int reason = errno;
     if (!put)
         unlinkat(folder, hidden, 0);
