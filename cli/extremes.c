@@ -135,15 +135,13 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     }
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
-    job.session = &r->session;
-    job.report = &r->session.document[i];
-    job.verdict = &r->verdict[i];
-    const enum br_status status = part->run(&job, err);
+    const struct br_extremes_output to = {&r->session, &r->session.document[i], &r->verdict[i]};
+    const enum br_status status = part->run(&job, &to, err);
     br_progress_end();
     br_session_tell_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, part->name);
-    br_put_provenance(job.report, &provenance);
+    br_put_provenance(to.report, &provenance);
     return br_progress_result(status, err);
 }
 

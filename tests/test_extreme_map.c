@@ -64,11 +64,11 @@ static struct br_extreme_map run(size_t cases, int threads, uint64_t seed, struc
 {
     struct br_error err = {0};
     struct br_extreme_map map;
-    const struct br_extreme_request request = {
-        .seed = seed, .cases = cases, .threads = threads, .kept = kept, .judge = planted};
+    const struct br_extremes_job job = {
+        .seed = seed, .cases = cases, .threads = threads, .kept = kept};
     if (kept)
         atomic_store(&kept->taken, 0);
-    MUST(br_extreme_map_run(&request, &map, &err));
+    MUST(br_extreme_map_run(&map, &job, planted, &err));
     return map;
 }
 

@@ -11,8 +11,6 @@
 #include "made_report.h"
 #include "plots/pictures.h"
 #include "plots/render.h"
-#include "study/extremes/energy_behaviour.h"
-#include "study/extremes/floors.h"
 #include "study/extremes/map.h"
 #include "study/run/history.h"
 

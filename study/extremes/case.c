@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/case.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "study/extremes/map.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
@@ -25,11 +24,26 @@ const char *const br_extreme_specials[] = {
 
 /* ---- forces ---- */
 
+/* Of L. */
+static const char *const shapes[] = {
+    "", "*(x/%.17g)", "*sin(pi*x/%.17g)", "*sin(7*pi*x/%.17g)", "*(1 - (x/%.17g)^3)",
+};
+
+/* Of T and the rate. */
+static const char *const histories[] = {
+    "",
+    "*(t/%.17g)",
+    "*(exp(t/%.17g) - 1)",
+    "*sin(2*pi*%2$.17g*t/%1$.17g)",
+    "*((t/%1$.17g)^3 - 2*(t/%1$.17g)^2)",
+};
+enum { SHAPES = sizeof shapes / sizeof *shapes, HISTORIES = sizeof histories / sizeof *histories };
+enum { OSCILLATES = 3 };
+
 static void draw_form(struct br_random *r, struct br_extreme_force *f)
 {
-    f->shape = br_random_once_in(r, 2) ? BR_SHAPE_FLAT
-                                       : (enum br_extreme_shape)br_random_index(r, BR_SHAPES);
-    f->history = (enum br_extreme_history)br_random_index(r, BR_HISTORIES);
+    f->shape = br_random_once_in(r, 2) ? 0 : br_random_index(r, SHAPES);
+    f->history = br_random_index(r, HISTORIES);
     f->rate = round(br_random_decades(r, 0, 1.5)) + 0.25;
 }
 
@@ -269,7 +283,7 @@ static void scale_forces(struct br_extreme_case *c, double to)
 static void oscillate(struct br_random *r, struct br_extreme_case *c)
 {
     for (size_t i = 0; i < FORCES; i++) {
-        force_of(c, i)->history = BR_HISTORY_SINE;
+        force_of(c, i)->history = OSCILLATES;
         force_of(c, i)->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
     }
 }
@@ -388,24 +402,6 @@ __attribute__((format(printf, 2, 3))) static void add(struct text *t, const char
 }
 
 /* ---- the text of a case: expressions ---- */
-
-/* Of L. */
-static const char *const shapes[BR_SHAPES] = {
-    [BR_SHAPE_FLAT] = "",
-    [BR_SHAPE_LINEAR] = "*(x/%.17g)",
-    [BR_SHAPE_SINE] = "*sin(pi*x/%.17g)",
-    [BR_SHAPE_WAVES] = "*sin(7*pi*x/%.17g)",
-    [BR_SHAPE_POWER] = "*(1 - (x/%.17g)^3)",
-};
-
-/* Of T and the rate. */
-static const char *const histories[BR_HISTORIES] = {
-    [BR_HISTORY_SUDDEN] = "",
-    [BR_HISTORY_RAMP] = "*(t/%.17g)",
-    [BR_HISTORY_EXP] = "*(exp(t/%.17g) - 1)",
-    [BR_HISTORY_SINE] = "*sin(2*pi*%2$.17g*t/%1$.17g)",
-    [BR_HISTORY_POWER] = "*((t/%1$.17g)^3 - 2*(t/%1$.17g)^2)",
-};
 
 /* Of size and L, by field: plain and waved; of a beam also the slope. */
 static const char *const starts[2][2] = {

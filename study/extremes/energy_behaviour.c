@@ -1,44 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/energy_behaviour.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
+#include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 #include "study/scene/file.h"
 
 /* ---- the scenes ---- */
 
 #define PLACE(member) offsetof(struct br_scene, member)
-#define DENSITY                        \
-    {                                  \
-        PLACE(density), PLACE(density) \
-    }
-#define VISCOSITY                                        \
-    {                                                    \
-        PLACE(axial.viscosity), PLACE(bending.viscosity) \
-    }
-#define C_H                                                \
-    {                                                      \
-        PLACE(contact.stiffness), PLACE(contact.stiffness) \
-    }
-#define C_V                                                      \
-    {                                                            \
-        PLACE(friction.coefficient), PLACE(friction.coefficient) \
-    }
 
 const struct br_balance_scene br_balance_scenes[] = {
     {"example1", "example1", NULL, {0}, 0},
     {"example2", "example2", NULL, {0}, 0},
     {"example2, lagged contact", "example2", "lagged", {0}, 0},
-    {"example2, lagged contact, c_H = 1e12 N/m", "example2", "lagged", C_H, 1e12},
-    {"example2, c_H = 1e12 N/m", "example2", "implicit", C_H, 1e12},
-    {"example2, density 0", "example2", "implicit", DENSITY, 0},
-    {"example2, density 1e6 kg/m", "example2", "implicit", DENSITY, 1e6},
-    {"example2, viscosity 0", "example2", "implicit", VISCOSITY, 0},
-    {"example2, viscosity 1e6", "example2", "implicit", VISCOSITY, 1e6},
-    {"example2, c_V = 1e12 N/m", "example2", "implicit", C_V, 1e12},
+    {"example2, lagged contact, c_H = 1e12 N/m",
+     "example2",
+     "lagged",
+     {PLACE(contact.stiffness)},
+     1e12},
+    {"example2, c_H = 1e12 N/m", "example2", "implicit", {PLACE(contact.stiffness)}, 1e12},
+    {"example2, density 0", "example2", "implicit", {PLACE(density)}, 0},
+    {"example2, density 1e6 kg/m", "example2", "implicit", {PLACE(density)}, 1e6},
+    {"example2, viscosity 0",
+     "example2",
+     "implicit",
+     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     0},
+    {"example2, viscosity 1e6",
+     "example2",
+     "implicit",
+     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     1e6},
+    {"example2, c_V = 1e12 N/m", "example2", "implicit", {PLACE(friction.coefficient)}, 1e12},
     {"example4", "example4", NULL, {0}, 0},
     {"bouncing", "bouncing", "implicit", {0}, 0},
     {"bouncing, lagged contact", "bouncing", "lagged", {0}, 0},
@@ -193,14 +188,14 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int threads,
-                                       const struct br_observer *observer, struct br_error *err)
+enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b,
+                                       const struct br_extremes_job *job, struct br_error *err)
 {
     *b = (struct br_energy_behaviour){0};
     const enum br_status status = list(b, err);
     const struct br_each each = {.count = b->vibrations + b->balances,
-                                 .threads = threads,
-                                 .observer = observer,
+                                 .threads = job->threads,
+                                 .observer = job->observer,
                                  .turn = take_turn,
                                  .self = b};
     return status ? status : br_each(&each, err);

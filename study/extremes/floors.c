@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/floors.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -9,6 +7,7 @@
 #include <string.h>
 
 #include "reference/discrete.h"
+#include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 #include "study/scene/file.h"
 
@@ -52,7 +51,7 @@ static void add_schemes(struct br_floors *f)
     f->solvers = COUNT(solvers);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         for (size_t c = 0; br_contact_rules[c]; c++)
-            for (size_t i = 0; i < f->solvers; i++)
+            for (size_t i = 0; i < COUNT(solvers); i++)
                 if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
                     add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
@@ -116,10 +115,10 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
     }
 }
 
-static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *plan,
+static enum br_status prepare(struct br_floors *f, const struct br_extremes_job *job,
                               struct br_error *err)
 {
-    const size_t *n = f->gathered ? gathered_n : plan->n ? plan->n : usual_n;
+    const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
     const size_t *usual = f->gathered ? gathered_steps : usual_steps;
     enum br_status status = read_scenes(f, err);
     if (status)
@@ -129,19 +128,19 @@ static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *
     else
         add_solvers(f);
     for (size_t i = 0; i < f->methods; i++)
-        f->method[i].method.rounding = plan->rounding;
-    f->n_count = f->gathered ? COUNT(gathered_n) : plan->n ? plan->n_count : COUNT(usual_n);
-    f->k_count = plan->k ? plan->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
+        f->method[i].method.rounding = job->rounding;
+    f->n_count = f->gathered ? COUNT(gathered_n) : job->n ? job->n_count : COUNT(usual_n);
+    f->k_count = job->k ? job->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
     f->floors = f->scenes * f->methods * f->n_count * f->k_count;
     f->floor = br_allocate(f->floors, sizeof *f->floor);
     if (!f->floor)
         return br_no_memory(err, "the floors");
     for (size_t i = 0; i < f->n_count * f->k_count && !status; i++) {
         const size_t j = i % f->k_count;
-        size_t steps = usual[plan->k ? 0 : j];
-        if (plan->k)
-            status = br_steps_of(&f->scene[0], plan->k[j], &steps, err);
-        list_marches(f, i, n[i / f->k_count], steps, plan->k != NULL);
+        size_t steps = usual[job->k ? 0 : j];
+        if (job->k)
+            status = br_steps_of(&f->scene[0], job->k[j], &steps, err);
+        list_marches(f, i, n[i / f->k_count], steps, job->k != NULL);
     }
     return status;
 }
@@ -167,8 +166,7 @@ struct work {
 /* Looked at so often that steps of any mesh take no long time. */
 static bool stopped(const struct work *w, size_t step)
 {
-    const struct br_observer *o = w->observer;
-    return step % (40960 / w->first->n + 1) == 0 && o && o->stop && o->stop(o->self);
+    return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
 
 static enum br_status find_exact(struct work *w, struct br_error *err)
@@ -277,11 +275,11 @@ static int most_work_first(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static enum br_status march_all(struct br_floors *f, int threads,
-                                const struct br_observer *observer, struct br_error *err)
+static enum br_status march_all(struct br_floors *f, const struct br_extremes_job *job,
+                                struct br_error *err)
 {
-    struct loop loop = {f, observer, br_allocate(f->floors, sizeof *loop.first)};
-    struct br_each each = {0, threads, observer, take_turn, work_of_turn, &loop};
+    struct loop loop = {f, job->observer, br_allocate(f->floors, sizeof *loop.first)};
+    struct br_each each = {0, job->threads, job->observer, take_turn, work_of_turn, &loop};
     if (!loop.first)
         return br_no_memory(err, "the floors");
     for (size_t i = 0; i < f->floors; i++)
@@ -293,16 +291,16 @@ static enum br_status march_all(struct br_floors *f, int threads,
     return status;
 }
 
-enum br_status br_floors_run(struct br_floors *f, const struct br_floors_plan *plan,
-                             const struct br_observer *observer, struct br_error *err)
+enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br_extremes_job *job,
+                             struct br_error *err)
 {
-    *f = (struct br_floors){.gathered = plan->gathered};
-    const enum br_status status = prepare(f, plan, err);
+    *f = (struct br_floors){.gathered = gathered};
+    const enum br_status status = prepare(f, job, err);
     if (!status && !br_discrete_judges())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");
-    return status ? status : march_all(f, plan->threads, observer, err);
+    return status ? status : march_all(f, job, err);
 }
 
 /* ---- looking ---- */

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/judge.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "study/extremes/map.h"
 #include "study/extremes/track.h"
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"

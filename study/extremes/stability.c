@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The planes of the lagged contact, and the verdict. */
-#include "study/extremes/stability.h"
+#include "study/extremes/extremes.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sort.h>
@@ -37,6 +37,17 @@ struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n,
         .viscosity = rod->viscosity,
         .k = k,
         .degree = rod->degree,
+    };
+}
+
+struct br_scene br_stability_scene(const struct br_field *field, double duration)
+{
+    return (struct br_scene){
+        .length = (double)field->n * field->h,
+        .duration = duration,
+        .density = field->density,
+        .axial = {.modelled = true, .stiffness = field->stiffness, .viscosity = field->viscosity},
+        .contact = {.modelled = true},
     };
 }
 
@@ -87,13 +98,12 @@ static enum br_status measure_row(void *self, size_t i, struct br_error *err)
 
 /* ---- all rows ---- */
 
-static enum br_status measure_planes(struct br_stability *s,
-                                     const struct br_stability_request *request,
+static enum br_status measure_planes(struct br_stability *s, const struct br_extremes_job *job,
                                      struct br_error *err)
 {
     const struct br_each each = {.count = BR_STABILITY_RODS * s->rows,
-                                 .threads = request->threads,
-                                 .observer = request->observer,
+                                 .threads = job->threads,
+                                 .observer = job->observer,
                                  .turn = measure_row,
                                  .self = s};
     gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
@@ -104,24 +114,26 @@ static enum br_status measure_planes(struct br_stability *s,
 
 /* ---- what is tried ---- */
 
-static enum br_status check_request(const struct br_stability_request *q, struct br_error *err)
+static enum br_status check_job(const struct br_extremes_job *job, struct br_error *err)
 {
-    if (q->n > BR_STABILITY_MOST_ELEMENTS)
+    if (job->n_count > 1)
+        return br_fail(err, BR_BAD_INPUT, "--n: found %zu numbers, expected one", job->n_count);
+    if (job->n_count && job->n[0] > BR_STABILITY_MOST_ELEMENTS)
         return br_fail(
             err, BR_BAD_INPUT,
-            "n is %zu, expected at most %d elements: all eigenvalues of a step are taken", q->n,
-            BR_STABILITY_MOST_ELEMENTS);
-    for (size_t i = 0; i < q->k_count; i++)
-        if (!(q->k[i] >= 1e-9 && q->k[i] <= 1e3))
-            return br_fail(err, BR_BAD_INPUT, "k is %g s, expected 1e-9 s to 1000 s", q->k[i]);
+            "n is %zu, expected at most %d elements: all eigenvalues of a step are taken",
+            job->n[0], BR_STABILITY_MOST_ELEMENTS);
+    for (size_t i = 0; i < job->k_count; i++)
+        if (!(job->k[i] >= 1e-9 && job->k[i] <= 1e3))
+            return br_fail(err, BR_BAD_INPUT, "k is %g s, expected 1e-9 s to 1000 s", job->k[i]);
     return BR_OK;
 }
 
-static enum br_status prepare(struct br_stability *s, const struct br_stability_request *q,
+static enum br_status prepare(struct br_stability *s, const struct br_extremes_job *job,
                               struct br_error *err)
 {
-    s->n = q->n ? q->n : 8;
-    s->rows = q->k_count ? q->k_count : DECADES_OF_STEPS * A_DECADE + 1;
+    s->n = job->n_count ? job->n[0] : 8;
+    s->rows = job->k_count ? job->k_count : DECADES_OF_STEPS * A_DECADE + 1;
     s->row = br_allocate(BR_STABILITY_RODS * s->rows, sizeof *s->row);
     if (!s->row)
         return br_no_memory(err, "the planes of stability");
@@ -130,7 +142,7 @@ static enum br_status prepare(struct br_stability *s, const struct br_stability_
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
         const size_t j = i % s->rows;
         s->row[i].rod = &br_stability_rods[i / s->rows];
-        s->row[i].k = q->k_count ? q->k[j] : pow(10, -6 + (double)j / A_DECADE);
+        s->row[i].k = job->k_count ? job->k[j] : pow(10, -6 + (double)j / A_DECADE);
     }
     for (size_t i = 0; i < BR_STABILITY_RODS; i++)
         gsl_sort(&s->row[i * s->rows].k, sizeof *s->row / sizeof s->row->k, s->rows);
@@ -163,13 +175,13 @@ static void sum_up(struct br_stability *s, const struct br_stability_row *r)
     }
 }
 
-enum br_status br_stability_run(const struct br_stability_request *request, struct br_stability *s,
+enum br_status br_stability_run(struct br_stability *s, const struct br_extremes_job *job,
                                 struct br_error *err)
 {
     *s = (struct br_stability){0};
-    const bool failed = check_request(request, err) || prepare(s, request, err) ||
-                        measure_planes(s, request, err) || br_stability_schemes(s, err) ||
-                        br_stability_tips(s, err) || br_stability_bounces(s, err);
+    const bool failed = check_job(job, err) || prepare(s, job, err) ||
+                        measure_planes(s, job, err) || br_stability_schemes(s, err) ||
+                        br_stability_tips(s, err);
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows && !failed; i++)
         sum_up(s, &s->row[i]);
     return failed ? err->status : BR_OK;
@@ -227,20 +239,20 @@ static enum br_status check_scheme(const struct br_stability_scheme *c, struct b
 static enum br_status check_tip(const struct br_stability_tip *t, struct br_error *err)
 {
     if (!isfinite(t->farthest) || !isfinite(t->swing))
-        return br_fail(err, BR_VERDICT, "at %g of the limit a pressed tip is nowhere", t->share);
-    if (t->share < 1 && !(t->swing <= 1e-11 && t->opened == 0))
+        return br_fail(err, BR_VERDICT, "at %g of the limit a pressed tip is nowhere", t->limit);
+    if (t->limit < 1 && !(t->swing <= 1e-11 && t->opened == 0))
         return br_fail(err, BR_VERDICT,
                        "at %g of the limit a pressed tip does not rest: it swings by %.3g of the "
                        "free displacement and opened %zu times",
-                       t->share, t->swing, t->opened);
-    if (t->share > 1 && !(t->opened > 0))
+                       t->limit, t->swing, t->opened);
+    if (t->limit > 1 && !(t->opened > 0))
         return br_fail(err, BR_VERDICT, "at %g of the limit a pressed tip does not chatter",
-                       t->share);
+                       t->limit);
     return BR_OK;
 }
 
 /* Where no energy can be gained. */
-static enum br_status check_bounce(const struct br_stability_bounce *b, struct br_error *err)
+static enum br_status check_bounce(const struct br_stability_tip *b, struct br_error *err)
 {
     if (b->bouncing <= 1 && !(b->energy <= 1 + 1e-12))
         return br_fail(err, BR_VERDICT,

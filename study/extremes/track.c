@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "study/extremes/extremes.h"
+
 /* Even ones of `count`, `parts` of which make up an element, then ever nearer to the tip, which is
  * the last. The even ones are in all parts of the elements: nodes alone may be far better, or
  * worse, than what is between them. */
@@ -48,19 +50,6 @@ static void keep_slope(struct br_track *t, size_t point, double slope)
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
-/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
- * w_x (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
-static double interpolate(const double *at, size_t unknowns, enum br_field_kind kind, double xi,
-                          double *slope)
-{
-    const double *end = at + unknowns, r = 1 - xi;
-    if (kind == BR_AXIAL)
-        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
-    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
-    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
-           xi * xi * r * end[1];
-}
-
 static void look_at(struct looker *l, const struct br_march *march, enum br_field_kind kind)
 {
     struct br_track *t = l->track;
@@ -80,7 +69,7 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
         const double xi = (double)(part - element * parts) / (double)parts;
         double slope;
         t->value[kind][t->seen][p] =
-            interpolate(l->nodal + element * unknowns, unknowns, kind, xi, &slope);
+            br_nodal_value(kind, unknowns, l->nodal + element * unknowns, xi, &slope);
         if (kind == BR_BENDING)
             keep_slope(t, p, slope * (double)f->n / 4);
     }
