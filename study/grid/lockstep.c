@@ -16,11 +16,6 @@
 
 /* ---- measuring ---- */
 
-/* A place for the reference at one time level. */
-struct slot {
-    size_t buffer, index;
-};
-
 /* The channel, or NULL where it is not in use at that level. */
 static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind kind, int measure,
                                      bool last)
@@ -29,21 +24,10 @@ static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind k
     return c->used && (last || !c->last_only) ? c : NULL;
 }
 
-static double reference_time(const struct br_lockstep *l, size_t level)
+/* The projection at the level of that index. */
+static double *projection_at(const struct br_lockstep *l, const struct br_channel *c, size_t index)
 {
-    return l->study->scene->duration * (double)level / (double)l->study->reference.steps;
-}
-
-static void add_to_all(const struct br_lockstep *l, const struct br_sample *sample,
-                       struct br_norm_sum *sum)
-{
-    for (const struct br_study *s = l->study; s; s = s->next_norm)
-        br_norm_add(s->norm, s->scene, sample, sum++);
-}
-
-static double *slot_of(const struct br_channel *c, struct slot slot)
-{
-    return c->projection[slot.buffer] + slot.index * c->size;
+    return c->projection + index % l->slots * c->size;
 }
 
 /* Looks at the reference and projects it; returns its size. */
@@ -60,26 +44,14 @@ static double project(struct br_lockstep *l, struct br_channel *c, struct br_sam
     return br_ladder_norm(c->ladder, projection);
 }
 
-/* Looks at one field of the reference, which is at a level, and projects it into a slot. */
-static void project_field(struct br_lockstep *l, enum br_field_kind kind, struct slot slot,
-                          size_t level)
-{
-    double *size = l->scale[slot.buffer][slot.index].size[kind];
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
-        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
-        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-        size[measure] = c ? project(l, c, at, slot_of(c, slot)) : 0;
-    }
-}
-
 /* The distance of the reference, as last looked at, from the auditor. */
-static double audit(struct br_lockstep *l, struct br_channel *c, const struct br_sample_at *at)
+static double audit(struct br_lockstep *l, struct br_channel *c, struct br_sample_at at)
 {
-    l->auditor.judge->sample(l->auditor.self, at, &c->audit);
-    if (!c->audit_ladder)
+    l->auditor.judge->sample(l->auditor.self, &at, &c->audit);
+    if (!c->own_ladder)
         return fabs(c->audit.values[0] - c->root[0].values[0]);
-    br_ladder_project(c->audit_ladder, c->root, c->audit_projection);
-    return br_ladder_distance(c->audit_ladder, 0, &c->audit, c->audit_projection);
+    br_ladder_project(c->own_ladder, c->root, c->own_projection);
+    return br_ladder_distance(c->own_ladder, 0, &c->audit, c->own_projection);
 }
 
 /* Whether the reference is audited at the level of that index. */
@@ -88,39 +60,40 @@ static bool is_audited(const struct br_lockstep *l, size_t index)
     return l->auditor.judge && (index % l->audit_every == 0 || index + 1 == l->level_count);
 }
 
-/* Measures that field, as last looked at, against the auditor, into a slot. */
-static enum br_status audit_field(struct br_lockstep *l, enum br_field_kind kind, struct slot slot,
-                                  size_t level, struct br_error *err)
+/* One field of the reference, or then of the auditor, goes on to a level and is measured. */
+static enum br_status judge_level(struct br_lockstep *l, const struct br_bench *bench,
+                                  enum br_field_kind kind, size_t index, struct br_error *err)
 {
-    const enum br_status status = l->auditor.judge->advance(l->auditor.self, kind, level, err);
-    double *size = l->audit[slot.buffer][slot.index].size[kind];
+    const size_t level = l->level[index];
+    const enum br_status status = bench->judge->advance(bench->self, kind, level, err);
+    double *size = bench->sample[index % l->slots].size[kind];
     for (int measure = 0; measure < BR_MEASURES && !status; measure++) {
         const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
         struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-        size[measure] = c ? audit(l, c, &at) : 0;
+        size[measure] = !c                     ? 0
+                        : bench == &l->auditor ? audit(l, c, at)
+                                               : project(l, c, at, projection_at(l, c, index));
     }
     return status;
 }
 
-/* A sample's share of an integral over time goes back to the one before it. */
-static void add_sample(const struct br_lockstep *l, struct br_sample *sample, double *last,
+static void add_to_all(const struct br_lockstep *l, const struct br_sample *sample,
                        struct br_norm_sum *sum)
 {
-    sample->weight = sample->time - *last;
-    *last = sample->time;
-    add_to_all(l, sample, sum);
+    for (const struct br_study *s = l->study; s; s = s->next_norm)
+        br_norm_add(s->norm, s->scene, sample, sum++);
 }
 
-/* Adds up what has been measured of the reference in a slot, level after level. */
-static void add_up(struct br_lockstep *l, struct slot slot, size_t index)
+/* Adds up what has been measured at a level, after those before it. A sample's share of an integral
+ * over time goes back to the one before it. */
+static void add_up(const struct br_lockstep *l, struct br_bench *bench, size_t index)
 {
-    const double t = reference_time(l, l->level[index]);
-    struct br_sample *scale = &l->scale[slot.buffer][slot.index];
-    struct br_sample *audited = &l->audit[slot.buffer][slot.index];
-    scale->time = audited->time = t;
-    add_sample(l, scale, &l->scale_time, l->scale_sum);
-    if (is_audited(l, index))
-        add_sample(l, audited, &l->audit_time, l->audit_sum);
+    struct br_sample *sample = &bench->sample[index % l->slots];
+    sample->time =
+        l->study->scene->duration * (double)l->level[index] / (double)l->study->reference.steps;
+    sample->weight = sample->time - bench->time;
+    bench->time = sample->time;
+    add_to_all(l, sample, bench->sum);
 }
 
 /* The distance of a cell, as it stands, from the reference in one measure. */
@@ -133,8 +106,8 @@ static double distance(struct br_lockstep *l, size_t index, const struct br_chan
     return br_ladder_distance(c->ladder, br_study_row(l->study, index), &r->view, reference);
 }
 
-/* Measures a cell as it stands against a slot. */
-static void measure_cell(struct br_lockstep *l, size_t index, struct slot slot)
+/* Measures a cell as it stands against the level of that index. */
+static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
 {
     struct br_runner *r = &l->cell[index];
     struct br_cell *cell = &l->study->cell[index];
@@ -150,7 +123,7 @@ static void measure_cell(struct br_lockstep *l, size_t index, struct slot slot)
             if (!c)
                 continue;
             br_look(r->march, (enum br_field_kind)kind, (enum br_measure)measure, &r->view);
-            const double size = distance(l, index, c, slot_of(c, slot));
+            const double size = distance(l, index, c, projection_at(l, c, level));
             if (!isfinite(size))
                 br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
             sample.size[kind][measure] = size;
@@ -198,15 +171,15 @@ static void conclude_norms(struct br_lockstep *l)
     for (struct br_study *s = l->study; s; s = s->next_norm, m++) {
         s->auditor = l->study->auditor;
         s->judged_by = l->reference.judge->report(l->reference.self);
-        s->reference_scale = br_norm_value(s->norm, &l->scale_sum[m], BR_PART_TOTAL);
+        s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
-            s->reference_size[kind] = br_norm_value(s->norm, &l->scale_sum[m], part);
+            s->reference_size[kind] = br_norm_value(s->norm, &l->reference.sum[m], part);
             s->reference_tip[kind] = l->study->reference_tip[kind];
         }
         for (int part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
-                s->auditor ? br_norm_value(s->norm, &l->audit_sum[m], (enum br_part)part) : NAN;
+                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], (enum br_part)part) : NAN;
         for (size_t i = 0; i < br_study_cells(s); i++)
             conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
     }
@@ -222,32 +195,15 @@ static size_t batch_end(const struct br_lockstep *l, size_t b)
 
 static bool should_stop(struct br_lockstep *l)
 {
-    if (l->observer && l->observer->stop && l->observer->stop(l->observer->self))
+    if (br_observer_stops(l->observer))
         atomic_store(&l->stopped, true);
     return atomic_load(&l->stopped);
-}
-
-static struct slot slot_at(const struct br_lockstep *l, size_t index)
-{
-    return (struct slot){index / l->batch % BR_LOCKSTEP_BUFFERS, index % l->batch};
 }
 
 /* Whether the reference, in one field or the other, has failed before that level. */
 static bool failed_before(const struct br_lockstep *l, size_t index)
 {
     return atomic_load(&l->first_failed) <= index;
-}
-
-static enum br_status reference_level(struct br_lockstep *l, enum br_field_kind kind, size_t index,
-                                      struct br_error *err)
-{
-    const size_t level = l->level[index];
-    const struct slot slot = slot_at(l, index);
-    const enum br_status status = l->reference.judge->advance(l->reference.self, kind, level, err);
-    if (status)
-        return status;
-    project_field(l, kind, slot, level);
-    return is_audited(l, index) ? audit_field(l, kind, slot, level, err) : BR_OK;
 }
 
 static bool models(const struct br_lockstep *l, enum br_field_kind kind)
@@ -264,7 +220,8 @@ static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size
     for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
         if (should_stop(l) || lane->error.status || failed_before(l, i))
             return;
-        if (!reference_level(l, kind, i, &lane->error))
+        if (!judge_level(l, &l->reference, kind, i, &lane->error) &&
+            !(is_audited(l, i) && judge_level(l, &l->auditor, kind, i, &lane->error)))
             continue;
         lane->failed = i;
         size_t first = atomic_load(&l->first_failed);
@@ -275,8 +232,11 @@ static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size
 
 static void add_up_batch(struct br_lockstep *l, size_t b)
 {
-    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++)
-        add_up(l, slot_at(l, i), i);
+    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++) {
+        add_up(l, &l->reference, i);
+        if (is_audited(l, i))
+            add_up(l, &l->auditor, i);
+    }
 }
 
 /* Steps on to the cell's time level `step`, and counts the seconds. */
@@ -299,7 +259,7 @@ static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
     if (advance(r, l->level[index] / ratio))
         br_cell_failed(l->study, cell, &r->error);
     else
-        measure_cell(l, cell, slot_at(l, index));
+        measure_cell(l, cell, index);
 }
 
 /* Level by level: the cells of a crew read the same projection while it is near. */

@@ -13,20 +13,23 @@ enum { BR_LOCKSTEP_BUFFERS = 4, BR_CHANNELS = 2 * BR_MEASURES };
 
 /* One measure of one field of the reference and the cells. */
 struct br_channel {
-    bool used, last_only;                    /* only at t = T */
-    size_t size;                             /* of a projection */
-    struct br_ladder *ladder;                /* NULL: one number, the tip's */
-    struct br_view *root;                    /* the reference on its meshes */
-    double *projection[BR_LOCKSTEP_BUFFERS]; /* batch * size */
-    struct br_view audit;                    /* the auditor on the first of them */
-    struct br_ladder *audit_ladder;          /* that mesh alone; NULL: the tip's */
-    double *audit_projection;                /* the reference there */
+    bool used, last_only;         /* only at t = T */
+    size_t size;                  /* of a projection */
+    struct br_ladder *ladder;     /* NULL: one number, the tip's */
+    struct br_view *root;         /* the reference on its meshes */
+    double *projection;           /* slots * size */
+    struct br_view audit;         /* the auditor on the first of them */
+    struct br_ladder *own_ladder; /* that mesh alone; NULL: the tip's */
+    double *own_projection;       /* the reference there */
 };
 
 /* A judge at work. */
 struct br_bench {
     const struct br_judge *judge;
     void *self;
+    struct br_sample *sample; /* slots: sizes of the reference, or its distances from the auditor */
+    struct br_norm_sum *sum;  /* norms, of the same */
+    double time;              /* of the last sample, s */
 };
 
 /* A cell's march, with room to look at it. */
@@ -56,14 +59,10 @@ struct br_lockstep {
     size_t audit_every;     /* of the levels, so that there are not too many audits */
     struct br_runner *cell; /* br_study_cells */
     size_t *crew, crews; /* the first cells of crews, whose cells march in one task; and the end */
-    struct br_sample *scale[BR_LOCKSTEP_BUFFERS]; /* batch each: sizes of the reference */
-    struct br_sample *audit[BR_LOCKSTEP_BUFFERS]; /* and of its distance from the auditor */
-    struct br_norm_sum *cell_sum;                 /* norms for each cell */
-    struct br_norm_sum *scale_sum;                /* norms: of the reference itself */
-    struct br_norm_sum *audit_sum;                /* norms: of its distance from the auditor */
-    double scale_time, audit_time;                /* of the last samples, s */
-    size_t *level; /* reference steps at which some cell has a time level */
+    struct br_norm_sum *cell_sum; /* norms for each cell */
+    size_t *level;                /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
+    size_t slots; /* levels that there is room for at once: of so many batches as buffers */
     const struct br_observer *observer;
     struct br_store store; /* of all arrays, and of the ladders */
     atomic_bool stopped;

@@ -9,16 +9,27 @@ static const size_t most_levels = 32;        /* in a batch */
 static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
 static const size_t most_audits = 1000;      /* of the reference, about */
 
-/* Every reference step that is a time level of some cell, 0 included. */
-static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
+static enum br_status take_arrays(struct br_lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
-    size_t most = 1;
+    const size_t cells = br_study_cells(s);
+    size_t levels = 1;
     for (size_t j = 0; j < s->k_count; j++)
-        most += s->steps[j];
-    l->level = br_store_take(&l->store, most, sizeof *l->level);
-    if (!l->level)
-        return br_no_memory(err, "the time levels");
+        levels += s->steps[j];
+    l->level = br_store_take(&l->store, levels, sizeof *l->level);
+    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
+    l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
+    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
+    l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
+    l->reference.sum = br_store_take(&l->store, l->norms, sizeof *l->reference.sum);
+    l->auditor.sum = br_store_take(&l->store, l->norms, sizeof *l->auditor.sum);
+    return l->store.failed ? br_no_memory(err, "the cells") : BR_OK;
+}
+
+/* Every reference step that is a time level of some cell, 0 included. */
+static void list_levels(struct br_lockstep *l)
+{
+    const struct br_study *s = l->study;
     l->level_count = 1; /* t = 0 */
     for (size_t last = 0; last < s->reference.steps;) {
         size_t next = s->reference.steps;
@@ -29,29 +40,22 @@ static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
         }
         l->level[l->level_count++] = last = next;
     }
-    return BR_OK;
 }
 
 /* The meshes that the reference is looked at on: its own where it has one; else
  * those of the cells that are no divisor of another's. */
-static enum br_status list_roots(struct br_lockstep *l, struct br_error *err)
+static void list_roots(struct br_lockstep *l)
 {
     const struct br_study *s = l->study;
-    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
-    if (!l->root)
-        return br_no_memory(err, "the meshes");
-    if (s->judge->nests) {
+    if (s->judge->nests)
         l->root[l->roots++] = s->reference.n;
-        return BR_OK;
-    }
-    for (size_t i = 0; i < s->n_count; i++) {
+    for (size_t i = 0; i < s->n_count && !s->judge->nests; i++) {
         bool divides = false;
         for (size_t j = 0; j < s->n_count; j++)
             divides |= s->n[j] % s->n[i] == 0 && (s->n[j] > s->n[i] || j < i);
         if (!divides)
             l->root[l->roots++] = s->n[i];
     }
-    return BR_OK;
 }
 
 /* Which measures the norms need. The tip's is also kept at the end, whatever they need. */
@@ -103,10 +107,9 @@ static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
     c->audit.values = new_values(l, at, l->root[0]);
     if (at->measure == BR_TIP)
         return BR_OK;
-    status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
+    status = create_ladder(l, at, &root, &root, &c->own_ladder, err);
     if (!status)
-        c->audit_projection =
-            br_store_take(&l->store, br_ladder_size(c->audit_ladder), sizeof(double));
+        c->own_projection = br_store_take(&l->store, br_ladder_size(c->own_ladder), sizeof(double));
     return status;
 }
 
@@ -146,29 +149,22 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
-    for (size_t b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
-        for (size_t i = 0; i < BR_CHANNELS; i++) {
-            struct br_channel *c = &l->channel[i];
-            if (c->used)
-                c->projection[b] = br_store_take(&l->store, l->batch * c->size, sizeof(double));
-        }
-        l->scale[b] = br_store_take(&l->store, l->batch, sizeof *l->scale[b]);
-        l->audit[b] = br_store_take(&l->store, l->batch, sizeof *l->audit[b]);
-    }
-    const size_t cells = br_study_cells(l->study);
-    l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
-    l->scale_sum = br_store_take(&l->store, l->norms, sizeof *l->scale_sum);
-    l->audit_sum = br_store_take(&l->store, l->norms, sizeof *l->audit_sum);
+    l->slots = BR_LOCKSTEP_BUFFERS * l->batch;
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        if (l->channel[i].used)
+            l->channel[i].projection =
+                br_store_take(&l->store, l->slots * l->channel[i].size, sizeof(double));
+    l->reference.sample = br_store_take(&l->store, l->slots, sizeof *l->reference.sample);
+    l->auditor.sample = br_store_take(&l->store, l->slots, sizeof *l->auditor.sample);
     return l->store.failed ? br_no_memory(err, "the reference's projections") : BR_OK;
 }
 
 /* Steps of the reference in the longest run of as many batches as there are buffers. */
 static size_t longest_lead(const struct br_lockstep *l)
 {
-    const size_t run = BR_LOCKSTEP_BUFFERS * l->batch;
     size_t most = 1;
     for (size_t i = 0; i < l->level_count; i += l->batch) {
-        const size_t last = i + run < l->level_count ? i + run : l->level_count - 1;
+        const size_t end = i + l->slots, last = end < l->level_count ? end : l->level_count - 1;
         const size_t steps = l->level[last] - l->level[i];
         most = steps > most ? steps : most;
     }
@@ -179,7 +175,7 @@ static size_t longest_lead(const struct br_lockstep *l)
 static void dismiss_auditor(struct br_lockstep *l)
 {
     l->auditor.judge->free(l->auditor.self);
-    l->auditor = (struct br_bench){0};
+    l->auditor.judge = NULL;
     l->study->auditor = NULL;
 }
 
@@ -242,11 +238,7 @@ static void start(struct br_lockstep *l, size_t cell)
 
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
 {
-    const size_t cells = br_study_cells(l->study);
-    l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
-    if (!l->cell)
-        return br_no_memory(err, "the cells");
-    for (size_t i = 0; i < cells; i++) {
+    for (size_t i = 0; i < br_study_cells(l->study); i++) {
         start(l, i);
         const enum br_status failure = l->cell[i].error.status;
         if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
@@ -266,12 +258,9 @@ static double work_of(const struct br_lockstep *l, size_t cell)
 
 /* Cells go into crews whose tasks are long enough to be worth their while, whatever the number of
  * threads. */
-static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
+static void choose_crews(struct br_lockstep *l)
 {
     const size_t cells = br_study_cells(l->study);
-    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
-    if (!l->crew)
-        return br_no_memory(err, "the cells");
     double work = 0;
     for (size_t i = 0; i < cells; i++) {
         work += work_of(l, i);
@@ -280,7 +269,6 @@ static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
         l->crew[++l->crews] = i + 1;
         work = 0;
     }
-    return BR_OK;
 }
 
 enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
@@ -292,13 +280,15 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
-    enum br_status (*const create[])(struct br_lockstep *, struct br_error *) = {
-        list_levels,   list_roots,   create_channels, create_buffers,
-        create_judges, create_cells, create_crews};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof create / sizeof *create && !status; i++)
-        status = create[i](l, err);
-    return status;
+    if (take_arrays(l, err))
+        return err->status;
+    list_levels(l);
+    list_roots(l);
+    if (create_channels(l, err) || create_buffers(l, err) || create_judges(l, err) ||
+        create_cells(l, err))
+        return err->status;
+    choose_crews(l);
+    return BR_OK;
 }
 
 void br_lockstep_clear(struct br_lockstep *l)
