@@ -6,16 +6,7 @@
 #include "study/grid/sweep.h"
 #include "study/ranks/batches.h"
 
-/* The batches of study s's cells. */
-static const size_t *batches_of(const struct br_study *studies, const struct br_batches *b,
-                                size_t s)
-{
-    const size_t *of = b->of;
-    for (size_t i = 0; i < s; i++)
-        of += br_study_cells(&studies[i]);
-    return of;
-}
-
+/* of: the batch of each of the study's cells. */
 static bool takes_part(const struct br_study *s, const size_t *of, size_t batch)
 {
     bool takes = false;
@@ -100,22 +91,21 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
     struct transfer t = {.file = results};
     struct br_study *copy = br_allocate(count, sizeof *copy);
     size_t copies = 0, written = 0;
+    const size_t *of = b->of;
     if (!copy)
         return br_no_memory(err, "a batch of studies");
-    for (size_t s = 0; s < count; s++) {
-        const size_t *of = batches_of(studies, b, s);
-        if (!takes_part(&studies[s], of, batch))
-            continue;
-        set_cells(&studies[s], of, batch);
-        copy[copies++] = studies[s];
-    }
+    for (size_t s = 0; s < count; of += br_study_cells(&studies[s++]))
+        if (takes_part(&studies[s], of, batch)) {
+            set_cells(&studies[s], of, batch);
+            copy[copies++] = studies[s];
+        }
     enum br_status status = br_lockstep(copy, copies, threads, observer, err);
     pass(&t, &batch, sizeof batch);
-    for (size_t s = 0; s < count; s++) {
-        const size_t *of = batches_of(studies, b, s);
-        if (!takes_part(&studies[s], of, batch))
-            continue;
-        for (struct br_study *norm = &copy[written++]; norm; norm = norm->next_norm) {
+    of = b->of;
+    for (size_t s = 0; s < count; of += br_study_cells(&studies[s++])) {
+        const bool takes = takes_part(&studies[s], of, batch);
+        for (struct br_study *norm = takes ? &copy[written++] : NULL; norm;
+             norm = norm->next_norm) {
             pass_study(&t, norm, of, batch);
             free(norm->events);
             norm->events = NULL;
@@ -129,13 +119,12 @@ static void read_batch(struct transfer *t, struct br_study *studies, size_t coun
                        const struct br_batches *b)
 {
     size_t batch = SIZE_MAX;
+    const size_t *of = b->of;
     pass(t, &batch, sizeof batch);
-    for (size_t s = 0; s < count; s++) {
-        const size_t *of = batches_of(studies, b, s);
+    for (size_t s = 0; s < count; of += br_study_cells(&studies[s++]))
         for (struct br_study *norm = &studies[s]; norm; norm = norm->next_norm)
             if (takes_part(&studies[s], of, batch))
                 pass_study(t, norm, of, batch);
-    }
 }
 
 enum br_status br_batches_read(struct br_study *studies, size_t count, const struct br_batches *b,

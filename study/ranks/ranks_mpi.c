@@ -49,8 +49,9 @@ static struct {
     bool joined; /* all below is there */
     MPI_Comm comm;
     MPI_Win board;
-    struct word *word;  /* of each rank, at the last meeting */
-    int *bytes, *place; /* of each rank's results */
+    struct br_store store; /* of the arrays below */
+    struct word *word;     /* of each rank, at the last meeting */
+    int *bytes, *place;    /* of each rank's results */
 
     int64_t *seen;           /* the board as it was read last */
     int64_t mine[NUMBERS];   /* this rank's numbers as they are written */
@@ -165,8 +166,7 @@ static enum br_status watch(struct br_error *err)
         job.beat = now;
         exchange();
     }
-    const struct br_observer *o = job.observer;
-    job.interrupted |= o && o->stop && o->stop(o->self);
+    job.interrupted |= br_observer_stops(job.observer);
     if ((job.interrupted || job.fails) && !job.marked)
         mark_failed();
     for (int r = 0; r < listens_to() && !job.waits && !status; r++) {
@@ -322,33 +322,26 @@ static void *march(void *self)
     return NULL;
 }
 
-/* Signals wake the main thread. */
-static enum br_status start_march(struct call *c, pthread_t *thread, struct br_error *err)
-{
-    sigset_t all, old;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &old);
-    const int failure = pthread_create(thread, NULL, march, c);
-    pthread_sigmask(SIG_SETMASK, &old, NULL);
-    return failure ? br_no_memory(err, "the thread that marches") : BR_OK;
-}
-
-/* Marches a batch while the main thread watches. That others have failed is not this rank's
- * failure. */
+/* Marches a batch while the main thread watches, which signals wake. That others have failed is not
+ * this rank's failure. */
 static enum br_status march_batch(struct call *c, size_t batch, struct br_error *err)
 {
     const double before = job.done, cost = c->batches.cost[batch];
+    enum br_status status = BR_OK;
     pthread_t thread;
+    sigset_t all, old;
     c->batch = batch;
     atomic_store(&c->fraction, 0);
-    enum br_status status = start_march(c, &thread, err);
-    if (status)
-        return status;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    const int failure = pthread_create(&thread, NULL, march, c);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    if (failure)
+        return br_no_memory(err, "the thread that marches");
     while (pthread_tryjoin_np(thread, NULL) == EBUSY) {
-        if (!status)
-            status = watch(err);
-        else
-            watch(NULL); /* the others must not take this rank for dead meanwhile */
+        /* after a failure, too: the others must not take this rank for dead meanwhile */
+        const enum br_status now = watch(status ? NULL : err);
+        status = status ? status : now;
         if (status || job.interrupted || job.failed)
             atomic_store(&c->stopped, true);
         job.done = before + cost * atomic_load(&c->fraction);
@@ -493,13 +486,13 @@ static enum br_status count_threads(struct br_error *err)
 static enum br_status create_board(struct br_error *err)
 {
     const size_t ranks = (size_t)job.size, words = (size_t)number_of(job.size, 0);
-    job.word = br_allocate(ranks, sizeof *job.word);
-    job.bytes = br_allocate(ranks, sizeof *job.bytes);
-    job.place = br_allocate(ranks, sizeof *job.place);
-    job.seen = br_allocate(words, sizeof *job.seen);
-    job.known_beats = br_allocate(ranks, sizeof *job.known_beats);
-    job.silence = br_allocate(ranks, sizeof *job.silence);
-    if (!job.word || !job.bytes || !job.place || !job.seen || !job.known_beats || !job.silence)
+    job.word = br_store_take(&job.store, ranks, sizeof *job.word);
+    job.bytes = br_store_take(&job.store, ranks, sizeof *job.bytes);
+    job.place = br_store_take(&job.store, ranks, sizeof *job.place);
+    job.seen = br_store_take(&job.store, words, sizeof *job.seen);
+    job.known_beats = br_store_take(&job.store, ranks, sizeof *job.known_beats);
+    job.silence = br_store_take(&job.store, ranks, sizeof *job.silence);
+    if (job.store.failed)
         return br_no_memory(err, "the ranks");
     MPI_Errhandler handler;
     const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.seen) : 0;
@@ -560,12 +553,7 @@ static void leave(void)
     }
     if (begun)
         MPI_Finalize();
-    free(job.word);
-    free(job.bytes);
-    free(job.place);
-    free(job.seen);
-    free(job.known_beats);
-    free(job.silence);
+    br_store_clear(&job.store);
 }
 
 enum br_status br_ranks_end(enum br_status status, struct br_error *err)
