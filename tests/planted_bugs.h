@@ -495,7 +495,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_rescale test_powers_of_two", "const double strain = pow(length, -(double)degree);",
      "const double strain = pow(length, (double)degree);"},
     {"elements_counted_twice", "index", "reference/exact/projection.c",
-     "tests/test_restriction test_primes",
+     "tests/test_restriction test_definition",
      "reduce_group(r, g * r->group - first_element(r, g), with", "reduce_group(r, 0, with"},
     {"printed_order", "coefficient", "reference/textbook.c",
      "run chatter --scheme esdirk4 --n 10 --k 0.02 --check", "730878875 / 902184768.0L",
