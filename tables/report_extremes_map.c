@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "study/extremes/map.h"
+#include "study/scene/words.h"
 #include "tables/reports.h"
 
 static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
@@ -50,12 +51,10 @@ static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
 static void put_warnings(struct br_document *d, unsigned warned)
 {
     char text[400] = "";
-    size_t used = 0;
     for (int kind = 0; kind < BR_WARNINGS; kind++)
-        if (warned & 1u << kind && used < sizeof text)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
-                                     br_warning_words[kind]);
-    BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
+        if (warned & 1u << kind)
+            br_append(text, sizeof text, "%s%s", *text ? " " : "", br_warning_words[kind]);
+    BR_PUT(d, br_text(*text ? text : NULL), .key = "warnings");
 }
 
 static void put_case(struct br_document *d, const struct br_extreme_case *c, size_t index,

@@ -65,30 +65,27 @@ static const size_t rates[BR_VIBRATION_RATES] = {6, 12, 24, 48, 96, 192};
 static const double tolerances[BR_VIBRATION_RATES] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
 static const double densities[BR_VIBRATION_DENSITIES] = {1e-6, 1, 1e6};
 static const double dampings[] = {0, 0.01};
+enum { DAMPINGS = sizeof dampings / sizeof *dampings };
 
 /* Of a balance. */
 enum { ELEMENTS = 20, STEPS = 400 };
 static const double tolerance = 1e-3;
 
-static void list_vibrations(struct br_energy_behaviour *b)
+static struct br_vibration_row vibrations_of(const struct br_time_scheme *scheme,
+                                             enum br_field_kind kind, double damping)
 {
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            for (size_t d = 0; d < sizeof dampings / sizeof *dampings; d++) {
-                struct br_vibration_row *row = &b->vibration[b->vibrations++];
-                *row =
-                    (struct br_vibration_row){*s, (enum br_field_kind)kind, dampings[d], {{{0}}}};
-                for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-                    for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++)
-                        row->at[r][i] = (struct br_vibration){
-                            .scheme = *s,
-                            .kind = (enum br_field_kind)kind,
-                            .damping = dampings[d],
-                            .density = densities[i],
-                            .per_period = (*s)->adaptive ? 1 : rates[r],
-                            .tolerance = tolerances[r],
-                        };
-            }
+    struct br_vibration_row row = {.scheme = scheme, .kind = kind, .damping = damping};
+    for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
+        for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++)
+            row.at[r][i] = (struct br_vibration){
+                .scheme = scheme,
+                .kind = kind,
+                .damping = damping,
+                .density = densities[i],
+                .per_period = scheme->adaptive ? 1 : rates[r],
+                .tolerance = tolerances[r],
+            };
+    return row;
 }
 
 static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
@@ -96,12 +93,15 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
     size_t schemes = 0;
     while (br_time_schemes[schemes])
         schemes++;
-    b->vibration =
-        br_allocate(schemes * 2 * sizeof dampings / sizeof *dampings, sizeof *b->vibration);
+    b->vibrations = schemes * 2 * DAMPINGS;
+    b->vibration = br_allocate(b->vibrations, sizeof *b->vibration);
     b->balance = br_allocate(schemes * SCENES, sizeof *b->balance);
     if (!b->vibration || !b->balance)
         return br_no_memory(err, "energies of all schemes");
-    list_vibrations(b);
+    for (size_t i = 0; i < b->vibrations; i++)
+        b->vibration[i] =
+            vibrations_of(br_time_schemes[i / (2 * DAMPINGS)],
+                          (enum br_field_kind)(i / DAMPINGS % 2), dampings[i % DAMPINGS]);
     for (size_t i = 0; i < SCENES * schemes; i++) {
         const struct br_balance_scene *scene = &br_balance_scenes[i / schemes];
         const struct br_time_scheme *scheme = br_time_schemes[i % schemes];
