@@ -74,16 +74,21 @@ static struct br_figure made(size_t panels, bool cells, size_t kinds)
     return f;
 }
 
-/* What is stored: script and data. */
-static void print(FILE *out, struct br_figure f)
+/* What is stored: data, and the script unless golden/ has one of the kind. */
+static void print_data(FILE *out, struct br_figure f)
 {
     struct br_error err = {0};
     MUST(br_figure_check(&f, &err));
-    fprintf(out, "==== %s.gp\n", f.stem);
-    br_figure_write_script(out, &f);
     fprintf(out, "==== %s.dat\n", f.stem);
     br_figure_write_data(out, &f);
     br_figure_clear(&f);
+}
+
+static void print(FILE *out, struct br_figure f)
+{
+    fprintf(out, "==== %s.gp\n", f.stem);
+    br_figure_write_script(out, &f);
+    print_data(out, f);
 }
 
 static void print_made(FILE *out)
@@ -238,7 +243,7 @@ static void print_floors(FILE *out)
                                      .k = k[i % 3],
                                      .deviation = {1e-15 * (i + 1), 1e-14 * (i + 1)}};
     br_fail(&floor[8].refused, BR_BAD_INPUT, "no");
-    print(out, br_floors_draw(&floors, 2));
+    print_data(out, br_floors_draw(&floors, 2));
 }
 
 static void print_drifts(FILE *out)
@@ -279,7 +284,8 @@ static void print_energy(FILE *out)
                                           .measured = -1e-3 * (r + 1 + 10 * i) * (density + 1),
                                           .predicted = 1e-5 * (r + 1 + 10 * i) * (density + 1)};
     }
-    print(out, br_energy_draw(&(struct br_energy_behaviour){.vibration = row, .vibrations = 4}));
+    print_data(out,
+               br_energy_draw(&(struct br_energy_behaviour){.vibration = row, .vibrations = 4}));
 }
 
 static void print_map(FILE *out)
