@@ -614,7 +614,7 @@ static const struct planted_bug planted_bugs[] = {
      "inverse[0][1] = inverse[1][0] = -s[0][1] / det;",
      "inverse[0][1] = inverse[1][0] = s[0][1] / det;"},
     {"unstable_fine_run_unsaid", "lost", "reference/fine.c",
-     "tests/test_study test_unstable_reference",
+     "tests/test_study test_cells_that_fail",
      ".unstable = br_march_contact_unstable(f->march[BR_AXIAL]),", ".unstable = false,"},
     {"work_of_the_last_stage", "time level", "reference/energy/energy.c",
      "tests/test_watched test_every_term", "w->load += weight * p->load;",

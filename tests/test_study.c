@@ -381,92 +381,85 @@ TEST(test_nesting)
     br_scene_clear(&scene);
 }
 
-/* ---- cells that fail ---- */
+/* ---- cells that fail, or are unstable ---- */
 
-static void assert_failed(const struct br_cell *cell, enum br_status status)
+/* sign: '.', well; '!', failed; 'u', unstable. */
+static void check_sign(const struct br_cell *cell, char sign, const char *message)
 {
-    assert_int_equal(cell->failure.status, status);
-    assert_true(strlen(cell->failure.message) > 0);
+    assert_int_equal(cell->failure.status, sign == '!' ? BR_NOT_FINITE : BR_OK);
+    assert_true(sign == '!' || cell->unstable == (sign == 'u'));
+    if (sign == '!' && !strstr(cell->failure.message, message))
+        fail_msg("'%s' without '%s'", cell->failure.message, message);
     for (int p = 0; p < BR_PARTS; p++) {
-        assert_true(isnan(cell->error[p]));
-        assert_int_equal(cell->flag[p], BR_FLAG_FAILED);
-        assert_string_equal(br_flag_name(cell->flag[p]), "failed");
+        assert_true(isfinite(cell->error[p]) == (sign != '!'));
+        assert_int_equal(cell->flag[p], sign == '!' ? BR_FLAG_FAILED : BR_FLAG_NONE);
+        assert_string_equal(br_flag_name(cell->flag[p]), sign == '!' ? "failed" : "");
     }
 }
 
-static void assert_well(const struct br_cell *cell)
+/* A rod without viscosity that is pressed to an obstacle. */
+static struct br_scene pressed_rod(void)
 {
-    assert_int_equal(cell->failure.status, BR_OK);
-    for (int p = 0; p < BR_PARTS; p++) {
-        assert_true(isfinite(cell->error[p]));
-        assert_int_equal(cell->flag[p], BR_FLAG_NONE);
-    }
-}
-
-/* A load that is no number near x = 1/8: a Gauss point of n = 4, and of no finer mesh
- * here. Once at all times, once from t = 0.35 s on. */
-TEST(test_failing_row)
-{
-    static const char *const loads[] = {"sqrt(abs(x - 0.125) - 1e-6)",
-                                        "t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1"};
-    for (int i = 0; i < 2; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bare();
-        scene.bending.load = br_test_load(loads[i]);
-        const size_t n[] = {2, 4, 8}, steps[] = {10, 20};
-        struct br_study s = study_of(&scene, (struct br_resolution){16, 40}, 3, n, 2, steps);
-        MUST(br_study_run(&s, 1, 2, NULL, &err));
-        for (size_t j = 0; j < 2; j++) {
-            assert_well(br_study_cell(&s, 0, j));
-            assert_failed(br_study_cell(&s, 1, j), BR_NOT_FINITE);
-            assert_non_null(strstr(br_study_cell(&s, 1, j)->failure.message, "x = 0.125"));
-            assert_well(br_study_cell(&s, 2, j));
-        }
-        br_study_clear(&s);
-        br_scene_clear(&scene);
-    }
-}
-
-/* The lagged contact is only conditionally stable: without viscosity the coarse steps
- * blow up, or reach values whose squares are no numbers; the fine ones do neither. */
-TEST(test_unstable_cell)
-{
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.duration = 1000;
     scene.bending.modelled = false;
     scene.axial.viscosity = 0;
     scene.axial.load = br_test_load("1");
     scene.contact = (struct br_contact){.modelled = true, .gap = 0.1, .stiffness = 1000};
-    const size_t n = 4, steps[] = {800, 20000, 100000};
-    struct br_study s = study_of(&scene, (struct br_resolution){4, 100000}, 1, &n, 3, steps);
-    s.reference_method.contact = br_contact_rule_find("implicit");
-    MUST(br_study_run(&s, 1, 2, NULL, &err));
-    assert_failed(br_study_cell(&s, 0, 0), BR_NOT_FINITE);
-    assert_failed(br_study_cell(&s, 0, 1), BR_NOT_FINITE);
-    assert_well(br_study_cell(&s, 0, 2));
-    br_study_clear(&s);
-    br_scene_clear(&scene);
+    return scene;
 }
 
-/* Beyond the limit of the lagged contact the tip chatters, bounded: the cell is told. */
-TEST(test_contact_limit)
+TEST(test_cells_that_fail)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    const size_t n = 4, steps[] = {10, 100, 4000};
-    for (int stiff = 0; stiff < 2; stiff++)
-        for (int implicit = 0; implicit < 2; implicit++) {
-            scene.contact.stiffness = stiff ? 5e3 : 1e3; /* stable for k <= 5e-4, always */
-            struct br_study s = study_of(&scene, (struct br_resolution){4, 4000}, 1, &n, 3, steps);
-            s.method.contact = br_contact_rule_find(implicit ? "implicit" : "lagged");
-            MUST(br_study_run(&s, 1, 1, NULL, &err));
-            assert_int_equal(s.cell[0].unstable, stiff && !implicit);
-            assert_int_equal(s.cell[1].unstable, stiff && !implicit);
-            assert_false(s.cell[2].unstable);
-            br_study_clear(&s);
+    /* no number near x = 1/8: a Gauss point of n = 4, and of no finer mesh here */
+    static const char always[] = "sqrt(abs(x - 0.125) - 1e-6)",
+                      late[] = "t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1";
+    static const struct {
+        const char *scene, *load; /* NULL: the pressed rod; bare with this load */
+        double stiffness;         /* of the contact; 0: as it is */
+        const char *contact, *reference_contact;
+        struct br_resolution reference;
+        size_t n_count, n[3], k_count, steps[3];
+        const char *sign; /* of the cells; "": the reference fails, and with it the call */
+    } rows[] = {
+        {NULL, always, 0, NULL, NULL, {16, 40}, 3, {2, 4, 8}, 2, {10, 20}, "..!!.."},
+        {NULL, late, 0, NULL, NULL, {16, 40}, 3, {2, 4, 8}, 2, {10, 20}, "..!!.."},
+        {NULL, late, 0, NULL, NULL, {4, 20}, 1, {2}, 1, {10}, ""},
+        /* the coarse steps blow up, or reach values whose squares are no numbers */
+        {NULL, NULL, 0, NULL, "implicit", {4, 100000}, 1, {4}, 3, {800, 20000, 100000}, "!!."},
+        /* beyond the limit of the lagged contact, k <= 5e-4 or none, the tip chatters, bounded */
+        {"example2", NULL, 5e3, "lagged", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "uu."},
+        {"example2", NULL, 1e3, "lagged", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "..."},
+        {"example2", NULL, 5e3, "implicit", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "..."},
+        /* stable below k = c / (c_H L - a) * 2 = 4.4 ms: the reference says of itself whether */
+        {"chatter", NULL, 0, NULL, NULL, {4, 20}, 1, {4}, 1, {20}, "u"},
+        {"chatter", NULL, 0, NULL, NULL, {4, 2000}, 1, {4}, 1, {2000}, "."},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = rows[i].scene  ? br_test_bundled(rows[i].scene)
+                                : rows[i].load ? br_test_bare()
+                                               : pressed_rod();
+        if (rows[i].load)
+            scene.bending.load = br_test_load(rows[i].load);
+        if (rows[i].stiffness > 0)
+            scene.contact.stiffness = rows[i].stiffness;
+        struct br_study s = study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
+                                     rows[i].k_count, rows[i].steps);
+        s.method = br_test_method(NULL, rows[i].contact, NULL);
+        s.reference_method = br_test_method(NULL, rows[i].reference_contact, NULL);
+        if (*rows[i].sign) {
+            MUST(br_study_run(&s, 1, 2, NULL, &err));
+            for (size_t c = 0; c < br_study_cells(&s); c++)
+                check_sign(&s.cell[c], rows[i].sign[c], rows[i].load ? "x = 0.125" : "");
+            assert_int_equal(s.judged_by.unstable, strcmp(rows[i].sign, "u") == 0);
+        } else {
+            REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
+            assert_null(s.cell);
         }
-    br_scene_clear(&scene);
+        br_study_clear(&s);
+        br_scene_clear(&scene);
+    }
 }
 
 /* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
@@ -495,38 +488,6 @@ TEST(test_audit)
         br_study_clear(&exact);
         br_scene_clear(&scene);
     }
-}
-
-/* Lagged contact is stable below k = c / (c_H L - a) * 2 = 4.4 ms here: a fine run says of itself
- * whether it was. */
-TEST(test_unstable_reference)
-{
-    static const size_t steps[] = {20, 2000};
-    const size_t n = 4;
-    struct br_scene scene = br_test_bundled("chatter");
-    for (int stable = 0; stable < 2; stable++) {
-        struct br_error err = {0};
-        struct br_study s =
-            study_of(&scene, (struct br_resolution){n, steps[stable]}, 1, &n, 1, &steps[stable]);
-        MUST(br_study_run(&s, 1, 1, NULL, &err));
-        assert_int_equal(s.judged_by.unstable, !stable);
-        assert_int_equal(s.cell[0].unstable, !stable);
-        br_study_clear(&s);
-    }
-    br_scene_clear(&scene);
-}
-
-/* The reference failing fails the call. */
-TEST(test_failing_reference)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bare();
-    scene.bending.load = br_test_load("t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1");
-    const size_t n = 2, steps = 10;
-    struct br_study s = study_of(&scene, (struct br_resolution){4, 20}, 1, &n, 1, &steps);
-    REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
-    assert_null(s.cell);
-    br_scene_clear(&scene);
 }
 
 /* ---- the observer ---- */
