@@ -13,7 +13,7 @@ static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
         const struct br_extreme_tally *t = &m->tally[i];
         br_put_row(d);
         BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
-        BR_PUT(d, br_text(t->label), .key = "range");
+        BR_PUT(d, br_text(*t->label ? t->label : NULL), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
             BR_PUT(d, br_count(t->count[c]), .key = br_extreme_names[c].word,
@@ -27,10 +27,11 @@ static void put_reasons(struct br_document *d, const struct br_extreme_map *m)
         {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
     for (size_t i = 0; i < m->reasons; i++) {
-        const struct br_extreme_reason *r = &m->reason[i];
-        BR_PUT_ROW(d, br_text(br_extreme_names[r->which].word));
-        br_put_shown(d, "%s", br_extreme_names[r->which].heading);
-        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
+        const struct br_extreme_tally *r = &m->reason[i];
+        const struct br_extreme_names *name = &br_extreme_names[m->verdict[r->first].which];
+        BR_PUT_ROW(d, br_text(name->word));
+        br_put_shown(d, "%s", name->heading);
+        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->label));
     }
 }
 

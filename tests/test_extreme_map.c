@@ -112,7 +112,7 @@ TEST(test_shrinks_and_counts)
             schemes += map.tally[i].cases;
     assert_int_equal(schemes, 60);
     assert_int_equal(map.reasons, 1);
-    assert_string_equal(map.reason[0].text, "planted at #");
+    assert_string_equal(map.reason[0].label, "planted at #");
     assert_int_equal(map.reason[0].cases, map.count[BR_EXTREME_WRONG]);
     br_extreme_map_clear(&map);
 }

@@ -120,9 +120,8 @@ static enum br_status march(struct br_balance_row *row, struct br_march *march,
     enum br_status status = BR_OK;
     for (row->marched = 0; row->marched < STEPS && !status; row->marched += !status) {
         status = br_march_step(march, err);
-        const double imbalance = status ? 0 : br_energy_meter_step(meter);
-        if (isnan(imbalance) || imbalance > row->worst)
-            row->worst = imbalance;
+        if (!status)
+            row->worst = br_worst(row->worst, br_energy_meter_step(meter));
     }
     br_energy_meter_read(meter, &row->start, &row->now, &row->work);
     if (status != BR_NOT_FINITE)

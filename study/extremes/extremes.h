@@ -5,6 +5,7 @@
 #define BR_STUDY_EXTREMES_EXTREMES_H
 
 #include <complex.h>
+#include <math.h>
 
 #include "reference/energy/energy.h"
 #include "reference/textbook.h"
@@ -28,6 +29,12 @@ struct br_extremes_job {
     const char *folder;   /* for other files (reproducer scenes); NULL: they are not written */
     const struct br_observer *observer; /* NULL: nobody */
 };
+
+/* The larger one; what is no number is the largest. */
+static inline double br_worst(double a, double b)
+{
+    return isnan(a) || isnan(b) ? NAN : fmax(a, b);
+}
 
 /* ---- nodal values, laid out as in solver/field.h, as functions of x ---- */
 

@@ -313,8 +313,7 @@ const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size
 
 double br_floor_deviation(const struct br_floor *floor)
 {
-    const double *d = floor->deviation;
-    return isnan(d[0]) || d[0] > d[1] ? d[0] : d[1];
+    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
 }
 
 double br_floor_limit(const struct br_floor *f)

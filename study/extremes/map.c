@@ -248,32 +248,6 @@ static const struct kind {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static int by_label(const void *a, const void *b)
-{
-    const struct br_extreme_tally *x = a, *y = b;
-    return strcmp(x->label, y->label);
-}
-
-/* The tallies of one kind, sorted. */
-static void add_tallies(struct br_extreme_map *m, const struct kind *kind)
-{
-    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
-    for (size_t i = 0; i < m->cases; i++) {
-        struct br_extreme_tally *t = first;
-        const char *label = kind->word(&m->one[i]);
-        while (t < end && strcmp(t->label, label) != 0)
-            t++;
-        if (t == end)
-            *end++ = (struct br_extreme_tally){.title = kind->title, .label = label};
-        t->cases++;
-        t->count[m->verdict[i].which]++;
-    }
-    qsort(first, (size_t)(end - first), sizeof *first, by_label);
-    m->tallies += (size_t)(end - first);
-}
-
-/* ---- reasons ---- */
-
 static bool starts_number(const char *c, const char *text)
 {
     const bool inside = c > text && (isalnum((unsigned char)c[-1]) || c[-1] == '_');
@@ -298,29 +272,47 @@ static void generalise(const char *why, char text[150])
     text[used] = '\0';
 }
 
-static void add_reason(struct br_extreme_map *m, size_t index)
+static int by_label(const void *a, const void *b)
 {
-    const struct br_extreme_verdict *v = &m->verdict[index];
-    struct br_extreme_reason found = {.which = v->which, .cases = 1, .first = index};
-    generalise(v->why, found.text);
-    for (size_t i = 0; i < m->reasons; i++) {
-        struct br_extreme_reason *r = &m->reason[i];
-        if (r->which == found.which && strcmp(r->text, found.text) == 0) {
-            r->cases++;
-            return;
-        }
-    }
-    m->reason[m->reasons++] = found;
+    const struct br_extreme_tally *x = a, *y = b;
+    return strcmp(x->label, y->label);
 }
 
 static int by_class_and_count(const void *a, const void *b)
 {
-    const struct br_extreme_reason *x = a, *y = b;
-    if (x->which != y->which)
-        return x->which > y->which ? -1 : 1;
-    if (x->cases != y->cases)
-        return x->cases < y->cases ? 1 : -1;
+    const struct br_extreme_tally *x = a, *y = b;
+    for (int which = BR_EXTREME_CLASSES - 1; which >= 0; which--)
+        if (x->count[which] != y->count[which])
+            return x->count[which] < y->count[which] ? 1 : -1;
     return (x->first > y->first) - (x->first < y->first);
+}
+
+/* The tallies of one kind, or of the reasons (NULL), sorted. */
+static struct br_extreme_tally *add_tallies(struct br_extreme_map *m, const struct kind *kind)
+{
+    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
+    for (size_t i = 0; i < m->cases; i++) {
+        struct br_extreme_tally *t = first;
+        const enum br_extreme_class which = m->verdict[i].which;
+        char label[sizeof t->label];
+        if (kind)
+            snprintf(label, sizeof label, "%s", kind->word(&m->one[i]));
+        else
+            generalise(m->verdict[i].why, label);
+        while (t < end && (strcmp(t->label, label) != 0 || !(kind || t->count[which])))
+            t++;
+        if (t == end && !(kind || *label))
+            continue; /* it is right */
+        if (t == end) {
+            *end++ = (struct br_extreme_tally){.title = kind ? kind->title : NULL, .first = i};
+            memcpy(t->label, label, sizeof label);
+        }
+        t->cases++;
+        t->count[which]++;
+    }
+    qsort(first, (size_t)(end - first), sizeof *first, kind ? by_label : by_class_and_count);
+    m->tallies += (size_t)(end - first);
+    return first;
 }
 
 /* ---- all ---- */
@@ -349,10 +341,10 @@ static enum br_status run(struct work *work, struct br_error *err)
     memcpy(m->tally[0].count, m->count, sizeof m->count);
     for (size_t i = 0; i < KINDS; i++)
         add_tallies(m, &kinds[i]);
-    for (size_t i = 0; i < m->cases; i++)
-        if (*m->verdict[i].why)
-            add_reason(m, i);
-    qsort(m->reason, m->reasons, sizeof *m->reason, by_class_and_count);
+    const size_t kinds_of = m->tallies;
+    m->reason = add_tallies(m, NULL);
+    m->reasons = m->tallies - kinds_of;
+    m->tallies = kinds_of;
     each = (struct br_each){
         .count = m->shrunks, .threads = each.threads, .turn = shrink, .self = work};
     return br_each(&each, err);
@@ -367,9 +359,8 @@ enum br_status br_extreme_map_run(struct br_extreme_map *map, const struct br_ex
     map->one = br_allocate(map->cases, sizeof *map->one);
     map->verdict = br_allocate(map->cases, sizeof *map->verdict);
     map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    map->tally = br_allocate(1 + KINDS * map->cases, sizeof *map->tally);
-    map->reason = br_allocate(map->cases, sizeof *map->reason);
-    const bool full = map->one && map->verdict && map->shrunk && map->tally && map->reason;
+    map->tally = br_allocate(1 + (KINDS + 1) * map->cases, sizeof *map->tally);
+    const bool full = map->one && map->verdict && map->shrunk && map->tally;
     return full ? run(&work, err) : br_no_memory(err, "the map");
 }
 
@@ -379,7 +370,6 @@ void br_extreme_map_clear(struct br_extreme_map *map)
     free(map->verdict);
     free(map->shrunk);
     free(map->tally);
-    free(map->reason);
     *map = (struct br_extreme_map){0};
 }
 
@@ -447,24 +437,17 @@ static int place(const struct br_extreme_coordinate *c, const struct br_extreme_
     return (int)fmax(0, fmin(cell, (double)c->cells - 1));
 }
 
-static double cell_class(const struct br_extreme_map *m, const struct br_extreme_plane *p, int x,
-                         int y)
-{
-    size_t count[BR_EXTREME_CLASSES] = {0};
-    double most = NAN;
-    for (size_t i = 0; i < m->cases; i++)
-        if (place(&p->x, &m->one[i]) == x && place(&p->y, &m->one[i]) == y)
-            count[m->verdict[i].which]++;
-    for (int which = 0; which < BR_EXTREME_CLASSES; which++)
-        if (count[which] && (isnan(most) || count[which] > count[(int)most]))
-            most = which;
-    return count[BR_EXTREME_WRONG] ? BR_EXTREME_WRONG : most;
-}
-
 void br_extreme_plane_fill(const struct br_extreme_map *m, const struct br_extreme_plane *p,
                            double *cell)
 {
-    for (size_t y = 0; y < p->y.cells; y++)
-        for (size_t x = 0; x < p->x.cells; x++)
-            cell[y * p->x.cells + x] = cell_class(m, p, (int)x, (int)y);
+    for (size_t at = 0; at < p->x.cells * p->y.cells; at++) {
+        size_t count[BR_EXTREME_CLASSES] = {0}, most = 0;
+        for (size_t i = 0; i < m->cases; i++)
+            if (place(&p->y, &m->one[i]) == (int)(at / p->x.cells) &&
+                place(&p->x, &m->one[i]) == (int)(at % p->x.cells))
+                count[m->verdict[i].which]++;
+        for (size_t which = 1; which < BR_EXTREME_CLASSES; which++)
+            most = count[which] > count[most] ? which : most;
+        cell[at] = count[BR_EXTREME_WRONG] ? BR_EXTREME_WRONG : count[most] ? (double)most : NAN;
+    }
 }

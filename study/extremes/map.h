@@ -153,16 +153,9 @@ struct br_extreme_shrunk {
 
 /* The cases of a kind. */
 struct br_extreme_tally {
-    const char *title; /* what they are counted by: "time scheme" */
-    const char *label; /* "euler"; NULL: all cases */
-    size_t cases, count[BR_EXTREME_CLASSES];
-};
-
-/* Verdicts of one class with one reason, numbers apart. */
-struct br_extreme_reason {
-    enum br_extreme_class which;
-    char text[150];      /* with # for numbers */
-    size_t cases, first; /* an index */
+    const char *title; /* what they are counted by: "time scheme"; NULL: by class and reason */
+    char label[150];   /* "euler", or a reason with # for numbers; "": all cases */
+    size_t cases, first, count[BR_EXTREME_CLASSES]; /* first: an index */
 };
 
 struct br_extreme_map {
@@ -175,7 +168,7 @@ struct br_extreme_map {
     size_t shrunks;                   /* of the first ones that are wrong */
     struct br_extreme_tally *tally;   /* tallies, all cases first; owned */
     size_t tallies;
-    struct br_extreme_reason *reason; /* reasons, by class and then by count; owned */
+    struct br_extreme_tally *reason; /* reasons, of one class each, by that and count; borrows */
     size_t reasons;
 };
 

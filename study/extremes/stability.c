@@ -151,26 +151,19 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
 
 /* ---- what has come out ---- */
 
-/* The larger one; NaN is the largest. */
-static void raise(double *most, double value)
-{
-    if (!(value <= *most) && !isnan(*most))
-        *most = value;
-}
-
 static void sum_up(struct br_stability *s, const struct br_stability_row *r)
 {
     const bool within =
         r->limit > s->stiffness[0] && r->limit < s->stiffness[BR_STABILITY_COLUMNS - 1];
     if (within || isfinite(r->measured))
-        raise(&s->limit_error, fabs(r->measured / r->limit - 1));
+        s->limit_error = br_worst(s->limit_error, fabs(r->measured / r->limit - 1));
     for (size_t j = 0; j < BR_STABILITY_COLUMNS; j++) {
         s->cells++;
         if (r->growth[j] > 1) {
             s->growing++;
-            raise(&s->growth_error, fabs(r->radius[j] / r->growth[j] - 1));
+            s->growth_error = br_worst(s->growth_error, fabs(r->radius[j] / r->growth[j] - 1));
         } else {
-            raise(&s->excess, fmax(r->radius[j] - 1, 0));
+            s->excess = br_worst(s->excess, fmax(r->radius[j] - 1, 0));
         }
     }
 }

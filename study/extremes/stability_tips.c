@@ -44,10 +44,9 @@ static void look(struct watch *w, const struct br_march *march, size_t step)
     const bool closed = br_march_tip(march)->contact_force > 0;
     if (step == 0)
         w->start = energy;
-    else if (w->start > 0 && !(energy / w->start <= t->energy))
-        t->energy = energy / w->start;
-    if (!(fabs(u) <= t->farthest))
-        t->farthest = fabs(u);
+    else if (w->start > 0)
+        t->energy = br_worst(t->energy, energy / w->start);
+    t->farthest = br_worst(t->farthest, fabs(u));
     if (step > w->quarter) {
         w->low = fmin(w->low, u);
         w->high = fmax(w->high, u);
@@ -143,12 +142,8 @@ static void compare(struct br_stability_scheme *c, const struct br_scene *scene,
 {
     const double stiffness = scene->contact.stiffness, a = scene->axial.stiffness;
     const double free_tip = load / 2 / a, rest = load / 2 / (a + stiffness);
-    const double force = fabs(end->contact_force / (stiffness * rest) - 1);
-    const double depth = fabs(end->displacement[BR_AXIAL] - rest) / free_tip;
-    if (!(force <= c->force))
-        c->force = force;
-    if (!(depth <= c->depth))
-        c->depth = depth;
+    c->force = br_worst(c->force, fabs(end->contact_force / (stiffness * rest) - 1));
+    c->depth = br_worst(c->depth, fabs(end->displacement[BR_AXIAL] - rest) / free_tip);
 }
 
 static enum br_status try_one(struct br_stability_scheme *c, const struct br_scene *scene,

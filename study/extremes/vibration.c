@@ -180,9 +180,7 @@ static enum br_status advance(struct trial *t, size_t steps, struct br_error *er
         const enum br_status status = br_march_step(t->march, err);
         if (status)
             return status;
-        const double imbalance = br_energy_meter_step(t->meter);
-        if (isnan(imbalance) || imbalance > v->worst)
-            v->worst = imbalance;
+        v->worst = br_worst(v->worst, br_energy_meter_step(t->meter));
     }
     return BR_OK;
 }
