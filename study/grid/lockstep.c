@@ -16,12 +16,9 @@
 
 /* ---- measuring ---- */
 
-/* The channel, or NULL where it is not in use at that level. */
-static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind kind, int measure,
-                                     bool last)
+static bool is_used(const struct br_channel *c, enum br_field_kind kind, bool last)
 {
-    struct br_channel *c = br_channel_of(l, kind, (enum br_measure)measure);
-    return c->used && (last || !c->last_only) ? c : NULL;
+    return c->used && c->at.kind == kind && (last || !c->last_only);
 }
 
 /* The projection at the level of that index. */
@@ -31,9 +28,9 @@ static double *projection_at(const struct br_lockstep *l, const struct br_channe
 }
 
 /* Looks at the reference and projects it; returns its size. */
-static double project(struct br_lockstep *l, struct br_channel *c, struct br_sample_at at,
-                      double *projection)
+static double project(struct br_lockstep *l, const struct br_channel *c, double *projection)
 {
+    struct br_sample_at at = c->at;
     for (at.mesh = 0; at.mesh < (c->ladder ? l->roots : 1); at.mesh++)
         l->reference.judge->sample(l->reference.self, &at, &c->root[at.mesh]);
     if (!c->ladder) {
@@ -45,9 +42,9 @@ static double project(struct br_lockstep *l, struct br_channel *c, struct br_sam
 }
 
 /* The distance of the reference, as last looked at, from the auditor. */
-static double audit(struct br_lockstep *l, struct br_channel *c, struct br_sample_at at)
+static double audit(struct br_lockstep *l, struct br_channel *c)
 {
-    l->auditor.judge->sample(l->auditor.self, &at, &c->audit);
+    l->auditor.judge->sample(l->auditor.self, &c->at, &c->audit);
     if (!c->own_ladder)
         return fabs(c->audit.values[0] - c->root[0].values[0]);
     br_ladder_project(c->own_ladder, c->root, c->own_projection);
@@ -67,13 +64,13 @@ static enum br_status judge_level(struct br_lockstep *l, const struct br_bench *
     const size_t level = l->level[index];
     const enum br_status status = bench->judge->advance(bench->self, kind, level, err);
     double *size = bench->sample[index % l->slots].size[kind];
-    for (int measure = 0; measure < BR_MEASURES && !status; measure++) {
-        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
-        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-        size[measure] = !c                     ? 0
-                        : bench == &l->auditor ? audit(l, c, at)
-                                               : project(l, c, at, projection_at(l, c, index));
-    }
+    const bool last = level == l->study->reference.steps;
+    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
+        if (c->at.kind == kind)
+            size[c->at.measure] = !is_used(c, kind, last) ? 0
+                                  : bench == &l->auditor
+                                      ? audit(l, c)
+                                      : project(l, c, projection_at(l, c, index));
     return status;
 }
 
@@ -96,16 +93,6 @@ static void add_up(const struct br_lockstep *l, struct br_bench *bench, size_t i
     add_to_all(l, sample, bench->sum);
 }
 
-/* The distance of a cell, as it stands, from the reference in one measure. */
-static double distance(struct br_lockstep *l, size_t index, const struct br_channel *c,
-                       const double *reference)
-{
-    const struct br_runner *r = &l->cell[index];
-    if (!c->ladder)
-        return fabs(r->view.values[0] - *reference);
-    return br_ladder_distance(c->ladder, br_study_row(l->study, index), &r->view, reference);
-}
-
 /* Measures a cell as it stands against the level of that index. */
 static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
 {
@@ -117,19 +104,20 @@ static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
         .time = t,
         .weight = t > 0 ? br_time_step(l->study->scene, cell->at.steps) : 0,
     };
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            const struct br_channel *c = channel_at(l, (enum br_field_kind)kind, measure, last);
-            if (!c)
-                continue;
-            br_look(r->march, (enum br_field_kind)kind, (enum br_measure)measure, &r->view);
-            const double size = distance(l, index, c, projection_at(l, c, level));
-            if (!isfinite(size))
-                br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
-            sample.size[kind][measure] = size;
-            if (measure == BR_TIP)
-                cell->tip[kind] = r->view.values[0];
-        }
+    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++) {
+        if (!is_used(c, c->at.kind, last))
+            continue;
+        const double *reference = projection_at(l, c, level);
+        br_look(r->march, c->at.kind, c->at.measure, &r->view);
+        const double size = c->ladder ? br_ladder_distance(c->ladder, br_study_row(l->study, index),
+                                                           &r->view, reference)
+                                      : fabs(r->view.values[0] - *reference);
+        if (!isfinite(size))
+            br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
+        sample.size[c->at.kind][c->at.measure] = size;
+        if (c->at.measure == BR_TIP)
+            cell->tip[c->at.kind] = r->view.values[0];
+    }
     if (r->error.status)
         br_cell_failed(l->study, index, &r->error);
     else
@@ -212,21 +200,28 @@ static bool models(const struct br_lockstep *l, enum br_field_kind kind)
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
-/* A field that fails stops the other one only beyond that level, so that the first failure is
- * reported, whichever thread was faster. */
+/* The failure that counts is that of the first level, there of the axial field, whichever thread
+ * was faster: the other field goes on up to that level. */
+static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t index,
+                         const struct br_error *failure)
+{
+#pragma omp critical(lockstep)
+    if (index < atomic_load(&l->first_failed) ||
+        (index == atomic_load(&l->first_failed) && kind == BR_AXIAL)) {
+        l->failure = *failure;
+        atomic_store(&l->first_failed, index);
+    }
+}
+
 static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
 {
-    struct br_lane *lane = &l->lane[kind];
+    struct br_error failure = {0};
     for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
-        if (should_stop(l) || lane->error.status || failed_before(l, i))
+        if (should_stop(l) || failed_before(l, i))
             return;
-        if (!judge_level(l, &l->reference, kind, i, &lane->error) &&
-            !(is_audited(l, i) && judge_level(l, &l->auditor, kind, i, &lane->error)))
-            continue;
-        lane->failed = i;
-        size_t first = atomic_load(&l->first_failed);
-        while (i < first && !atomic_compare_exchange_weak(&l->first_failed, &first, i)) {
-        }
+        if (judge_level(l, &l->reference, kind, i, &failure) ||
+            (is_audited(l, i) && judge_level(l, &l->auditor, kind, i, &failure)))
+            keep_failure(l, kind, i, &failure);
     }
 }
 
@@ -301,10 +296,11 @@ static void tell(struct work *work, struct br_lockstep *l)
 static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
 {
     (void)work; /* without OpenMP */
-    struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
-    char *from_axial = &axial->token[b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
-    char *from_bending = &bending->token[b % BR_LOCKSTEP_BUFFERS];
-    (void)from_axial, (void)from_bending, (void)tally;
+    char *axial = &l->marched[BR_AXIAL],
+         *from_axial = &l->filled[BR_AXIAL][b % BR_LOCKSTEP_BUFFERS];
+    char *bending = &l->marched[BR_BENDING];
+    char *from_bending = &l->filled[BR_BENDING][b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
+    (void)axial, (void)from_axial, (void)bending, (void)from_bending, (void)tally;
 #pragma omp task depend(inout : axial[0], from_axial[0])
     reference_batch(l, BR_AXIAL, b);
 #pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
@@ -367,11 +363,8 @@ static bool succeeded(struct br_study *first)
 
 static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
 {
-    const struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
-    const bool axial_first =
-        axial->error.status && (!bending->error.status || axial->failed <= bending->failed);
-    if (axial->error.status || bending->error.status)
-        l->study->failure = axial_first ? axial->error : bending->error;
+    if (l->failure.status)
+        l->study->failure = l->failure;
     for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         if (l->cell[i].error.status == BR_NO_MEMORY)
             l->study->failure = l->cell[i].error;

@@ -13,6 +13,7 @@ enum { BR_LOCKSTEP_BUFFERS = 4, BR_CHANNELS = 2 * BR_MEASURES };
 
 /* One measure of one field of the reference and the cells. */
 struct br_channel {
+    struct br_sample_at at;
     bool used, last_only;         /* only at t = T */
     size_t size;                  /* of a projection */
     struct br_ladder *ladder;     /* NULL: one number, the tip's */
@@ -40,21 +41,14 @@ struct br_runner {
     struct br_error error; /* status BR_OK while all is well */
 };
 
-/* One field of the reference on its way. */
-struct br_lane {
-    struct br_error error; /* status BR_OK while all is well */
-    size_t failed;         /* the level at which it failed */
-    char token[BR_LOCKSTEP_BUFFERS];
-};
-
 struct br_lockstep {
     struct br_study *study;                 /* the first of its chain */
     size_t norms;                           /* in the chain */
-    struct br_channel channel[BR_CHANNELS]; /* see br_channel_of */
+    struct br_channel channel[BR_CHANNELS]; /* by field, then measure */
     struct br_bench reference, auditor;     /* the auditor's judge may be NULL */
-    struct br_lane lane[2];                 /* of the reference, by br_field_kind */
-    atomic_size_t first_failed;             /* the first level at which a field failed */
-    size_t *root;                           /* the meshes on which the reference is looked at */
+    atomic_size_t first_failed; /* the index of the first level at which a field failed, */
+    struct br_error failure;    /* and why; status BR_OK while all is well */
+    size_t *root;               /* the meshes on which the reference is looked at */
     size_t roots;
     size_t audit_every;     /* of the levels, so that there are not too many audits */
     struct br_runner *cell; /* br_study_cells */
@@ -66,15 +60,10 @@ struct br_lockstep {
     const struct br_observer *observer;
     struct br_store store; /* of all arrays, and of the ladders */
     atomic_bool stopped;
-    char tally; /* what the tasks that add up depend on */
+    /* What tasks depend on: by br_field_kind, the reference's march and its buffers; and those that
+     * add up. */
+    char marched[2], filled[2][BR_LOCKSTEP_BUFFERS], tally;
 };
-
-/* That of a field in a measure. */
-static inline struct br_channel *br_channel_of(struct br_lockstep *l, enum br_field_kind kind,
-                                               enum br_measure measure)
-{
-    return &l->channel[kind * BR_MEASURES + measure];
-}
 
 /* The elements of a field, of the cells and of the reference. */
 static inline struct br_elements br_lockstep_elements(const struct br_lockstep *l,

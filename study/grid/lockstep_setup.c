@@ -63,16 +63,15 @@ static void choose_channels(struct br_lockstep *l)
 {
     const struct br_scene *scene = l->study->scene;
     const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
+    for (size_t i = 0; i < BR_CHANNELS; i++) {
+        struct br_channel *c = &l->channel[i];
         bool needed = false;
+        c->at = (struct br_sample_at){(enum br_field_kind)(i / BR_MEASURES),
+                                      (enum br_measure)(i % BR_MEASURES), 0};
         for (const struct br_study *s = l->study; s; s = s->next_norm)
-            needed |= br_norm_needs(s->norm, (enum br_measure)measure);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-            struct br_channel *c =
-                br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure);
-            c->used = modelled[kind] && (needed || measure == BR_TIP);
-            c->last_only = !needed;
-        }
+            needed |= br_norm_needs(s->norm, c->at.measure);
+        c->used = modelled[c->at.kind] && (needed || c->at.measure == BR_TIP);
+        c->last_only = !needed;
     }
 }
 
@@ -98,46 +97,36 @@ static enum br_status create_ladder(struct br_lockstep *l, const struct br_sampl
     return status;
 }
 
-/* What the auditor needs. */
-static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
-                                   const struct br_sample_at *at, struct br_error *err)
+static enum br_status create_channel(struct br_lockstep *l, struct br_channel *c,
+                                     struct br_error *err)
 {
-    const struct br_mesh_list root = {1, l->root};
+    const struct br_mesh_list roots = {l->roots, l->root}, own = {1, l->root},
+                              rungs = {l->study->n_count, l->study->n};
+    const bool distance = c->at.measure != BR_TIP;
     enum br_status status = BR_OK;
-    c->audit.values = new_values(l, at, l->root[0]);
-    if (at->measure == BR_TIP)
-        return BR_OK;
-    status = create_ladder(l, at, &root, &root, &c->own_ladder, err);
-    if (!status)
-        c->own_projection = br_store_take(&l->store, br_ladder_size(c->own_ladder), sizeof(double));
-    return status;
-}
-
-static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
-                                     enum br_measure measure, struct br_error *err)
-{
-    struct br_channel *c = br_channel_of(l, kind, measure);
-    const struct br_sample_at at = {kind, measure, 0};
-    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
-    enum br_status status = BR_OK;
+    c->size = 1;
     c->root = br_store_take(&l->store, l->roots, sizeof *c->root);
     for (size_t i = 0; i < l->roots && c->root; i++)
-        c->root[i].values = new_values(l, &at, l->root[i]);
+        c->root[i].values = new_values(l, &c->at, l->root[i]);
     if (l->study->auditor)
-        status = create_audit(l, c, &at, err);
-    if (!status && measure != BR_TIP)
-        status = create_ladder(l, &at, &roots, &rungs, &c->ladder, err);
-    c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
+        c->audit.values = new_values(l, &c->at, l->root[0]);
+    if (l->study->auditor && distance)
+        status = create_ladder(l, &c->at, &own, &own, &c->own_ladder, err);
+    if (!status && c->own_ladder)
+        c->own_projection = br_store_take(&l->store, br_ladder_size(c->own_ladder), sizeof(double));
+    if (!status && distance)
+        status = create_ladder(l, &c->at, &roots, &rungs, &c->ladder, err);
+    if (!status && distance)
+        c->size = br_ladder_size(c->ladder);
     return status || !l->store.failed ? status : br_no_memory(err, "the reference's values");
 }
 
 static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES && !status; measure++)
-            if (br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure)->used)
-                status = create_channel(l, (enum br_field_kind)kind, (enum br_measure)measure, err);
+    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
+        if (c->used)
+            status = create_channel(l, c, err);
     return status;
 }
 
@@ -196,11 +185,8 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .stop_self = l->observer ? l->observer->self : NULL,
         .preparing = l->observer ? l->observer->preparing : NULL,
     };
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
-        const enum br_measure m = (enum br_measure)measure;
-        request.measured[BR_AXIAL][m] = br_channel_of(l, BR_AXIAL, m)->used;
-        request.measured[BR_BENDING][m] = br_channel_of(l, BR_BENDING, m)->used;
-    }
+    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++)
+        request.measured[c->at.kind][c->at.measure] = c->used;
     l->reference.judge = s->judge;
     const enum br_status status = s->judge->create(&l->reference.self, &request, err);
     if (status || !s->auditor)
