@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/printed.h"
-#include "study/fit/report.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 
@@ -140,37 +138,6 @@ TEST(test_unequal_levels)
         tried[same]++;
     }
     assert_true(tried[false] > 0 && tried[true] > 0);
-}
-
-/* Pairs that the printed tables break, from the printed files. */
-TEST(test_printed_tables)
-{
-    static const struct {
-        const char *scene, *file;
-        struct br_resolution a, b;
-    } rows[] = {
-        {"example2", "table2", {800, 100}, {800, 200}},
-        {"example1", "table1", {100, 100}, {200, 100}},
-    };
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(rows[i].scene);
-        char path[512];
-        snprintf(path, sizeof path, "%s/reference/printed/%s.csv", getenv("BEAMRATE_DATA"),
-                 rows[i].file);
-        struct br_printed printed;
-        MUST(br_printed_read(path, &printed, &err));
-        struct br_study s =
-            br_test_study(&scene, &br_judge_fine, 1, &rows[i].a.n, 1, &rows[i].a.steps);
-        s.reference = rows[i].b;
-        MUST(br_study_run(&s, 1, 1, NULL, &err));
-        const double a = br_printed_error(&printed, rows[i].a.n, 1.0 / (double)rows[i].a.steps);
-        const double b = br_printed_error(&printed, rows[i].b.n, 1.0 / (double)rows[i].b.steps);
-        assert_true(s.cell[0].error[BR_PART_TOTAL] < 0.1 * (a - b));
-        br_study_clear(&s);
-        br_printed_clear(&printed);
-        br_scene_clear(&scene);
-    }
 }
 
 AROUND_TESTS(make, drop)
