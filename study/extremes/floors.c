@@ -236,15 +236,23 @@ static enum br_status measure(const struct work *w, struct br_floor *floor, stru
 /* ---- all ---- */
 
 struct loop {
-    const struct br_floors *f;
+    struct br_floors *f;
     const struct br_observer *observer;
-    struct br_floor **first; /* of the solvers of a turn */
 };
+
+/* Of the solvers of a turn: those of the finest meshes and most steps come first. */
+static struct br_floor *first_of(const struct br_floors *f, size_t turn)
+{
+    const size_t groups = f->scenes * f->methods / f->solvers, grids = f->n_count * f->k_count;
+    return &f->floor[turn % groups * f->solvers * grids + grids - 1 - turn / groups];
+}
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct loop *l = self;
-    struct work w = {.first = l->first[i], .observer = l->observer};
+    struct work w = {.first = first_of(l->f, i), .observer = l->observer};
+    if (!w.first->steps)
+        return BR_OK;
     w.march = br_allocate(2 * (w.first->n + 1), sizeof *w.march);
     enum br_status status = w.march ? find_exact(&w, err) : br_no_memory(err, "the floors");
     for (size_t s = 0; s < l->f->solvers && !status; s++)
@@ -255,40 +263,10 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-static double work_of(const struct br_floor *f)
-{
-    return (double)f->n * (double)f->steps;
-}
-
 static double work_of_turn(const void *self, size_t i)
 {
-    const struct loop *l = self;
-    return work_of(l->first[i]);
-}
-
-/* Those of as much work in the order of their results. */
-static int most_work_first(const void *a, const void *b)
-{
-    const struct br_floor *x = *(struct br_floor *const *)a, *y = *(struct br_floor *const *)b;
-    if (work_of(x) != work_of(y))
-        return work_of(x) < work_of(y) ? 1 : -1;
-    return (x > y) - (x < y);
-}
-
-static enum br_status march_all(struct br_floors *f, const struct br_extremes_job *job,
-                                struct br_error *err)
-{
-    struct loop loop = {f, job->observer, br_allocate(f->floors, sizeof *loop.first)};
-    struct br_each each = {0, job->threads, job->observer, take_turn, work_of_turn, &loop};
-    if (!loop.first)
-        return br_no_memory(err, "the floors");
-    for (size_t i = 0; i < f->floors; i++)
-        if (f->floor[i].steps > 0 && (size_t)(f->floor[i].by - f->method) % f->solvers == 0)
-            loop.first[each.count++] = &f->floor[i];
-    qsort(loop.first, each.count, sizeof *loop.first, most_work_first);
-    const enum br_status status = br_each(&each, err);
-    free(loop.first);
-    return status;
+    const struct br_floor *first = first_of(((const struct loop *)self)->f, i);
+    return (double)first->n * (double)first->steps;
 }
 
 enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br_extremes_job *job,
@@ -300,7 +278,16 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");
-    return status ? status : march_all(f, job, err);
+    if (status)
+        return status;
+    struct loop loop = {f, job->observer};
+    const struct br_each each = {.count = f->floors / f->solvers,
+                                 .threads = job->threads,
+                                 .observer = job->observer,
+                                 .turn = take_turn,
+                                 .work = work_of_turn,
+                                 .self = &loop};
+    return br_each(&each, err);
 }
 
 /* ---- looking ---- */
