@@ -133,21 +133,17 @@ static struct cut cut(const struct br_study *s, double most, size_t idle)
 
 /* ---- batches ---- */
 
-/* Slices are dealt like cards, the dearest first: in each round every rank gets as many as it has
- * threads, or its share of those that are left. slice: in; batch: of each slice, out. */
+/* The dearest slices come first: each batch gets as many as a rank has threads, or a rank's share
+ * of those that are left. slice: in; batch: of each slice, out. */
 static void deal(struct br_batches *b, const struct priced *slice, size_t slices, size_t ranks,
                  size_t threads, size_t *batch)
 {
-    for (size_t done = 0; done < slices;) {
-        const size_t left = slices - done, share = (left + ranks - 1) / ranks;
-        const size_t each = share < threads ? share : threads;
-        const size_t round = each * ranks < left ? each * ranks : left;
-        for (size_t i = done; i < done + round; i++) {
-            batch[slice[i].index] = b->count + (i - done) % ranks;
-            b->cost[batch[slice[i].index]] += slice[i].cost;
+    for (size_t done = 0; done < slices; b->count++) {
+        const size_t share = (slices - done + ranks - 1) / ranks;
+        for (const size_t end = done + (share < threads ? share : threads); done < end; done++) {
+            batch[slice[done].index] = b->count;
+            b->cost[b->count] += slice[done].cost;
         }
-        b->count += round < ranks ? round : ranks;
-        done += round;
     }
 }
 
