@@ -230,11 +230,12 @@ TEST(test_sums)
 
 enum { S = BR_STAGES, MODES = 3 * BR_STAGE_LANES };
 
-/* y = X x, where (a + b X + X^2) x = r, by Gauss's elimination with the largest pivots. */
+/* y = X x, where (a + b X + X^2) x = r, by the elimination of Gauss and Jordan with the largest
+ * pivots. */
 static void solve_stages(const struct br_radau *radau, double a, double b, const double r[S],
                          long double y[S])
 {
-    long double m[S][S + 1], x[S];
+    long double m[S][S + 1];
     for (size_t k = 0; k < S; k++) {
         for (size_t l = 0; l < S; l++) {
             m[k][l] = (k == l ? (long double)a : 0) + (long double)b * radau->integral[k][l];
@@ -247,27 +248,19 @@ static void solve_stages(const struct br_radau *radau, double a, double b, const
         size_t largest = k;
         for (size_t l = k; l < S; l++)
             largest = fabsl(m[l][k]) > fabsl(m[largest][k]) ? l : largest;
-        for (size_t l = 0; l <= S; l++) {
-            const long double swap = m[k][l];
-            m[k][l] = m[largest][l];
-            m[largest][l] = swap;
+        for (size_t i = 0; i <= S; i++) {
+            const long double swap = m[k][i];
+            m[k][i] = m[largest][i];
+            m[largest][i] = swap;
         }
-        for (size_t l = k + 1; l < S; l++) {
-            const long double share = m[l][k] / m[k][k];
-            for (size_t i = k; i <= S; i++)
-                m[l][i] -= share * m[k][i];
-        }
-    }
-    for (size_t k = S; k-- > 0;) {
-        x[k] = m[k][S];
-        for (size_t l = k + 1; l < S; l++)
-            x[k] -= m[k][l] * x[l];
-        x[k] /= m[k][k];
+        for (size_t l = 0; l < S; l++)
+            for (size_t i = S + 1; i-- > k && l != k;)
+                m[l][i] -= m[l][k] / m[k][k] * m[k][i];
     }
     for (size_t k = 0; k < S; k++) {
         y[k] = 0;
         for (size_t l = 0; l < S; l++)
-            y[k] += radau->integral[k][l] * x[l];
+            y[k] += radau->integral[k][l] * m[l][S] / m[l][l];
     }
 }
 

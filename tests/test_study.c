@@ -515,25 +515,24 @@ TEST(test_observer)
 {
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 4, steps = 500;
-    for (int threads = 1; threads <= 3; threads++) {
-        struct br_error err = {0};
-        struct watcher w = {.stop_after = 1000000};
-        const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
-        struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-        MUST(br_study_run(&s, 1, threads, &observer, &err));
-        assert_true(w.last == 1 && w.calls > 3);
-        br_study_clear(&s);
-
-        for (int after = 0; after < 400; after += 57) {
-            w = (struct watcher){.stop_after = after};
-            s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-            REFUSED(br_study_run(&s, 1, threads, &observer, &err), BR_INTERRUPTED, "interrupted");
-            assert_null(s.cell);
+    const struct br_observer silent = {0};
+    for (int threads = 1; threads <= 3; threads++)
+        for (int after = 0; after < 456; after += 57) {
+            struct br_error err = {0};
+            const bool ends = after >= 399;
+            struct watcher w = {.stop_after = ends ? 1000000 : after};
+            const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
+            struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
+            const enum br_status status = br_study_run(&s, 1, threads, &observer, &err);
+            if (!ends) {
+                REFUSED(status, BR_INTERRUPTED, "interrupted");
+                assert_null(s.cell);
+                continue;
+            }
+            assert_true(status == BR_OK && w.last == 1 && w.calls > 3);
+            br_study_clear(&s);
+            MUST(br_study_run(&s, 1, threads, &silent, &err));
+            br_study_clear(&s);
         }
-        const struct br_observer silent = {0};
-        s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-        MUST(br_study_run(&s, 1, threads, &silent, &err));
-        br_study_clear(&s);
-    }
     br_scene_clear(&scene);
 }
