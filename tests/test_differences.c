@@ -80,38 +80,6 @@ TEST(test_differences)
     br_scene_clear(&scene);
 }
 
-/* The orders that the differences of a smooth march show, with no reference at all. */
-TEST(test_orders)
-{
-    static const size_t doubling[] = {8, 16, 32, 64}, halving[] = {100, 200, 400, 800};
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    struct br_study grid[NORMS];
-    make_grid(&scene, grid);
-    grid[0].n = doubling, grid[0].n_count = 4;
-    grid[0].steps = halving, grid[0].k_count = 4;
-    grid[0].next_norm = NULL;
-    struct br_differences out;
-    struct br_tips tips = {0};
-    MUST(br_differences_run(grid, &out, &tips, 2, NULL, &err));
-    static const double orders[BR_PARTS] = {0, 2, 4};
-    for (int part = BR_PART_AXIAL; part < BR_PARTS; part++) {
-        struct br_fits over_h, over_k;
-        MUST(br_fit(&out.over_h, (enum br_part)part, &over_h, &err));
-        MUST(br_fit(&out.over_k, (enum br_part)part, &over_k, &err));
-        assert_true(over_h.joint.kind == BR_JOINT_SPACE && over_k.joint.kind == BR_JOINT_TIME);
-        CLOSE(over_h.joint.p.value, orders[part], 0.02);
-        AT_MOST(over_h.joint.p.high - over_h.joint.p.low, 0.1);
-        CLOSE(over_k.joint.q.value, 1, 0.05);
-        br_fits_clear(&over_h);
-        br_fits_clear(&over_k);
-    }
-    br_study_clear(&out.over_h);
-    br_study_clear(&out.over_k);
-    br_tips_clear(&tips);
-    br_scene_clear(&scene);
-}
-
 TEST(test_refusals)
 {
     struct br_scene scene = br_test_bundled("example2");

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/laws.h"
 #include "study/extremes/extremes.h"
 #include "study/grid/observer.h"
 #include "support.h"
@@ -45,20 +44,6 @@ TEST(test_matrix)
     CLOSE(matrix[3], 0, 1e-15);
     MUST(br_step_radius(&rod, 7, &radius, &err));
     CLOSE(radius, -z, 1e-14);
-}
-
-/* Of a quadratic rod the bubbles are states, too, and nothing else than a march is asked. */
-TEST(test_quadratic_matrix)
-{
-    struct br_error err = {0};
-    struct br_field rod = br_stability_field(&br_stability_rods[5], 2, 1e-3);
-    double radius;
-    assert_int_equal(br_step_states(&rod), 8);
-    const double limit = br_contact_limit_stiffness(&rod);
-    MUST(br_step_radius(&rod, 3 * limit, &radius, &err));
-    CLOSE(radius / br_contact_growth(&rod, 3 * limit), 1, 1e-13);
-    MUST(br_step_radius(&rod, 0.999 * limit, &radius, &err));
-    assert_true(radius < 1);
 }
 
 TEST(test_found)
@@ -111,16 +96,6 @@ TEST(test_verdict)
     WRONG(tip[3].swing, NAN, "nowhere");
     WRONG(bounce[0].energy, 1.001, "its energy");
     WRONG(bounce[3].energy, NAN, "its energy");
-}
-
-/* A limit that is a little wrong is found: the one without inertia, say, in the paper's rod. */
-TEST(test_planted_limit)
-{
-    const struct br_stability_row *r = &found.row[1];
-    assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
-    const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
-    CLOSE(1 / (br_tip_flexibility(&field, 2 / r->k) * r->measured), 1, 2e-11);
-    assert_true(fabs(1 / (br_tip_flexibility(&field, 1 / r->k) * r->measured) - 1) > 0.1);
 }
 
 /* Between the two limits a bouncing rod does gain energy: the narrower promise is not idle. */
