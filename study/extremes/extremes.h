@@ -206,10 +206,6 @@ enum br_status br_stability_verdict(const struct br_stability *s, struct br_erro
 struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n, double k);
 struct br_scene br_stability_scene(const struct br_field *field, double duration);
 
-/* Fill s->scheme; s->tip and s->bounce. Fail with BR_NO_MEMORY. */
-enum br_status br_stability_schemes(struct br_stability *s, struct br_error *err);
-enum br_status br_stability_tips(struct br_stability *s, struct br_error *err);
-
 /* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, as marches of
  * one step tell it: nothing is known there of the equations ---- */
 
