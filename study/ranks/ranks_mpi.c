@@ -257,33 +257,6 @@ static enum br_status meet(struct word word, struct br_error *err)
     return status;
 }
 
-/* The results of all ranks, one behind the other; owned by the caller. */
-static enum br_status gather(struct word word, const char *bytes, char **all, size_t *size,
-                             struct br_error *err)
-{
-    MPI_Request request;
-    enum br_status status = meet(word, err);
-    *all = NULL;
-    *size = 0;
-    if (status)
-        return status;
-    for (int r = 0; r < job.size; *size += job.word[r++].bytes) {
-        if (job.word[r].bytes > INT_MAX - *size)
-            return br_fail(err, BR_IO, "the results of all ranks are beyond 2 GiB");
-        job.bytes[r] = (int)job.word[r].bytes;
-        job.place[r] = (int)*size;
-    }
-    *all = br_allocate(*size + 1, 1);
-    if (!*all)
-        br_no_memory(&word.failure, "the results");
-    status = meet(word, err);
-    if (status)
-        return status;
-    MPI_Iallgatherv(bytes, (int)word.bytes, MPI_BYTE, *all, job.bytes, job.place, MPI_BYTE,
-                    job.comm, &request);
-    return await(&request, err);
-}
-
 /* ---- a call ---- */
 
 struct call {
@@ -291,7 +264,10 @@ struct call {
     size_t count;
     struct br_batches batches;
     int threads;
-    FILE *results;
+    struct word word; /* what this rank says */
+    FILE *results;    /* into its own bytes */
+    char *own, *all;  /* of all ranks, one behind the other */
+    size_t size;      /* of these */
 
     /* the batch that a thread of its own marches */
     size_t batch;
@@ -365,30 +341,50 @@ static enum br_status march_all(struct call *c, struct br_error *err)
     return status;
 }
 
-/* All marches, then all results. What goes wrong on this rank is said at the meeting. */
-static enum br_status share(struct call *c, struct word word, struct br_error *err)
+/* The results of all ranks. */
+static enum br_status gather(struct call *c, struct br_error *err)
 {
-    char *own = NULL, *all = NULL;
-    size_t size = 0;
-    c->results = open_memstream(&own, &word.bytes);
-    enum br_status status = meet(word, err);
-    if (!status && !c->results)
-        br_no_memory(&word.failure, "the results");
-    else if (!status)
-        march_all(c, &word.failure);
-    if (c->results && fclose(c->results) != 0 && !word.failure.status)
-        br_no_memory(&word.failure, "the results");
-    job.fails |= word.failure.status != BR_OK;
+    MPI_Request request;
+    enum br_status status = meet(c->word, err);
+    if (status)
+        return status;
+    for (int r = 0; r < job.size; c->size += job.word[r++].bytes) {
+        if (job.word[r].bytes > INT_MAX - c->size)
+            return br_fail(err, BR_IO, "the results of all ranks are beyond 2 GiB");
+        job.bytes[r] = (int)job.word[r].bytes;
+        job.place[r] = (int)c->size;
+    }
+    if (!(c->all = br_allocate(c->size + 1, 1)))
+        br_no_memory(&c->word.failure, "the results");
+    status = meet(c->word, err);
+    if (status)
+        return status;
+    MPI_Iallgatherv(c->own, (int)c->word.bytes, MPI_BYTE, c->all, job.bytes, job.place, MPI_BYTE,
+                    job.comm, &request);
+    return await(&request, err);
+}
+
+/* All marches, then all results. What goes wrong on this rank is said at the meeting. */
+static enum br_status share(struct call *c, struct br_error *err)
+{
+    struct br_error *failure = &c->word.failure;
+    c->results = open_memstream(&c->own, &c->word.bytes);
+    enum br_status status = meet(c->word, err);
+    if (!status && c->results)
+        march_all(c, failure);
+    if ((!c->results || fclose(c->results) != 0) && !failure->status)
+        br_no_memory(failure, "the results");
+    job.fails |= failure->status != BR_OK;
     if (!status && job.lost)
-        status = br_fail(err, word.failure.status, "%s", word.failure.message);
+        status = br_fail(err, failure->status, "%s", failure->message);
     if (!status)
-        status = gather(word, own, &all, &size, err);
+        status = gather(c, err);
     if (!status)
-        status = br_batches_read(c->studies, c->count, &c->batches, all, size, err);
-    if (job.lost)
-        return status; /* MPI may still be using them */
-    free(own);
-    free(all);
+        status = br_batches_read(c->studies, c->count, &c->batches, c->all, c->size, err);
+    if (!job.lost) { /* else MPI may still be using them */
+        free(c->own);
+        free(c->all);
+    }
     return status;
 }
 
@@ -396,21 +392,20 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
                                  const struct br_observer *observer, struct br_error *err)
 {
     struct call c = {.studies = studies, .count = count};
-    struct word word = {.failure = {0}};
     const int each = threads > 0 ? threads : job.most_threads;
     if (job.size == 1)
         return br_lockstep(studies, count, threads, observer, err);
     if (job.over)
         return br_fail(err, BR_IO, "the ranks share no work after a failure");
     c.threads = threads > 0 ? threads : job.threads;
-    br_batches_create(&c.batches, studies, count, job.size, each, &word.failure);
-    word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
+    br_batches_create(&c.batches, studies, count, job.size, each, &c.word.failure);
+    c.word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
     job.observer = observer;
     job.total = 0;
     for (size_t i = 0; i < c.batches.count; i++)
         job.total += c.batches.cost[i];
     start_watching();
-    const enum br_status status = share(&c, word, err);
+    const enum br_status status = share(&c, err);
     job.observer = NULL;
     job.before += job.total;
     job.tickets += c.batches.count + (size_t)job.size; /* each rank has drawn one too many */
