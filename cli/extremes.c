@@ -8,6 +8,7 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "study/ranks/ranks.h"
+#include "study/scene/words.h"
 
 enum { MOST_PARTS = 16 };
 
@@ -42,11 +43,9 @@ static const char *heeders(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
-        const size_t used = strlen(text);
+    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++)
         if (heeds(p, option))
-            snprintf(text + used, sizeof text - used, "%s%s", used ? ", " : "", p->name);
-    }
+            br_append(text, sizeof text, "%s%s", *text ? ", " : "", p->name);
     return *text ? text : "no part";
 }
 
@@ -55,10 +54,10 @@ static const char *part_title(size_t row)
 {
     static char text[256];
     const struct br_extremes_part *part = &br_extremes_parts[row];
-    size_t used = (size_t)snprintf(text, sizeof text, "%.150s.", part->title);
-    for (size_t i = 0; i < HEEDED && used < sizeof text; i++)
+    snprintf(text, sizeof text, "%.150s.", part->title);
+    for (size_t i = 0; i < HEEDED; i++)
         if (heeds(part, heeded[i].id))
-            used += (size_t)snprintf(text + used, sizeof text - used, " %s", heeded[i].option);
+            br_append(text, sizeof text, " %s", heeded[i].option);
     return text;
 }
 
@@ -135,15 +134,13 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     }
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
-    job.session = &r->session;
-    job.report = &r->session.document[i];
-    job.verdict = &r->verdict[i];
-    const enum br_status status = part->run(&job, err);
+    const struct br_extremes_output to = {&r->session, &r->session.document[i], &r->verdict[i]};
+    const enum br_status status = part->run(&job, &to, err);
     br_progress_end();
     br_session_tell_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, part->name);
-    br_put_provenance(job.report, &provenance);
+    br_put_provenance(to.report, &provenance);
     return br_progress_result(status, err);
 }
 

@@ -4,25 +4,11 @@
 #ifndef BR_CLI_EXTREMES_PART_H
 #define BR_CLI_EXTREMES_PART_H
 
-#include <stdint.h>
-
 #include "cli/session.h"
-#include "study/grid/observer.h"
+#include "study/extremes/extremes.h"
 
-/* What is asked for, and where what is found goes. All borrowed; 0 or NULL: the part's own choice.
- */
-struct br_extremes_job {
-    size_t cases;  /* of the map */
-    uint64_t seed; /* of what is drawn at random */
-    int threads;   /* 0: all cores */
-    const size_t *n;
-    const double *k; /* s */
-    size_t n_count, k_count;
-    int rounding;         /* as fesetround takes it: of the marches, not of their judges */
-    struct br_kept *kept; /* where a part that takes long keeps what is done, and finds what need
-                             not be done again; NULL: nothing is kept */
-    const char *folder;   /* for other files of the part (reproducer scenes): the staging folder */
-    const struct br_observer *observer; /* NULL: nobody */
+/* Where what is found goes. All borrowed. */
+struct br_extremes_output {
     struct br_session *session; /* for br_session_draw: the stems of pictures are the part's name,
                                    or begin with it and a dash */
     struct br_document *report; /* zeros; owned by the session */
@@ -40,7 +26,8 @@ struct br_extremes_part {
     /* Computes, begins the report (its name is the part's) and puts all into it but provenance,
      * draws, and judges: what is found wrong is a verdict, no failure. Fails with BR_BAD_INPUT,
      * BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */
-    enum br_status (*run)(const struct br_extremes_job *job, struct br_error *err);
+    enum br_status (*run)(const struct br_extremes_job *job, const struct br_extremes_output *to,
+                          struct br_error *err);
 };
 
 /* In the order in which they run; ends with zeros (cli/extremes_parts.c). */

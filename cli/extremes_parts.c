@@ -4,66 +4,48 @@
 #include "cli/extremes_part.h"
 
 #include "plots/pictures.h"
-#include "study/extremes/energy_behaviour.h"
-#include "study/extremes/floors.h"
 #include "study/extremes/map.h"
-#include "study/extremes/stability.h"
 #include "tables/reports.h"
 
 /* Round-off: a picture for each k of the solvers' floors, or one of what steps gather. */
 static enum br_status run_round_off(const struct br_extremes_job *job, bool gathered,
-                                    struct br_error *err)
+                                    const struct br_extremes_output *to, struct br_error *err)
 {
-    const struct br_floors_plan plan = {
-        .gathered = gathered,
-        .n = job->n,
-        .k = job->k,
-        .n_count = job->n_count,
-        .k_count = job->k_count,
-        .threads = job->threads,
-        .rounding = job->rounding,
-    };
     struct br_floors f = {0};
-    enum br_status status = br_floors_run(&f, &plan, job->observer, err);
+    const enum br_status status = br_floors_run(&f, gathered, job, err);
     if (!status) {
-        br_report_floors(&f, job->report);
-        br_floors_verdict(&f, job->verdict);
+        br_report_floors(&f, to->report);
+        br_floors_verdict(&f, to->verdict);
     }
     const size_t points = gathered ? f.k_count : f.n_count, pictures = gathered ? 1 : f.k_count;
     for (size_t i = 0; i < pictures && points > 1 && !status; i++)
-        br_session_draw(job->session, job->report, br_floors_draw(&f, i), NULL);
+        br_session_draw(to->session, to->report, br_floors_draw(&f, i), NULL);
     br_floors_clear(&f);
     return status;
 }
 
-static enum br_status run_floors(const struct br_extremes_job *job, struct br_error *err)
+static enum br_status run_floors(const struct br_extremes_job *job,
+                                 const struct br_extremes_output *to, struct br_error *err)
 {
-    return run_round_off(job, false, err);
+    return run_round_off(job, false, to, err);
 }
 
-static enum br_status run_steps(const struct br_extremes_job *job, struct br_error *err)
+static enum br_status run_steps(const struct br_extremes_job *job,
+                                const struct br_extremes_output *to, struct br_error *err)
 {
-    return run_round_off(job, true, err);
+    return run_round_off(job, true, to, err);
 }
 
 /* The lagged contact's limit. */
-static enum br_status run_stability(const struct br_extremes_job *job, struct br_error *err)
+static enum br_status run_stability(const struct br_extremes_job *job,
+                                    const struct br_extremes_output *to, struct br_error *err)
 {
-    const struct br_stability_request request = {
-        .n = job->n_count ? job->n[0] : 0,
-        .k = job->k,
-        .k_count = job->k_count,
-        .threads = job->threads,
-        .observer = job->observer,
-    };
-    if (job->n_count > 1)
-        return br_fail(err, BR_BAD_INPUT, "--n: found %zu numbers, expected one", job->n_count);
     struct br_stability s = {0};
-    enum br_status status = br_stability_run(&request, &s, err);
+    const enum br_status status = br_stability_run(&s, job, err);
     if (!status) {
-        br_report_stability(&s, job->report);
-        br_stability_verdict(&s, job->verdict);
-        br_session_draw(job->session, job->report, br_stability_draw(&s), NULL);
+        br_report_stability(&s, to->report);
+        br_stability_verdict(&s, to->verdict);
+        br_session_draw(to->session, to->report, br_stability_draw(&s), NULL);
     }
     br_stability_clear(&s);
     return status;
@@ -88,42 +70,33 @@ static enum br_status judge_energy(const struct br_energy_behaviour *b, struct b
 }
 
 /* What every scheme takes from the energy or adds to it. */
-static enum br_status run_energy(const struct br_extremes_job *job, struct br_error *err)
+static enum br_status run_energy(const struct br_extremes_job *job,
+                                 const struct br_extremes_output *to, struct br_error *err)
 {
     struct br_energy_behaviour b = {0};
-    enum br_status status = br_energy_behaviour_run(&b, job->threads, job->observer, err);
+    const enum br_status status = br_energy_behaviour_run(&b, job, err);
     if (!status) {
-        br_report_energy(&b, job->report);
-        judge_energy(&b, job->verdict);
-        br_session_draw(job->session, job->report, br_energy_draw(&b), NULL);
+        br_report_energy(&b, to->report);
+        judge_energy(&b, to->verdict);
+        br_session_draw(to->session, to->report, br_energy_draw(&b), NULL);
     }
     br_energy_behaviour_clear(&b);
     return status;
 }
 
-enum { CASES = 2000, SEED = 1 };
-
 /* Thousands of cases at random, and none of them silently wrong. */
-static enum br_status run_map(const struct br_extremes_job *job, struct br_error *err)
+static enum br_status run_map(const struct br_extremes_job *job,
+                              const struct br_extremes_output *to, struct br_error *err)
 {
-    const struct br_extreme_request request = {
-        .seed = job->seed ? job->seed : SEED,
-        .cases = job->cases ? job->cases : CASES,
-        .threads = job->threads,
-        .judging = {.rounding = job->rounding},
-        .kept = job->kept,
-        .folder = job->folder,
-        .observer = job->observer,
-    };
     struct br_extreme_map map = {0};
-    const enum br_status status = br_extreme_map_run(&request, &map, err);
+    const enum br_status status = br_extreme_map_run(&map, job, br_extreme_judge, err);
     if (!status) {
-        br_report_map(&map, job->report);
+        br_report_map(&map, to->report);
         if (map.count[BR_EXTREME_WRONG])
-            br_fail(job->verdict, BR_VERDICT,
+            br_fail(to->verdict, BR_VERDICT,
                     "%zu of %zu cases are silently wrong, the first of them: %s",
                     map.count[BR_EXTREME_WRONG], map.cases, map.shrunk[0].command);
-        br_session_draw(job->session, job->report, br_extreme_map_draw(&map), NULL);
+        br_session_draw(to->session, to->report, br_extreme_map_draw(&map), NULL);
     }
     br_extreme_map_clear(&map);
     return status;

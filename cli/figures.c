@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate figures: Figures 2 to 10 of the paper, and what its section 3.2 says. */
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "plots/pictures.h"
 #include "study/paper/paper.h"
+#include "study/scene/words.h"
 #include "tables/reports.h"
 
 struct run {
@@ -21,10 +21,9 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
 {
     char text[600] = "The exact solution:";
     for (size_t i = 0; i < e->events; i++)
-        snprintf(text + strlen(text), sizeof text - strlen(text), "%s at t = %.6g s %s%s",
-                 i ? "," : "", e->event[i].time,
-                 e->event[i].field == BR_EXACT_BENDING ? "the tip " : "",
-                 br_phase_text(e->event[i].phase));
+        br_append(text, sizeof text, "%s at t = %.6g s %s%s", i ? "," : "", e->event[i].time,
+                  e->event[i].field == BR_EXACT_BENDING ? "the tip " : "",
+                  br_phase_text(e->event[i].phase));
     br_put_note(d, "Figure %d. The paper: %s", f->number, f->says);
     br_put_note(d, "%s.", text);
     if (f->beside)

@@ -8,6 +8,7 @@
 
 #include "cli/progress.h"
 #include "study/scene/quote.h"
+#include "study/scene/words.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
 enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
@@ -46,11 +47,8 @@ static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
     if (p->format)
         return BR_OK;
     char known[256] = "";
-    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++) {
-        const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s (%s)", used ? ", " : "", f->extension,
-                 f->title);
-    }
+    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++)
+        br_append(known, sizeof known, "%s%s (%s)", *known ? ", " : "", f->extension, f->title);
     return br_fail(err, BR_BAD_INPUT, "--animate: found '%s', expected a name that ends with: %s",
                    file, known);
 }

@@ -5,10 +5,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
-#include "study/extremes/energy_behaviour.h"
-#include "study/extremes/floors.h"
 #include "study/extremes/map.h"
-#include "study/extremes/stability.h"
 
 /* ---- floors: deviation over n, or over N ---- */
 

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "study/extremes/floors.h"
-#include "study/extremes/stability.h"
+#include "study/extremes/extremes.h"
 #include "tables/report_parts.h"
 
 /* ---- floors, and the round-off that steps gather ---- */
@@ -193,7 +192,7 @@ static void put_tips(struct br_document *d, const struct br_stability *s)
     for (size_t i = 0; i < BR_STABILITY_TIPS; i++) {
         const struct br_stability_tip *t = &s->tip[i];
         br_put_row(d);
-        BR_PUT(d, br_number(t->share), .key = "share", .heading = "c_H over its limit");
+        BR_PUT(d, br_number(t->limit), .key = "share", .heading = "c_H over its limit");
         BR_PUT(d, br_number(t->stiffness), .key = "c_H", .unit = "N/m");
         BR_PUT(d, br_count(t->opened), .key = "opened", .heading = "times it opened");
         BR_PUT(d, br_number(t->swing), .key = "swing", .format = "%.2e");
@@ -205,7 +204,7 @@ static void put_bounces(struct br_document *d, const struct br_stability *s)
 {
     br_put_table(d, "bouncing", "A bouncing rod, lagged contact", 0);
     for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
-        const struct br_stability_bounce *b = &s->bounce[i];
+        const struct br_stability_tip *b = &s->bounce[i];
         br_put_row(d);
         BR_PUT(d, br_number(b->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
         BR_PUT(d, br_number(b->bouncing), .key = "over_bouncing",

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/energy_behaviour.h"
+#include "study/extremes/extremes.h"
 #include "tables/reports.h"
 
 /* The density that people see. */

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "study/extremes/map.h"
+#include "study/scene/words.h"
 #include "tables/reports.h"
 
 static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
@@ -12,7 +13,7 @@ static void put_tallies(struct br_document *d, const struct br_extreme_map *m)
         const struct br_extreme_tally *t = &m->tally[i];
         br_put_row(d);
         BR_PUT(d, br_text(t->title), .key = "tried", .heading = "what was tried");
-        BR_PUT(d, br_text(t->label), .key = "range");
+        BR_PUT(d, br_text(*t->label ? t->label : NULL), .key = "range");
         BR_PUT(d, br_count(t->cases), .key = "cases");
         for (int c = 0; c < BR_EXTREME_CLASSES; c++)
             BR_PUT(d, br_count(t->count[c]), .key = br_extreme_names[c].word,
@@ -26,10 +27,11 @@ static void put_reasons(struct br_document *d, const struct br_extreme_map *m)
         {.key = "kind"}, {.key = "cases"}, {.key = "first"}, {.key = "reason", .flags = BR_WRAP}};
     BR_TABLE(d, "reasons", "Why it is not right (# stands for numbers)", BR_FILES_ONLY, columns);
     for (size_t i = 0; i < m->reasons; i++) {
-        const struct br_extreme_reason *r = &m->reason[i];
-        BR_PUT_ROW(d, br_text(br_extreme_names[r->which].word));
-        br_put_shown(d, "%s", br_extreme_names[r->which].heading);
-        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->text));
+        const struct br_extreme_tally *r = &m->reason[i];
+        const struct br_extreme_names *name = &br_extreme_names[m->verdict[r->first].which];
+        BR_PUT_ROW(d, br_text(name->word));
+        br_put_shown(d, "%s", name->heading);
+        BR_PUT_CELLS(d, br_count(r->cases), br_count(r->first), br_text(r->label));
     }
 }
 
@@ -50,12 +52,10 @@ static void put_wrong(struct br_document *d, const struct br_extreme_map *m)
 static void put_warnings(struct br_document *d, unsigned warned)
 {
     char text[400] = "";
-    size_t used = 0;
     for (int kind = 0; kind < BR_WARNINGS; kind++)
-        if (warned & 1u << kind && used < sizeof text)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used ? " " : "",
-                                     br_warning_words[kind]);
-    BR_PUT(d, br_text(used ? text : NULL), .key = "warnings");
+        if (warned & 1u << kind)
+            br_append(text, sizeof text, "%s%s", *text ? " " : "", br_warning_words[kind]);
+    BR_PUT(d, br_text(*text ? text : NULL), .key = "warnings");
 }
 
 static void put_case(struct br_document *d, const struct br_extreme_case *c, size_t index,

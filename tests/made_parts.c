@@ -49,13 +49,13 @@ static void draw_cells(struct br_figure *f)
     c->value[0] = 1;
 }
 
-static void draw(const struct br_extremes_job *j)
+static void draw(const struct br_extremes_output *to)
 {
     struct br_figure curve = {0}, cells = {0};
     draw_curve(&curve);
-    br_session_draw(j->session, j->report, curve, NULL);
+    br_session_draw(to->session, to->report, curve, NULL);
     draw_cells(&cells);
-    br_session_draw(j->session, j->report, cells, NULL);
+    br_session_draw(to->session, to->report, cells, NULL);
 }
 
 /* ---- fast: seed 13 is wrong, seed 14 refused, seed 15 a failure ---- */
@@ -71,7 +71,8 @@ static enum br_status write_scene(const char *folder, struct br_error *err)
     return fclose(file) == 0 ? BR_OK : br_fail(err, BR_IO, "%s", path);
 }
 
-static enum br_status run_fast(const struct br_extremes_job *j, struct br_error *err)
+static enum br_status run_fast(const struct br_extremes_job *j, const struct br_extremes_output *to,
+                               struct br_error *err)
 {
     if (j->seed == 14)
         return br_fail(err, BR_BAD_INPUT, "14 is refused");
@@ -83,19 +84,20 @@ static enum br_status run_fast(const struct br_extremes_job *j, struct br_error 
              j->cases, (unsigned long long)j->seed, j->threads, j->rounding, j->n_count,
              j->n_count ? j->n[j->n_count - 1] : 0, j->k_count, j->kept ? "somewhere" : "nowhere");
     h->rows = 3;
-    report(h, "fast", j->report);
+    report(h, "fast", to->report);
     if (j->seed == 13) {
-        br_fail(j->verdict, BR_VERDICT, "13 is silently wrong");
+        br_fail(to->verdict, BR_VERDICT, "13 is silently wrong");
         if (write_scene(j->folder, err))
             return err->status;
     }
-    draw(j);
+    draw(to);
     return BR_OK;
 }
 
 /* ---- slow: cases that take 10 ms each and are kept ---- */
 
-static enum br_status run_slow(const struct br_extremes_job *j, struct br_error *err)
+static enum br_status run_slow(const struct br_extremes_job *j, const struct br_extremes_output *to,
+                               struct br_error *err)
 {
     struct heard heard = {.kept = 0}, *h = &heard;
     enum br_status status = BR_OK;
@@ -114,7 +116,7 @@ static enum br_status run_slow(const struct br_extremes_job *j, struct br_error 
     }
     snprintf(h->line, sizeof h->line, "%s was done before, and is %zu cases now",
              h->kept ? "something" : "nothing", h->rows);
-    report(h, "slow", j->report);
+    report(h, "slow", to->report);
     return status;
 }
 

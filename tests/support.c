@@ -215,39 +215,6 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
     return most;
 }
 
-/* ---- finite element functions ---- */
-
-long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e, long double xi)
-{
-    const long double eta = 1 - xi;
-    if (kind == BR_AXIAL)
-        return eta * nodal[e] + xi * nodal[e + 1];
-    const double *w = nodal + 2 * e;
-    return eta * eta * (1 + 2 * xi) * w[0] + xi * eta * eta * w[1] + xi * xi * (3 - 2 * xi) * w[2] -
-           xi * xi * eta * w[3];
-}
-
-/* Four Gauss points an element of the fine mesh: exact for the square of cubics. */
-double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
-                        const double *coarse, size_t fine_n, const double *fine)
-{
-    const long double a = sqrtl(3.0L / 7 - 2.0L / 7 * sqrtl(1.2L)),
-                      b = sqrtl(3.0L / 7 + 2.0L / 7 * sqrtl(1.2L));
-    const long double x[4] = {(1 - b) / 2, (1 - a) / 2, (1 + a) / 2, (1 + b) / 2};
-    const long double wa = (18 + sqrtl(30)) / 72, wb = (18 - sqrtl(30)) / 72;
-    const long double weight[4] = {wb, wa, wa, wb};
-    const size_t ratio = fine_n / coarse_n;
-    long double sum = 0;
-    for (size_t e = 0; e < fine_n; e++)
-        for (int q = 0; q < 4; q++) {
-            const long double xi = ((long double)(e % ratio) + x[q]) / (long double)ratio;
-            const long double difference =
-                br_test_value(kind, fine, e, x[q]) - br_test_value(kind, coarse, e / ratio, xi);
-            sum += weight[q] * difference * difference;
-        }
-    return (double)sqrtl(sum * length / (long double)fine_n);
-}
-
 bool br_test_quick(void)
 {
     return getenv("BR_TEST_QUICK") != NULL;

@@ -85,14 +85,6 @@ size_t br_test_golden(struct br_test_golden rows[BR_TEST_MOST_GOLDEN]);
 /* Largest error of the three values, relative to the largest golden value of its field. */
 double br_test_deviation(const struct br_test_end *end, const struct br_test_end *golden);
 
-/* A finite element function at xi in [0, 1] of element e, by the textbook's shape functions. */
-long double br_test_value(enum br_field_kind kind, const double *nodal, size_t e, long double xi);
-
-/* L2 distance of two finite element functions on nested meshes, in long double. Nodal arrays as in
- * solver/field.h; length L, m. */
-double br_test_distance(enum br_field_kind kind, double length, size_t coarse_n,
-                        const double *coarse, size_t fine_n, const double *fine);
-
 /* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);
 

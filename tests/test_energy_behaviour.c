@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/energy_behaviour.h"
+#include "study/extremes/extremes.h"
 #include "study/grid/observer.h"
 #include "support.h"
 
@@ -81,7 +81,7 @@ TEST(test_all)
 {
     struct br_error err = {0};
     struct br_energy_behaviour b;
-    MUST(br_energy_behaviour_run(&b, 0, NULL, &err));
+    MUST(br_energy_behaviour_run(&b, &(struct br_extremes_job){0}, &err));
     double most = 0;
     size_t done = 0;
     for (size_t i = 0; i < b.vibrations; i++)
@@ -111,6 +111,7 @@ TEST(test_interrupted)
     struct br_error err = {0};
     struct br_energy_behaviour b;
     const struct br_observer observer = {.stop = give_up};
-    REFUSED(br_energy_behaviour_run(&b, 2, &observer, &err), BR_INTERRUPTED, "interrupted");
+    const struct br_extremes_job job = {.threads = 2, .observer = &observer};
+    REFUSED(br_energy_behaviour_run(&b, &job, &err), BR_INTERRUPTED, "interrupted");
     br_energy_behaviour_clear(&b);
 }

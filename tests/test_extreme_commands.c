@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli_driver.h"
-#include "study/extremes/judge.h"
+#include "study/extremes/map.h"
 #include "support.h"
 
 enum { FIRST_OF_EACH = 4, CASES = 30 };

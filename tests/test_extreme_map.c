@@ -7,8 +7,6 @@
 
 #include "study/extremes/map.h"
 #include "study/extremes/track.h"
-#include "study/scene/file.h"
-#include "study/scene/rescale.h"
 #include "tests/support.h"
 
 /* Wrong wherever a stiff contact is in a scene with friction; right elsewhere. */
@@ -26,34 +24,27 @@ static enum br_status planted(const struct br_extreme_case *one,
     return BR_OK;
 }
 
-static void draw_all(size_t cases, size_t solver[8], size_t scheme[16])
-{
-    struct br_extreme_case one;
-    for (size_t i = 0; i < cases; i++) {
-        br_extreme_draw(7, i, &one);
-        for (size_t s = 0; br_linear_solvers[s]; s++)
-            solver[s] += br_linear_solvers[s] == one.method.solver;
-        for (size_t s = 0; br_time_schemes[s]; s++)
-            scheme[s] += br_time_schemes[s] == one.method.scheme;
-        assert_true(one.n >= 1 && one.steps >= 1);
-    }
-}
-
 /* A case depends on seed and index alone, and every row of a registry occurs. */
 TEST(test_draws)
 {
     size_t solver[8] = {0}, scheme[16] = {0};
-    static struct br_extreme_case a, b, other;
-    char first[BR_EXTREME_TEXT], second[BR_EXTREME_TEXT];
-    br_extreme_draw(3, 5, &a);
-    br_extreme_draw(3, 6, &other);
-    br_extreme_draw(3, 5, &b);
-    br_extreme_scene(&a, first);
-    br_extreme_scene(&b, second);
-    assert_string_equal(first, second);
-    br_extreme_scene(&other, second);
-    assert_string_not_equal(first, second);
-    draw_all(120, solver, scheme);
+    for (size_t i = 0; i < 120; i++) {
+        static struct br_extreme_case one, again, other;
+        char text[3][BR_EXTREME_TEXT];
+        br_extreme_draw(7, i, &one);
+        br_extreme_draw(7, i + 1, &other);
+        br_extreme_draw(7, i, &again);
+        br_extreme_scene(&one, text[0]);
+        br_extreme_scene(&again, text[1]);
+        br_extreme_scene(&other, text[2]);
+        assert_string_equal(text[0], text[1]);
+        assert_string_not_equal(text[0], text[2]);
+        assert_true(one.n >= 1 && one.steps >= 1);
+        for (size_t s = 0; br_linear_solvers[s]; s++)
+            solver[s] += br_linear_solvers[s] == one.method.solver;
+        for (size_t s = 0; br_time_schemes[s]; s++)
+            scheme[s] += br_time_schemes[s] == one.method.scheme;
+    }
     for (size_t s = 0; br_linear_solvers[s]; s++)
         assert_true(solver[s] > 0);
     for (size_t s = 0; br_time_schemes[s]; s++)
@@ -64,11 +55,11 @@ static struct br_extreme_map run(size_t cases, int threads, uint64_t seed, struc
 {
     struct br_error err = {0};
     struct br_extreme_map map;
-    const struct br_extreme_request request = {
-        .seed = seed, .cases = cases, .threads = threads, .kept = kept, .judge = planted};
+    const struct br_extremes_job job = {
+        .seed = seed, .cases = cases, .threads = threads, .kept = kept};
     if (kept)
         atomic_store(&kept->taken, 0);
-    MUST(br_extreme_map_run(&request, &map, &err));
+    MUST(br_extreme_map_run(&map, &job, planted, &err));
     return map;
 }
 
@@ -101,8 +92,9 @@ TEST(test_resumes)
     assert_int_equal(system(line), 0);
 }
 
-/* What is left of a planted error is what was planted. */
-TEST(test_shrinks)
+/* What is left of a planted error is what was planted. The tallies of an axis sum up to all cases;
+ * reasons are alike but for numbers. */
+TEST(test_shrinks_and_counts)
 {
     struct br_extreme_map map = run(60, 2, 11, NULL);
     for (size_t i = 0; i < map.shrunks; i++) {
@@ -113,13 +105,6 @@ TEST(test_shrinks)
         assert_true(c->method.scheme == br_time_schemes[0]);
         assert_true(c->contact && c->law == BR_TRESCA && c->contact_stiffness > 1e3);
     }
-    br_extreme_map_clear(&map);
-}
-
-/* The tallies of an axis sum up to no more than all cases; reasons are alike but for numbers. */
-TEST(test_counts)
-{
-    struct br_extreme_map map = run(60, 2, 11, NULL);
     assert_int_equal(map.tally[0].cases, 60);
     size_t schemes = 0;
     for (size_t i = 0; i < map.tallies; i++)
@@ -127,7 +112,7 @@ TEST(test_counts)
             schemes += map.tally[i].cases;
     assert_int_equal(schemes, 60);
     assert_int_equal(map.reasons, 1);
-    assert_string_equal(map.reason[0].text, "planted at #");
+    assert_string_equal(map.reason[0].label, "planted at #");
     assert_int_equal(map.reason[0].cases, map.count[BR_EXTREME_WRONG]);
     br_extreme_map_clear(&map);
 }
@@ -152,22 +137,6 @@ TEST(test_rate)
     CLOSE(r.high, 0.1392, 1e-4);
 }
 
-/* A bundled scene is right; in other units it is the same scene. */
-TEST(test_other_units)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2"), other;
-    const struct br_units_change units = {3, 7, 11};
-    const struct br_method method = br_test_method(NULL, "implicit", NULL);
-    MUST(br_rescale(&scene, &units, &other, &err));
-    const struct br_test_end a = br_test_run(&scene, 20, 50, &method);
-    const struct br_test_end b = br_test_run(&other, 20, 50, &method);
-    CLOSE(b.u_tip / 3, a.u_tip, 1e-12 * fabs(a.u_tip));
-    CLOSE(b.w_tip / 3, a.w_tip, 1e-12 * fabs(a.w_tip));
-    br_scene_clear(&other);
-    br_scene_clear(&scene);
-}
-
 struct named {
     uint64_t seed;
     size_t index;
@@ -181,6 +150,17 @@ static struct br_extreme_verdict judge(struct named which, const struct br_extre
     br_extreme_draw(which.seed, which.index, &one);
     assert_int_equal(br_extreme_judge(&one, judging, &verdict, &err), BR_OK);
     return verdict;
+}
+
+static void check_sound(const struct named *sound, size_t count, bool quick)
+{
+    for (size_t i = 0; i < count; i++) {
+        const struct br_extreme_verdict verdict =
+            judge(sound[i], &(struct br_extreme_judging){.quick = quick});
+        if (verdict.which == BR_EXTREME_WRONG)
+            fail_msg("case %zu of seed %zu: %s", sound[i].index, (size_t)sound[i].seed,
+                     verdict.why);
+    }
 }
 
 /* Each of these was called wrong once. Seed 1: by a balance without the terms that a step starts
@@ -199,13 +179,7 @@ TEST(test_sound_cases)
         {1, 240}, {1, 246},  {1, 351}, {1, 502},  {1, 503},  {1, 681},  {1, 690}, {1, 741},
         {1, 751}, {1, 852},  {1, 866}, {1, 1136}, {1, 1277}, {1, 1304}, {7, 91},  {1, 102},
         {4, 94},  {4, 1851}, {3, 512}, {5, 241},  {10, 151}, {8, 811},  {3, 802}};
-    const struct br_extreme_judging judging = {.quick = true};
-    for (size_t i = 0; i < sizeof sound / sizeof *sound; i++) {
-        const struct br_extreme_verdict verdict = judge(sound[i], &judging);
-        if (verdict.which == BR_EXTREME_WRONG)
-            fail_msg("case %zu of seed %zu: %s", sound[i].index, (size_t)sound[i].seed,
-                     verdict.why);
-    }
+    check_sound(sound, sizeof sound / sizeof *sound, true);
 }
 
 /* The same by all judges: other units, where steps are chosen by comparisons that a last bit
@@ -225,13 +199,7 @@ TEST(test_hard_cases)
         {1, 1012}, {1, 1248}, {3, 20},  {3, 101}, {1, 212}, {2, 284}, {4, 71},
         {4, 145},  {11, 108}, {5, 229}, {7, 430}, {7, 813}, {6, 459}, {11, 1154},
         {12, 472}, {3, 26},   {4, 175}, {5, 45},  {3, 186}, {3, 889}, {3, 1883}};
-    const struct br_extreme_judging judging = {0};
-    const size_t count = br_test_long() ? sizeof hard / sizeof *hard : 16;
-    for (size_t i = 0; i < count; i++) {
-        const struct br_extreme_verdict verdict = judge(hard[i], &judging);
-        if (verdict.which == BR_EXTREME_WRONG)
-            fail_msg("case %zu of seed %zu: %s", hard[i].index, (size_t)hard[i].seed, verdict.why);
-    }
+    check_sound(hard, br_test_long() ? sizeof hard / sizeof *hard : 16, false);
 }
 
 /* Who states less than is true is silently wrong: right ones that boast are, and one that says that

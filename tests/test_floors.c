@@ -5,17 +5,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extremes/floors.h"
+#include "study/extremes/extremes.h"
 #include "support.h"
 
 TEST(test_floors)
 {
     static const size_t n[] = {100, 400};
     static const double k[] = {1e-2, 1e-6};
-    const struct br_floors_plan plan = {.n = n, .k = k, .n_count = 2, .k_count = 2};
+    const struct br_extremes_job job = {.n = n, .k = k, .n_count = 2, .k_count = 2};
     struct br_error err = {0};
     struct br_floors f;
-    MUST(br_floors_run(&f, &plan, NULL, &err));
+    MUST(br_floors_run(&f, false, &job, &err));
     assert_true(f.solvers >= 9);
     MUST(br_floors_verdict(&f, &err));
     for (size_t i = 0; i < f.floors; i++) {
@@ -41,12 +41,12 @@ TEST(test_refused)
 {
     static const size_t n[] = {25600};
     static const double k[] = {1e-6};
-    const struct br_floors_plan plan = {.n = n, .k = k, .n_count = 1, .k_count = 1};
+    const struct br_extremes_job job = {.n = n, .k = k, .n_count = 1, .k_count = 1};
     struct br_error err = {0};
     struct br_floors f;
     if (br_test_quick())
         skip();
-    MUST(br_floors_run(&f, &plan, NULL, &err));
+    MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
     for (size_t s = 0; s < f.solvers; s++) {
         const bool assembled = s >= 2;
@@ -61,23 +61,21 @@ TEST(test_bad_plans)
 {
     static const double k[] = {0.3};
     struct br_error err = {0};
-    struct br_floors f;
-    REFUSED(br_floors_run(&f, &(struct br_floors_plan){.k = k, .k_count = 1}, NULL, &err),
-            BR_BAD_INPUT, "0.3");
-    br_floors_clear(&f);
-    REFUSED(br_floors_run(&f, &(struct br_floors_plan){.gathered = true, .k = k, .k_count = 1},
-                          NULL, &err),
-            BR_BAD_INPUT, "0.3");
-    br_floors_clear(&f);
+    for (int gathered = 0; gathered < 2; gathered++) {
+        struct br_floors f;
+        REFUSED(br_floors_run(&f, gathered, &(struct br_extremes_job){.k = k, .k_count = 1}, &err),
+                BR_BAD_INPUT, "0.3");
+        br_floors_clear(&f);
+    }
 }
 
 TEST(test_drift)
 {
     static const double k[] = {1, 0.1, 1.0 / 3000, 1e-4};
-    const struct br_floors_plan plan = {.gathered = true, .k = k, .k_count = 4};
+    const struct br_extremes_job job = {.k = k, .k_count = 4};
     struct br_error err = {0};
     struct br_floors d;
-    MUST(br_floors_run(&d, &plan, NULL, &err));
+    MUST(br_floors_run(&d, true, &job, &err));
     MUST(br_floors_verdict(&d, &err));
     assert_true(d.methods == 16 && d.solvers == 2);
     for (size_t c = 0; c < d.methods; c++) /* weights that miss 1 gave 4e-15 for esdirk4 */

@@ -1,211 +1,256 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* L2 distances on nested meshes against Gauss quadrature in long double (support.c). */
+/* Ladders with every kernel, and functions in every layout, against the definitions of
+ * solver/modes.h and Gauss quadrature in long double: nothing is projected there. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "solver/modes.h"
 #include "study/grid/ladder.h"
 #include "support.h"
 
-static const double length = 1.75;
+typedef long double real;
 
-static struct br_field field_of(enum br_field_kind kind, size_t n)
-{
-    return (struct br_field){.kind = kind, .n = n, .h = length / (double)n};
-}
+enum { MOST_FINE = 1000, MOST_RATIO = 128, ROOM = (MOST_FINE + BR_MOST_LANES) * BR_MOST_MODES };
 
-/* Random nodal values; bending slopes scaled by h as they should be. */
-static double *random_function(struct br_test_random *r, const struct br_field *f)
-{
-    const size_t size = br_field_size(f);
-    double *nodal = calloc(size, sizeof *nodal);
-    assert_non_null(nodal);
-    for (size_t i = br_field_unknowns(f); i < size; i++)
-        nodal[i] = br_test_uniform(r, -1, 1);
-    return nodal;
-}
-
-static struct br_view view_of(const struct br_field *f, const double *nodal)
-{
+/* A function and its modes, element by element. */
+struct sample {
     struct br_view view;
-    br_view_field(&view, f, BR_DISPLACEMENT);
-    view.values = (double *)(uintptr_t)nodal;
-    return view;
-}
-
-static struct br_store store; /* of the ladders of a test */
-
-static struct br_ladder *create(enum br_field_kind kind, size_t finest, size_t count,
-                                const size_t *n)
-{
-    struct br_error err = {0};
-    struct br_ladder *ladder;
-    MUST(br_ladder_create(&ladder, br_mode_count((struct br_elements){kind, 1}, BR_DISPLACEMENT),
-                          &(struct br_mesh_list){1, &finest}, &(struct br_mesh_list){count, n},
-                          &store, &err));
-    return ladder;
-}
-
-static double *projection_of(const struct br_ladder *ladder, const struct br_field *f,
-                             const double *nodal)
-{
-    const struct br_view view = view_of(f, nodal);
-    double *projection = calloc(br_ladder_size(ladder), sizeof *projection);
-    assert_non_null(projection);
-    br_ladder_project(ladder, &view, projection);
-    return projection;
-}
-
-static double distance(const struct br_ladder *ladder, size_t rung, const struct br_field *f,
-                       const double *nodal, const double *projection)
-{
-    const struct br_view view = view_of(f, nodal);
-    return br_ladder_distance(ladder, rung, &view, projection);
-}
-
-/* Ladders: chains, gaps, branches that do not divide each other, duplicates, the
- * finest mesh itself, and ratios from 1 to 128. */
-static const struct {
-    size_t finest, count, n[5];
-} ladders[] = {
-    {1, 1, {1}},           {8, 1, {8}},     {8, 3, {1, 2, 4}}, {9, 2, {1, 3}},
-    {25, 2, {5, 1}},       {12, 2, {4, 6}}, {30, 2, {10, 15}}, {30, 5, {6, 10, 15, 1, 30}},
-    {16, 4, {4, 4, 8, 2}}, {128, 1, {1}},   {640, 2, {5, 40}}, {384, 3, {3, 128, 96}},
-    {77, 3, {7, 11, 1}},
+    size_t n;
+    double values[ROOM];
+    real modes[ROOM];
 };
-enum { LADDERS = sizeof ladders / sizeof *ladders };
 
-static void check_ladder(struct br_test_random *r, enum br_field_kind kind, size_t l)
+/* ---- functions ---- */
+
+static void node_modes(const struct sample *s, size_t e, real *modes)
 {
-    const struct br_field fine = field_of(kind, ladders[l].finest);
-    struct br_ladder *ladder = create(kind, fine.n, ladders[l].count, ladders[l].n);
-    double *reference = random_function(r, &fine);
-    double *projection = projection_of(ladder, &fine, reference);
-    for (size_t rung = 0; rung < ladders[l].count; rung++) {
-        const struct br_field coarse = field_of(kind, ladders[l].n[rung]);
-        double *v = random_function(r, &coarse);
-        const double d = distance(ladder, rung, &coarse, v, projection);
-        CLOSE(d, br_test_distance(kind, length, coarse.n, v, fine.n, reference), 1e-14);
-        free(v);
+    const double *v = s->values + e * ((s->view.modes + 1) / 2);
+    if (s->view.modes == 2) {
+        modes[0] = (real)v[0] + v[1];
+        modes[1] = (real)v[1] - v[0];
+        return;
     }
-    free(projection);
-    free(reference);
-    br_store_clear(&store);
-}
-
-TEST(test_random_functions)
-{
-    struct br_test_random r = {3};
-    for (int repeat = 0; repeat < 20; repeat++)
-        for (size_t l = 0; l < LADDERS; l++)
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-                check_ladder(&r, (enum br_field_kind)kind, l);
-}
-
-/* The coarse function written on the fine mesh, plus something small. */
-static double *prolonged(const struct br_field *coarse, const double *v,
-                         const struct br_field *fine, const double *small, double factor)
-{
-    const size_t ratio = fine->n / coarse->n, unknowns = br_field_unknowns(fine);
-    double *nodal = calloc(br_field_size(fine), sizeof *nodal);
-    assert_non_null(nodal);
-    for (size_t j = 0; j <= fine->n; j++) {
-        const size_t e = j == fine->n ? coarse->n - 1 : j / ratio;
-        const long double xi = (long double)(j - e * ratio) / (long double)ratio;
-        const long double eta = 1 - xi;
-        nodal[j * unknowns] = (double)(br_test_value(fine->kind, v, e, xi) +
-                                       (long double)factor * small[j * unknowns]);
-        if (fine->kind == BR_AXIAL)
-            continue;
-        const double *w = v + 2 * e;
-        const long double slope = 6 * xi * eta * ((long double)w[2] - w[0]) +
-                                  eta * (1 - 3 * xi) * w[1] - xi * (2 - 3 * xi) * w[3];
-        nodal[2 * j + 1] =
-            (double)(slope / (long double)ratio + (long double)factor * small[2 * j + 1]);
+    if (s->view.modes == 3) {
+        modes[0] = (real)v[0] + v[2] - (real)v[3] / 3;
+        modes[1] = (real)v[2] - v[0];
+        modes[2] = v[3];
+        return;
     }
-    return nodal;
+    const real w = (real)v[0] + v[2], d = (real)v[2] - v[0], sum = (real)v[1] + v[3],
+               c = (real)v[3] - v[1];
+    modes[0] = w - c / 6;
+    modes[1] = d - sum / 12;
+    modes[2] = c;
+    modes[3] = sum - 2 * d;
 }
 
-/* Functions that agree to 1e-9: the distance still has six digits; with the square of a
- * norm less another's it would have none. And none at all: round-off only. */
-TEST(test_close_functions)
+/* Random values, or, where modes are `wanted`, by element or in lanes, these and a little more.
+ * Nothing must be read beyond what the layout has: there is NaN, as in the lanes' gaps. */
+static void fill(struct br_test_random *r, struct sample *s, enum br_layout layout, size_t modes,
+                 size_t n, size_t lanes, const real *wanted, double little)
 {
-    struct br_test_random r = {4};
-    for (size_t l = 0; l < LADDERS; l++)
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            for (size_t rung = 0; rung < ladders[l].count; rung++) {
-                const struct br_field fine = field_of((enum br_field_kind)kind, ladders[l].finest);
-                const struct br_field coarse =
-                    field_of((enum br_field_kind)kind, ladders[l].n[rung]);
-                struct br_ladder *ladder =
-                    create(fine.kind, fine.n, ladders[l].count, ladders[l].n);
-                double *v = random_function(&r, &coarse), *small = random_function(&r, &fine);
-                for (int i = 0; i < 2; i++) {
-                    const double factor = i ? 1e-9 : 0;
-                    double *reference = prolonged(&coarse, v, &fine, small, factor);
-                    double *projection = projection_of(ladder, &fine, reference);
-                    CLOSE(distance(ladder, rung, &coarse, v, projection),
-                          br_test_distance(fine.kind, length, coarse.n, v, fine.n, reference),
-                          2e-15);
-                    free(projection);
-                    free(reference);
+    br_view_modes(&s->view, modes);
+    s->view.layout = layout;
+    s->view.values = s->values;
+    s->n = n;
+    for (size_t i = 0; i < ROOM; i++)
+        s->values[i] = NAN;
+    for (size_t i = 0; i < modes && layout != BR_IN_LANES; i++)
+        s->view.scale[i] = br_test_uniform(r, 0.5, 2);
+    for (size_t i = 0; i < (n + 1) * ((modes + 1) / 2) && layout == BR_BY_NODE; i++)
+        s->values[i] = br_test_uniform(r, -1, 1);
+    for (size_t e = 0; e < n; e++) {
+        real *mode = s->modes + e * modes;
+        for (size_t i = 0; i < modes && layout != BR_BY_NODE; i++) {
+            const size_t at = layout == BR_BY_ELEMENT ? e * modes + i
+                                                      : (e / lanes * modes + i) * lanes + e % lanes;
+            const real exact = wanted ? wanted[e * modes + i] / s->view.scale[i] : 0;
+            mode[i] = s->values[at] = (double)(exact + little * br_test_uniform(r, -1, 1));
+        }
+        if (layout == BR_BY_NODE)
+            node_modes(s, e, mode);
+        for (size_t i = 0; i < modes; i++)
+            mode[i] *= s->view.scale[i];
+    }
+}
+
+/* ---- the oracle ---- */
+
+/* Orthonormal on [0, 1]. */
+static real legendre(size_t i, real x)
+{
+    const real y = 2 * x - 1;
+    const real p[] = {1, y, (3 * y * y - 1) / 2, y * (5 * y * y - 3) / 2};
+    return sqrtl(2 * (real)i + 1) * p[i];
+}
+
+/* Mode i of child j of an element, from the element's mode m: by four Gauss points. */
+static real transfer(size_t ratio, size_t j, size_t i, size_t m)
+{
+    const real a = sqrtl(3.0L / 7 - 2.0L / 7 * sqrtl(1.2L)),
+               b = sqrtl(3.0L / 7 + 2.0L / 7 * sqrtl(1.2L));
+    const real x[] = {(1 - b) / 2, (1 - a) / 2, (1 + a) / 2, (1 + b) / 2};
+    real sum = 0;
+    for (int q = 0; q < 4; q++)
+        sum += (q % 3 ? 18 + sqrtl(30) : 18 - sqrtl(30)) / 72 * legendre(i, x[q]) *
+               legendre(m, ((real)j + x[q]) / (real)ratio);
+    return sum / sqrtl((real)ratio);
+}
+
+/* The same function on `ratio` times as many elements: its modes (out). */
+static void refine(const struct sample *coarse, size_t ratio, real *modes)
+{
+    const size_t count = coarse->view.modes;
+    for (size_t j = 0; j < ratio; j++)
+        for (size_t i = 0; i < count; i++)
+            for (size_t m = 0; m < count; m++) {
+                const real e = transfer(ratio, j, i, m);
+                for (size_t p = 0; p < coarse->n; p++) {
+                    real *mode = &modes[(p * ratio + j) * count + i];
+                    *mode = (m ? *mode : 0) + e * coarse->modes[p * count + m];
                 }
-                free(small);
-                free(v);
-                br_store_clear(&store);
             }
 }
 
-/* |x| and |x^3| over [0, L]: L^3/3 and L^7/7 under the root. */
-TEST(test_norms)
+/* Of modes from others, or, where these are NULL, from zero. */
+static double distance(const real *a, const real *b, size_t count)
 {
-    const size_t n = 6;
-    const struct br_field rod = field_of(BR_AXIAL, n), beam = field_of(BR_BENDING, n);
-    double u[7], w[14], zero[14] = {0};
-    for (size_t i = 0; i <= n; i++) {
-        const double x = rod.h * (double)i;
-        u[i] = x;
-        w[2 * i] = x * x * x;
-        w[2 * i + 1] = rod.h * 3 * x * x;
+    real sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += (a[i] - (b ? b[i] : 0)) * (a[i] - (b ? b[i] : 0));
+    return (double)sqrtl(sum);
+}
+
+/* ---- ladders ---- */
+
+/* Chains, gaps, branches that do not divide each other, duplicates, the finest mesh itself, one
+ * element, ratios from 1 to 128; meshes that fill vectors, and those that leave some elements. */
+static const struct {
+    size_t finest, count, n[5];
+} ladders[] = {
+    {1, 1, {1}},           {8, 1, {8}},          {8, 3, {1, 2, 4}},  {9, 2, {1, 3}},
+    {25, 2, {5, 1}},       {12, 2, {4, 6}},      {30, 2, {10, 15}},  {30, 5, {6, 10, 15, 1, 30}},
+    {16, 4, {4, 4, 8, 2}}, {128, 1, {1}},        {640, 2, {5, 40}},  {384, 3, {3, 128, 96}},
+    {77, 3, {7, 11, 1}},   {840, 3, {40, 7, 8}}, {340, 2, {17, 85}}, {992, 3, {31, 248, 62}},
+    {9, 1, {9}},           {34, 1, {17}},        {60, 2, {15, 3}},   {840, 4, {105, 56, 140, 168}},
+    {13, 1, {13}},         {216, 2, {12, 27}},
+};
+enum { LADDERS = sizeof ladders / sizeof *ladders };
+
+static const enum br_layout layouts[] = {BR_BY_ELEMENT, BR_BY_NODE, BR_IN_LANES};
+
+struct trial {
+    struct br_test_random r;
+    const struct br_ladder_kernel *kernel;
+    size_t row, modes;
+    struct br_ladder *ladder;
+    double *projection;
+};
+
+static double far(const struct trial *t, size_t rung, const struct sample *v)
+{
+    return br_ladder_distance(t->ladder, rung, &v->view, t->projection);
+}
+
+/* A function from the projected one; and one that is the same but for a little, or not even that:
+ * with the square of a norm less another's the distance would have no digit. */
+static void check_rung(struct trial *t, size_t rung, struct sample *fine, enum br_layout layout)
+{
+    static struct sample v;
+    static real refined[ROOM];
+    const size_t n = ladders[t->row].n[rung], all = fine->n * t->modes;
+    fill(&t->r, &v, layout, t->modes, n, t->kernel->lanes, NULL, 1);
+    refine(&v, fine->n / n, refined);
+    CLOSE(far(t, rung, &v), distance(fine->modes, refined, all), 5e-14);
+    for (int same = 0; same < 2 && fine->view.layout != BR_BY_NODE; same++) {
+        fill(&t->r, fine, fine->view.layout, t->modes, fine->n, t->kernel->lanes, refined,
+             same ? 0 : 1e-9);
+        br_ladder_project(t->ladder, &fine->view, t->projection);
+        CLOSE(far(t, rung, &v), distance(fine->modes, refined, all),
+              1e-14 * (1 + distance(refined, NULL, all)));
     }
-    struct br_ladder *ladder[2] = {create(BR_AXIAL, n, 1, &n), create(BR_BENDING, n, 1, &n)};
-    double *projection = projection_of(ladder[0], &rod, u);
-    CLOSE(distance(ladder[0], 0, &rod, zero, projection), sqrt(pow(length, 3) / 3), 1e-14);
-    free(projection);
-    projection = projection_of(ladder[1], &beam, w);
-    CLOSE(distance(ladder[1], 0, &beam, zero, projection), sqrt(pow(length, 7) / 7), 1e-14);
-    free(projection);
+    v.values[0] = NAN;
+    assert_true(isnan(far(t, rung, &v)));
+}
+
+/* The norm of what is projected is that of the function, with what the view says is missing. */
+static void check_ladder(struct trial *t, enum br_layout layout)
+{
+    static struct sample fine;
+    const size_t rungs = ladders[t->row].count, n = ladders[t->row].finest;
+    for (size_t rung = 0; rung < rungs; rung++) {
+        fill(&t->r, &fine, layout, t->modes, n, t->kernel->lanes, NULL, 1);
+        const double norm = distance(fine.modes, NULL, n * t->modes);
+        for (int rest = 1; rest >= 0; rest--) {
+            for (size_t i = 0; i < br_ladder_size(t->ladder); i++)
+                t->projection[i] = NAN;
+            fine.view.rest = 0.25 * rest;
+            br_ladder_project(t->ladder, &fine.view, t->projection);
+            CLOSE(br_ladder_norm(t->ladder, t->projection), sqrt(norm * norm + 0.25 * rest),
+                  2e-15 * (1 + norm));
+        }
+        check_rung(t, rung, &fine, layouts[br_test_index(&t->r, t->modes == 1 ? 1 : 3)]);
+    }
+    fine.values[0] = NAN;
+    br_ladder_project(t->ladder, &fine.view, t->projection);
+    assert_true(isnan(br_ladder_norm(t->ladder, t->projection)));
+}
+
+static void check_row(struct trial *t)
+{
+    struct br_error err = {0};
+    struct br_store store = {0};
+    const struct br_mesh_list root = {1, &ladders[t->row].finest},
+                              rungs = {ladders[t->row].count, ladders[t->row].n};
+    MUST(br_ladder_create(&t->ladder, t->modes, &root, &rungs, &store, &err));
+    br_ladder_use(t->ladder, t->kernel);
+    t->projection = br_store_take(&store, br_ladder_size(t->ladder), sizeof *t->projection);
+    assert_non_null(t->projection);
+    for (int i = 0; i < 3; i++)
+        if (layouts[i] != BR_BY_NODE || t->modes > 1)
+            check_ladder(t, layouts[i]);
     br_store_clear(&store);
+}
+
+TEST(test_all_kernels)
+{
+    struct trial t = {.r = {6}};
+    for (const struct br_ladder_kernel *const *kernel = br_ladder_kernels; *kernel; kernel++)
+        for (t.modes = 1; t.modes <= 4 && (*kernel)->available(); t.modes++)
+            for (t.row = 0; t.row < LADDERS; t.row++) {
+                t.kernel = *kernel;
+                check_row(&t);
+            }
+    assert_true(br_ladder_kernels[br_instruction_set_best()]->available());
 }
 
 TEST(test_refusals)
 {
-    struct br_error err = {0};
-    struct br_ladder *ladder;
+    static const struct {
+        size_t n[2];
+        const char *message;
+    } rows[] = {{{4, 5}, "n = 5 does not divide the reference's 12"}, {{0, 1}, "n is 0"}};
     const struct br_mesh_list twelve = {1, (const size_t[]){12}};
-    REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){2, (const size_t[]){4, 5}},
-                             &store, &err),
-            BR_BAD_INPUT, "n = 5 does not divide the reference's 12");
-    br_store_clear(&store);
-    REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){1, (const size_t[]){0}},
-                             &store, &err),
-            BR_BAD_INPUT, "n is 0");
-    br_store_clear(&store);
+    for (size_t i = 0; i < 2; i++) {
+        struct br_error err = {0};
+        struct br_ladder *ladder;
+        struct br_store store = {0};
+        REFUSED(br_ladder_create(&ladder, 2, &twelve, &(struct br_mesh_list){2, rows[i].n}, &store,
+                                 &err),
+                BR_BAD_INPUT, rows[i].message);
+        br_store_clear(&store);
+    }
 }
 
-TEST(test_nan_stays)
+/* --kernel forces both: every kernel of the solver has its counterpart here. */
+TEST(test_counterparts)
 {
-    const size_t n[] = {2};
-    struct br_ladder *ladder = create(BR_BENDING, 4, 1, n);
-    const struct br_field fine = field_of(BR_BENDING, 4), coarse = field_of(BR_BENDING, 2);
-    double good[10] = {0}, bad[10] = {0};
-    bad[5] = NAN;
-    double *projection = projection_of(ladder, &fine, bad);
-    assert_true(isnan(distance(ladder, 0, &coarse, good, projection)));
-    free(projection);
-    projection = projection_of(ladder, &fine, good);
-    assert_true(distance(ladder, 0, &coarse, good, projection) == 0);
-    assert_true(isnan(distance(ladder, 0, &coarse, bad, projection)));
-    free(projection);
-    br_store_clear(&store);
+    for (const struct br_kernel *const *k = br_kernels; *k; k++) {
+        const struct br_ladder_kernel *other =
+            br_ladder_kernels[br_instruction_set_find((*k)->name)];
+        assert_non_null(other);
+        assert_string_equal(other->name, (*k)->name);
+        assert_int_equal(other->available(), (*k)->available());
+    }
+    assert_null(br_ladder_kernels[br_instruction_set_find("sse2")]);
 }

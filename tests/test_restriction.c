@@ -28,21 +28,19 @@ static void legendre(size_t count, long double x, long double *p)
 /* Gauss's points and weights on [0, 1]: Newton's method from Tricomi's guess. */
 static void gauss(size_t points, long double *x, long double *weight)
 {
+    const long double n = (long double)points;
     for (size_t i = 0; i < points; i++) {
-        const long double n = (long double)points;
-        long double y = cosl(acosl(-1) * ((long double)i + 0.75L) / (n + 0.5L)), slope = 0;
+        long double p[MOST_POINTS + 1], slope = 0;
+        x[i] = (1 - cosl(acosl(-1) * ((long double)i + 0.75L) / (n + 0.5L))) / 2;
         for (int step = 0; step < 20; step++) {
-            long double before = 0, here = 1;
-            for (size_t k = 0; k < points; k++) {
-                const long double m = (long double)k;
-                const long double next = ((2 * m + 1) * y * here - m * before) / (m + 1);
-                before = here;
-                here = next;
-            }
+            const long double y = 2 * x[i] - 1;
+            legendre(points + 1, x[i], p);
+            const long double here = p[points] / sqrtl(2 * n + 1),
+                              before = p[points - 1] / sqrtl(2 * n - 1);
             slope = n * (y * here - before) / (y * y - 1);
-            y -= here / slope;
+            x[i] -= here / slope / 2;
         }
-        x[i] = (1 - y) / 2;
+        const long double y = 2 * x[i] - 1;
         weight[i] = 1 / ((1 - y * y) * slope * slope);
     }
 }
@@ -136,39 +134,30 @@ static void check(const struct shape *shape, const double *series)
     free(c);
 }
 
-static void fill(size_t length, double decay, double *series)
-{
-    struct br_test_random random = {length + 17};
-    for (size_t k = 0; k < length; k++)
-        series[k] = br_test_uniform(&random, -1, 1) * pow(decay, (double)k);
-}
-
+/* Terms of one size, and a smooth function, of which only some count. */
 static void check_all(const struct shape *shape)
 {
-    double series[MOST_LENGTH];
-    fill(shape->length, 1, series);
-    check(shape, series);
-    fill(shape->length, 0.1, series); /* smooth: only some of the terms count */
-    check(shape, series);
+    for (int smooth = 0; smooth < 2; smooth++) {
+        double series[MOST_LENGTH];
+        struct br_test_random random = {shape->length + 17};
+        for (size_t k = 0; k < shape->length; k++)
+            series[k] = br_test_uniform(&random, -1, 1) * (smooth ? pow(0.1, (double)k) : 1);
+        check(shape, series);
+    }
 }
 
+/* Also elements that do not fill groups, and series of all lengths. */
 TEST(test_definition)
 {
     static const size_t elements[] = {1, 7, 100, 3200, 12800};
-    const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
-    for (size_t i = 0; i < count; i++)
-        for (size_t degree = 0; degree <= 3; degree++)
-            check_all(&(struct shape){21, {elements[i], degree}, 2.25});
-}
-
-/* Elements that do not fill groups; series of all lengths. */
-TEST(test_primes)
-{
     static const struct shape rows[] = {
         {20, {3203, 3}, 1}, {19, {997, 1}, 1},  {1, {13, 3}, 1},  {2, {640, 1}, 1},
         {3, {13, 3}, 1},    {5, {640, 1}, 1},   {60, {13, 3}, 1}, {60, {640, 1}, 1},
         {150, {13, 3}, 1},  {150, {640, 1}, 1},
     };
+    const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
+    for (size_t i = 0; i < 4 * count; i++)
+        check_all(&(struct shape){21, {elements[i / 4], i % 4}, 2.25});
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         check_all(&rows[i]);
 }
@@ -252,11 +241,12 @@ TEST(test_sums)
 
 enum { S = BR_STAGES, MODES = 3 * BR_STAGE_LANES };
 
-/* y = X x, where (a + b X + X^2) x = r, by Gauss's elimination with the largest pivots. */
+/* y = X x, where (a + b X + X^2) x = r, by the elimination of Gauss and Jordan with the largest
+ * pivots. */
 static void solve_stages(const struct br_radau *radau, double a, double b, const double r[S],
                          long double y[S])
 {
-    long double m[S][S + 1], x[S];
+    long double m[S][S + 1];
     for (size_t k = 0; k < S; k++) {
         for (size_t l = 0; l < S; l++) {
             m[k][l] = (k == l ? (long double)a : 0) + (long double)b * radau->integral[k][l];
@@ -269,27 +259,19 @@ static void solve_stages(const struct br_radau *radau, double a, double b, const
         size_t largest = k;
         for (size_t l = k; l < S; l++)
             largest = fabsl(m[l][k]) > fabsl(m[largest][k]) ? l : largest;
-        for (size_t l = 0; l <= S; l++) {
-            const long double swap = m[k][l];
-            m[k][l] = m[largest][l];
-            m[largest][l] = swap;
+        for (size_t i = 0; i <= S; i++) {
+            const long double swap = m[k][i];
+            m[k][i] = m[largest][i];
+            m[largest][i] = swap;
         }
-        for (size_t l = k + 1; l < S; l++) {
-            const long double share = m[l][k] / m[k][k];
-            for (size_t i = k; i <= S; i++)
-                m[l][i] -= share * m[k][i];
-        }
-    }
-    for (size_t k = S; k-- > 0;) {
-        x[k] = m[k][S];
-        for (size_t l = k + 1; l < S; l++)
-            x[k] -= m[k][l] * x[l];
-        x[k] /= m[k][k];
+        for (size_t l = 0; l < S; l++)
+            for (size_t i = S + 1; i-- > k && l != k;)
+                m[l][i] -= m[l][k] / m[k][k] * m[k][i];
     }
     for (size_t k = 0; k < S; k++) {
         y[k] = 0;
         for (size_t l = 0; l < S; l++)
-            y[k] += radau->integral[k][l] * x[l];
+            y[k] += radau->integral[k][l] * m[l][S] / m[l][l];
     }
 }
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/extremes/energy_behaviour.h"
+#include "study/extremes/extremes.h"
 #include "study/scene/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"

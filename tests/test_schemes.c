@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "reference/textbook.h"
 #include "study/fit/fit.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
@@ -36,9 +37,19 @@ static void run(const struct br_scene *scene, const struct br_method *method, si
     br_march_free(march);
 }
 
+/* In L2, by the mass of each element. */
 static double distance(enum br_field_kind kind, const struct state *a, const struct state *b)
 {
-    return br_test_distance(kind, 1, N, a->value[kind], N, b->value[kind]);
+    const size_t unknowns = kind == BR_AXIAL ? 1 : 2;
+    double sum = 0;
+    for (size_t e = 0; e < N; e++)
+        for (size_t i = 0; i < 2 * unknowns; i++)
+            for (size_t j = 0; j < 2 * unknowns; j++) {
+                const double *x = &a->value[kind][e * unknowns], *y = &b->value[kind][e * unknowns];
+                sum += (x[i] - y[i]) * (x[j] - y[j]) *
+                       (kind == BR_AXIAL ? br_rod_mass[i][j] / 6.0 : br_beam_mass[i][j] / 420.0);
+            }
+    return sqrt(sum / N);
 }
 
 static double size_of(enum br_field_kind kind, const struct state *a)

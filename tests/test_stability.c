@@ -5,8 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "solver/laws.h"
-#include "study/extremes/stability.h"
+#include "study/extremes/extremes.h"
 #include "study/grid/observer.h"
 #include "support.h"
 
@@ -16,9 +15,10 @@ static int run_small(void **state)
 {
     (void)state;
     static const double k[] = {1e-1, 1e-5, 1e-3}; /* in any order */
-    const struct br_stability_request request = {.n = 3, .k = k, .k_count = 3};
+    static const size_t n = 3;
+    const struct br_extremes_job job = {.n = &n, .n_count = 1, .k = k, .k_count = 3};
     struct br_error err = {0};
-    return br_stability_run(&request, &found, &err) ? -1 : 0;
+    return br_stability_run(&found, &job, &err) ? -1 : 0;
 }
 
 static int clear(void **state)
@@ -44,20 +44,6 @@ TEST(test_matrix)
     CLOSE(matrix[3], 0, 1e-15);
     MUST(br_step_radius(&rod, 7, &radius, &err));
     CLOSE(radius, -z, 1e-14);
-}
-
-/* Of a quadratic rod the bubbles are states, too, and nothing else than a march is asked. */
-TEST(test_quadratic_matrix)
-{
-    struct br_error err = {0};
-    struct br_field rod = br_stability_field(&br_stability_rods[5], 2, 1e-3);
-    double radius;
-    assert_int_equal(br_step_states(&rod), 8);
-    const double limit = br_contact_limit_stiffness(&rod);
-    MUST(br_step_radius(&rod, 3 * limit, &radius, &err));
-    CLOSE(radius / br_contact_growth(&rod, 3 * limit), 1, 1e-13);
-    MUST(br_step_radius(&rod, 0.999 * limit, &radius, &err));
-    assert_true(radius < 1);
 }
 
 TEST(test_found)
@@ -112,43 +98,16 @@ TEST(test_verdict)
     WRONG(bounce[3].energy, NAN, "its energy");
 }
 
-/* A limit that is a little wrong is found: the one without inertia, say, in the paper's rod. */
-TEST(test_planted_limit)
-{
-    const struct br_stability_row *r = &found.row[1];
-    assert_true(fabs(r->bouncing / r->measured - 1) > 1e-2);
-    const struct br_field field = br_stability_field(&br_stability_rods[0], 3, r->k);
-    CLOSE(1 / (br_tip_flexibility(&field, 2 / r->k) * r->measured), 1, 2e-11);
-    assert_true(fabs(1 / (br_tip_flexibility(&field, 1 / r->k) * r->measured) - 1) > 0.1);
-}
-
 /* Between the two limits a bouncing rod does gain energy: the narrower promise is not idle. */
 TEST(test_bounce)
 {
     double most = 0;
     for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
-        const struct br_stability_bounce *b = &found.bounce[i];
+        const struct br_stability_tip *b = &found.bounce[i];
         assert_true(b->impacts >= 2);
         most = fmax(most, b->energy);
     }
     assert_true(most > 1.5);
-}
-
-TEST(test_refusals)
-{
-    static const double wrong[] = {0, -1, NAN, 1e4, 1e-12};
-    struct br_error err = {0};
-    struct br_stability s;
-    struct br_stability_request request = {.n = 21};
-    REFUSED(br_stability_run(&request, &s, &err), BR_BAD_INPUT, "at most 20");
-    br_stability_clear(&s);
-    request.n = 1;
-    request.k_count = 1;
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        request.k = &wrong[i];
-        REFUSED(br_stability_run(&request, &s, &err), BR_BAD_INPUT, "expected 1e-9 s to 1000 s");
-        br_stability_clear(&s);
-    }
 }
 
 static bool stop_now(void *self)
@@ -157,13 +116,22 @@ static bool stop_now(void *self)
     return true;
 }
 
-TEST(test_interrupted)
+TEST(test_refusals)
 {
+    static const double wrong[] = {0, -1, NAN, 1e4, 1e-12};
+    static const size_t n[] = {1, 21};
     struct br_error err = {0};
     struct br_stability s;
-    const struct br_observer observer = {.stop = stop_now};
-    const struct br_stability_request request = {.n = 1, .observer = &observer};
-    REFUSED(br_stability_run(&request, &s, &err), BR_INTERRUPTED, "interrupted");
+    struct br_extremes_job job = {.n = &n[1], .n_count = 1};
+    REFUSED(br_stability_run(&s, &job, &err), BR_BAD_INPUT, "at most 20");
+    job = (struct br_extremes_job){.n = n, .n_count = 1, .k_count = 1};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        job.k = &wrong[i];
+        REFUSED(br_stability_run(&s, &job, &err), BR_BAD_INPUT, "expected 1e-9 s to 1000 s");
+    }
+    job = (struct br_extremes_job){
+        .n = n, .n_count = 1, .observer = &(struct br_observer){.stop = stop_now}};
+    REFUSED(br_stability_run(&s, &job, &err), BR_INTERRUPTED, "interrupted");
     br_stability_clear(&s);
 }
 

@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The study engine: its errors against a direct comparison of two marches, its bits
- * against the number of threads, its refusals, and what becomes of a cell that fails. */
+/* Studies: the norms' arithmetic by hand, errors in all norms against two marches that are compared
+ * by textbook shape functions and Gauss points, bits against the number of threads and of norms,
+ * refusals, and what becomes of a cell that fails. */
 #include <math.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "reference/exact/exact.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "support.h"
+
+enum { NORMS = BR_TEST_NORMS, MOST_N = 40 };
 
 static struct br_study study_of(const struct br_scene *scene, struct br_resolution reference,
                                 size_t n_count, const size_t *n, size_t k_count,
@@ -19,137 +23,294 @@ static struct br_study study_of(const struct br_scene *scene, struct br_resoluti
     return s;
 }
 
+/* ---- by hand ---- */
+
+TEST(test_arithmetic)
+{
+    struct br_scene scene = br_test_bare();
+    scene.length = 2, scene.duration = 5;
+    struct br_sample a = {.time = 1, .weight = 0.5}, b = {.time = 2, .weight = 0.25};
+    a.size[BR_AXIAL][BR_DISPLACEMENT] = 3, a.size[BR_BENDING][BR_DISPLACEMENT] = 4;
+    b.size[BR_AXIAL][BR_DISPLACEMENT] = 1, b.size[BR_BENDING][BR_DISPLACEMENT] = 5;
+    struct br_norm_sum sum = {0};
+    br_norm_add(&br_norm_l2, &scene, &a, &sum);
+    br_norm_add(&br_norm_l2, &scene, &b, &sum);
+    CLOSE(br_norm_value(&br_norm_l2, &sum, BR_PART_TOTAL), 7, 0);
+    CLOSE(br_norm_value(&br_norm_l2, &sum, BR_PART_AXIAL), 3, 0);
+    CLOSE(br_norm_value(&br_norm_l2, &sum, BR_PART_BENDING), 5, 0);
+    assert_true(sum.time[BR_PART_TOTAL] == 1 && sum.time[BR_PART_BENDING] == 2);
+
+    a.size[BR_AXIAL][BR_VELOCITY] = 3, a.size[BR_BENDING][BR_VELOCITY] = 4;
+    a.size[BR_AXIAL][BR_STRAIN_RATE] = 2, a.size[BR_BENDING][BR_STRAIN_RATE] = 1;
+    b.size[BR_AXIAL][BR_STRAIN_RATE] = 1, b.size[BR_BENDING][BR_STRAIN_RATE] = 3;
+    sum = (struct br_norm_sum){0};
+    br_norm_add(&br_norm_energy, &scene, &a, &sum);
+    br_norm_add(&br_norm_energy, &scene, &b, &sum);
+    /* 9 + (0.5 * 4 + 0.25 * 1) * 4/5, and 16 + (0.5 * 1 + 0.25 * 9) * 16/5 */
+    CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_AXIAL), sqrt(9 + 1.8), 1e-15);
+    CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_BENDING), sqrt(16 + 8.8), 1e-15);
+    CLOSE(br_norm_value(&br_norm_energy, &sum, BR_PART_TOTAL), sqrt(25 + 10.6), 1e-15);
+    br_scene_clear(&scene);
+}
+
+static bool is_missing(double value)
+{
+    return isnan(value);
+}
+
+/* What is not a number is not lost, and what a norm does not need does not matter. */
+TEST(test_nan)
+{
+    struct br_scene scene = br_test_bare();
+    for (const struct br_norm *const *norm = br_norms; *norm; norm++)
+        for (int measure = 0; measure < BR_MEASURES; measure++) {
+            struct br_sample bad = {.time = 1, .weight = 1}, good = {.time = 2, .weight = 1};
+            bad.size[BR_BENDING][measure] = nan("");
+            struct br_norm_sum sum = {0};
+            br_norm_add(*norm, &scene, &bad, &sum);
+            br_norm_add(*norm, &scene, &good, &sum);
+            const bool needed = br_norm_needs(*norm, (enum br_measure)measure);
+            assert_true(is_missing(br_norm_value(*norm, &sum, BR_PART_TOTAL)) == needed);
+            assert_false(is_missing(br_norm_value(*norm, &sum, BR_PART_AXIAL)));
+            double size[2][BR_MEASURES] = {{0}};
+            size[BR_AXIAL][measure] = nan("");
+            assert_true(is_missing(br_norm_of_constant(*norm, &scene, size, BR_PART_TOTAL)) ==
+                        needed);
+            scene.axial.modelled = false;
+            assert_false(is_missing(br_norm_of_constant(*norm, &scene, size, BR_PART_TOTAL)));
+            scene.axial.modelled = true;
+        }
+    br_scene_clear(&scene);
+}
+
 /* ---- the oracle ---- */
 
-static double distance_now(const struct br_march *cell, const struct br_march *reference,
-                           enum br_field_kind kind)
+/* A finite element function or its derivative (order 1 axial, 2 bending) at x, from nodal
+ * values as in solver/field.h: the textbook's shape functions. */
+static double value_at(const struct br_field *f, const double *nodal, bool derived, double x)
 {
-    const struct br_field *coarse = br_march_field(cell, kind);
-    const struct br_field *fine = br_march_field(reference, kind);
-    double *a = calloc(br_field_size(coarse), sizeof *a);
-    double *b = calloc(br_field_size(fine), sizeof *b);
-    assert_true(a && b);
-    br_march_get(cell, kind, a, NULL);
-    br_march_get(reference, kind, b, NULL);
-    const double d =
-        br_test_distance(kind, coarse->h * (double)coarse->n, coarse->n, a, fine->n, b);
-    free(a);
-    free(b);
-    return d;
+    const double h = f->h;
+    size_t e = (size_t)(x / h);
+    e = e < f->n ? e : f->n - 1;
+    const double s = x / h - (double)e;
+    if (f->kind == BR_AXIAL) {
+        const double a = nodal[e], b = nodal[e + 1];
+        return derived ? (b - a) / h : a * (1 - s) + b * s;
+    }
+    const double *v = nodal + 2 * e;
+    if (derived)
+        return (v[0] * (12 * s - 6) + v[1] * (6 * s - 4) + v[2] * (6 - 12 * s) +
+                v[3] * (6 * s - 2)) /
+               (h * h);
+    return v[0] * (1 - 3 * s * s + 2 * s * s * s) + v[1] * (s - 2 * s * s + s * s * s) +
+           v[2] * (3 * s * s - 2 * s * s * s) + v[3] * (s * s * s - s * s);
 }
 
-struct errors {
-    double error[BR_PARTS], time[BR_PARTS];
+/* A march, or the exact solution, at one time. */
+struct side {
+    struct br_march *march;
+    struct br_exact *exact;
+    struct br_exact_state *state;
 };
 
-/* (31): both marches side by side, compared at every time level of the cell. */
-static struct errors direct_errors(const struct br_study *s, struct br_resolution at)
+/* What is compared: a field or its velocity, or a derivative of it. */
+struct what {
+    enum br_field_kind kind;
+    bool velocity, derived;
+};
+
+static void values(const struct side *s, const struct what *what, size_t count, const double *x,
+                   double *value)
 {
-    struct br_march *cell = br_test_march(s->scene, at.n, at.steps, &s->method);
-    struct br_march *reference =
-        br_test_march(s->scene, s->reference.n, s->reference.steps, &s->reference_method);
-    struct errors worst = {0};
-    for (size_t i = 0; i <= at.steps; i++) {
-        br_test_advance(cell, i);
-        br_test_advance(reference, i * (s->reference.steps / at.steps));
-        double now[BR_PARTS];
-        now[BR_PART_AXIAL] = distance_now(cell, reference, BR_AXIAL);
-        now[BR_PART_BENDING] = distance_now(cell, reference, BR_BENDING);
-        now[BR_PART_TOTAL] = now[BR_PART_AXIAL] + now[BR_PART_BENDING];
-        for (int p = 0; p < BR_PARTS; p++)
-            if (now[p] > worst.error[p]) {
-                worst.error[p] = now[p];
-                worst.time[p] = br_march_time(cell);
-            }
+    const int order = what->kind == BR_AXIAL ? 1 : 2;
+    const struct br_exact_part part = {what->kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING,
+                                       what->velocity, (unsigned)(what->derived ? order : 0)};
+    if (s->exact) {
+        assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, count, x, value, NULL),
+                         BR_OK);
+        return;
     }
-    br_march_free(cell);
-    br_march_free(reference);
-    return worst;
+    double nodal[2 * (MOST_N + 1)];
+    br_march_get(s->march, what->kind, what->velocity ? NULL : nodal,
+                 what->velocity ? nodal : NULL);
+    for (size_t i = 0; i < count; i++)
+        value[i] = value_at(br_march_field(s->march, what->kind), nodal, what->derived, x[i]);
 }
 
-static void check_against_oracle(const char *name, struct br_resolution reference, size_t n_count,
-                                 const size_t *n, size_t k_count, const size_t *steps)
+/* L2 distance over `pieces` equal parts of the beam, of four Gauss points each. */
+static double distance(const struct side *a, const struct side *b, const struct what *what,
+                       double length, size_t pieces)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled(name);
-    struct br_study s = study_of(&scene, reference, n_count, n, k_count, steps);
-    MUST(br_study_run(&s, 1, 2, NULL, &err));
-    for (size_t i = 0; i < n_count; i++)
-        for (size_t j = 0; j < k_count; j++) {
-            const struct br_cell *cell = br_study_cell(&s, i, j);
-            assert_true(cell->at.n == n[i] && cell->at.steps == steps[j]);
-            assert_int_equal(cell->failure.status, BR_OK);
-            const struct errors expected = direct_errors(&s, cell->at);
-            for (int p = 0; p < BR_PARTS; p++) {
-                CLOSE(cell->error[p], expected.error[p], 1e-15 + 1e-10 * expected.error[p]);
-                if (expected.error[p] > 1e-9)
-                    CLOSE(cell->worst_time[p], expected.time[p], 1e-12);
-            }
+    static const double at[] = {0.069431844202973712388, 0.33000947820757186760,
+                                0.66999052179242813240, 0.93056815579702628761};
+    static const double weight[] = {0.17392742256872692869, 0.32607257743127307131,
+                                    0.32607257743127307131, 0.17392742256872692869};
+    double x[4 * MOST_N] = {0}, one[4 * MOST_N], other[4 * MOST_N], sum = 0;
+    for (size_t i = 0; i < 4 * pieces; i++)
+        x[i] = length / (double)pieces * ((double)(i / 4) + at[i % 4]);
+    values(a, what, 4 * pieces, x, one);
+    values(b, what, 4 * pieces, x, other);
+    for (size_t i = 0; i < 4 * pieces; i++)
+        sum += length / (double)pieces * weight[i % 4] * (one[i] - other[i]) * (one[i] - other[i]);
+    return sqrt(sum);
+}
+
+/* Of every norm and part; the largest, and when it was. */
+struct errors {
+    double error[NORMS][BR_PARTS], time[NORMS][BR_PARTS], rates[BR_PARTS];
+    double tip[2]; /* of the cell, at the end */
+};
+
+static void add_level(const struct side *cell, const struct side *other, size_t pieces,
+                      const struct br_scene *scene, double k, struct errors *e)
+{
+    const double end = scene->length;
+    double level[NORMS][BR_PARTS] = {{0}};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct what place = {(enum br_field_kind)kind, false, false},
+                          velocity = {place.kind, true, false}, rate = {place.kind, true, true};
+        const double weight = k * pow(end, kind == BR_AXIAL ? 2 : 4) / scene->duration;
+        const double rates = weight * pow(distance(cell, other, &rate, end, pieces), 2);
+        double tip[2];
+        values(cell, &place, 1, &end, &tip[0]);
+        values(other, &place, 1, &end, &tip[1]);
+        level[0][1 + kind] = distance(cell, other, &place, end, pieces);
+        level[1][1 + kind] = pow(distance(cell, other, &velocity, end, pieces), 2);
+        level[2][1 + kind] = fabs(tip[0] - tip[1]);
+        for (int m = 0; m < NORMS; m++)
+            level[m][BR_PART_TOTAL] += level[m][1 + kind];
+        if (br_march_steps_done(cell->march) > 0) {
+            e->rates[1 + kind] += rates;
+            e->rates[BR_PART_TOTAL] += rates;
         }
-    br_study_clear(&s);
-    br_scene_clear(&scene);
+        e->tip[kind] = tip[0];
+    }
+    for (int i = 0; i < NORMS * BR_PARTS; i++)
+        if (level[i / BR_PARTS][i % BR_PARTS] > e->error[i / BR_PARTS][i % BR_PARTS]) {
+            e->error[i / BR_PARTS][i % BR_PARTS] = level[i / BR_PARTS][i % BR_PARTS];
+            e->time[i / BR_PARTS][i % BR_PARTS] = br_march_time(cell->march);
+        }
+}
+
+/* Both side by side, compared at every time level of the cell. */
+static struct errors direct(const struct br_study *s, struct br_resolution at)
+{
+    struct side cell = {.march = br_test_march(s->scene, at.n, at.steps, &s->method)}, other = {0};
+    if (s->judge->nests) {
+        other.march =
+            br_test_march(s->scene, s->reference.n, s->reference.steps, &s->reference_method);
+    } else {
+        assert_int_equal(br_exact_create(&other.exact, s->scene, NULL, NULL), BR_OK);
+        assert_int_equal(br_exact_state_create(&other.state, other.exact, NULL), BR_OK);
+    }
+    struct errors errors = {0};
+    const double k = br_time_step(s->scene, at.steps);
+    for (size_t i = 0; i <= at.steps; i++) {
+        br_test_advance(cell.march, i);
+        if (other.march)
+            br_test_advance(other.march, i * (s->reference.steps / at.steps));
+        else
+            br_exact_at(other.exact, (double)i * k, other.state);
+        add_level(&cell, &other, other.march ? s->reference.n : 4 * at.n, s->scene, k, &errors);
+    }
+    for (int part = 0; part < BR_PARTS; part++)
+        errors.error[1][part] = sqrt(errors.error[1][part] + errors.rates[part]);
+    br_march_free(cell.march);
+    br_march_free(other.march);
+    br_exact_state_free(other.state);
+    br_exact_free(other.exact);
+    return errors;
+}
+
+static void check_cell(const struct br_study s[NORMS], size_t c)
+{
+    const struct errors e = direct(s, s->cell[c].at);
+    for (int m = 0; m < NORMS; m++) {
+        const struct br_cell *cell = &s[m].cell[c];
+        assert_true(cell->at.n == s->n[c / s->k_count]);
+        assert_true(cell->at.steps == s->steps[c % s->k_count]);
+        assert_int_equal(cell->failure.status, BR_OK);
+        for (int part = 0; part < BR_PARTS; part++) {
+            const double error = e.error[m][part];
+            CLOSE(cell->error[part], error,
+                  (error > 0 ? 1e-15 : 1e-16) + (s->judge->nests ? 1e-10 : 1e-9) * error);
+            if (m == 0 && error > 1e-9)
+                CLOSE(cell->worst_time[part], e.time[m][part], 1e-12);
+        }
+        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            CLOSE(cell->tip[kind], e.tip[kind], 1e-16);
+            CLOSE(s[m].reference_tip[kind], e.tip[kind], e.error[2][1 + kind] + 1e-16);
+        }
+    }
 }
 
 TEST(test_errors)
 {
-    check_against_oracle("example2", (struct br_resolution){40, 400}, 3,
-                         (const size_t[]){5, 10, 20}, 3, (const size_t[]){10, 40, 200});
-    /* unordered, not a chain, time levels that hardly coincide, the reference itself */
-    check_against_oracle("example4", (struct br_resolution){30, 90}, 4,
-                         (const size_t[]){15, 10, 30, 1}, 4, (const size_t[]){90, 9, 10, 2});
-    check_against_oracle("example3", (struct br_resolution){16, 160}, 1, (const size_t[]){8}, 2,
-                         (const size_t[]){32, 20});
+    static const struct {
+        const char *scene;
+        struct br_resolution reference; /* n = 0: the exact solution */
+        size_t n_count, n[4], k_count, steps[4];
+    } rows[] = {
+        {"example2", {40, 400}, 3, {5, 10, 20}, 3, {10, 40, 200}},
+        /* unordered, not a chain, time levels that hardly coincide, the reference itself */
+        {"example4", {30, 90}, 4, {15, 10, 30, 1}, 4, {90, 9, 10, 2}},
+        {"example3", {16, 160}, 1, {8}, 2, {32, 20}},
+        /* more levels than a batch holds, and more batches than buffers */
+        {"example1", {8, 1200}, 2, {2, 4}, 2, {1200, 300}},
+        {"example2", {0, 0}, 2, {4, 10}, 2, {8, 20}},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        struct br_study s[NORMS] = {study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
+                                             rows[i].k_count, rows[i].steps)};
+        s[0].judge = rows[i].reference.n ? &br_judge_fine : &br_judge_exact;
+        br_test_all_norms(s);
+        MUST(br_study_run(s, 1, 2, NULL, &err));
+        for (size_t c = 0; c < br_study_cells(s); c++)
+            check_cell(s, c);
+        for (size_t m = 0; m < NORMS; m++)
+            br_study_clear(&s[m]);
+        br_scene_clear(&scene);
+    }
 }
 
-/* More levels than a batch holds, and more batches than buffers. */
-TEST(test_many_batches)
-{
-    check_against_oracle("example1", (struct br_resolution){8, 1200}, 2, (const size_t[]){2, 4}, 2,
-                         (const size_t[]){1200, 300});
-}
+/* ---- the same bits on any number of threads, and in company or alone ---- */
 
-/* A cell that is the reference has no error at all. */
-TEST(test_reference_cell)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    const size_t n = 12, steps = 30;
-    struct br_study s = study_of(&scene, (struct br_resolution){12, 30}, 1, &n, 1, &steps);
-    MUST(br_study_run(&s, 1, 1, NULL, &err));
-    for (int p = 0; p < BR_PARTS; p++)
-        AT_MOST(br_study_cell(&s, 0, 0)->error[p], 1e-16);
-    assert_true(s.reference_scale > 0.02 && s.reference_scale < 0.2);
-    br_study_clear(&s);
-    br_scene_clear(&scene);
-}
+enum { KEPT = 1 + 9 * BR_PARTS };
 
-/* ---- threads ---- */
-
-/* The errors of two studies on so many threads; out: 2 * 9 * BR_PARTS. */
-static void errors_on(int threads, double *out)
+/* The errors of two studies on so many threads, all norms at once, or (0) one by one. */
+static void errors_on(int threads, double out[2][NORMS][KEPT])
 {
     static const size_t n[] = {4, 8, 16}, steps[] = {20, 25, 100};
     struct br_error err = {0};
     struct br_scene scene[2] = {br_test_bundled("example1"), br_test_bundled("example4")};
-    struct br_study s[2];
-    for (int i = 0; i < 2; i++)
-        s[i] = study_of(&scene[i], (struct br_resolution){32, 1000}, 3, n, 3, steps);
-    MUST(br_study_run(s, 2, threads, NULL, &err));
-    for (size_t i = 0; i < 2; i++)
-        for (size_t c = 0; c < 9; c++)
-            memcpy(out + (9 * i + c) * BR_PARTS, s[i].cell[c].error, BR_PARTS * sizeof *out);
-    for (int i = 0; i < 2; i++) {
-        br_study_clear(&s[i]);
-        br_scene_clear(&scene[i]);
+    struct br_study s[2 * NORMS];
+    const size_t stride = threads ? 2 : 1;
+    for (size_t i = 0; i < 2 * NORMS; i++) {
+        s[i] = study_of(&scene[i % 2], (struct br_resolution){32, 1000}, 3, n, 3, steps);
+        s[i].norm = br_norms[i / 2];
+        s[i].next_norm = threads && i < 2 * NORMS - 2 ? &s[i + 2] : NULL;
     }
+    for (size_t i = 0; i < 2 * NORMS && (i < 2 || !threads); i += stride)
+        MUST(br_study_run(&s[i], stride, threads ? threads : 1, NULL, &err));
+    for (size_t i = 0; i < 2 * NORMS; i++) {
+        double *to = out[i % 2][i / 2];
+        to[KEPT - 1] = s[i].reference_scale;
+        for (size_t c = 0; c < 9; c++)
+            memcpy(to + c * BR_PARTS, s[i].cell[c].error, BR_PARTS * sizeof *to);
+        br_study_clear(&s[i]);
+    }
+    br_scene_clear(&scene[0]);
+    br_scene_clear(&scene[1]);
 }
 
-TEST(test_threads)
+TEST(test_same_bits)
 {
-    double one[2 * 9 * BR_PARTS], other[2 * 9 * BR_PARTS];
+    static double one[2][NORMS][KEPT], other[2][NORMS][KEPT];
     errors_on(1, one);
-    for (size_t i = 0; i < sizeof one / sizeof *one; i++)
-        assert_true(one[i] > 0);
+    for (int i = 0; i < 2 * NORMS * KEPT; i++)
+        assert_true((&one[0][0][0])[i] > 0);
     for (int repeat = 0; repeat < 5; repeat++)
         for (int threads = 0; threads <= 4; threads++) {
             errors_on(threads, other);
@@ -188,140 +349,117 @@ TEST(test_steps_of)
 TEST(test_nesting)
 {
     static const struct {
-        size_t n, steps;
+        size_t n_count, n, k_count, steps;
         const char *text;
+        size_t reference; /* steps */
     } rows[] = {
-        {7, 10,
-         "n = 7 does not nest in the reference's 60 elements; the nearest that do are 6 and 10"},
-        {61, 10, "the nearest that do are 60 and 60"},
-        {0, 10, "n is 0"},
-        {6, 7, "k = 0.142857142857142"}, /* both nearest: 6 and 10 steps in 60 */
-        {6, 7, "the nearest k that would do are 0.1 and 0.1666666667 s"},
-        {6, 120, "the nearest k that would do are 0.01666666667 and 0.01666666667 s"},
-        {6, 0, "the nearest k that would do are"},
+        {1, 7, 1, 10,
+         "n = 7 does not nest in the reference's 60 elements; the nearest that do are 6 and 10",
+         60},
+        {1, 61, 1, 10, "the nearest that do are 60 and 60", 60},
+        {1, 0, 1, 10, "n is 0", 60},
+        {1, 6, 1, 7, "the time levels of k = 0.142857", 60}, /* 6 and 10 steps in 60 */
+        {1, 6, 1, 7, "the nearest k that would do are 0.1 and 0.1666666667 s", 60},
+        {1, 6, 1, 120, "the nearest k that would do are 0.01666666667 and 0.01666666667 s", 60},
+        {1, 6, 1, 0, "the nearest k that would do are", 60},
+        {0, 1, 1, 1, "the list of n is empty", 60},
+        {1, 1, 0, 1, "the list of k is empty", 60},
+        {1, 1, 1, 1, "the reference needs", 0},
     };
     struct br_scene scene = br_test_bundled("example2");
+    const size_t good = 4;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_study s =
-            study_of(&scene, (struct br_resolution){60, 60}, 1, &rows[i].n, 1, &rows[i].steps);
-        const enum br_status status = br_study_run(&s, 1, 1, NULL, &err);
-        if (i == 3) /* the text has as many digits as it needs */
-            REFUSED(status, BR_BAD_INPUT, "the time levels of k = 0.142857");
-        else
-            REFUSED(status, BR_BAD_INPUT, rows[i].text);
-        assert_null(s.cell);
+        /* one bad study of two fails the call, and nothing is left of the other */
+        struct br_study s[2] = {study_of(&scene, (struct br_resolution){8, 8}, 1, &good, 1, &good),
+                                study_of(&scene, (struct br_resolution){60, rows[i].reference},
+                                         rows[i].n_count, &rows[i].n, rows[i].k_count,
+                                         &rows[i].steps)};
+        REFUSED(br_study_run(s, 2, 1, NULL, &err), BR_BAD_INPUT, rows[i].text);
+        assert_true(s[0].cell == NULL && s[1].cell == NULL);
     }
-    struct br_error err = {0};
-    const size_t one = 1;
-    struct br_study s = study_of(&scene, (struct br_resolution){60, 60}, 0, &one, 1, &one);
-    REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT, "the list of n is empty");
-    s = study_of(&scene, (struct br_resolution){60, 60}, 1, &one, 0, &one);
-    REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT, "the list of k is empty");
-    s = study_of(&scene, (struct br_resolution){60, 0}, 1, &one, 1, &one);
-    REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT, "the reference needs");
     br_scene_clear(&scene);
 }
 
-/* One bad study of several fails the call, and nothing is left of the others. */
-TEST(test_one_of_two_refused)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    const size_t n[] = {4, 5}, steps = 10;
-    struct br_study s[2] = {study_of(&scene, (struct br_resolution){8, 10}, 1, &n[0], 1, &steps),
-                            study_of(&scene, (struct br_resolution){8, 10}, 1, &n[1], 1, &steps)};
-    REFUSED(br_study_run(s, 2, 1, NULL, &err), BR_BAD_INPUT, "n = 5 does not nest");
-    assert_true(s[0].cell == NULL && s[1].cell == NULL);
-    br_scene_clear(&scene);
-}
+/* ---- cells that fail, or are unstable ---- */
 
-/* ---- cells that fail ---- */
-
-static void assert_failed(const struct br_cell *cell, enum br_status status)
+/* sign: '.', well; '!', failed; 'u', unstable. */
+static void check_sign(const struct br_cell *cell, char sign, const char *message)
 {
-    assert_int_equal(cell->failure.status, status);
-    assert_true(strlen(cell->failure.message) > 0);
+    assert_int_equal(cell->failure.status, sign == '!' ? BR_NOT_FINITE : BR_OK);
+    assert_true(sign == '!' || cell->unstable == (sign == 'u'));
+    if (sign == '!' && !strstr(cell->failure.message, message))
+        fail_msg("'%s' without '%s'", cell->failure.message, message);
     for (int p = 0; p < BR_PARTS; p++) {
-        assert_true(isnan(cell->error[p]));
-        assert_int_equal(cell->flag[p], BR_FLAG_FAILED);
-        assert_string_equal(br_flag_name(cell->flag[p]), "failed");
+        assert_true(isfinite(cell->error[p]) == (sign != '!'));
+        assert_int_equal(cell->flag[p], sign == '!' ? BR_FLAG_FAILED : BR_FLAG_NONE);
+        assert_string_equal(br_flag_name(cell->flag[p]), sign == '!' ? "failed" : "");
     }
 }
 
-static void assert_well(const struct br_cell *cell)
+/* A rod without viscosity that is pressed to an obstacle. */
+static struct br_scene pressed_rod(void)
 {
-    assert_int_equal(cell->failure.status, BR_OK);
-    for (int p = 0; p < BR_PARTS; p++) {
-        assert_true(isfinite(cell->error[p]));
-        assert_int_equal(cell->flag[p], BR_FLAG_NONE);
-    }
-}
-
-/* A load that is no number near x = 1/8: a Gauss point of n = 4, and of no finer mesh
- * here. Once at all times, once from t = 0.35 s on. */
-TEST(test_failing_row)
-{
-    static const char *const loads[] = {"sqrt(abs(x - 0.125) - 1e-6)",
-                                        "t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1"};
-    for (int i = 0; i < 2; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bare();
-        scene.bending.load = br_test_load(loads[i]);
-        const size_t n[] = {2, 4, 8}, steps[] = {10, 20};
-        struct br_study s = study_of(&scene, (struct br_resolution){16, 40}, 3, n, 2, steps);
-        MUST(br_study_run(&s, 1, 2, NULL, &err));
-        for (size_t j = 0; j < 2; j++) {
-            assert_well(br_study_cell(&s, 0, j));
-            assert_failed(br_study_cell(&s, 1, j), BR_NOT_FINITE);
-            assert_non_null(strstr(br_study_cell(&s, 1, j)->failure.message, "x = 0.125"));
-            assert_well(br_study_cell(&s, 2, j));
-        }
-        br_study_clear(&s);
-        br_scene_clear(&scene);
-    }
-}
-
-/* The lagged contact is only conditionally stable: without viscosity the coarse steps
- * blow up, or reach values whose squares are no numbers; the fine ones do neither. */
-TEST(test_unstable_cell)
-{
-    struct br_error err = {0};
     struct br_scene scene = br_test_bare();
     scene.duration = 1000;
     scene.bending.modelled = false;
     scene.axial.viscosity = 0;
     scene.axial.load = br_test_load("1");
     scene.contact = (struct br_contact){.modelled = true, .gap = 0.1, .stiffness = 1000};
-    const size_t n = 4, steps[] = {800, 20000, 100000};
-    struct br_study s = study_of(&scene, (struct br_resolution){4, 100000}, 1, &n, 3, steps);
-    s.reference_method.contact = br_contact_rule_find("implicit");
-    MUST(br_study_run(&s, 1, 2, NULL, &err));
-    assert_failed(br_study_cell(&s, 0, 0), BR_NOT_FINITE);
-    assert_failed(br_study_cell(&s, 0, 1), BR_NOT_FINITE);
-    assert_well(br_study_cell(&s, 0, 2));
-    br_study_clear(&s);
-    br_scene_clear(&scene);
+    return scene;
 }
 
-/* Beyond the limit of the lagged contact the tip chatters, bounded: the cell is told. */
-TEST(test_contact_limit)
+TEST(test_cells_that_fail)
 {
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    const size_t n = 4, steps[] = {10, 100, 4000};
-    for (int stiff = 0; stiff < 2; stiff++)
-        for (int implicit = 0; implicit < 2; implicit++) {
-            scene.contact.stiffness = stiff ? 5e3 : 1e3; /* stable for k <= 5e-4, always */
-            struct br_study s = study_of(&scene, (struct br_resolution){4, 4000}, 1, &n, 3, steps);
-            s.method.contact = br_contact_rule_find(implicit ? "implicit" : "lagged");
-            MUST(br_study_run(&s, 1, 1, NULL, &err));
-            assert_int_equal(s.cell[0].unstable, stiff && !implicit);
-            assert_int_equal(s.cell[1].unstable, stiff && !implicit);
-            assert_false(s.cell[2].unstable);
-            br_study_clear(&s);
+    /* no number near x = 1/8: a Gauss point of n = 4, and of no finer mesh here */
+    static const char always[] = "sqrt(abs(x - 0.125) - 1e-6)",
+                      late[] = "t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1";
+    static const struct {
+        const char *scene, *load; /* NULL: the pressed rod; bare with this load */
+        double stiffness;         /* of the contact; 0: as it is */
+        const char *contact, *reference_contact;
+        struct br_resolution reference;
+        size_t n_count, n[3], k_count, steps[3];
+        const char *sign; /* of the cells; "": the reference fails, and with it the call */
+    } rows[] = {
+        {NULL, always, 0, NULL, NULL, {16, 40}, 3, {2, 4, 8}, 2, {10, 20}, "..!!.."},
+        {NULL, late, 0, NULL, NULL, {16, 40}, 3, {2, 4, 8}, 2, {10, 20}, "..!!.."},
+        {NULL, late, 0, NULL, NULL, {4, 20}, 1, {2}, 1, {10}, ""},
+        /* the coarse steps blow up, or reach values whose squares are no numbers */
+        {NULL, NULL, 0, NULL, "implicit", {4, 100000}, 1, {4}, 3, {800, 20000, 100000}, "!!."},
+        /* beyond the limit of the lagged contact, k <= 5e-4 or none, the tip chatters, bounded */
+        {"example2", NULL, 5e3, "lagged", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "uu."},
+        {"example2", NULL, 1e3, "lagged", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "..."},
+        {"example2", NULL, 5e3, "implicit", NULL, {4, 4000}, 1, {4}, 3, {10, 100, 4000}, "..."},
+        /* stable below k = c / (c_H L - a) * 2 = 4.4 ms: the reference says of itself whether */
+        {"chatter", NULL, 0, NULL, NULL, {4, 20}, 1, {4}, 1, {20}, "u"},
+        {"chatter", NULL, 0, NULL, NULL, {4, 2000}, 1, {4}, 1, {2000}, "."},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_scene scene = rows[i].scene  ? br_test_bundled(rows[i].scene)
+                                : rows[i].load ? br_test_bare()
+                                               : pressed_rod();
+        if (rows[i].load)
+            scene.bending.load = br_test_load(rows[i].load);
+        if (rows[i].stiffness > 0)
+            scene.contact.stiffness = rows[i].stiffness;
+        struct br_study s = study_of(&scene, rows[i].reference, rows[i].n_count, rows[i].n,
+                                     rows[i].k_count, rows[i].steps);
+        s.method = br_test_method(NULL, rows[i].contact, NULL);
+        s.reference_method = br_test_method(NULL, rows[i].reference_contact, NULL);
+        if (*rows[i].sign) {
+            MUST(br_study_run(&s, 1, 2, NULL, &err));
+            for (size_t c = 0; c < br_study_cells(&s); c++)
+                check_sign(&s.cell[c], rows[i].sign[c], rows[i].load ? "x = 0.125" : "");
+            assert_int_equal(s.judged_by.unstable, strcmp(rows[i].sign, "u") == 0);
+        } else {
+            REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
+            assert_null(s.cell);
         }
-    br_scene_clear(&scene);
+        br_study_clear(&s);
+        br_scene_clear(&scene);
+    }
 }
 
 /* A fine run's own error, by the exact solution, is that of the same cell judged by it. */
@@ -352,38 +490,6 @@ TEST(test_audit)
     }
 }
 
-/* Lagged contact is stable below k = c / (c_H L - a) * 2 = 4.4 ms here: a fine run says of itself
- * whether it was. */
-TEST(test_unstable_reference)
-{
-    static const size_t steps[] = {20, 2000};
-    const size_t n = 4;
-    struct br_scene scene = br_test_bundled("chatter");
-    for (int stable = 0; stable < 2; stable++) {
-        struct br_error err = {0};
-        struct br_study s =
-            study_of(&scene, (struct br_resolution){n, steps[stable]}, 1, &n, 1, &steps[stable]);
-        MUST(br_study_run(&s, 1, 1, NULL, &err));
-        assert_int_equal(s.judged_by.unstable, !stable);
-        assert_int_equal(s.cell[0].unstable, !stable);
-        br_study_clear(&s);
-    }
-    br_scene_clear(&scene);
-}
-
-/* The reference failing fails the call. */
-TEST(test_failing_reference)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bare();
-    scene.bending.load = br_test_load("t > 0.35 ? sqrt(abs(x - 0.125) - 1e-6) : 1");
-    const size_t n = 2, steps = 10;
-    struct br_study s = study_of(&scene, (struct br_resolution){4, 20}, 1, &n, 1, &steps);
-    REFUSED(br_study_run(&s, 1, 2, NULL, &err), BR_NOT_FINITE, "x = 0.125");
-    assert_null(s.cell);
-    br_scene_clear(&scene);
-}
-
 /* ---- the observer ---- */
 
 struct watcher {
@@ -409,25 +515,24 @@ TEST(test_observer)
 {
     struct br_scene scene = br_test_bundled("example2");
     const size_t n = 4, steps = 500;
-    for (int threads = 1; threads <= 3; threads++) {
-        struct br_error err = {0};
-        struct watcher w = {.stop_after = 1000000};
-        const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
-        struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-        MUST(br_study_run(&s, 1, threads, &observer, &err));
-        assert_true(w.last == 1 && w.calls > 3);
-        br_study_clear(&s);
-
-        for (int after = 0; after < 400; after += 57) {
-            w = (struct watcher){.stop_after = after};
-            s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-            REFUSED(br_study_run(&s, 1, threads, &observer, &err), BR_INTERRUPTED, "interrupted");
-            assert_null(s.cell);
+    const struct br_observer silent = {0};
+    for (int threads = 1; threads <= 3; threads++)
+        for (int after = 0; after < 456; after += 57) {
+            struct br_error err = {0};
+            const bool ends = after >= 399;
+            struct watcher w = {.stop_after = ends ? 1000000 : after};
+            const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
+            struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
+            const enum br_status status = br_study_run(&s, 1, threads, &observer, &err);
+            if (!ends) {
+                REFUSED(status, BR_INTERRUPTED, "interrupted");
+                assert_null(s.cell);
+                continue;
+            }
+            assert_true(status == BR_OK && w.last == 1 && w.calls > 3);
+            br_study_clear(&s);
+            MUST(br_study_run(&s, 1, threads, &silent, &err));
+            br_study_clear(&s);
         }
-        const struct br_observer silent = {0};
-        s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
-        MUST(br_study_run(&s, 1, threads, &silent, &err));
-        br_study_clear(&s);
-    }
     br_scene_clear(&scene);
 }

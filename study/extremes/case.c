@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/case.h"
-
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "study/extremes/map.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/random.h"
 #include "study/scene/schema.h"
+#include "study/scene/words.h"
 
 const char *const br_extreme_specials[] = {
     [BR_SPECIAL_NONE] = "none",
@@ -25,11 +24,26 @@ const char *const br_extreme_specials[] = {
 
 /* ---- forces ---- */
 
+/* Of L. */
+static const char *const shapes[] = {
+    "", "*(x/%.17g)", "*sin(pi*x/%.17g)", "*sin(7*pi*x/%.17g)", "*(1 - (x/%.17g)^3)",
+};
+
+/* Of T and the rate. */
+static const char *const histories[] = {
+    "",
+    "*(t/%.17g)",
+    "*(exp(t/%.17g) - 1)",
+    "*sin(2*pi*%2$.17g*t/%1$.17g)",
+    "*((t/%1$.17g)^3 - 2*(t/%1$.17g)^2)",
+};
+enum { SHAPES = sizeof shapes / sizeof *shapes, HISTORIES = sizeof histories / sizeof *histories };
+enum { OSCILLATES = 3 };
+
 static void draw_form(struct br_random *r, struct br_extreme_force *f)
 {
-    f->shape = br_random_once_in(r, 2) ? BR_SHAPE_FLAT
-                                       : (enum br_extreme_shape)br_random_index(r, BR_SHAPES);
-    f->history = (enum br_extreme_history)br_random_index(r, BR_HISTORIES);
+    f->shape = br_random_once_in(r, 2) ? 0 : br_random_index(r, SHAPES);
+    f->history = br_random_index(r, HISTORIES);
     f->rate = round(br_random_decades(r, 0, 1.5)) + 0.25;
 }
 
@@ -269,7 +283,7 @@ static void scale_forces(struct br_extreme_case *c, double to)
 static void oscillate(struct br_random *r, struct br_extreme_case *c)
 {
     for (size_t i = 0; i < FORCES; i++) {
-        force_of(c, i)->history = BR_HISTORY_SINE;
+        force_of(c, i)->history = OSCILLATES;
         force_of(c, i)->rate = (double)c->steps * br_random_uniform(r, 0.3, 2);
     }
 }
@@ -370,42 +384,7 @@ void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
     play(&r, c);
 }
 
-struct text {
-    char *at;
-    size_t size;
-};
-
-__attribute__((format(printf, 2, 3))) static void add(struct text *t, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    const int length = vsnprintf(t->at, t->size, format, args);
-    va_end(args);
-    const size_t used = length < 0 ? 0 : (size_t)length;
-    const size_t taken = used < t->size ? used : t->size - 1;
-    t->at += taken;
-    t->size -= taken;
-}
-
 /* ---- the text of a case: expressions ---- */
-
-/* Of L. */
-static const char *const shapes[BR_SHAPES] = {
-    [BR_SHAPE_FLAT] = "",
-    [BR_SHAPE_LINEAR] = "*(x/%.17g)",
-    [BR_SHAPE_SINE] = "*sin(pi*x/%.17g)",
-    [BR_SHAPE_WAVES] = "*sin(7*pi*x/%.17g)",
-    [BR_SHAPE_POWER] = "*(1 - (x/%.17g)^3)",
-};
-
-/* Of T and the rate. */
-static const char *const histories[BR_HISTORIES] = {
-    [BR_HISTORY_SUDDEN] = "",
-    [BR_HISTORY_RAMP] = "*(t/%.17g)",
-    [BR_HISTORY_EXP] = "*(exp(t/%.17g) - 1)",
-    [BR_HISTORY_SINE] = "*sin(2*pi*%2$.17g*t/%1$.17g)",
-    [BR_HISTORY_POWER] = "*((t/%1$.17g)^3 - 2*(t/%1$.17g)^2)",
-};
 
 /* Of size and L, by field: plain and waved; of a beam also the slope. */
 static const char *const starts[2][2] = {
@@ -415,44 +394,45 @@ static const char *const starts[2][2] = {
 static const char *const start_slopes[2] = {"2*%1$.17g*(x/%2$.17g)/%2$.17g",
                                             "%1$.17g*5*pi/(2*%2$.17g)*sin(5*pi*x/(2*%2$.17g))"};
 
-static void add_force(struct text *t, const struct br_extreme_case *c, const char *key,
+static void add_force(char *t, const struct br_extreme_case *c, const char *key,
                       const struct br_extreme_force *f, const char *unit)
 {
     if (f->size == 0)
         return;
-    add(t, "  %s: %.17g", key, f->size);
+    br_append(t, BR_EXTREME_TEXT, "  %s: %.17g", key, f->size);
     if (strcmp(key, "load") == 0)
-        add(t, shapes[f->shape], c->length);
-    add(t, histories[f->history], c->duration, f->rate);
-    add(t, " [%s]\n", unit);
+        br_append(t, BR_EXTREME_TEXT, shapes[f->shape], c->length);
+    br_append(t, BR_EXTREME_TEXT, histories[f->history], c->duration, f->rate);
+    br_append(t, BR_EXTREME_TEXT, " [%s]\n", unit);
 }
 
-static void add_start(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind,
+static void add_start(char *t, const struct br_extreme_case *c, enum br_field_kind kind,
                       const char *key, const struct br_extreme_start *s)
 {
     const bool rate = strcmp(key, "velocity") == 0;
     if (s->size == 0)
         return;
-    add(t, "  %s: ", key);
-    add(t, starts[kind][s->waved], s->size, c->length);
-    add(t, rate ? " [m/s]\n" : " [m]\n");
+    br_append(t, BR_EXTREME_TEXT, "  %s: ", key);
+    br_append(t, BR_EXTREME_TEXT, starts[kind][s->waved], s->size, c->length);
+    br_append(t, BR_EXTREME_TEXT, rate ? " [m/s]\n" : " [m]\n");
     if (kind == BR_AXIAL)
         return;
-    add(t, "  %s_slope: ", key);
-    add(t, start_slopes[s->waved], s->size, c->length);
-    add(t, rate ? " [1/s]\n" : " [1]\n");
+    br_append(t, BR_EXTREME_TEXT, "  %s_slope: ", key);
+    br_append(t, BR_EXTREME_TEXT, start_slopes[s->waved], s->size, c->length);
+    br_append(t, BR_EXTREME_TEXT, rate ? " [1/s]\n" : " [1]\n");
 }
 
 /* ---- the scene ---- */
 
-static void add_field(struct text *t, const struct br_extreme_case *c, enum br_field_kind kind)
+static void add_field(char *t, const struct br_extreme_case *c, enum br_field_kind kind)
 {
     const struct br_extreme_field *p = &c->field[kind];
     const bool axial = kind == BR_AXIAL;
     if (!p->modelled)
         return;
-    add(t, "\n%s:\n  stiffness: %.17g %s\n  viscosity: %.17g %s\n", axial ? "axial" : "bending",
-        p->stiffness, axial ? "N" : "N m^2", p->viscosity, axial ? "N s" : "N m^2 s");
+    br_append(t, BR_EXTREME_TEXT, "\n%s:\n  stiffness: %.17g %s\n  viscosity: %.17g %s\n",
+              axial ? "axial" : "bending", p->stiffness, axial ? "N" : "N m^2", p->viscosity,
+              axial ? "N s" : "N m^2 s");
     add_force(t, c, "load", &p->load, "N/m");
     add_force(t, c, "tip_force", &p->tip_force, "N");
     if (!axial)
@@ -463,26 +443,28 @@ static void add_field(struct text *t, const struct br_extreme_case *c, enum br_f
 
 void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT])
 {
-    struct text t = {text, BR_EXTREME_TEXT};
     char command[BR_EXTREME_COMMAND], name[64];
     snprintf(name, sizeof name, "wrong-%zu.yaml", c->index);
     br_extreme_command(c, name, command);
-    add(&t, "# Case %zu of seed %llu. %s\n", c->index, (unsigned long long)c->seed, command);
-    add(&t, "title: Extreme case %zu\n\n", c->index);
-    add(&t, "length: %.17g m\nduration: %.17g s\ndensity: %.17g kg/m\n", c->length, c->duration,
-        c->density);
-    add_field(&t, c, BR_AXIAL);
-    add_field(&t, c, BR_BENDING);
+    *text = '\0';
+    br_append(text, BR_EXTREME_TEXT, "# Case %zu of seed %llu. %s\n", c->index,
+              (unsigned long long)c->seed, command);
+    br_append(text, BR_EXTREME_TEXT, "title: Extreme case %zu\n\n", c->index);
+    br_append(text, BR_EXTREME_TEXT, "length: %.17g m\nduration: %.17g s\ndensity: %.17g kg/m\n",
+              c->length, c->duration, c->density);
+    add_field(text, c, BR_AXIAL);
+    add_field(text, c, BR_BENDING);
     if (c->contact)
-        add(&t, "\ncontact:\n  gap: %.17g m\n  stiffness: %.17g N/m\n", c->gap,
-            c->contact_stiffness);
+        br_append(text, BR_EXTREME_TEXT, "\ncontact:\n  gap: %.17g m\n  stiffness: %.17g N/m\n",
+                  c->gap, c->contact_stiffness);
     if (c->law == BR_FRICTIONLESS)
         return;
     const bool tresca = c->law == BR_TRESCA;
-    add(&t, "\nfriction:\n  law: %s\n  %s: %.17g %s\n", br_friction_law_names[c->law],
-        tresca ? "bound" : "coefficient", c->friction, tresca ? "N" : "N/m");
+    br_append(text, BR_EXTREME_TEXT, "\nfriction:\n  law: %s\n  %s: %.17g %s\n",
+              br_friction_law_names[c->law], tresca ? "bound" : "coefficient", c->friction,
+              tresca ? "N" : "N/m");
     if (c->regularisation > 0)
-        add(&t, "  regularisation: %.17g m/s\n", c->regularisation);
+        br_append(text, BR_EXTREME_TEXT, "  regularisation: %.17g m/s\n", c->regularisation);
 }
 
 /* What the program takes: no option that the method does not heed, and every number to its last
@@ -490,13 +472,12 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
 void br_extreme_command(const struct br_extreme_case *c, const char *name,
                         char text[BR_EXTREME_COMMAND])
 {
-    struct text t = {text, BR_EXTREME_COMMAND};
     char options[BR_METHOD_TEXT];
     const struct br_scene scene = {.axial.modelled = c->field[BR_AXIAL].modelled,
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
-    add(&t, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n, c->steps,
-        br_method_options(&scene, &c->method, options));
+    snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n,
+             c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
-        add(&t, " --fields axial,bending");
+        br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");
 }

@@ -1,44 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/energy_behaviour.h"
-
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
+#include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 #include "study/scene/file.h"
 
 /* ---- the scenes ---- */
 
 #define PLACE(member) offsetof(struct br_scene, member)
-#define DENSITY                        \
-    {                                  \
-        PLACE(density), PLACE(density) \
-    }
-#define VISCOSITY                                        \
-    {                                                    \
-        PLACE(axial.viscosity), PLACE(bending.viscosity) \
-    }
-#define C_H                                                \
-    {                                                      \
-        PLACE(contact.stiffness), PLACE(contact.stiffness) \
-    }
-#define C_V                                                      \
-    {                                                            \
-        PLACE(friction.coefficient), PLACE(friction.coefficient) \
-    }
 
 const struct br_balance_scene br_balance_scenes[] = {
     {"example1", "example1", NULL, {0}, 0},
     {"example2", "example2", NULL, {0}, 0},
     {"example2, lagged contact", "example2", "lagged", {0}, 0},
-    {"example2, lagged contact, c_H = 1e12 N/m", "example2", "lagged", C_H, 1e12},
-    {"example2, c_H = 1e12 N/m", "example2", "implicit", C_H, 1e12},
-    {"example2, density 0", "example2", "implicit", DENSITY, 0},
-    {"example2, density 1e6 kg/m", "example2", "implicit", DENSITY, 1e6},
-    {"example2, viscosity 0", "example2", "implicit", VISCOSITY, 0},
-    {"example2, viscosity 1e6", "example2", "implicit", VISCOSITY, 1e6},
-    {"example2, c_V = 1e12 N/m", "example2", "implicit", C_V, 1e12},
+    {"example2, lagged contact, c_H = 1e12 N/m",
+     "example2",
+     "lagged",
+     {PLACE(contact.stiffness)},
+     1e12},
+    {"example2, c_H = 1e12 N/m", "example2", "implicit", {PLACE(contact.stiffness)}, 1e12},
+    {"example2, density 0", "example2", "implicit", {PLACE(density)}, 0},
+    {"example2, density 1e6 kg/m", "example2", "implicit", {PLACE(density)}, 1e6},
+    {"example2, viscosity 0",
+     "example2",
+     "implicit",
+     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     0},
+    {"example2, viscosity 1e6",
+     "example2",
+     "implicit",
+     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     1e6},
+    {"example2, c_V = 1e12 N/m", "example2", "implicit", {PLACE(friction.coefficient)}, 1e12},
     {"example4", "example4", NULL, {0}, 0},
     {"bouncing", "bouncing", "implicit", {0}, 0},
     {"bouncing, lagged contact", "bouncing", "lagged", {0}, 0},
@@ -70,30 +65,27 @@ static const size_t rates[BR_VIBRATION_RATES] = {6, 12, 24, 48, 96, 192};
 static const double tolerances[BR_VIBRATION_RATES] = {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
 static const double densities[BR_VIBRATION_DENSITIES] = {1e-6, 1, 1e6};
 static const double dampings[] = {0, 0.01};
+enum { DAMPINGS = sizeof dampings / sizeof *dampings };
 
 /* Of a balance. */
 enum { ELEMENTS = 20, STEPS = 400 };
 static const double tolerance = 1e-3;
 
-static void list_vibrations(struct br_energy_behaviour *b)
+static struct br_vibration_row vibrations_of(const struct br_time_scheme *scheme,
+                                             enum br_field_kind kind, double damping)
 {
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            for (size_t d = 0; d < sizeof dampings / sizeof *dampings; d++) {
-                struct br_vibration_row *row = &b->vibration[b->vibrations++];
-                *row =
-                    (struct br_vibration_row){*s, (enum br_field_kind)kind, dampings[d], {{{0}}}};
-                for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-                    for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++)
-                        row->at[r][i] = (struct br_vibration){
-                            .scheme = *s,
-                            .kind = (enum br_field_kind)kind,
-                            .damping = dampings[d],
-                            .density = densities[i],
-                            .per_period = (*s)->adaptive ? 1 : rates[r],
-                            .tolerance = tolerances[r],
-                        };
-            }
+    struct br_vibration_row row = {.scheme = scheme, .kind = kind, .damping = damping};
+    for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
+        for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++)
+            row.at[r][i] = (struct br_vibration){
+                .scheme = scheme,
+                .kind = kind,
+                .damping = damping,
+                .density = densities[i],
+                .per_period = scheme->adaptive ? 1 : rates[r],
+                .tolerance = tolerances[r],
+            };
+    return row;
 }
 
 static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
@@ -101,12 +93,15 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
     size_t schemes = 0;
     while (br_time_schemes[schemes])
         schemes++;
-    b->vibration =
-        br_allocate(schemes * 2 * sizeof dampings / sizeof *dampings, sizeof *b->vibration);
+    b->vibrations = schemes * 2 * DAMPINGS;
+    b->vibration = br_allocate(b->vibrations, sizeof *b->vibration);
     b->balance = br_allocate(schemes * SCENES, sizeof *b->balance);
     if (!b->vibration || !b->balance)
         return br_no_memory(err, "energies of all schemes");
-    list_vibrations(b);
+    for (size_t i = 0; i < b->vibrations; i++)
+        b->vibration[i] =
+            vibrations_of(br_time_schemes[i / (2 * DAMPINGS)],
+                          (enum br_field_kind)(i / DAMPINGS % 2), dampings[i % DAMPINGS]);
     for (size_t i = 0; i < SCENES * schemes; i++) {
         const struct br_balance_scene *scene = &br_balance_scenes[i / schemes];
         const struct br_time_scheme *scheme = br_time_schemes[i % schemes];
@@ -125,9 +120,8 @@ static enum br_status march(struct br_balance_row *row, struct br_march *march,
     enum br_status status = BR_OK;
     for (row->marched = 0; row->marched < STEPS && !status; row->marched += !status) {
         status = br_march_step(march, err);
-        const double imbalance = status ? 0 : br_energy_meter_step(meter);
-        if (isnan(imbalance) || imbalance > row->worst)
-            row->worst = imbalance;
+        if (!status)
+            row->worst = br_worst(row->worst, br_energy_meter_step(meter));
     }
     br_energy_meter_read(meter, &row->start, &row->now, &row->work);
     if (status != BR_NOT_FINITE)
@@ -193,14 +187,14 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, int threads,
-                                       const struct br_observer *observer, struct br_error *err)
+enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b,
+                                       const struct br_extremes_job *job, struct br_error *err)
 {
     *b = (struct br_energy_behaviour){0};
     const enum br_status status = list(b, err);
     const struct br_each each = {.count = b->vibrations + b->balances,
-                                 .threads = threads,
-                                 .observer = observer,
+                                 .threads = job->threads,
+                                 .observer = job->observer,
                                  .turn = take_turn,
                                  .self = b};
     return status ? status : br_each(&each, err);

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/floors.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -9,6 +7,7 @@
 #include <string.h>
 
 #include "reference/discrete.h"
+#include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 #include "study/scene/file.h"
 
@@ -52,7 +51,7 @@ static void add_schemes(struct br_floors *f)
     f->solvers = COUNT(solvers);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         for (size_t c = 0; br_contact_rules[c]; c++)
-            for (size_t i = 0; i < f->solvers; i++)
+            for (size_t i = 0; i < COUNT(solvers); i++)
                 if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
                     add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
@@ -116,10 +115,10 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
     }
 }
 
-static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *plan,
+static enum br_status prepare(struct br_floors *f, const struct br_extremes_job *job,
                               struct br_error *err)
 {
-    const size_t *n = f->gathered ? gathered_n : plan->n ? plan->n : usual_n;
+    const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
     const size_t *usual = f->gathered ? gathered_steps : usual_steps;
     enum br_status status = read_scenes(f, err);
     if (status)
@@ -129,19 +128,19 @@ static enum br_status prepare(struct br_floors *f, const struct br_floors_plan *
     else
         add_solvers(f);
     for (size_t i = 0; i < f->methods; i++)
-        f->method[i].method.rounding = plan->rounding;
-    f->n_count = f->gathered ? COUNT(gathered_n) : plan->n ? plan->n_count : COUNT(usual_n);
-    f->k_count = plan->k ? plan->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
+        f->method[i].method.rounding = job->rounding;
+    f->n_count = f->gathered ? COUNT(gathered_n) : job->n ? job->n_count : COUNT(usual_n);
+    f->k_count = job->k ? job->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
     f->floors = f->scenes * f->methods * f->n_count * f->k_count;
     f->floor = br_allocate(f->floors, sizeof *f->floor);
     if (!f->floor)
         return br_no_memory(err, "the floors");
     for (size_t i = 0; i < f->n_count * f->k_count && !status; i++) {
         const size_t j = i % f->k_count;
-        size_t steps = usual[plan->k ? 0 : j];
-        if (plan->k)
-            status = br_steps_of(&f->scene[0], plan->k[j], &steps, err);
-        list_marches(f, i, n[i / f->k_count], steps, plan->k != NULL);
+        size_t steps = usual[job->k ? 0 : j];
+        if (job->k)
+            status = br_steps_of(&f->scene[0], job->k[j], &steps, err);
+        list_marches(f, i, n[i / f->k_count], steps, job->k != NULL);
     }
     return status;
 }
@@ -167,8 +166,7 @@ struct work {
 /* Looked at so often that steps of any mesh take no long time. */
 static bool stopped(const struct work *w, size_t step)
 {
-    const struct br_observer *o = w->observer;
-    return step % (40960 / w->first->n + 1) == 0 && o && o->stop && o->stop(o->self);
+    return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
 
 static enum br_status find_exact(struct work *w, struct br_error *err)
@@ -238,15 +236,23 @@ static enum br_status measure(const struct work *w, struct br_floor *floor, stru
 /* ---- all ---- */
 
 struct loop {
-    const struct br_floors *f;
+    struct br_floors *f;
     const struct br_observer *observer;
-    struct br_floor **first; /* of the solvers of a turn */
 };
+
+/* Of the solvers of a turn: those of the finest meshes and most steps come first. */
+static struct br_floor *first_of(const struct br_floors *f, size_t turn)
+{
+    const size_t groups = f->scenes * f->methods / f->solvers, grids = f->n_count * f->k_count;
+    return &f->floor[turn % groups * f->solvers * grids + grids - 1 - turn / groups];
+}
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct loop *l = self;
-    struct work w = {.first = l->first[i], .observer = l->observer};
+    struct work w = {.first = first_of(l->f, i), .observer = l->observer};
+    if (!w.first->steps)
+        return BR_OK;
     w.march = br_allocate(2 * (w.first->n + 1), sizeof *w.march);
     enum br_status status = w.march ? find_exact(&w, err) : br_no_memory(err, "the floors");
     for (size_t s = 0; s < l->f->solvers && !status; s++)
@@ -257,52 +263,31 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-static double work_of(const struct br_floor *f)
-{
-    return (double)f->n * (double)f->steps;
-}
-
 static double work_of_turn(const void *self, size_t i)
 {
-    const struct loop *l = self;
-    return work_of(l->first[i]);
+    const struct br_floor *first = first_of(((const struct loop *)self)->f, i);
+    return (double)first->n * (double)first->steps;
 }
 
-/* Those of as much work in the order of their results. */
-static int most_work_first(const void *a, const void *b)
+enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br_extremes_job *job,
+                             struct br_error *err)
 {
-    const struct br_floor *x = *(struct br_floor *const *)a, *y = *(struct br_floor *const *)b;
-    if (work_of(x) != work_of(y))
-        return work_of(x) < work_of(y) ? 1 : -1;
-    return (x > y) - (x < y);
-}
-
-static enum br_status march_all(struct br_floors *f, int threads,
-                                const struct br_observer *observer, struct br_error *err)
-{
-    struct loop loop = {f, observer, br_allocate(f->floors, sizeof *loop.first)};
-    struct br_each each = {0, threads, observer, take_turn, work_of_turn, &loop};
-    if (!loop.first)
-        return br_no_memory(err, "the floors");
-    for (size_t i = 0; i < f->floors; i++)
-        if (f->floor[i].steps > 0 && (size_t)(f->floor[i].by - f->method) % f->solvers == 0)
-            loop.first[each.count++] = &f->floor[i];
-    qsort(loop.first, each.count, sizeof *loop.first, most_work_first);
-    const enum br_status status = br_each(&each, err);
-    free(loop.first);
-    return status;
-}
-
-enum br_status br_floors_run(struct br_floors *f, const struct br_floors_plan *plan,
-                             const struct br_observer *observer, struct br_error *err)
-{
-    *f = (struct br_floors){.gathered = plan->gathered};
-    const enum br_status status = prepare(f, plan, err);
+    *f = (struct br_floors){.gathered = gathered};
+    const enum br_status status = prepare(f, job, err);
     if (!status && !br_discrete_judges())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");
-    return status ? status : march_all(f, plan->threads, observer, err);
+    if (status)
+        return status;
+    struct loop loop = {f, job->observer};
+    const struct br_each each = {.count = f->floors / f->solvers,
+                                 .threads = job->threads,
+                                 .observer = job->observer,
+                                 .turn = take_turn,
+                                 .work = work_of_turn,
+                                 .self = &loop};
+    return br_each(&each, err);
 }
 
 /* ---- looking ---- */
@@ -315,8 +300,7 @@ const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size
 
 double br_floor_deviation(const struct br_floor *floor)
 {
-    const double *d = floor->deviation;
-    return isnan(d[0]) || d[0] > d[1] ? d[0] : d[1];
+    return br_worst(floor->deviation[BR_AXIAL], floor->deviation[BR_BENDING]);
 }
 
 double br_floor_limit(const struct br_floor *f)

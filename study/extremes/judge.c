@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/judge.h"
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "study/extremes/map.h"
 #include "study/extremes/track.h"
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
@@ -106,8 +105,8 @@ static void compare(struct trial *t)
             v->stated = stated;
             t->error = e;
         }
-        v->error = isnan(e) || e > v->error ? e : v->error;
-        t->beyond = isnan(beyond) || beyond > t->beyond ? beyond : t->beyond;
+        v->error = br_worst(v->error, e);
+        t->beyond = br_worst(t->beyond, beyond);
     }
 }
 
@@ -226,10 +225,9 @@ static enum br_status march_changed(struct trial *t, const struct br_scene *chan
     request.scene = changed;
     const enum br_status status = br_track_march(&request, t->other, err);
     *distance = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        const double d = br_track_distance(t->other, t->own, (enum br_field_kind)kind, unit);
-        *distance = isnan(d) || d > *distance ? d : *distance;
-    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        *distance = br_worst(*distance,
+                             br_track_distance(t->other, t->own, (enum br_field_kind)kind, unit));
     return status;
 }
 

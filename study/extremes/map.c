@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,130 +14,98 @@
 /* ---- cases ---- */
 
 struct work {
-    const struct br_extreme_request *request;
+    const struct br_extremes_job *job;
     struct br_extreme_map *map;
+    br_extreme_judging_function *judge;
 };
 
-static enum br_status ask(const struct br_extreme_request *w, const struct br_extreme_case *one,
+static enum br_status ask(const struct work *w, const struct br_extreme_case *one,
                           struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    return (w->judge ? w->judge : br_extreme_judge)(one, &w->judging, verdict, err);
+    return w->judge(one, &(struct br_extreme_judging){.rounding = w->job->rounding}, verdict, err);
 }
 
 static enum br_status do_case(void *self, size_t i, struct br_error *err)
 {
-    const struct work *work = self;
-    const struct br_extreme_request *w = work->request;
-    struct br_extreme_verdict *verdict = &work->map->verdict[i];
+    const struct work *w = self;
+    struct br_kept *kept = w->job->kept;
+    struct br_extreme_case *one = &w->map->one[i];
+    struct br_extreme_verdict *verdict = &w->map->verdict[i];
     char what[120], key[BR_SHA256_TEXT];
-    br_extreme_draw(w->seed, i, &work->map->one[i]);
-    if (!w->kept)
-        return ask(w, &work->map->one[i], verdict, err);
-    snprintf(what, sizeof what, "case %zu of seed %llu, rounding %d, quick %d, boast %g", i,
-             (unsigned long long)w->seed, w->judging.rounding, w->judging.quick, w->judging.boast);
-    br_kept_key(&w->kept->base, what, key);
-    if (br_kept_read_into(w->kept, key, verdict, sizeof *verdict)) {
-        atomic_fetch_add(&w->kept->taken, 1);
+    br_extreme_draw(w->map->seed, i, one);
+    if (!kept)
+        return ask(w, one, verdict, err);
+    snprintf(what, sizeof what, "case %zu of seed %llu, rounding %d", i,
+             (unsigned long long)w->map->seed, w->job->rounding);
+    br_kept_key(&kept->base, what, key);
+    if (br_kept_read_into(kept, key, verdict, sizeof *verdict)) {
+        atomic_fetch_add(&kept->taken, 1);
         return BR_OK;
     }
-    const enum br_status status = ask(w, &work->map->one[i], verdict, err);
+    const enum br_status status = ask(w, one, verdict, err);
     if (!status)
-        br_kept_write(w->kept, key, verdict, sizeof *verdict);
+        br_kept_write(kept, key, verdict, sizeof *verdict);
     return status;
 }
 
 /* ---- a case that is wrong, made small while it stays wrong, so that a person can read it ---- */
 
-enum change {
-    DROP_AXIAL,
-    DROP_BENDING,
-    DROP_CONTACT,
-    DROP_FRICTION,
-    USUAL_SCHEME,
-    USUAL_SOLVER,
-    USUAL_LAWS,
-    USUAL_REST,
-    PLAIN_FORCES,
-    HALF_ELEMENTS,
-    HALF_DURATION, /* with the step kept */
-    HALF_STEPS,    /* with the duration kept */
-    CHANGES
+/* What becomes as it is in the plainest case: a part of a case, or of both of its fields. Of a
+ * number one digit is left, where it cannot be plain. */
+struct part {
+    size_t offset, size;
+    bool number;
 };
+#define PART(type, member) offsetof(struct type, member), sizeof((struct type *)NULL)->member
+static const struct part of_case[] = {
+    {PART(br_extreme_case, field[BR_AXIAL]), false},
+    {PART(br_extreme_case, field[BR_BENDING]), false},
+    {PART(br_extreme_case, contact), false},
+    {PART(br_extreme_case, law), false},
+    {PART(br_extreme_case, method.scheme), false},
+    {PART(br_extreme_case, method.solver), false},
+    {PART(br_extreme_case, method.friction), false},
+    {PART(br_extreme_case, method.contact), false},
+    {PART(br_extreme_case, method.axial_degree), false},
+    {PART(br_extreme_case, method.linear), false},
+    {PART(br_extreme_case, density), true},
+    {PART(br_extreme_case, gap), true},
+    {PART(br_extreme_case, contact_stiffness), true},
+    {PART(br_extreme_case, friction), true},
+    {PART(br_extreme_case, regularisation), true},
+    {PART(br_extreme_case, length), true},
+    {PART(br_extreme_case, duration), true},
+};
+static const struct part of_field[] = {
+    {PART(br_extreme_field, load.shape), false},
+    {PART(br_extreme_field, load.history), false},
+    {PART(br_extreme_field, tip_force.history), false},
+    {PART(br_extreme_field, tip_moment.history), false},
+    {PART(br_extreme_field, displacement.waved), false},
+    {PART(br_extreme_field, velocity.waved), false},
+    {PART(br_extreme_field, stiffness), true},
+    {PART(br_extreme_field, viscosity), true},
+    {PART(br_extreme_field, load.size), true},
+    {PART(br_extreme_field, load.rate), true},
+    {PART(br_extreme_field, tip_force.size), true},
+    {PART(br_extreme_field, tip_force.rate), true},
+    {PART(br_extreme_field, tip_moment.size), true},
+    {PART(br_extreme_field, tip_moment.rate), true},
+    {PART(br_extreme_field, displacement.size), true},
+    {PART(br_extreme_field, velocity.size), true},
+};
+enum { OF_CASE = sizeof of_case / sizeof *of_case, OF_FIELD = sizeof of_field / sizeof *of_field };
+enum { HALVES = 3, PARTS = OF_CASE + 2 * OF_FIELD };
 
-static void plain_forces(struct br_extreme_field *p)
+/* Half of the elements, of the duration with the step kept, or of the steps. */
+static void halve(size_t what, struct br_extreme_case *c)
 {
-    p->load.shape = BR_SHAPE_FLAT;
-    p->load.history = p->tip_force.history = p->tip_moment.history = BR_HISTORY_SUDDEN;
-    p->displacement.waved = p->velocity.waved = false;
-}
-
-static void make(enum change change, struct br_extreme_case *c)
-{
-    switch (change) {
-    case DROP_AXIAL:
-        c->field[BR_AXIAL] = (struct br_extreme_field){0};
-        c->contact = false;
-        break;
-    case DROP_BENDING:
-        c->field[BR_BENDING] = (struct br_extreme_field){0};
-        c->law = BR_FRICTIONLESS;
-        break;
-    case DROP_CONTACT:
-        c->contact = false;
-        break;
-    case DROP_FRICTION:
-        c->law = BR_FRICTIONLESS;
-        break;
-    case USUAL_SCHEME:
-        c->method.scheme = br_time_schemes[0];
-        break;
-    case USUAL_SOLVER:
-        c->method.solver = br_linear_solvers[0];
-        break;
-    case USUAL_LAWS:
-        c->method.friction = br_friction_rules[0];
-        c->method.contact = br_contact_rule_of(c->method.scheme);
-        break;
-    case USUAL_REST:
-        c->method.axial_degree = 1;
-        c->method.linear = br_linear_defaults;
-        break;
-    case PLAIN_FORCES:
-        plain_forces(&c->field[BR_AXIAL]);
-        plain_forces(&c->field[BR_BENDING]);
-        break;
-    case HALF_ELEMENTS:
+    if (what == 0)
         c->n = (c->n + 1) / 2;
-        break;
-    case HALF_DURATION:
+    if (what == 1)
         c->duration *= (double)((c->steps + 1) / 2) / (double)c->steps;
+    if (what > 0)
         c->steps = (c->steps + 1) / 2;
-        break;
-    case HALF_STEPS:
-        c->steps = (c->steps + 1) / 2;
-        break;
-    case CHANGES:
-        break;
-    }
-    if (c->law == BR_COULOMB && !c->contact)
-        c->law = BR_FRICTIONLESS;
-    if (c->law == BR_FRICTIONLESS || !c->field[BR_AXIAL].modelled)
-        c->wanted = 0;
-}
-
-enum { FIELD_NUMBERS = 10, NUMBERS = 27, NOT_ZERO = 25 }; /* from this one on none may be 0 */
-
-static double *number_of(struct br_extreme_case *c, size_t i)
-{
-    struct br_extreme_field *p = &c->field[i < FIELD_NUMBERS ? BR_AXIAL : BR_BENDING];
-    double *const numbers[] = {
-        &p->stiffness,         &p->viscosity,         &p->load.size,      &p->tip_force.size,
-        &p->tip_moment.size,   &p->displacement.size, &p->velocity.size,  &p->load.rate,
-        &p->tip_force.rate,    &p->tip_moment.rate,   &c->density,        &c->gap,
-        &c->contact_stiffness, &c->friction,          &c->regularisation, &c->length,
-        &c->duration,
-    };
-    return numbers[i < FIELD_NUMBERS ? i : i - FIELD_NUMBERS];
 }
 
 static double one_digit(double x)
@@ -146,10 +115,37 @@ static double one_digit(double x)
     return isfinite(rounded) && rounded != 0 ? rounded : x;
 }
 
+static void simplify(size_t i, bool to_a_digit, struct br_extreme_case *c)
+{
+    const struct br_extreme_case plain = {
+        .length = 1, .duration = 1, .method = br_method_default()};
+    const struct part *part = i < OF_CASE ? &of_case[i] : &of_field[(i - OF_CASE) % OF_FIELD];
+    const size_t field = (i - OF_CASE) / OF_FIELD * sizeof *c->field;
+    const size_t at =
+        part->offset + (i < OF_CASE ? 0 : offsetof(struct br_extreme_case, field) + field);
+    double *number = (double *)(void *)((char *)c + at);
+    if (!to_a_digit)
+        memcpy((char *)c + at, (const char *)&plain + at, part->size);
+    else if (part->number)
+        *number = one_digit(*number);
+}
+
+/* What belongs together. */
+static void mend(struct br_extreme_case *c)
+{
+    c->contact &= c->field[BR_AXIAL].modelled;
+    if (!c->field[BR_BENDING].modelled || (c->law == BR_COULOMB && !c->contact))
+        c->law = BR_FRICTIONLESS;
+    if (c->law == BR_FRICTIONLESS || !c->field[BR_AXIAL].modelled)
+        c->wanted = 0;
+    if (!c->method.scheme->may_lag)
+        c->method.contact = br_contact_rule_of(c->method.scheme);
+}
+
 enum { MOST_QUESTIONS = 300 };
 
 struct shrinking {
-    const struct br_extreme_request *request;
+    const struct work *work;
     struct br_extreme_shrunk *best;
     char text[BR_EXTREME_TEXT]; /* of the best: what does not change it is not tried */
     size_t asked;
@@ -159,16 +155,15 @@ struct shrinking {
 static enum br_status attempt(struct shrinking *s, const struct br_extreme_case *smaller,
                               struct br_error *err)
 {
-    const struct br_observer *o = s->request->observer;
     struct br_extreme_verdict verdict;
     char text[BR_EXTREME_TEXT];
     br_extreme_scene(smaller, text);
     if (strcmp(text, s->text) == 0 || s->asked >= MOST_QUESTIONS)
         return BR_OK;
     s->asked++;
-    if (o && o->stop && o->stop(o->self))
+    if (br_observer_stops(s->work->job->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    const enum br_status status = ask(s->request, smaller, &verdict, err);
+    const enum br_status status = ask(s->work, smaller, &verdict, err);
     if (status || verdict.which != BR_EXTREME_WRONG)
         return status;
     s->best->one = *smaller;
@@ -178,52 +173,49 @@ static enum br_status attempt(struct shrinking *s, const struct br_extreme_case 
     return BR_OK;
 }
 
-/* All changes, then each number becomes 0, or 1, or has one digit left. */
+/* Each part plain, all halves, then digits. */
 static enum br_status try_all(struct shrinking *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
     s->gained = false;
-    for (int change = 0; change < CHANGES && !status; change++) {
+    for (size_t i = 0; i < 2 * PARTS + HALVES && !status; i++) {
         struct br_extreme_case smaller = s->best->one;
-        make((enum change)change, &smaller);
-        status = attempt(s, &smaller, err);
-    }
-    for (size_t i = 0; i < 2 * NUMBERS && !status; i++) {
-        struct br_extreme_case smaller = s->best->one;
-        double *number = number_of(&smaller, i / 2);
-        *number = i % 2 ? one_digit(*number) : i / 2 < NOT_ZERO ? 0 : 1;
+        if (i < PARTS || i >= PARTS + HALVES)
+            simplify(i < PARTS ? i : i - PARTS - HALVES, i >= PARTS, &smaller);
+        else
+            halve(i - PARTS, &smaller);
+        mend(&smaller);
         status = attempt(s, &smaller, err);
     }
     return status;
 }
 
-static enum br_status write_scene(const struct br_extreme_request *w, struct br_extreme_shrunk *s,
-                                  const char *text, struct br_error *err)
+static enum br_status write_scene(const char *folder, struct br_extreme_shrunk *s, const char *text,
+                                  struct br_error *err)
 {
     char path[4096];
     snprintf(s->file, sizeof s->file, "wrong-%zu.yaml", s->one.index);
     br_extreme_command(&s->one, s->file, s->command);
-    if (!w->folder)
+    if (!folder)
         return BR_OK;
-    snprintf(path, sizeof path, "%s/%s", w->folder, s->file);
+    snprintf(path, sizeof path, "%s/%s", folder, s->file);
     FILE *file = fopen(path, "w");
-    if (!file)
+    const bool written =
+        file && fprintf(file, "# Silently wrong: %s\n%s", s->verdict.why, text) > 0;
+    if (!file || (fclose(file) != 0) | !written)
         return br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
-    fprintf(file, "# Silently wrong: %s\n%s", s->verdict.why, text);
-    const bool failed = ferror(file) != 0;
-    return fclose(file) == 0 && !failed ? BR_OK
-                                        : br_fail(err, BR_IO, "%.900s: %s", path, strerror(errno));
+    return BR_OK;
 }
 
 static enum br_status shrink(void *self, size_t i, struct br_error *err)
 {
     const struct work *work = self;
-    struct shrinking s = {.request = work->request, .best = &work->map->shrunk[i], .gained = true};
+    struct shrinking s = {.work = work, .best = &work->map->shrunk[i], .gained = true};
     enum br_status status = BR_OK;
     br_extreme_scene(&s.best->one, s.text);
     while (s.gained && !status && s.asked < MOST_QUESTIONS)
         status = try_all(&s, err);
-    return status ? status : write_scene(work->request, s.best, s.text, err);
+    return status ? status : write_scene(work->job->folder, s.best, s.text, err);
 }
 
 /* ---- tallies ---- */
@@ -256,32 +248,6 @@ static const struct kind {
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
-static int by_label(const void *a, const void *b)
-{
-    const struct br_extreme_tally *x = a, *y = b;
-    return strcmp(x->label, y->label);
-}
-
-/* The tallies of one kind, sorted. */
-static void add_tallies(struct br_extreme_map *m, const struct kind *kind)
-{
-    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
-    for (size_t i = 0; i < m->cases; i++) {
-        struct br_extreme_tally *t = first;
-        const char *label = kind->word(&m->one[i]);
-        while (t < end && strcmp(t->label, label) != 0)
-            t++;
-        if (t == end)
-            *end++ = (struct br_extreme_tally){.title = kind->title, .label = label};
-        t->cases++;
-        t->count[m->verdict[i].which]++;
-    }
-    qsort(first, (size_t)(end - first), sizeof *first, by_label);
-    m->tallies += (size_t)(end - first);
-}
-
-/* ---- reasons ---- */
-
 static bool starts_number(const char *c, const char *text)
 {
     const bool inside = c > text && (isalnum((unsigned char)c[-1]) || c[-1] == '_');
@@ -306,39 +272,59 @@ static void generalise(const char *why, char text[150])
     text[used] = '\0';
 }
 
-static void add_reason(struct br_extreme_map *m, size_t index)
+static int by_label(const void *a, const void *b)
 {
-    const struct br_extreme_verdict *v = &m->verdict[index];
-    struct br_extreme_reason found = {.which = v->which, .cases = 1, .first = index};
-    generalise(v->why, found.text);
-    for (size_t i = 0; i < m->reasons; i++) {
-        struct br_extreme_reason *r = &m->reason[i];
-        if (r->which == found.which && strcmp(r->text, found.text) == 0) {
-            r->cases++;
-            return;
-        }
-    }
-    m->reason[m->reasons++] = found;
+    const struct br_extreme_tally *x = a, *y = b;
+    return strcmp(x->label, y->label);
 }
 
 static int by_class_and_count(const void *a, const void *b)
 {
-    const struct br_extreme_reason *x = a, *y = b;
-    if (x->which != y->which)
-        return x->which > y->which ? -1 : 1;
-    if (x->cases != y->cases)
-        return x->cases < y->cases ? 1 : -1;
+    const struct br_extreme_tally *x = a, *y = b;
+    for (int which = BR_EXTREME_CLASSES - 1; which >= 0; which--)
+        if (x->count[which] != y->count[which])
+            return x->count[which] < y->count[which] ? 1 : -1;
     return (x->first > y->first) - (x->first < y->first);
 }
 
+/* The tallies of one kind, or of the reasons (NULL), sorted. */
+static struct br_extreme_tally *add_tallies(struct br_extreme_map *m, const struct kind *kind)
+{
+    struct br_extreme_tally *first = m->tally + m->tallies, *end = first;
+    for (size_t i = 0; i < m->cases; i++) {
+        struct br_extreme_tally *t = first;
+        const enum br_extreme_class which = m->verdict[i].which;
+        char label[sizeof t->label];
+        if (kind)
+            snprintf(label, sizeof label, "%s", kind->word(&m->one[i]));
+        else
+            generalise(m->verdict[i].why, label);
+        while (t < end && (strcmp(t->label, label) != 0 || !(kind || t->count[which])))
+            t++;
+        if (t == end && !(kind || *label))
+            continue; /* it is right */
+        if (t == end) {
+            *end++ = (struct br_extreme_tally){.title = kind ? kind->title : NULL, .first = i};
+            memcpy(t->label, label, sizeof label);
+        }
+        t->cases++;
+        t->count[which]++;
+    }
+    qsort(first, (size_t)(end - first), sizeof *first, kind ? by_label : by_class_and_count);
+    m->tallies += (size_t)(end - first);
+    return first;
+}
+
 /* ---- all ---- */
+
+enum { CASES = 2000, SEED = 1 };
 
 static enum br_status run(struct work *work, struct br_error *err)
 {
     struct br_extreme_map *m = work->map;
     struct br_each each = {.count = m->cases,
-                           .threads = work->request->threads,
-                           .observer = work->request->observer,
+                           .threads = work->job->threads,
+                           .observer = work->job->observer,
                            .turn = do_case,
                            .self = work};
     const enum br_status status = br_each(&each, err);
@@ -355,26 +341,26 @@ static enum br_status run(struct work *work, struct br_error *err)
     memcpy(m->tally[0].count, m->count, sizeof m->count);
     for (size_t i = 0; i < KINDS; i++)
         add_tallies(m, &kinds[i]);
-    for (size_t i = 0; i < m->cases; i++)
-        if (*m->verdict[i].why)
-            add_reason(m, i);
-    qsort(m->reason, m->reasons, sizeof *m->reason, by_class_and_count);
+    const size_t kinds_of = m->tallies;
+    m->reason = add_tallies(m, NULL);
+    m->reasons = m->tallies - kinds_of;
+    m->tallies = kinds_of;
     each = (struct br_each){
         .count = m->shrunks, .threads = each.threads, .turn = shrink, .self = work};
     return br_each(&each, err);
 }
 
-enum br_status br_extreme_map_run(const struct br_extreme_request *request,
-                                  struct br_extreme_map *map, struct br_error *err)
+enum br_status br_extreme_map_run(struct br_extreme_map *map, const struct br_extremes_job *job,
+                                  br_extreme_judging_function *judge, struct br_error *err)
 {
-    *map = (struct br_extreme_map){.seed = request->seed, .cases = request->cases};
-    struct work work = {.request = request, .map = map};
-    map->one = br_allocate(request->cases, sizeof *map->one);
-    map->verdict = br_allocate(request->cases, sizeof *map->verdict);
+    *map = (struct br_extreme_map){.seed = job->seed ? job->seed : SEED,
+                                   .cases = job->cases ? job->cases : CASES};
+    struct work work = {job, map, judge};
+    map->one = br_allocate(map->cases, sizeof *map->one);
+    map->verdict = br_allocate(map->cases, sizeof *map->verdict);
     map->shrunk = br_allocate(BR_EXTREME_MOST_SHRUNK, sizeof *map->shrunk);
-    map->tally = br_allocate(1 + KINDS * request->cases, sizeof *map->tally);
-    map->reason = br_allocate(request->cases, sizeof *map->reason);
-    const bool full = map->one && map->verdict && map->shrunk && map->tally && map->reason;
+    map->tally = br_allocate(1 + (KINDS + 1) * map->cases, sizeof *map->tally);
+    const bool full = map->one && map->verdict && map->shrunk && map->tally;
     return full ? run(&work, err) : br_no_memory(err, "the map");
 }
 
@@ -384,7 +370,6 @@ void br_extreme_map_clear(struct br_extreme_map *map)
     free(map->verdict);
     free(map->shrunk);
     free(map->tally);
-    free(map->reason);
     *map = (struct br_extreme_map){0};
 }
 
@@ -452,24 +437,17 @@ static int place(const struct br_extreme_coordinate *c, const struct br_extreme_
     return (int)fmax(0, fmin(cell, (double)c->cells - 1));
 }
 
-static double cell_class(const struct br_extreme_map *m, const struct br_extreme_plane *p, int x,
-                         int y)
-{
-    size_t count[BR_EXTREME_CLASSES] = {0};
-    double most = NAN;
-    for (size_t i = 0; i < m->cases; i++)
-        if (place(&p->x, &m->one[i]) == x && place(&p->y, &m->one[i]) == y)
-            count[m->verdict[i].which]++;
-    for (int which = 0; which < BR_EXTREME_CLASSES; which++)
-        if (count[which] && (isnan(most) || count[which] > count[(int)most]))
-            most = which;
-    return count[BR_EXTREME_WRONG] ? BR_EXTREME_WRONG : most;
-}
-
 void br_extreme_plane_fill(const struct br_extreme_map *m, const struct br_extreme_plane *p,
                            double *cell)
 {
-    for (size_t y = 0; y < p->y.cells; y++)
-        for (size_t x = 0; x < p->x.cells; x++)
-            cell[y * p->x.cells + x] = cell_class(m, p, (int)x, (int)y);
+    for (size_t at = 0; at < p->x.cells * p->y.cells; at++) {
+        size_t count[BR_EXTREME_CLASSES] = {0}, most = 0;
+        for (size_t i = 0; i < m->cases; i++)
+            if (place(&p->y, &m->one[i]) == (int)(at / p->x.cells) &&
+                place(&p->x, &m->one[i]) == (int)(at % p->x.cells))
+                count[m->verdict[i].which]++;
+        for (size_t which = 1; which < BR_EXTREME_CLASSES; which++)
+            most = count[which] > count[most] ? which : most;
+        cell[at] = count[BR_EXTREME_WRONG] ? BR_EXTREME_WRONG : count[most] ? (double)most : NAN;
+    }
 }

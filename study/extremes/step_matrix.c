@@ -1,47 +1,57 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/stability.h"
-
 #include <gsl/gsl_complex_math.h>
 #include <gsl/gsl_eigen.h>
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
-#include "solver/march.h"
+#include "study/extremes/extremes.h"
 
 /* ---- nodal values as functions of x, for the initial data of a scene ---- */
 
-struct nodal {
-    const struct br_field *field;
-    const double *value; /* laid out as in solver/field.h; borrowed, also by clones */
-};
-
-static double value_at(const struct nodal *f, double x)
+double br_nodal_value(enum br_field_kind kind, size_t unknowns, const double *at, double xi,
+                      double *slope)
 {
-    const size_t d = br_field_unknowns(f->field);
-    const double at = x / f->field->h, last = (double)f->field->n - 1;
-    const double e = at < last ? floor(at) : last, xi = at - e;
-    const double *left = f->value + (size_t)e * d, *right = left + d;
-    const double bubble = d > 1 ? right[1] : 0;
-    return (1 - xi) * left[0] + xi * right[0] - xi * (1 - xi) * bubble;
+    const double *end = at + unknowns, r = 1 - xi;
+    *slope = 0;
+    if (kind == BR_AXIAL)
+        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
+    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
+    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
+           xi * xi * r * end[1];
 }
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
+    const struct br_nodal *f = self;
+    const size_t unknowns = br_field_unknowns(f->field);
+    const double last = (double)f->field->n - 1;
     (void)t;
-    for (size_t i = 0; i < count; i++)
-        value[i] = value_at(self, x[i]);
+    for (size_t i = 0; i < count; i++) {
+        const double at = x[i] / f->field->h, e = at < last ? floor(at) : last;
+        double slope;
+        value[i] = br_nodal_value(f->field->kind, unknowns, f->value + (size_t)e * unknowns, at - e,
+                                  &slope);
+        value[i] = f->slope ? slope / f->field->h : value[i];
+    }
 }
 
-static void *clone(const void *self)
+static void *same(const void *self)
 {
-    struct nodal *copy = br_allocate(1, sizeof *copy);
-    if (copy)
-        *copy = *(const struct nodal *)self;
-    return copy;
+    return (void *)(uintptr_t)self;
 }
 
-static const struct br_function_ops nodal_ops = {
-    .evaluate = evaluate, .clone = clone, .free = free};
+static void nothing(void *self)
+{
+    (void)self;
+}
+
+struct br_function br_nodal_function(struct br_nodal *nodal)
+{
+    static const struct br_function_ops ops = {
+        .evaluate = evaluate, .clone = same, .free = nothing};
+    return (struct br_function){.ops = &ops, .self = nodal, .uses_x = true};
+}
 
 /* ---- columns ---- */
 
@@ -57,20 +67,13 @@ static enum br_status march_once(const struct br_field *rod, double stiffness, d
     const size_t size = br_field_size(rod);
     for (size_t i = 0; i < size; i++)
         state[size + i] /= rod->k;
-    struct nodal start[2] = {{rod, state}, {rod, state + size}};
+    struct br_nodal start[2] = {{rod, state, false}, {rod, state + size, false}};
     struct br_method method = br_method_default();
     method.axial_degree = rod->degree;
-    const struct br_scene scene = {
-        .length = (double)rod->n * rod->h,
-        .duration = rod->k,
-        .density = rod->density,
-        .axial = {.modelled = true,
-                  .stiffness = rod->stiffness,
-                  .viscosity = rod->viscosity,
-                  .displacement = {.ops = &nodal_ops, .self = &start[0], .uses_x = true},
-                  .velocity = {.ops = &nodal_ops, .self = &start[1], .uses_x = true}},
-        .contact = {.modelled = true, .stiffness = stiffness},
-    };
+    struct br_scene scene = br_stability_scene(rod, rod->k);
+    scene.axial.displacement = br_nodal_function(&start[0]);
+    scene.axial.velocity = br_nodal_function(&start[1]);
+    scene.contact.stiffness = stiffness;
     struct br_march *march;
     enum br_status status = br_march_create(&march, &scene, rod->n, 1, &method, err);
     if (!status)

@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "study/extremes/extremes.h"
+
 /* Even ones of `count`, `parts` of which make up an element, then ever nearer to the tip, which is
  * the last. The even ones are in all parts of the elements: nodes alone may be far better, or
  * worse, than what is between them. */
@@ -48,19 +50,6 @@ static void keep_slope(struct br_track *t, size_t point, double slope)
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
-/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
- * w_x (out). Rods: u, and, where they are quadratic, the bulge's b; beams: w and h w_x. */
-static double interpolate(const double *at, size_t unknowns, enum br_field_kind kind, double xi,
-                          double *slope)
-{
-    const double *end = at + unknowns, r = 1 - xi;
-    if (kind == BR_AXIAL)
-        return at[0] * r + end[0] * xi - (unknowns == 2 ? end[1] * xi * r : 0);
-    *slope = 6 * xi * r * (end[0] - at[0]) + r * (1 - 3 * xi) * at[1] - xi * (2 - 3 * xi) * end[1];
-    return (1 + 2 * xi) * r * r * at[0] + xi * r * r * at[1] + xi * xi * (3 - 2 * xi) * end[0] -
-           xi * xi * r * end[1];
-}
-
 static void look_at(struct looker *l, const struct br_march *march, enum br_field_kind kind)
 {
     struct br_track *t = l->track;
@@ -80,7 +69,7 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
         const double xi = (double)(part - element * parts) / (double)parts;
         double slope;
         t->value[kind][t->seen][p] =
-            interpolate(l->nodal + element * unknowns, unknowns, kind, xi, &slope);
+            br_nodal_value(kind, unknowns, l->nodal + element * unknowns, xi, &slope);
         if (kind == BR_BENDING)
             keep_slope(t, p, slope * (double)f->n / 4);
     }
@@ -234,18 +223,24 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
 
 /* ---- distances ---- */
 
-/* NAN where a value is not finite. */
+/* The largest difference in a value, or largest value (b: NULL); NAN where one is not finite. */
 static double difference(const struct br_track *a, const struct br_track *b, int value, double unit)
 {
     double most = 0;
     for (size_t i = 0; i < a->places.levels; i++)
         for (size_t p = 0; p < a->places.points; p++) {
-            const double d = fabs(a->value[value][i][p] / unit - b->value[value][i][p]);
-            if (!isfinite(d))
-                return NAN;
-            most = fmax(most, d);
+            const double d = a->value[value][i][p] / unit - (b ? b->value[value][i][p] : 0);
+            most = br_worst(most, isfinite(d) ? fabs(d) : NAN);
         }
     return most;
+}
+
+/* The same of a field: of a beam also of the bulge. */
+static double largest(const struct br_track *a, const struct br_track *b, enum br_field_kind kind,
+                      double unit)
+{
+    const double most = difference(a, b, (int)kind, unit);
+    return kind == BR_AXIAL ? most : br_worst(most, difference(a, b, BR_TRACK_SLOPE, unit));
 }
 
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
@@ -254,11 +249,7 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
     const double *size = reference->largest;
     if (track->seen < track->places.levels || reference->seen < track->places.levels)
         return NAN;
-    double most = difference(track, reference, (int)kind, unit);
-    if (kind == BR_BENDING) {
-        const double slope = difference(track, reference, BR_TRACK_SLOPE, unit);
-        most = isnan(slope) || slope > most ? slope : most;
-    }
+    const double most = largest(track, reference, kind, unit);
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
 }
 
@@ -286,29 +277,15 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
                            enum br_field_kind kind)
 {
     double most = 0;
-    for (size_t i = 0; i < a->places.levels; i++) {
-        const double mean = square(a, b, (int)kind, i);
-        most = isnan(mean) || mean > most ? mean : most;
-    }
+    for (size_t i = 0; i < a->places.levels; i++)
+        most = br_worst(most, square(a, b, (int)kind, i));
     return sqrt(most);
-}
-
-/* The largest of the values that are looked at; of a beam also of the bulge, as in `largest`. */
-static double largest_seen(const struct br_track *t, enum br_field_kind kind)
-{
-    const int last = kind == BR_BENDING ? BR_TRACK_SLOPE : (int)kind;
-    double most = 0;
-    for (int value = (int)kind; value <= last; value++)
-        for (size_t i = 0; i < t->places.levels; i++)
-            for (size_t p = 0; p < t->places.points; p++)
-                most = fmax(most, fabs(t->value[value][i][p]));
-    return most;
 }
 
 /* Of the mean at all times: as much larger as what the track has seen at other times. */
 static double mean_size(const struct br_track *t, enum br_field_kind kind)
 {
-    const double mean = largest_mean(t, NULL, kind), seen = largest_seen(t, kind);
+    const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind, 1);
     return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
 }
 

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/energy_behaviour.h"
-
 #include <float.h>
 #include <gsl/gsl_eigen.h>
 #include <math.h>
-#include <stdint.h>
+#include <string.h>
+
+#include "study/extremes/extremes.h"
 
 /* ---- the lowest mode ---- */
 
@@ -50,7 +50,7 @@ enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scen
 {
     const struct br_field f = br_field_of_scene(scene, kind, BR_MODE_ELEMENTS, NAN);
     const size_t size = br_field_unknowns(&f) * f.n;
-    *mode = (struct br_beam_mode){.kind = kind, .length = scene->length};
+    *mode = (struct br_beam_mode){.kind = kind};
     double room[4][BR_MODE_UNKNOWNS * BR_MODE_UNKNOWNS] = {{0}}, value[BR_MODE_UNKNOWNS];
     gsl_matrix_view k = gsl_matrix_view_array(room[0], size, size),
                     m = gsl_matrix_view_array(room[1], size, size),
@@ -78,38 +78,6 @@ double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal)
         part += mode->weight[i] * nodal[d + i];
     return part;
 }
-
-/* The mode, m, or the slope of w, as initial data. Borrowed, also by clones. */
-struct shape {
-    const struct br_beam_mode *mode;
-    bool slope;
-};
-
-/* Nodal values are all that is asked for: Lagrange or Hermite interpolation. */
-static void evaluate(void *self, size_t count, const double *x, double t, double *value)
-{
-    const struct shape *s = self;
-    const size_t d = s->mode->kind == BR_AXIAL ? 1 : 2;
-    const double h = s->mode->length / BR_MODE_ELEMENTS;
-    (void)t;
-    for (size_t i = 0; i < count; i++) {
-        const size_t node = (size_t)lround(x[i] / h);
-        value[i] = node == 0 ? 0 : s->mode->phi[(node - 1) * d + s->slope] / (s->slope ? h : 1);
-    }
-}
-
-static void *same(const void *self)
-{
-    return (void *)(uintptr_t)self;
-}
-
-static void nothing(void *self)
-{
-    (void)self;
-}
-
-static const struct br_function_ops shape_ops = {
-    .evaluate = evaluate, .clone = same, .free = nothing};
 
 /* ---- what a time scheme makes of y' = lambda y in a step, by its textbook ---- */
 
@@ -160,7 +128,9 @@ struct trial {
     struct br_scene scene;
     struct br_method method;
     struct br_beam_mode mode;
-    struct shape shape[2]; /* values, slopes */
+    struct br_field field;
+    double nodal[BR_MODE_UNKNOWNS + 2]; /* of the mode */
+    struct br_nodal shape[2];           /* values, slopes */
     struct br_march *march;
     struct br_energy_meter *meter;
     double k;
@@ -183,13 +153,12 @@ static void set_scene(struct trial *t)
     const double k = t->k = 2 * M_PI / t->mode.omega / (double)t->v->per_period;
     t->scene.duration = k * (double)steps_of(t->v);
     t->scene.axial.viscosity = t->scene.bending.viscosity = viscosity;
+    t->field = br_field_of_scene(&t->scene, t->v->kind, BR_MODE_ELEMENTS, k);
+    memcpy(t->nodal + br_field_unknowns(&t->field), t->mode.phi, sizeof t->mode.phi);
     for (int slope = 0; slope < 2; slope++)
-        t->shape[slope] = (struct shape){&t->mode, slope};
-    t->scene.axial.displacement =
-        (struct br_function){.ops = &shape_ops, .self = &t->shape[0], .uses_x = true};
-    t->scene.bending.displacement = t->scene.axial.displacement;
-    t->scene.bending.displacement_slope = t->scene.axial.displacement;
-    t->scene.bending.displacement_slope.self = &t->shape[1];
+        t->shape[slope] = (struct br_nodal){&t->field, t->nodal, slope};
+    t->scene.axial.displacement = t->scene.bending.displacement = br_nodal_function(&t->shape[0]);
+    t->scene.bending.displacement_slope = br_nodal_function(&t->shape[1]);
 }
 
 /* |alpha|^2 of the two eigenvectors of q'' + 2 zeta omega q' + omega^2 q = 0, which neither
@@ -211,9 +180,7 @@ static enum br_status advance(struct trial *t, size_t steps, struct br_error *er
         const enum br_status status = br_march_step(t->march, err);
         if (status)
             return status;
-        const double imbalance = br_energy_meter_step(t->meter);
-        if (isnan(imbalance) || imbalance > v->worst)
-            v->worst = imbalance;
+        v->worst = br_worst(v->worst, br_energy_meter_step(t->meter));
     }
     return BR_OK;
 }
@@ -244,13 +211,8 @@ static enum br_status march(struct trial *t, struct br_error *err)
         v->failure = *err;
         return status == BR_NOT_FINITE ? BR_OK : status;
     }
-    struct br_energy start, now;
-    struct br_work work;
     v->steps = (double)(br_march_counts(t->march).steps - steps) / PERIODS;
     v->measured = -expm1(log(amplitude(t) / before) / PERIODS + ideal);
-    br_energy_meter_read(t->meter, &start, &now, &work);
-    v->gaining = work.gaining[v->kind];
-    v->all = work.steps[v->kind];
     predict(t);
     return BR_OK;
 }

@@ -3,11 +3,11 @@
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
-#include <string.h>
 
 #define ROW(set) &br_ladder_##set,
 const struct br_ladder_kernel *const br_ladder_kernels[] = {BR_INSTRUCTION_SETS(ROW) NULL};
 
+/* A rung; of a root n alone. */
 struct rung {
     size_t n;
     size_t parent;    /* what it is projected from: a rung, or `count` + a root */
@@ -19,12 +19,10 @@ struct rung {
 struct br_ladder {
     const struct br_ladder_kernel *kernel;
     size_t modes;
-    size_t count; /* rungs */
-    size_t roots;
-    size_t *root; /* elements of each */
-    size_t size;  /* doubles in a projection: the losses of all rungs, then their modes */
-    struct rung *rung;
-    size_t *order; /* of the rungs, parents first */
+    size_t count;      /* rungs */
+    size_t size;       /* doubles in a projection: the losses of all rungs, then their modes */
+    struct rung *rung; /* rungs, and then the roots */
+    size_t *order;     /* of the rungs, parents first */
 };
 
 /* P_i on [0, 1], orthonormal. */
@@ -72,26 +70,19 @@ static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_
     return rung->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
 }
 
-/* Elements of the mesh that a rung is projected from. */
-static size_t parent_n(const struct br_ladder *ladder, size_t parent)
+/* The coarsest of `meshes` that rung r divides, a finer rung or a root: its parent. */
+static bool find_parent(const struct br_ladder *ladder, size_t meshes, struct rung *r)
 {
-    return parent < ladder->count ? ladder->rung[parent].n : ladder->root[parent - ladder->count];
-}
-
-/* The coarsest mesh that rung r divides, a finer rung or a root; *parent: which. */
-static bool find_parent(const struct br_ladder *ladder, size_t r, size_t *parent)
-{
-    const size_t n = ladder->rung[r].n;
-    bool found = false;
-    for (size_t i = 0; i < ladder->count + ladder->roots; i++) {
-        const size_t other = parent_n(ladder, i);
-        if (other % n != 0 || (i < ladder->count && other == n))
-            continue;
-        if (!found || other < parent_n(ladder, *parent))
-            *parent = i;
-        found = true;
+    const struct rung *mesh = ladder->rung;
+    r->parent = meshes;
+    for (size_t i = 0; i < meshes; i++) {
+        const bool divides = mesh[i].n % r->n == 0 && (i >= ladder->count || mesh[i].n != r->n);
+        if (divides && (r->parent == meshes || mesh[i].n < mesh[r->parent].n))
+            r->parent = i;
     }
-    return found;
+    if (r->parent < meshes)
+        r->ratio = mesh[r->parent].n / r->n;
+    return r->parent < meshes;
 }
 
 static size_t round_up(size_t count, size_t lanes)
@@ -100,27 +91,23 @@ static size_t round_up(size_t count, size_t lanes)
 }
 
 static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
-                                struct br_store *store, struct br_error *err)
+                                size_t roots, struct br_store *store, struct br_error *err)
 {
-    ladder->count = rungs->count;
-    ladder->size = round_up(rungs->count, BR_MOST_LANES);
+    enum br_status status = BR_OK;
     for (size_t r = 0; r < rungs->count; r++) {
         ladder->rung[r] = (struct rung){.n = rungs->n[r], .offset = ladder->size};
         if (rungs->n[r] == 0)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
         ladder->size += round_up(rungs->n[r], BR_MOST_LANES) * ladder->modes;
     }
-    for (size_t r = 0; r < rungs->count; r++) {
+    for (size_t r = 0; r < rungs->count && !status; r++) {
         struct rung *rung = &ladder->rung[r];
-        if (!find_parent(ladder, r, &rung->parent))
-            return br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
-                           rung->n, ladder->root[0]);
-        rung->ratio = parent_n(ladder, rung->parent) / rung->n;
-        const enum br_status status = fill_transfers(rung, ladder->modes, store, err);
-        if (status)
-            return status;
+        status = find_parent(ladder, rungs->count + roots, rung)
+                     ? fill_transfers(rung, ladder->modes, store, err)
+                     : br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
+                               rung->n, ladder->rung[rungs->count].n);
     }
-    return BR_OK;
+    return status;
 }
 
 /* Finer rungs first: each needs its parent. */
@@ -143,14 +130,15 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
         return br_no_memory(err, "the ladder of meshes");
     ladder->kernel = br_ladder_kernels[br_instruction_set_best()];
     ladder->modes = modes;
-    ladder->roots = roots->count;
-    ladder->root = br_store_take(store, roots->count, sizeof *ladder->root);
-    ladder->rung = br_store_take(store, rungs->count, sizeof *ladder->rung);
+    ladder->count = rungs->count;
+    ladder->size = round_up(rungs->count, BR_MOST_LANES);
+    ladder->rung = br_store_take(store, rungs->count + roots->count, sizeof *ladder->rung);
     ladder->order = br_store_take(store, rungs->count, sizeof *ladder->order);
     if (store->failed)
         return br_no_memory(err, "the ladder of meshes");
-    memcpy(ladder->root, roots->n, roots->count * sizeof *ladder->root);
-    const enum br_status status = add_rungs(ladder, rungs, store, err);
+    for (size_t i = 0; i < roots->count; i++)
+        ladder->rung[rungs->count + i].n = roots->n[i];
+    const enum br_status status = add_rungs(ladder, rungs, roots->count, store, err);
     if (!status)
         sort_rungs(ladder);
     return status;

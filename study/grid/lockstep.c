@@ -16,40 +16,21 @@
 
 /* ---- measuring ---- */
 
-/* A place for the reference at one time level. */
-struct slot {
-    size_t buffer, index;
-};
-
-/* The channel, or NULL where it is not in use at that level. */
-static struct br_channel *channel_at(struct br_lockstep *l, enum br_field_kind kind, int measure,
-                                     bool last)
+static bool is_used(const struct br_channel *c, enum br_field_kind kind, bool last)
 {
-    struct br_channel *c = br_channel_of(l, kind, (enum br_measure)measure);
-    return c->used && (last || !c->last_only) ? c : NULL;
+    return c->used && c->at.kind == kind && (last || !c->last_only);
 }
 
-static double reference_time(const struct br_lockstep *l, size_t level)
+/* The projection at the level of that index. */
+static double *projection_at(const struct br_lockstep *l, const struct br_channel *c, size_t index)
 {
-    return l->study->scene->duration * (double)level / (double)l->study->reference.steps;
-}
-
-static void add_to_all(const struct br_lockstep *l, const struct br_sample *sample,
-                       struct br_norm_sum *sum)
-{
-    for (const struct br_study *s = l->study; s; s = s->next_norm)
-        br_norm_add(s->norm, s->scene, sample, sum++);
-}
-
-static double *slot_of(const struct br_channel *c, struct slot slot)
-{
-    return c->projection[slot.buffer] + slot.index * c->size;
+    return c->projection + index % l->slots * c->size;
 }
 
 /* Looks at the reference and projects it; returns its size. */
-static double project(struct br_lockstep *l, struct br_channel *c, struct br_sample_at at,
-                      double *projection)
+static double project(struct br_lockstep *l, const struct br_channel *c, double *projection)
 {
+    struct br_sample_at at = c->at;
     for (at.mesh = 0; at.mesh < (c->ladder ? l->roots : 1); at.mesh++)
         l->reference.judge->sample(l->reference.self, &at, &c->root[at.mesh]);
     if (!c->ladder) {
@@ -60,26 +41,14 @@ static double project(struct br_lockstep *l, struct br_channel *c, struct br_sam
     return br_ladder_norm(c->ladder, projection);
 }
 
-/* Looks at one field of the reference, which is at a level, and projects it into a slot. */
-static void project_field(struct br_lockstep *l, enum br_field_kind kind, struct slot slot,
-                          size_t level)
-{
-    double *size = l->scale[slot.buffer][slot.index].size[kind];
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
-        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
-        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-        size[measure] = c ? project(l, c, at, slot_of(c, slot)) : 0;
-    }
-}
-
 /* The distance of the reference, as last looked at, from the auditor. */
-static double audit(struct br_lockstep *l, struct br_channel *c, const struct br_sample_at *at)
+static double audit(struct br_lockstep *l, struct br_channel *c)
 {
-    l->auditor.judge->sample(l->auditor.self, at, &c->audit);
-    if (!c->audit_ladder)
+    l->auditor.judge->sample(l->auditor.self, &c->at, &c->audit);
+    if (!c->own_ladder)
         return fabs(c->audit.values[0] - c->root[0].values[0]);
-    br_ladder_project(c->audit_ladder, c->root, c->audit_projection);
-    return br_ladder_distance(c->audit_ladder, 0, &c->audit, c->audit_projection);
+    br_ladder_project(c->own_ladder, c->root, c->own_projection);
+    return br_ladder_distance(c->own_ladder, 0, &c->audit, c->own_projection);
 }
 
 /* Whether the reference is audited at the level of that index. */
@@ -88,53 +57,44 @@ static bool is_audited(const struct br_lockstep *l, size_t index)
     return l->auditor.judge && (index % l->audit_every == 0 || index + 1 == l->level_count);
 }
 
-/* Measures that field, as last looked at, against the auditor, into a slot. */
-static enum br_status audit_field(struct br_lockstep *l, enum br_field_kind kind, struct slot slot,
-                                  size_t level, struct br_error *err)
+/* One field of the reference, or then of the auditor, goes on to a level and is measured. */
+static enum br_status judge_level(struct br_lockstep *l, const struct br_bench *bench,
+                                  enum br_field_kind kind, size_t index, struct br_error *err)
 {
-    const enum br_status status = l->auditor.judge->advance(l->auditor.self, kind, level, err);
-    double *size = l->audit[slot.buffer][slot.index].size[kind];
-    for (int measure = 0; measure < BR_MEASURES && !status; measure++) {
-        const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
-        struct br_channel *c = channel_at(l, kind, measure, level == l->study->reference.steps);
-        size[measure] = c ? audit(l, c, &at) : 0;
-    }
+    const size_t level = l->level[index];
+    const enum br_status status = bench->judge->advance(bench->self, kind, level, err);
+    double *size = bench->sample[index % l->slots].size[kind];
+    const bool last = level == l->study->reference.steps;
+    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
+        if (c->at.kind == kind)
+            size[c->at.measure] = !is_used(c, kind, last) ? 0
+                                  : bench == &l->auditor
+                                      ? audit(l, c)
+                                      : project(l, c, projection_at(l, c, index));
     return status;
 }
 
-/* A sample's share of an integral over time goes back to the one before it. */
-static void add_sample(const struct br_lockstep *l, struct br_sample *sample, double *last,
+static void add_to_all(const struct br_lockstep *l, const struct br_sample *sample,
                        struct br_norm_sum *sum)
 {
-    sample->weight = sample->time - *last;
-    *last = sample->time;
-    add_to_all(l, sample, sum);
+    for (const struct br_study *s = l->study; s; s = s->next_norm)
+        br_norm_add(s->norm, s->scene, sample, sum++);
 }
 
-/* Adds up what has been measured of the reference in a slot, level after level. */
-static void add_up(struct br_lockstep *l, struct slot slot, size_t index)
+/* Adds up what has been measured at a level, after those before it. A sample's share of an integral
+ * over time goes back to the one before it. */
+static void add_up(const struct br_lockstep *l, struct br_bench *bench, size_t index)
 {
-    const double t = reference_time(l, l->level[index]);
-    struct br_sample *scale = &l->scale[slot.buffer][slot.index];
-    struct br_sample *audited = &l->audit[slot.buffer][slot.index];
-    scale->time = audited->time = t;
-    add_sample(l, scale, &l->scale_time, l->scale_sum);
-    if (is_audited(l, index))
-        add_sample(l, audited, &l->audit_time, l->audit_sum);
+    struct br_sample *sample = &bench->sample[index % l->slots];
+    sample->time =
+        l->study->scene->duration * (double)l->level[index] / (double)l->study->reference.steps;
+    sample->weight = sample->time - bench->time;
+    bench->time = sample->time;
+    add_to_all(l, sample, bench->sum);
 }
 
-/* The distance of a cell, as it stands, from the reference in one measure. */
-static double distance(struct br_lockstep *l, size_t index, const struct br_channel *c,
-                       const double *reference)
-{
-    const struct br_runner *r = &l->cell[index];
-    if (!c->ladder)
-        return fabs(r->view.values[0] - *reference);
-    return br_ladder_distance(c->ladder, br_study_row(l->study, index), &r->view, reference);
-}
-
-/* Measures a cell as it stands against a slot. */
-static void measure_cell(struct br_lockstep *l, size_t index, struct slot slot)
+/* Measures a cell as it stands against the level of that index. */
+static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
 {
     struct br_runner *r = &l->cell[index];
     struct br_cell *cell = &l->study->cell[index];
@@ -144,19 +104,20 @@ static void measure_cell(struct br_lockstep *l, size_t index, struct slot slot)
         .time = t,
         .weight = t > 0 ? br_time_step(l->study->scene, cell->at.steps) : 0,
     };
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            const struct br_channel *c = channel_at(l, (enum br_field_kind)kind, measure, last);
-            if (!c)
-                continue;
-            br_look(r->march, (enum br_field_kind)kind, (enum br_measure)measure, &r->view);
-            const double size = distance(l, index, c, slot_of(c, slot));
-            if (!isfinite(size))
-                br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
-            sample.size[kind][measure] = size;
-            if (measure == BR_TIP)
-                cell->tip[kind] = r->view.values[0];
-        }
+    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++) {
+        if (!is_used(c, c->at.kind, last))
+            continue;
+        const double *reference = projection_at(l, c, level);
+        br_look(r->march, c->at.kind, c->at.measure, &r->view);
+        const double size = c->ladder ? br_ladder_distance(c->ladder, br_study_row(l->study, index),
+                                                           &r->view, reference)
+                                      : fabs(r->view.values[0] - *reference);
+        if (!isfinite(size))
+            br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
+        sample.size[c->at.kind][c->at.measure] = size;
+        if (c->at.measure == BR_TIP)
+            cell->tip[c->at.kind] = r->view.values[0];
+    }
     if (r->error.status)
         br_cell_failed(l->study, index, &r->error);
     else
@@ -198,15 +159,15 @@ static void conclude_norms(struct br_lockstep *l)
     for (struct br_study *s = l->study; s; s = s->next_norm, m++) {
         s->auditor = l->study->auditor;
         s->judged_by = l->reference.judge->report(l->reference.self);
-        s->reference_scale = br_norm_value(s->norm, &l->scale_sum[m], BR_PART_TOTAL);
+        s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
-            s->reference_size[kind] = br_norm_value(s->norm, &l->scale_sum[m], part);
+            s->reference_size[kind] = br_norm_value(s->norm, &l->reference.sum[m], part);
             s->reference_tip[kind] = l->study->reference_tip[kind];
         }
         for (int part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
-                s->auditor ? br_norm_value(s->norm, &l->audit_sum[m], (enum br_part)part) : NAN;
+                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], (enum br_part)part) : NAN;
         for (size_t i = 0; i < br_study_cells(s); i++)
             conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
     }
@@ -222,14 +183,9 @@ static size_t batch_end(const struct br_lockstep *l, size_t b)
 
 static bool should_stop(struct br_lockstep *l)
 {
-    if (l->observer && l->observer->stop && l->observer->stop(l->observer->self))
+    if (br_observer_stops(l->observer))
         atomic_store(&l->stopped, true);
     return atomic_load(&l->stopped);
-}
-
-static struct slot slot_at(const struct br_lockstep *l, size_t index)
-{
-    return (struct slot){index / l->batch % BR_LOCKSTEP_BUFFERS, index % l->batch};
 }
 
 /* Whether the reference, in one field or the other, has failed before that level. */
@@ -238,45 +194,44 @@ static bool failed_before(const struct br_lockstep *l, size_t index)
     return atomic_load(&l->first_failed) <= index;
 }
 
-static enum br_status reference_level(struct br_lockstep *l, enum br_field_kind kind, size_t index,
-                                      struct br_error *err)
-{
-    const size_t level = l->level[index];
-    const struct slot slot = slot_at(l, index);
-    const enum br_status status = l->reference.judge->advance(l->reference.self, kind, level, err);
-    if (status)
-        return status;
-    project_field(l, kind, slot, level);
-    return is_audited(l, index) ? audit_field(l, kind, slot, level, err) : BR_OK;
-}
-
 static bool models(const struct br_lockstep *l, enum br_field_kind kind)
 {
     const struct br_scene *scene = l->study->scene;
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
-/* A field that fails stops the other one only beyond that level, so that the first failure is
- * reported, whichever thread was faster. */
+/* The failure that counts is that of the first level, there of the axial field, whichever thread
+ * was faster: the other field goes on up to that level. */
+static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t index,
+                         const struct br_error *failure)
+{
+#pragma omp critical(lockstep)
+    if (index < atomic_load(&l->first_failed) ||
+        (index == atomic_load(&l->first_failed) && kind == BR_AXIAL)) {
+        l->failure = *failure;
+        atomic_store(&l->first_failed, index);
+    }
+}
+
 static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
 {
-    struct br_lane *lane = &l->lane[kind];
+    struct br_error failure = {0};
     for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
-        if (should_stop(l) || lane->error.status || failed_before(l, i))
+        if (should_stop(l) || failed_before(l, i))
             return;
-        if (!reference_level(l, kind, i, &lane->error))
-            continue;
-        lane->failed = i;
-        size_t first = atomic_load(&l->first_failed);
-        while (i < first && !atomic_compare_exchange_weak(&l->first_failed, &first, i)) {
-        }
+        if (judge_level(l, &l->reference, kind, i, &failure) ||
+            (is_audited(l, i) && judge_level(l, &l->auditor, kind, i, &failure)))
+            keep_failure(l, kind, i, &failure);
     }
 }
 
 static void add_up_batch(struct br_lockstep *l, size_t b)
 {
-    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++)
-        add_up(l, slot_at(l, i), i);
+    for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++) {
+        add_up(l, &l->reference, i);
+        if (is_audited(l, i))
+            add_up(l, &l->auditor, i);
+    }
 }
 
 /* Steps on to the cell's time level `step`, and counts the seconds. */
@@ -299,7 +254,7 @@ static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
     if (advance(r, l->level[index] / ratio))
         br_cell_failed(l->study, cell, &r->error);
     else
-        measure_cell(l, cell, slot_at(l, index));
+        measure_cell(l, cell, index);
 }
 
 /* Level by level: the cells of a crew read the same projection while it is near. */
@@ -341,10 +296,11 @@ static void tell(struct work *work, struct br_lockstep *l)
 static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
 {
     (void)work; /* without OpenMP */
-    struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
-    char *from_axial = &axial->token[b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
-    char *from_bending = &bending->token[b % BR_LOCKSTEP_BUFFERS];
-    (void)from_axial, (void)from_bending, (void)tally;
+    char *axial = &l->marched[BR_AXIAL],
+         *from_axial = &l->filled[BR_AXIAL][b % BR_LOCKSTEP_BUFFERS];
+    char *bending = &l->marched[BR_BENDING];
+    char *from_bending = &l->filled[BR_BENDING][b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
+    (void)axial, (void)from_axial, (void)bending, (void)from_bending, (void)tally;
 #pragma omp task depend(inout : axial[0], from_axial[0])
     reference_batch(l, BR_AXIAL, b);
 #pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
@@ -407,11 +363,8 @@ static bool succeeded(struct br_study *first)
 
 static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
 {
-    const struct br_lane *axial = &l->lane[BR_AXIAL], *bending = &l->lane[BR_BENDING];
-    const bool axial_first =
-        axial->error.status && (!bending->error.status || axial->failed <= bending->failed);
-    if (axial->error.status || bending->error.status)
-        l->study->failure = axial_first ? axial->error : bending->error;
+    if (l->failure.status)
+        l->study->failure = l->failure;
     for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
         if (l->cell[i].error.status == BR_NO_MEMORY)
             l->study->failure = l->cell[i].error;

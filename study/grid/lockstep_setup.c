@@ -9,16 +9,27 @@ static const size_t most_levels = 32;        /* in a batch */
 static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
 static const size_t most_audits = 1000;      /* of the reference, about */
 
-/* Every reference step that is a time level of some cell, 0 included. */
-static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
+static enum br_status take_arrays(struct br_lockstep *l, struct br_error *err)
 {
     const struct br_study *s = l->study;
-    size_t most = 1;
+    const size_t cells = br_study_cells(s);
+    size_t levels = 1;
     for (size_t j = 0; j < s->k_count; j++)
-        most += s->steps[j];
-    l->level = br_store_take(&l->store, most, sizeof *l->level);
-    if (!l->level)
-        return br_no_memory(err, "the time levels");
+        levels += s->steps[j];
+    l->level = br_store_take(&l->store, levels, sizeof *l->level);
+    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
+    l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
+    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
+    l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
+    l->reference.sum = br_store_take(&l->store, l->norms, sizeof *l->reference.sum);
+    l->auditor.sum = br_store_take(&l->store, l->norms, sizeof *l->auditor.sum);
+    return l->store.failed ? br_no_memory(err, "the cells") : BR_OK;
+}
+
+/* Every reference step that is a time level of some cell, 0 included. */
+static void list_levels(struct br_lockstep *l)
+{
+    const struct br_study *s = l->study;
     l->level_count = 1; /* t = 0 */
     for (size_t last = 0; last < s->reference.steps;) {
         size_t next = s->reference.steps;
@@ -29,29 +40,22 @@ static enum br_status list_levels(struct br_lockstep *l, struct br_error *err)
         }
         l->level[l->level_count++] = last = next;
     }
-    return BR_OK;
 }
 
 /* The meshes that the reference is looked at on: its own where it has one; else
  * those of the cells that are no divisor of another's. */
-static enum br_status list_roots(struct br_lockstep *l, struct br_error *err)
+static void list_roots(struct br_lockstep *l)
 {
     const struct br_study *s = l->study;
-    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
-    if (!l->root)
-        return br_no_memory(err, "the meshes");
-    if (s->judge->nests) {
+    if (s->judge->nests)
         l->root[l->roots++] = s->reference.n;
-        return BR_OK;
-    }
-    for (size_t i = 0; i < s->n_count; i++) {
+    for (size_t i = 0; i < s->n_count && !s->judge->nests; i++) {
         bool divides = false;
         for (size_t j = 0; j < s->n_count; j++)
             divides |= s->n[j] % s->n[i] == 0 && (s->n[j] > s->n[i] || j < i);
         if (!divides)
             l->root[l->roots++] = s->n[i];
     }
-    return BR_OK;
 }
 
 /* Which measures the norms need. The tip's is also kept at the end, whatever they need. */
@@ -59,16 +63,15 @@ static void choose_channels(struct br_lockstep *l)
 {
     const struct br_scene *scene = l->study->scene;
     const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
+    for (size_t i = 0; i < BR_CHANNELS; i++) {
+        struct br_channel *c = &l->channel[i];
         bool needed = false;
+        c->at = (struct br_sample_at){(enum br_field_kind)(i / BR_MEASURES),
+                                      (enum br_measure)(i % BR_MEASURES), 0};
         for (const struct br_study *s = l->study; s; s = s->next_norm)
-            needed |= br_norm_needs(s->norm, (enum br_measure)measure);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-            struct br_channel *c =
-                br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure);
-            c->used = modelled[kind] && (needed || measure == BR_TIP);
-            c->last_only = !needed;
-        }
+            needed |= br_norm_needs(s->norm, c->at.measure);
+        c->used = modelled[c->at.kind] && (needed || c->at.measure == BR_TIP);
+        c->last_only = !needed;
     }
 }
 
@@ -94,47 +97,36 @@ static enum br_status create_ladder(struct br_lockstep *l, const struct br_sampl
     return status;
 }
 
-/* What the auditor needs. */
-static enum br_status create_audit(struct br_lockstep *l, struct br_channel *c,
-                                   const struct br_sample_at *at, struct br_error *err)
+static enum br_status create_channel(struct br_lockstep *l, struct br_channel *c,
+                                     struct br_error *err)
 {
-    const struct br_mesh_list root = {1, l->root};
+    const struct br_mesh_list roots = {l->roots, l->root}, own = {1, l->root},
+                              rungs = {l->study->n_count, l->study->n};
+    const bool distance = c->at.measure != BR_TIP;
     enum br_status status = BR_OK;
-    c->audit.values = new_values(l, at, l->root[0]);
-    if (at->measure == BR_TIP)
-        return BR_OK;
-    status = create_ladder(l, at, &root, &root, &c->audit_ladder, err);
-    if (!status)
-        c->audit_projection =
-            br_store_take(&l->store, br_ladder_size(c->audit_ladder), sizeof(double));
-    return status;
-}
-
-static enum br_status create_channel(struct br_lockstep *l, enum br_field_kind kind,
-                                     enum br_measure measure, struct br_error *err)
-{
-    struct br_channel *c = br_channel_of(l, kind, measure);
-    const struct br_sample_at at = {kind, measure, 0};
-    const struct br_mesh_list roots = {l->roots, l->root}, rungs = {l->study->n_count, l->study->n};
-    enum br_status status = BR_OK;
+    c->size = 1;
     c->root = br_store_take(&l->store, l->roots, sizeof *c->root);
     for (size_t i = 0; i < l->roots && c->root; i++)
-        c->root[i].values = new_values(l, &at, l->root[i]);
+        c->root[i].values = new_values(l, &c->at, l->root[i]);
     if (l->study->auditor)
-        status = create_audit(l, c, &at, err);
-    if (!status && measure != BR_TIP)
-        status = create_ladder(l, &at, &roots, &rungs, &c->ladder, err);
-    c->size = c->ladder ? br_ladder_size(c->ladder) : 1;
+        c->audit.values = new_values(l, &c->at, l->root[0]);
+    if (l->study->auditor && distance)
+        status = create_ladder(l, &c->at, &own, &own, &c->own_ladder, err);
+    if (!status && c->own_ladder)
+        c->own_projection = br_store_take(&l->store, br_ladder_size(c->own_ladder), sizeof(double));
+    if (!status && distance)
+        status = create_ladder(l, &c->at, &roots, &rungs, &c->ladder, err);
+    if (!status && distance)
+        c->size = br_ladder_size(c->ladder);
     return status || !l->store.failed ? status : br_no_memory(err, "the reference's values");
 }
 
 static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES && !status; measure++)
-            if (br_channel_of(l, (enum br_field_kind)kind, (enum br_measure)measure)->used)
-                status = create_channel(l, (enum br_field_kind)kind, (enum br_measure)measure, err);
+    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
+        if (c->used)
+            status = create_channel(l, c, err);
     return status;
 }
 
@@ -146,29 +138,22 @@ static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
-    for (size_t b = 0; b < BR_LOCKSTEP_BUFFERS; b++) {
-        for (size_t i = 0; i < BR_CHANNELS; i++) {
-            struct br_channel *c = &l->channel[i];
-            if (c->used)
-                c->projection[b] = br_store_take(&l->store, l->batch * c->size, sizeof(double));
-        }
-        l->scale[b] = br_store_take(&l->store, l->batch, sizeof *l->scale[b]);
-        l->audit[b] = br_store_take(&l->store, l->batch, sizeof *l->audit[b]);
-    }
-    const size_t cells = br_study_cells(l->study);
-    l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
-    l->scale_sum = br_store_take(&l->store, l->norms, sizeof *l->scale_sum);
-    l->audit_sum = br_store_take(&l->store, l->norms, sizeof *l->audit_sum);
+    l->slots = BR_LOCKSTEP_BUFFERS * l->batch;
+    for (size_t i = 0; i < BR_CHANNELS; i++)
+        if (l->channel[i].used)
+            l->channel[i].projection =
+                br_store_take(&l->store, l->slots * l->channel[i].size, sizeof(double));
+    l->reference.sample = br_store_take(&l->store, l->slots, sizeof *l->reference.sample);
+    l->auditor.sample = br_store_take(&l->store, l->slots, sizeof *l->auditor.sample);
     return l->store.failed ? br_no_memory(err, "the reference's projections") : BR_OK;
 }
 
 /* Steps of the reference in the longest run of as many batches as there are buffers. */
 static size_t longest_lead(const struct br_lockstep *l)
 {
-    const size_t run = BR_LOCKSTEP_BUFFERS * l->batch;
     size_t most = 1;
     for (size_t i = 0; i < l->level_count; i += l->batch) {
-        const size_t last = i + run < l->level_count ? i + run : l->level_count - 1;
+        const size_t end = i + l->slots, last = end < l->level_count ? end : l->level_count - 1;
         const size_t steps = l->level[last] - l->level[i];
         most = steps > most ? steps : most;
     }
@@ -179,7 +164,7 @@ static size_t longest_lead(const struct br_lockstep *l)
 static void dismiss_auditor(struct br_lockstep *l)
 {
     l->auditor.judge->free(l->auditor.self);
-    l->auditor = (struct br_bench){0};
+    l->auditor.judge = NULL;
     l->study->auditor = NULL;
 }
 
@@ -200,11 +185,8 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .stop_self = l->observer ? l->observer->self : NULL,
         .preparing = l->observer ? l->observer->preparing : NULL,
     };
-    for (int measure = 0; measure < BR_MEASURES; measure++) {
-        const enum br_measure m = (enum br_measure)measure;
-        request.measured[BR_AXIAL][m] = br_channel_of(l, BR_AXIAL, m)->used;
-        request.measured[BR_BENDING][m] = br_channel_of(l, BR_BENDING, m)->used;
-    }
+    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++)
+        request.measured[c->at.kind][c->at.measure] = c->used;
     l->reference.judge = s->judge;
     const enum br_status status = s->judge->create(&l->reference.self, &request, err);
     if (status || !s->auditor)
@@ -242,11 +224,7 @@ static void start(struct br_lockstep *l, size_t cell)
 
 static enum br_status create_cells(struct br_lockstep *l, struct br_error *err)
 {
-    const size_t cells = br_study_cells(l->study);
-    l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
-    if (!l->cell)
-        return br_no_memory(err, "the cells");
-    for (size_t i = 0; i < cells; i++) {
+    for (size_t i = 0; i < br_study_cells(l->study); i++) {
         start(l, i);
         const enum br_status failure = l->cell[i].error.status;
         if (failure == BR_BAD_INPUT || failure == BR_NO_MEMORY)
@@ -266,12 +244,9 @@ static double work_of(const struct br_lockstep *l, size_t cell)
 
 /* Cells go into crews whose tasks are long enough to be worth their while, whatever the number of
  * threads. */
-static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
+static void choose_crews(struct br_lockstep *l)
 {
     const size_t cells = br_study_cells(l->study);
-    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
-    if (!l->crew)
-        return br_no_memory(err, "the cells");
     double work = 0;
     for (size_t i = 0; i < cells; i++) {
         work += work_of(l, i);
@@ -280,7 +255,6 @@ static enum br_status create_crews(struct br_lockstep *l, struct br_error *err)
         l->crew[++l->crews] = i + 1;
         work = 0;
     }
-    return BR_OK;
 }
 
 enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
@@ -292,13 +266,15 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
     choose_channels(l);
-    enum br_status (*const create[])(struct br_lockstep *, struct br_error *) = {
-        list_levels,   list_roots,   create_channels, create_buffers,
-        create_judges, create_cells, create_crews};
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < sizeof create / sizeof *create && !status; i++)
-        status = create[i](l, err);
-    return status;
+    if (take_arrays(l, err))
+        return err->status;
+    list_levels(l);
+    list_roots(l);
+    if (create_channels(l, err) || create_buffers(l, err) || create_judges(l, err) ||
+        create_cells(l, err))
+        return err->status;
+    choose_crews(l);
+    return BR_OK;
 }
 
 void br_lockstep_clear(struct br_lockstep *l)

@@ -7,7 +7,6 @@
 
 #include "reference/printed.h"
 #include "reference/textbook.h"
-#include "solver/clock.h"
 #include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
@@ -77,20 +76,19 @@ static enum br_status measure(void *self, const struct br_march *march,
     return BR_OK;
 }
 
-/* How a point is marched: the contact force at the new step or not; h and k times so much. */
+/* How a point is marched: as printed, or with the contact force at the new step; h and k times so
+ * much. */
 static const struct way {
-    bool implicit;
+    const char *contact;
     size_t coarser;
-} ways[BR_SWEEP_WAYS] = {{false, 1}, {true, 1}, {true, 2}};
+} ways[BR_SWEEP_WAYS] = {{"lagged", 1}, {"implicit", 1}, {"implicit", 2}};
 
 static enum br_status run(const struct br_paper *p, const struct br_scene *scene,
                           const struct way *way, struct size *size, bool *unstable,
                           struct br_error *err)
 {
     struct br_method method = br_method_default();
-    for (size_t c = 0; br_contact_rules[c]; c++)
-        if (br_contact_rules[c]->at_new_step == way->implicit)
-            method.contact = br_contact_rules[c];
+    method.contact = br_contact_rule_find(way->contact);
     size_t level[LOOKS];
     const size_t steps = p->request.per_second * (size_t)lround(scene->duration) / way->coarser;
     const size_t looks = steps < LOOKS ? steps : LOOKS;
@@ -135,7 +133,7 @@ static enum br_status run_sweep_point(struct br_paper *p, size_t sweep, size_t i
         status = run(p, &scene, &ways[way], &size, &unstable, err);
         point->last[way] = size.last;
         point->most[way] = size.most;
-        point->unstable |= unstable && !ways[way].implicit;
+        point->unstable |= unstable && way == 0;
     }
     free(size.nodal);
     return status;
@@ -156,39 +154,27 @@ static struct br_history_row row_at(const struct br_exact *exact, double time,
     };
 }
 
-/* The same time levels as the scheme's, and for Example 1 the first instants. */
+/* Its events, the same time levels as the scheme's, and for Example 1 the first instants. */
 static enum br_status sample(struct br_paper *p, size_t i, const struct br_exact *exact,
                              struct br_error *err)
 {
     struct br_example *e = &p->example[i];
     struct br_exact_state *state = NULL;
-    const size_t steps = p->request.per_second * (size_t)(e->scene.duration + 0.5);
-    enum br_status status = br_exact_state_create(&state, exact, err);
-    if (status)
-        return status;
-    e->exact = br_allocate(steps + 1, sizeof *e->exact);
-    if (e->exact) {
-        e->exacts = steps + 1;
-        for (size_t j = 0; j <= steps; j++)
-            e->exact[j] = row_at(exact, (double)j / (double)steps * e->scene.duration, state);
-        for (size_t j = 0; j <= BR_EXACT_EARLY && i == 0; j++)
-            p->early.exact[j] = row_at(exact, (double)j / BR_EXACT_EARLY * 1e-4, state);
-    }
-    br_exact_state_free(state);
-    return e->exact ? BR_OK : br_no_memory(err, "the exact solution");
-}
-
-static enum br_status keep_events(struct br_example *e, const struct br_exact *exact,
-                                  struct br_error *err)
-{
     const struct br_exact_event *event = br_exact_events(exact, &e->events);
-    e->event = br_allocate(e->events + 1, sizeof *event);
-    if (!e->event)
-        return br_no_memory(err, "the events");
+    const size_t steps = p->request.per_second * (size_t)(e->scene.duration + 0.5);
+    e->exact = br_allocate(steps + 1, sizeof *e->exact);
+    e->event = br_allocate(e->events + 1, sizeof *e->event);
+    if (!e->exact || !e->event)
+        return br_no_memory(err, "the exact solution");
     memcpy(e->event, event, e->events * sizeof *event);
-    for (int f = 0; f < BR_EXACT_FIELDS; f++)
-        e->report[f] = br_exact_report(exact, (enum br_exact_field)f);
-    return BR_OK;
+    const enum br_status status = br_exact_state_create(&state, exact, err);
+    e->exacts = status ? 0 : steps + 1;
+    for (size_t j = 0; j < e->exacts; j++)
+        e->exact[j] = row_at(exact, (double)j / (double)steps * e->scene.duration, state);
+    for (size_t j = 0; j <= BR_EXACT_EARLY && i == 0 && !status; j++)
+        p->early.exact[j] = row_at(exact, (double)j / BR_EXACT_EARLY * 1e-4, state);
+    br_exact_state_free(state);
+    return status;
 }
 
 static enum br_status solve_exactly(struct br_paper *p, size_t i,
@@ -202,8 +188,6 @@ static enum br_status solve_exactly(struct br_paper *p, size_t i,
         options.stop_self = observer->self;
     }
     enum br_status status = br_exact_create(&exact, &p->example[i].scene, &options, err);
-    if (!status)
-        status = keep_events(&p->example[i], exact, err);
     if (!status)
         status = sample(p, i, exact, err);
     br_exact_free(exact);
@@ -312,7 +296,7 @@ static enum br_status run_example(struct br_paper *p, size_t i, struct br_error 
 static enum br_status run_early(struct br_paper *p, struct br_error *err)
 {
     struct br_scene scene = p->example[0].scene; /* borrows its functions */
-    scene.duration = p->early.duration = 1e-4;
+    scene.duration = 1e-4;
     return record(&scene, p->request.n, 1000, NULL, 0, &p->early.record, err);
 }
 
@@ -387,7 +371,6 @@ enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error 
 enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *request,
                             const struct br_observer *observer, struct br_error *err)
 {
-    const double start = br_seconds();
     *p = (struct br_paper){.request = *request};
     if (request->n < 2 || request->n % 2 || request->per_second < 100 ||
         request->per_second % 100 || !request->per_decade)
@@ -405,7 +388,6 @@ enum br_status br_paper_run(struct br_paper *p, const struct br_paper_request *r
         status = run_tasks(p, observer, err);
     if (!status)
         status = run_tables(p, observer, err);
-    p->wall_seconds = br_seconds() - start;
     return status;
 }
 

@@ -32,13 +32,11 @@ struct br_example {
     size_t exacts;
     struct br_exact_event *event; /* events; owned */
     size_t events;
-    struct br_exact_report report[BR_EXACT_FIELDS];
 };
 
 /* The first instants of Example 1. */
 struct br_early {
-    double duration;                 /* s */
-    struct br_history_record record; /* of the scheme, with k = duration / 1000 */
+    struct br_history_record record; /* of the scheme, with k = 0.1 microseconds */
     struct br_history_row exact[BR_EXACT_EARLY + 1];
 };
 
@@ -73,7 +71,6 @@ struct br_paper {
     struct br_sweep sweep[BR_SWEEPS];
     struct br_paper_table table[BR_PAPER_TABLES];
     double coupled; /* m: how far Example 3's tip at t = T moves when an axial field is added */
-    double wall_seconds;
 };
 
 /* Marches everything, as tasks on the request's threads; the results do not depend on their number.

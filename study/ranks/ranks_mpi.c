@@ -49,8 +49,9 @@ static struct {
     bool joined; /* all below is there */
     MPI_Comm comm;
     MPI_Win board;
-    struct word *word;  /* of each rank, at the last meeting */
-    int *bytes, *place; /* of each rank's results */
+    struct br_store store; /* of the arrays below */
+    struct word *word;     /* of each rank, at the last meeting */
+    int *bytes, *place;    /* of each rank's results */
 
     int64_t *seen;           /* the board as it was read last */
     int64_t mine[NUMBERS];   /* this rank's numbers as they are written */
@@ -165,8 +166,7 @@ static enum br_status watch(struct br_error *err)
         job.beat = now;
         exchange();
     }
-    const struct br_observer *o = job.observer;
-    job.interrupted |= o && o->stop && o->stop(o->self);
+    job.interrupted |= br_observer_stops(job.observer);
     if ((job.interrupted || job.fails) && !job.marked)
         mark_failed();
     for (int r = 0; r < listens_to() && !job.waits && !status; r++) {
@@ -257,33 +257,6 @@ static enum br_status meet(struct word word, struct br_error *err)
     return status;
 }
 
-/* The results of all ranks, one behind the other; owned by the caller. */
-static enum br_status gather(struct word word, const char *bytes, char **all, size_t *size,
-                             struct br_error *err)
-{
-    MPI_Request request;
-    enum br_status status = meet(word, err);
-    *all = NULL;
-    *size = 0;
-    if (status)
-        return status;
-    for (int r = 0; r < job.size; *size += job.word[r++].bytes) {
-        if (job.word[r].bytes > INT_MAX - *size)
-            return br_fail(err, BR_IO, "the results of all ranks are beyond 2 GiB");
-        job.bytes[r] = (int)job.word[r].bytes;
-        job.place[r] = (int)*size;
-    }
-    *all = br_allocate(*size + 1, 1);
-    if (!*all)
-        br_no_memory(&word.failure, "the results");
-    status = meet(word, err);
-    if (status)
-        return status;
-    MPI_Iallgatherv(bytes, (int)word.bytes, MPI_BYTE, *all, job.bytes, job.place, MPI_BYTE,
-                    job.comm, &request);
-    return await(&request, err);
-}
-
 /* ---- a call ---- */
 
 struct call {
@@ -291,7 +264,10 @@ struct call {
     size_t count;
     struct br_batches batches;
     int threads;
-    FILE *results;
+    struct word word; /* what this rank says */
+    FILE *results;    /* into its own bytes */
+    char *own, *all;  /* of all ranks, one behind the other */
+    size_t size;      /* of these */
 
     /* the batch that a thread of its own marches */
     size_t batch;
@@ -322,33 +298,26 @@ static void *march(void *self)
     return NULL;
 }
 
-/* Signals wake the main thread. */
-static enum br_status start_march(struct call *c, pthread_t *thread, struct br_error *err)
-{
-    sigset_t all, old;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &old);
-    const int failure = pthread_create(thread, NULL, march, c);
-    pthread_sigmask(SIG_SETMASK, &old, NULL);
-    return failure ? br_no_memory(err, "the thread that marches") : BR_OK;
-}
-
-/* Marches a batch while the main thread watches. That others have failed is not this rank's
- * failure. */
+/* Marches a batch while the main thread watches, which signals wake. That others have failed is not
+ * this rank's failure. */
 static enum br_status march_batch(struct call *c, size_t batch, struct br_error *err)
 {
     const double before = job.done, cost = c->batches.cost[batch];
+    enum br_status status = BR_OK;
     pthread_t thread;
+    sigset_t all, old;
     c->batch = batch;
     atomic_store(&c->fraction, 0);
-    enum br_status status = start_march(c, &thread, err);
-    if (status)
-        return status;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &old);
+    const int failure = pthread_create(&thread, NULL, march, c);
+    pthread_sigmask(SIG_SETMASK, &old, NULL);
+    if (failure)
+        return br_no_memory(err, "the thread that marches");
     while (pthread_tryjoin_np(thread, NULL) == EBUSY) {
-        if (!status)
-            status = watch(err);
-        else
-            watch(NULL); /* the others must not take this rank for dead meanwhile */
+        /* after a failure, too: the others must not take this rank for dead meanwhile */
+        const enum br_status now = watch(status ? NULL : err);
+        status = status ? status : now;
         if (status || job.interrupted || job.failed)
             atomic_store(&c->stopped, true);
         job.done = before + cost * atomic_load(&c->fraction);
@@ -372,30 +341,50 @@ static enum br_status march_all(struct call *c, struct br_error *err)
     return status;
 }
 
-/* All marches, then all results. What goes wrong on this rank is said at the meeting. */
-static enum br_status share(struct call *c, struct word word, struct br_error *err)
+/* The results of all ranks. */
+static enum br_status gather(struct call *c, struct br_error *err)
 {
-    char *own = NULL, *all = NULL;
-    size_t size = 0;
-    c->results = open_memstream(&own, &word.bytes);
-    enum br_status status = meet(word, err);
-    if (!status && !c->results)
-        br_no_memory(&word.failure, "the results");
-    else if (!status)
-        march_all(c, &word.failure);
-    if (c->results && fclose(c->results) != 0 && !word.failure.status)
-        br_no_memory(&word.failure, "the results");
-    job.fails |= word.failure.status != BR_OK;
+    MPI_Request request;
+    enum br_status status = meet(c->word, err);
+    if (status)
+        return status;
+    for (int r = 0; r < job.size; c->size += job.word[r++].bytes) {
+        if (job.word[r].bytes > INT_MAX - c->size)
+            return br_fail(err, BR_IO, "the results of all ranks are beyond 2 GiB");
+        job.bytes[r] = (int)job.word[r].bytes;
+        job.place[r] = (int)c->size;
+    }
+    if (!(c->all = br_allocate(c->size + 1, 1)))
+        br_no_memory(&c->word.failure, "the results");
+    status = meet(c->word, err);
+    if (status)
+        return status;
+    MPI_Iallgatherv(c->own, (int)c->word.bytes, MPI_BYTE, c->all, job.bytes, job.place, MPI_BYTE,
+                    job.comm, &request);
+    return await(&request, err);
+}
+
+/* All marches, then all results. What goes wrong on this rank is said at the meeting. */
+static enum br_status share(struct call *c, struct br_error *err)
+{
+    struct br_error *failure = &c->word.failure;
+    c->results = open_memstream(&c->own, &c->word.bytes);
+    enum br_status status = meet(c->word, err);
+    if (!status && c->results)
+        march_all(c, failure);
+    if ((!c->results || fclose(c->results) != 0) && !failure->status)
+        br_no_memory(failure, "the results");
+    job.fails |= failure->status != BR_OK;
     if (!status && job.lost)
-        status = br_fail(err, word.failure.status, "%s", word.failure.message);
+        status = br_fail(err, failure->status, "%s", failure->message);
     if (!status)
-        status = gather(word, own, &all, &size, err);
+        status = gather(c, err);
     if (!status)
-        status = br_batches_read(c->studies, c->count, &c->batches, all, size, err);
-    if (job.lost)
-        return status; /* MPI may still be using them */
-    free(own);
-    free(all);
+        status = br_batches_read(c->studies, c->count, &c->batches, c->all, c->size, err);
+    if (!job.lost) { /* else MPI may still be using them */
+        free(c->own);
+        free(c->all);
+    }
     return status;
 }
 
@@ -403,21 +392,20 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
                                  const struct br_observer *observer, struct br_error *err)
 {
     struct call c = {.studies = studies, .count = count};
-    struct word word = {.failure = {0}};
     const int each = threads > 0 ? threads : job.most_threads;
     if (job.size == 1)
         return br_lockstep(studies, count, threads, observer, err);
     if (job.over)
         return br_fail(err, BR_IO, "the ranks share no work after a failure");
     c.threads = threads > 0 ? threads : job.threads;
-    br_batches_create(&c.batches, studies, count, job.size, each, &word.failure);
-    word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
+    br_batches_create(&c.batches, studies, count, job.size, each, &c.word.failure);
+    c.word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
     job.observer = observer;
     job.total = 0;
     for (size_t i = 0; i < c.batches.count; i++)
         job.total += c.batches.cost[i];
     start_watching();
-    const enum br_status status = share(&c, word, err);
+    const enum br_status status = share(&c, err);
     job.observer = NULL;
     job.before += job.total;
     job.tickets += c.batches.count + (size_t)job.size; /* each rank has drawn one too many */
@@ -493,13 +481,13 @@ static enum br_status count_threads(struct br_error *err)
 static enum br_status create_board(struct br_error *err)
 {
     const size_t ranks = (size_t)job.size, words = (size_t)number_of(job.size, 0);
-    job.word = br_allocate(ranks, sizeof *job.word);
-    job.bytes = br_allocate(ranks, sizeof *job.bytes);
-    job.place = br_allocate(ranks, sizeof *job.place);
-    job.seen = br_allocate(words, sizeof *job.seen);
-    job.known_beats = br_allocate(ranks, sizeof *job.known_beats);
-    job.silence = br_allocate(ranks, sizeof *job.silence);
-    if (!job.word || !job.bytes || !job.place || !job.seen || !job.known_beats || !job.silence)
+    job.word = br_store_take(&job.store, ranks, sizeof *job.word);
+    job.bytes = br_store_take(&job.store, ranks, sizeof *job.bytes);
+    job.place = br_store_take(&job.store, ranks, sizeof *job.place);
+    job.seen = br_store_take(&job.store, words, sizeof *job.seen);
+    job.known_beats = br_store_take(&job.store, ranks, sizeof *job.known_beats);
+    job.silence = br_store_take(&job.store, ranks, sizeof *job.silence);
+    if (job.store.failed)
         return br_no_memory(err, "the ranks");
     MPI_Errhandler handler;
     const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.seen) : 0;
@@ -560,12 +548,7 @@ static void leave(void)
     }
     if (begun)
         MPI_Finalize();
-    free(job.word);
-    free(job.bytes);
-    free(job.place);
-    free(job.seen);
-    free(job.known_beats);
-    free(job.silence);
+    br_store_clear(&job.store);
 }
 
 enum br_status br_ranks_end(enum br_status status, struct br_error *err)

@@ -215,7 +215,7 @@ static enum br_status solve(struct assembled *s, double *x, struct br_error *err
 }
 
 /* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
- * in the paper's examples and a vibration of little damping (study/extremes/floors.h). For bending
+ * in the paper's examples and a vibration of little damping (study/extremes/extremes.h). For bending
  * first like the condition number, n^4, and from n = 1100 like n^3. A march measures its own. */
 static double without_refinement(const struct br_field *f)
 {

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Experiments at the extremes, each of which compares what is predicted with what marches do:
+ * round-off, the stability of the contact, and energy. The map is another one (map.h). */
+#ifndef BR_STUDY_EXTREMES_EXTREMES_H
+#define BR_STUDY_EXTREMES_EXTREMES_H
+
+#include <complex.h>
+#include <math.h>
+
+#include "reference/energy/energy.h"
+#include "reference/textbook.h"
+#include "solver/march.h"
+#include "study/grid/observer.h"
+#include "study/grid/study.h"
+#include "study/kept/kept.h"
+#include "study/trade/named_method.h"
+
+/* What an experiment is asked for. All borrowed; 0 or NULL: its own choice. */
+struct br_extremes_job {
+    size_t cases;  /* of the map */
+    uint64_t seed; /* of what is drawn at random */
+    int threads;   /* 0: all cores */
+    const size_t *n;
+    const double *k; /* s */
+    size_t n_count, k_count;
+    int rounding;         /* as fesetround takes it: of the marches, not of their judges */
+    struct br_kept *kept; /* where an experiment that takes long keeps what is done, and finds what
+                             need not be done again; NULL: nothing is kept */
+    const char *folder;   /* for other files (reproducer scenes); NULL: they are not written */
+    const struct br_observer *observer; /* NULL: nobody */
+};
+
+/* The larger one; what is no number is the largest. */
+static inline double br_worst(double a, double b)
+{
+    return isnan(a) || isnan(b) ? NAN : fmax(a, b);
+}
+
+/* ---- nodal values, laid out as in solver/field.h, as functions of x ---- */
+
+/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
+ * w_x (out). */
+double br_nodal_value(enum br_field_kind kind, size_t unknowns, const double *at, double xi,
+                      double *slope);
+
+struct br_nodal {
+    const struct br_field *field;
+    const double *value;
+    bool slope; /* of a beam w_x is the function, not w */
+};
+
+/* For the initial data of a scene; borrows, and so do its clones. */
+struct br_function br_nodal_function(struct br_nodal *nodal);
+
+/* ---- round-off ---- */
+
+/* How far the displacements of marches are from the exact discrete solution
+ * (reference/discrete.h), beside what they predict of themselves. One experiment with two lists of
+ * marches: the floors of the linear solvers, and what steps gather. */
+
+/* One march. */
+struct br_floor {
+    const struct br_scene *scene; /* borrowed */
+    const struct br_named_method *by;
+    size_t n, of;        /* elements; steps of the duration */
+    size_t steps;        /* of these, those that are taken; 0: not marched */
+    double k;            /* s */
+    double deviation[2]; /* by br_field_kind: at the end, largest of all nodal displacements,
+                            relative to the largest displacement of the field */
+    double tip[2];       /* of the tip's, relative to the same */
+    double predicted;    /* br_march_round_off */
+    double time_error;   /* largest of the times told, relative to the duration: against n T/N in
+                            whole numbers */
+    struct br_error refused; /* status BR_OK where it marched */
+};
+
+enum { BR_FLOOR_STEPS = 20, BR_GATHERED_N = 10, BR_FLOOR_SCENES = 2, BR_FLOOR_METHODS = 32 };
+
+/* Not to be moved: its marches point to its scenes and methods. */
+struct br_floors {
+    /* False: floors. Every linear solver takes BR_FLOOR_STEPS steps of implicit Euler with the
+     * paper's lagged contact; the tip slips (Example 2), since a free tip is the softest motion,
+     * which loses most. So many steps are enough for what inertia keeps of earlier ones at
+     * k = 1e-6.
+     * True: what steps gather until the end of the duration, of BR_GATHERED_N elements by every
+     * time scheme of equal steps, with contact and friction. Example 1 sticks, Example 2 slips. */
+    bool gathered;
+    struct br_scene scene[BR_FLOOR_SCENES]; /* scenes; owned */
+    struct br_named_method method[BR_FLOOR_METHODS];
+    size_t scenes, methods, n_count, k_count;
+    size_t solvers;         /* of each scheme and contact; they are neighbours */
+    struct br_floor *floor; /* floors: by scene, method, n, k; owned */
+    size_t floors;
+};
+
+/* Measures all; what a march refuses is a result. Of the job n, of floors, is 100 to 1,000,000 by
+ * default, and k 1e-2, 1e-4, 1e-6 s; of what steps gather from one step to 1e5, to 1e6 where a step
+ * is one solve, and to 1e7 in Example 1 by implicit Euler with implicit contact. *floors (out) is
+ * to be cleared, also after a failure. Fails with BR_UNSUPPORTED where long double has no more
+ * digits than double, BR_NO_MEMORY, BR_INTERRUPTED, BR_BAD_INPUT (a k that does not divide the
+ * duration), and as the exact discrete solution does. */
+enum br_status br_floors_run(struct br_floors *floors, bool gathered,
+                             const struct br_extremes_job *job, struct br_error *err);
+void br_floors_clear(struct br_floors *floors);
+
+const struct br_floor *br_floor_at(const struct br_floors *floors, size_t scene, size_t method,
+                                   size_t n, size_t k);
+
+/* The larger deviation of both fields; NaN where there is none. */
+double br_floor_deviation(const struct br_floor *floor);
+
+/* What a march is held to: its prediction; of the first BR_FLOOR_STEPS steps of riccati also 2e-11
+ * up to n = 12800 and 1e-9 up to n = 1,000,000. */
+double br_floor_limit(const struct br_floor *floor);
+
+/* BR_OK, or BR_VERDICT with the first march that is above its limit or whose times drift, or that
+ * failed: an assembled matrix may be refused, and a step that the scheme refuses by rule
+ * (BR_BAD_INPUT). */
+enum br_status br_floors_verdict(const struct br_floors *floors, struct br_error *err);
+
+/* ---- stability ---- */
+
+/* Where does the contact make a march unstable? Measured by marches, and against what
+ * solver/laws.h predicts: the lagged contact over the plane of c_H and k, contact at u_n
+ * with every scheme, tips that rest, chatter and bounce. */
+
+enum { BR_STABILITY_MOST_ELEMENTS = 20, BR_STABILITY_RODS = 6, BR_STABILITY_COLUMNS = 61 };
+
+/* A rod of 1 m and 1000 N. */
+struct br_stability_rod {
+    const char *name, *title;
+    double density, viscosity; /* kg/m, N s */
+    int degree;
+};
+extern const struct br_stability_rod br_stability_rods[BR_STABILITY_RODS];
+
+/* The closed lagged contact of one rod at one time step. */
+struct br_stability_row {
+    const struct br_stability_rod *rod;
+    double k;        /* s */
+    double limit;    /* predicted: the largest stable c_H, N/m */
+    double measured; /* where the largest eigenvalue of marched steps leaves the unit circle */
+    double bouncing; /* below it no energy is gained, however the contact opens and closes */
+    double radius[BR_STABILITY_COLUMNS]; /* measured: largest eigenvalue */
+    double growth[BR_STABILITY_COLUMNS]; /* predicted: br_contact_growth */
+};
+
+/* Contact at u_n with one scheme: a rod that is pressed to its rest by a constant load, for all c_H
+ * up to 1e15 N/m and steps from far above its relaxation time to that. */
+struct br_stability_scheme {
+    const struct br_time_scheme *scheme;
+    size_t marches;
+    size_t failed;    /* marches that failed, or were refused */
+    size_t uncertain; /* marches with a step beyond its certificate's limits */
+    double force;     /* largest error of the contact force at the end, over its value */
+    double depth;     /* of the penetration, over the free rod's displacement */
+};
+
+/* A rod's tip by the lagged contact: pressed to the obstacle, or thrown at it without damping. */
+struct br_stability_tip {
+    double stiffness;       /* c_H, N/m */
+    double bouncing, limit; /* c_H over the two limits */
+    size_t impacts;         /* times that it closed, */
+    size_t opened;          /* and that it opened in the last quarter of the march */
+    double swing;           /* of the last quarter, over the free pressed rod's displacement */
+    double farthest;        /* |u|, over the same */
+    double energy;          /* of a thrown rod: the largest, over that at the start */
+};
+
+enum { BR_STABILITY_TIPS = 9, BR_STABILITY_BOUNCES = 8, BR_STABILITY_SCHEMES = 12 };
+
+struct br_stability {
+    size_t n, rows;                         /* rows: of each rod */
+    double stiffness[BR_STABILITY_COLUMNS]; /* c_H, N/m */
+    struct br_stability_row *row;           /* by rod, k; owned */
+    struct br_stability_scheme scheme[BR_STABILITY_SCHEMES];
+    size_t schemes;
+    double tip_k, bounce_k; /* s */
+    struct br_stability_tip tip[BR_STABILITY_TIPS], bounce[BR_STABILITY_BOUNCES];
+    /* In all rows: */
+    size_t cells, growing; /* growing: predicted */
+    double limit_error;    /* largest |measured / predicted - 1| of the limits */
+    double growth_error;   /* and of the growth where there is any */
+    double excess;         /* how far above 1 the measured eigenvalue is where none is predicted */
+};
+
+/* Measured and predicted limits, and growths, agree so far; nothing predicted to be stable has an
+ * eigenvalue further outside. The limit is where one is outside by 1e-11, which is at most so far
+ * beyond it, for the eigenvalue grows faster than c_H does; the rest is left for the round-off of
+ * eigenvalues. */
+extern const double br_stability_tolerance; /* 1e-9 */
+
+/* Of the job n, one number of at most BR_STABILITY_MOST_ELEMENTS, is 8 by default, and k 1e-6 to
+ * 1e-1 s, four a decade. Fails with BR_BAD_INPUT (n, k), BR_NO_MEMORY, BR_INTERRUPTED,
+ * BR_NOT_FINITE; clear it even then. */
+enum br_status br_stability_run(struct br_stability *s, const struct br_extremes_job *job,
+                                struct br_error *err);
+void br_stability_clear(struct br_stability *s);
+
+/* BR_OK where marches do what is predicted, or BR_VERDICT with the first that does not. */
+enum br_status br_stability_verdict(const struct br_stability *s, struct br_error *err);
+
+/* ---- its parts ---- */
+
+/* The field of a rod, and the scene of a field, with a contact that is still without stiffness. */
+struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n, double k);
+struct br_scene br_stability_scene(const struct br_field *field, double duration);
+
+/* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, as marches of
+ * one step tell it: nothing is known there of the equations ---- */
+
+/* A state is the displacements of the nodes, and then k times their velocities, m; the clamped node
+ * is left out. */
+size_t br_step_states(const struct br_field *rod);
+
+/* Column by column a state of one unit, whose tip is not away from the obstacle, is marched by one
+ * step. rod: an axial field; stiffness: c_H, N/m; matrix (out): br_step_states squared values, by
+ * rows. Fails with BR_NO_MEMORY and as marches do. */
+enum br_status br_step_matrix(const struct br_field *rod, double stiffness, double *matrix,
+                              struct br_error *err);
+
+/* The size of the largest eigenvalue of that step (out). Fails as br_step_matrix, and with
+ * BR_NOT_FINITE where the eigenvalues are not found. */
+enum br_status br_step_radius(const struct br_field *rod, double stiffness, double *radius,
+                              struct br_error *err);
+
+/* ---- energy ---- */
+
+/* What every time scheme does to the energy: of a free vibration, against its theory, and in scenes
+ * with loads, impacts, friction and extreme data, whether each step's balance closes. */
+
+/* ---- the lowest mode of a field on a mesh, as its elements have it, to start with ---- */
+
+enum { BR_MODE_ELEMENTS = 8, BR_MODE_UNKNOWNS = 2 * BR_MODE_ELEMENTS };
+
+/* Of BR_MODE_ELEMENTS linear (axial) or Hermite (bending) elements: K phi = omega^2 M phi. */
+struct br_beam_mode {
+    enum br_field_kind kind;
+    double omega;                    /* 1/s */
+    double phi[BR_MODE_UNKNOWNS];    /* without the clamped node: 1 at the tip */
+    double weight[BR_MODE_UNKNOWNS]; /* M phi over phi'M phi: the part of the mode in a state */
+};
+
+/* Fails with BR_NO_MEMORY, and with BR_SINGULAR where the eigenvalues are not found. */
+enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scene *scene,
+                                 enum br_field_kind kind, struct br_error *err);
+
+/* How much of the mode is in nodal values of the field (in: clamped node included), m or m/s. */
+double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal);
+
+/* ---- free vibration of a field in its lowest mode: what a time scheme takes from its energy, as
+ * measured and as its stability function tells ---- */
+
+/* The factor of a step with z = k lambda: the stability function R(z) of a Runge-Kutta method (its
+ * last stage is the step's end), of backward differences the principal root r of
+ * (1 - beta z) r^q = sum past_j r^(q-1-j), the one that is nearest to e^z for small z. */
+double complex br_amplification(const struct br_textbook *textbook, double complex z);
+
+enum br_vibration_end {
+    BR_VIBRATION_DONE,
+    BR_VIBRATION_REFUSED, /* by the method: see failure */
+    BR_VIBRATION_FAILED,  /* the march */
+};
+
+struct br_vibration {
+    /* In */
+    const struct br_time_scheme *scheme;
+    enum br_field_kind kind;
+    double damping;    /* of the mode, relative to critical */
+    double density;    /* kg/m */
+    size_t per_period; /* steps; of an adaptive scheme looks, see tolerance */
+    double tolerance;
+
+    /* Out */
+    enum br_vibration_end end;
+    struct br_error failure;
+    double steps;        /* a period, the scheme's own */
+    double measured;     /* share of the energy that the scheme takes a period, beside viscosity */
+    double predicted;    /* by the amplification; NAN for an adaptive scheme */
+    double round_off;    /* of the two, about */
+    double worst, limit; /* imbalance of a step */
+};
+
+/* Marches. Fails with BR_NO_MEMORY and BR_SINGULAR; what a march does is a result. */
+enum br_status br_vibration_run(struct br_vibration *vibration, struct br_error *err);
+
+/* Whether what was measured is as predicted, to round-off, and every step's balance closes; what
+ * was refused is neither. */
+bool br_vibration_is_right(const struct br_vibration *vibration);
+
+/* ---- all schemes ---- */
+
+enum { BR_VIBRATION_RATES = 6, BR_VIBRATION_DENSITIES = 3 };
+
+/* Free vibration of one field by one scheme, at all numbers of steps a period; what is shown is of
+ * the density in the middle. */
+struct br_vibration_row {
+    const struct br_time_scheme *scheme;
+    enum br_field_kind kind;
+    double damping;
+    struct br_vibration at[BR_VIBRATION_RATES][BR_VIBRATION_DENSITIES];
+};
+
+/* A bundled scene, and what is changed in it. */
+struct br_balance_scene {
+    const char *name, *bundled;
+    const char *contact; /* rule; NULL: the scheme's own */
+    size_t place[2];     /* of numbers in struct br_scene; 0: none */
+    double value;
+};
+
+/* A scene that is marched by one scheme, with its balance in each step. */
+struct br_balance_row {
+    const struct br_time_scheme *scheme;
+    const struct br_balance_scene *scene;
+    enum br_vibration_end end;
+    struct br_error failure; /* why it was refused, or where its march ended */
+    size_t marched;          /* steps until then */
+    struct br_energy start, now;
+    struct br_work work;
+    double worst, limit; /* imbalance of a step */
+};
+
+struct br_energy_behaviour {
+    struct br_vibration_row *vibration;
+    struct br_balance_row *balance;
+    size_t vibrations, balances;
+};
+
+/* The result does not depend on the job's threads. Fails with BR_NO_MEMORY, BR_INTERRUPTED and as
+ * scenes do; clear it even then. */
+enum br_status br_energy_behaviour_run(struct br_energy_behaviour *behaviour,
+                                       const struct br_extremes_job *job, struct br_error *err);
+void br_energy_behaviour_clear(struct br_energy_behaviour *behaviour);
+
+/* Whether all that was measured of the row is right; what was refused is. */
+bool br_vibration_row_is_right(const struct br_vibration_row *row);
+bool br_balance_row_is_right(const struct br_balance_row *row);
+
+/* The largest difference of measured and predicted loss a period in a row; NAN: nothing predicted.
+ */
+double br_vibration_difference(const struct br_vibration_row *row);
+
+#endif
