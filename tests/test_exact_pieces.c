@@ -3,7 +3,7 @@
  * move, before it solves. Solutions under such loads: test_blows. */
 #include <math.h>
 
-#include "reference/exact/outline.h"
+#include "reference/exact/inside.h"
 #include "tests/exact_scenes.h"
 
 static struct br_scene rod(double density, double viscosity)
