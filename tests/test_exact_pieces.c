@@ -182,6 +182,23 @@ TEST(test_outline_of_a_blow)
     br_scene_clear(&s);
 }
 
+/* Nobody looks along x for what a force at the tip does: of a blow whose tails are next to nothing,
+ * the mean was once so small that an error of 1e202 times the solution was stated. */
+TEST(test_outline_of_a_blow_at_the_tip)
+{
+    struct br_scene s = rod(1, 0.7);
+    s.length = 0.022135580911717349;
+    s.duration = 62.72405076094217;
+    s.axial.tip_force = br_test_function("12*exp(-((t-38.5286)/0.00806621)^2)");
+    struct br_outline o = outline_of(&s, 1);
+    AT_MOST(br_outline_cell(&o, 38.5286), 0.02);
+    AT_MOST((double)o.end[BR_T].count, 200); /* not some 1,800 */
+    AT_MOST(o.proved, 1e-10);
+    AT_MOST(o.missed, 1e-10);
+    br_outline_clear(&o);
+    br_scene_clear(&s);
+}
+
 /* When a front leaves, and that it moves; where initial data bend; what a jump in a force at the
  * tip leaves there; and what is proved, and what is not, of data that no polynomial is. */
 TEST(test_outline_of_places)
