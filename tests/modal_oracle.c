@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "tests/modal_oracle_parts.h"
+#include "tests/modal_oracle.h"
 
 enum { NODES = ORACLE_NODES };
 

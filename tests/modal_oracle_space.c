@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <math.h>
 
-#include "tests/modal_oracle_parts.h"
+#include "tests/modal_oracle.h"
 
 static const real pi = 3.14159265358979323846264338327950288L;
 static const real root2 = 1.41421356237309504880168872420969808L;

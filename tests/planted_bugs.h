@@ -574,6 +574,8 @@ static const struct planted_bug planted_bugs[] = {
     {"loads_tested_with_singular_vectors", "round-off", "reference/exact/field.c",
      "tests/test_blows test_patches_at_the_clamp", "modes->function[k * modes->width + i] = c[k];",
      "modes->function[k * modes->width + i] = modes->size[i] * modes->shape[i * rows + k];"},
+    {"functions_of_time_along_x", "proof", "reference/exact/outline.c", "tests/test_exact_pieces",
+     "f->uses_x ? w->all[BR_X] : 0", "w->all[BR_X]"},
     {"step_from_the_cell_before", "index", "reference/exact/outline.c", "tests/test_exact_pieces",
      "gsl_interp_bsearch(o->end[BR_T].at, t, 0",
      "gsl_interp_bsearch(o->end[BR_T].at, nextafter(t, 0), 0"},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whole marches against values that were computed in other ways: the exact solution in
- * closed form, quadruple precision (generate_discrete.c), and long double. */
+/* Whole marches against values that were computed in other ways: in closed form, and in quadruple
+ * precision (generate_discrete.c). Orders in time: test_mms_orders; steps of either contact rule:
+ * test_extreme_marches. */
 #include <math.h>
 #include <stdio.h>
 
@@ -67,55 +68,6 @@ TEST(test_other_resolutions)
             CLOSE(end.u_tip, rows[i].u, rows[i].tolerance * fabs(rows[i].u));
     }
     br_scene_clear(&scene);
-}
-
-/* Errors at t = 1 against the exact solution. */
-static struct br_test_end exact_errors(const char *name, const char *contact, size_t n,
-                                       size_t steps, const struct br_test_end *exact)
-{
-    struct br_scene scene = br_test_bundled(name);
-    const struct br_method method = br_test_method(NULL, contact, "exact");
-    const struct br_test_end end = br_test_run(&scene, n, steps, &method);
-    br_scene_clear(&scene);
-    return (struct br_test_end){end.u_tip - exact->u_tip, end.w_tip - exact->w_tip, 0};
-}
-
-static const struct br_test_end exact1 = {0.171692329889782302, 0, NAN};
-static const struct br_test_end exact2 = {0.0429230824724455755, -0.0715950242871993164, NAN};
-
-/* The contact force at u_n: first order in k, with constants below 1e-3. */
-TEST(test_implicit_contact)
-{
-    double last_u = NAN, last_w = NAN;
-    for (size_t steps = 50; steps <= 800; steps *= 2) {
-        const double k = 1.0 / (double)steps;
-        const struct br_test_end e1 = exact_errors("example1", "implicit", 400, steps, &exact1);
-        AT_MOST(fabs(e1.u_tip), 2e-4 * k + 1e-10);
-        AT_MOST(fabs(e1.w_tip), 1e-6); /* the tip's first slip, not seen at these k */
-        const struct br_test_end e2 = exact_errors("example2", "implicit", 400, steps, &exact2);
-        AT_MOST(fabs(e2.u_tip), 1e-4 * k + 1e-10);
-        AT_MOST(fabs(e2.w_tip), 1e-3 * k + 1e-10);
-        if (steps > 50) { /* halved, within a tenth */
-            CLOSE(e2.u_tip / last_u, 0.5, 0.05);
-            CLOSE(e2.w_tip / last_w, 0.5, 0.05);
-        }
-        last_u = e2.u_tip;
-        last_w = e2.w_tip;
-    }
-}
-
-/* The contact force at u_{n-1}: first order too, but with constants of 0.1. */
-TEST(test_lagged_contact)
-{
-    double last = NAN;
-    for (size_t steps = 100; steps <= 1600; steps *= 2) {
-        const struct br_test_end e = exact_errors("example2", "lagged", 50, steps, &exact2);
-        AT_MOST(fabs(e.w_tip), 0.2 / (double)steps);
-        AT_MOST(0.05 / (double)steps, fabs(e.w_tip));
-        if (steps > 100)
-            CLOSE(e.w_tip / last, 0.5, 0.05);
-        last = e.w_tip;
-    }
 }
 
 /* Example 3: propped until the reaction 3/8 q L reaches 3000 N, at t = 0.80 s; and the

@@ -3,9 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/field.h"
-#include "reference/exact/legendre.h"
-#include "reference/exact/pieces.h"
+#include "reference/exact/inside.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };

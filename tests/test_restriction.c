@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/exact/legendre.h"
-#include "reference/exact/pieces.h"
+#include "reference/exact/inside.h"
 #include "tests/support.h"
 
 enum { MOST_LENGTH = 160, MOST_POINTS = 160, MOST_LOCAL = 20 };

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/exact.h"
+#include "reference/exact/inside.h"
 
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-#include "reference/exact/march.h"
 
 /* ---- two solutions ---- */
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/field.h"
+#include "reference/exact/inside.h"
 
 #include <cblas.h>
 #include <float.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/outline.h"
+#include "reference/exact/inside.h"
 
 #include <float.h>
 #include <gsl/gsl_interp.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/pieces.h"
+#include "reference/exact/inside.h"
 
 #include <lapacke.h>
 #include <math.h>

@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/exact.h"
+#include "reference/exact/inside.h"
 
 #include <cblas.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
-
-#include "reference/exact/legendre.h"
-#include "reference/exact/march.h"
-#include "reference/exact/pieces.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
 {

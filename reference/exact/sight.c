@@ -6,10 +6,10 @@
  * variable, whichever helps more, until in each part a polynomial along the one stands for it, or a
  * guard goes through that never lets go. What counts as an end of a cell is where smooth functions
  * ask for more, not where a guard does: that moves, and quadratures are cut at it. */
+#include "reference/exact/inside.h"
+
 #include <gsl/gsl_sort.h>
 #include <math.h>
-
-#include "reference/exact/outline.h"
 
 /* ---- lists ---- */
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One step of a field: its velocity is the series v + r, and each mode's r = X x, where
  *     (mass/h + damping X + stiffness h X^2) x = rest - tip force. */
+#include "reference/exact/inside.h"
+
 #include <cblas.h>
 #include <float.h>
 #include <lapacke.h>
 #include <math.h>
 #include <string.h>
-
-#include "reference/exact/march.h"
 
 enum { S = BR_STAGES };
 

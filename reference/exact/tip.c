@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "reference/exact/march.h"
+#include "reference/exact/inside.h"
 
 #include <math.h>
 

@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Inside of the exact reference: elements and their series; what is known of the data; a field on
+ * its modes; its march. */
+#ifndef BR_REFERENCE_EXACT_INSIDE_H
+#define BR_REFERENCE_EXACT_INSIDE_H
+
+#include "reference/exact/exact.h"
+#include "reference/exact/legendre.h"
+#include "solver/proof.h"
+#include "solver/scene.h"
+
+/* ---- elements (pieces.c) ----
+ *
+ * Elements of a beam, and functions that are a Legendre series on each of them.
+ *
+ * On element e, of width h in units of L, a function is the sum over k of c_k p_k(xi) / sqrt(h),
+ * xi in [0, 1]: these are orthonormal in x / L. A series has terms[e] + extra coefficients there,
+ * where `extra` counts how often functions of terms[e] coefficients were integrated. */
+
+struct br_pieces {
+    double length; /* L, m */
+    size_t count;  /* elements, 1 or more */
+    double *end;   /* count + 1, m: 0 = end[0] < ... < end[count] = L */
+    size_t *terms; /* count, each 1 or more */
+    size_t *first; /* count + 1: sum of the terms before */
+};
+
+/* Copies end and terms. After a failure, which the store keeps, the pieces are of no use. */
+void br_pieces_init(struct br_pieces *pieces, double length, size_t count, const double *end,
+                    const size_t *terms, struct br_store *store);
+
+/* Where element e's coefficients begin; with e = count, their number. */
+static inline size_t br_pieces_at(const struct br_pieces *p, size_t e, size_t extra)
+{
+    return p->first[e] + e * extra;
+}
+
+/* h of element e, in units of L. */
+static inline double br_pieces_width(const struct br_pieces *p, size_t e)
+{
+    return (p->end[e + 1] - p->end[e]) / p->length;
+}
+
+/* The element that holds x, m; where two meet the left one. */
+size_t br_pieces_find(const struct br_pieces *pieces, double x);
+
+/* Integral over all x / L of a series. */
+double br_pieces_integral(const struct br_pieces *pieces, size_t extra, const double *c);
+
+/* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
+void br_pieces_integrate(const struct br_pieces *pieces, size_t extra, double *c);
+
+/* ---- quadrature ---- */
+
+struct br_quadrature {
+    const struct br_pieces *pieces; /* borrowed */
+    size_t extra;                   /* of the series */
+    size_t *points;                 /* elements: of its rule */
+    size_t count;                   /* all points */
+    double *x;                      /* count, m: inside of the elements, never at their ends */
+    double *weight;                 /* count: of the rule on [0, 1] */
+    double **table;                 /* elements: points x (terms + extra), p_k at the points */
+    double *value;                  /* count, workspace */
+};
+
+/* After a failure, which the store keeps, the quadrature is of no use. */
+void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+                        struct br_store *store);
+
+/* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
+ * against the polynomials. Elements that hold some of `fronts`, places in m where f jumps or bends
+ * at t (NULL: none), are cut there. Fails with BR_NO_MEMORY. */
+enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
+                                     double t, const struct br_breaks *fronts, double *c,
+                                     struct br_error *err);
+
+/* c (out, extra 0): the same of the derivative in x / L of a continuous f(x, 0). */
+enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
+                                           const struct br_function *f, double *c,
+                                           struct br_error *err);
+
+/* ---- the L2 projection of a series on polynomials on equal elements (projection.c) ---- */
+
+struct br_piecewise;
+
+/* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR. */
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+                                   size_t extra, const struct br_exact_mesh *mesh,
+                                   struct br_store *store, struct br_error *err);
+
+/* c and rest as br_exact_projection_apply has them. For one thread at a time. */
+void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,
+                        double *rest);
+
+/* ---- the outline of the data ----
+ *
+ * What is known of a field's data before it is solved: on which elements, and at which steps. It
+ * comes from what is proved of a scene's functions (solver/proof.h): where they jump, and meshes on
+ * whose cells polynomials stand for them, in proportion to their size nearby. A function of which
+ * nothing is proved is taken for smooth. */
+
+/* ---- one function (sight.c) ---- */
+
+/* What a polynomial may miss, of the largest value in its cell or of the mean, if that is more. */
+#define BR_SIGHT_TOLERANCE 1e-11
+
+/* Of the polynomials on an element, and of those that the rules over a step integrate. */
+enum { BR_SIGHT_DEGREE = 15 };
+
+/* Numbers. */
+struct br_list {
+    double *at; /* count; of a store */
+    size_t count, room;
+};
+
+/* After a failure, which the store keeps, the value is missing. */
+void br_list_add(struct br_list *list, double value, struct br_store *store);
+
+/* Sorts, and keeps one of those that are the same. */
+void br_list_sort(struct br_list *list);
+
+static inline struct br_interval *br_side(struct br_box *box, enum br_variable along)
+{
+    return along == BR_X ? &box->x : &box->t;
+}
+
+/* Of how much a polynomial along one variable misses f in the box at most; infinite where f is not
+ * smooth. */
+double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
+                      size_t degree);
+
+/* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
+double br_sight_mean(const struct br_function *f, struct br_box box);
+
+/* A function and where it is needed: of a variable that it does not use, or of whose other values
+ * none matters, the box has one. */
+struct br_sight {
+    const struct br_function *f;
+    struct br_box box;
+    double mean;   /* br_sight_mean of the box */
+    double missed; /* out: share of its integral that cells may hold unseen, in all */
+};
+
+/* Adds the ends of cells inside of a part of the box along each of its variables. For a function
+ * of both, guards may move in the part. Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
+ * function is not finite, or BR_NO_MEMORY. */
+enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct br_list ends[2],
+                             struct br_store *store, struct br_error *err);
+
+/* ---- all data of a field (outline.c) ---- */
+
+/* What axial and bending have in common. */
+struct br_exact_data {
+    double stiffness, viscosity;
+    const struct br_load *load;
+    const struct br_function *tip_force, *tip_moment; /* the moment NULL for axial */
+    const struct br_function *displacement, *velocity;
+    const struct br_function *slope; /* of the displacement, derived degree - 1 times */
+};
+
+/* Degree 1 is the axial, 2 the bending field. */
+struct br_exact_data br_exact_data_of(const struct br_scene *scene, size_t degree);
+
+struct br_outline {
+    size_t degree;         /* of the field: 1 axial, 2 bending */
+    struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
+                              that no step may overlook, from 0 to T */
+    struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
+    bool fronts;           /* places where the load jumps move */
+    double missed;         /* of the load's integral: what proofs could not exclude */
+    double proved;         /* likewise, what polynomials were proved to be away from the data */
+    struct br_store store;
+};
+
+/* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,
+ * BR_BAD_INPUT where they are not finite, or BR_NO_MEMORY. */
+enum br_status br_outline_init(struct br_outline *outline, const struct br_scene *scene,
+                               size_t degree, struct br_error *err);
+void br_outline_clear(struct br_outline *outline);
+
+/* The number of polynomials on element e in a solution where `modes` would do on one. */
+size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes);
+
+/* Whether the data change so fast within `width` of t that a cell is shorter than that. */
+bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
+
+/* The length of the cell that holds t, infinite where it is the only one; where two meet the later
+ * one. */
+double br_outline_cell(const struct br_outline *outline, double t);
+
+/* How long a step from t may be: not longer than any cell that it touches. */
+double br_outline_reach(const struct br_outline *outline, double t);
+
+/* ---- a field (field.c) ----
+ *
+ * One field of the beam, axial or bending, as independent damped oscillators
+ *     mass_i q_i'' + damping q_i' + stiffness q_i = load_i(t) - tip_i force,
+ * held together only by the force at the tip: equations (3), (4), (8), (9), (11). */
+
+/* Modes of a clamped-free rod or beam of unit length, by a spectral Galerkin
+ * method on elements.
+ *
+ * Trial functions are the degree-fold integrals (from the clamp) of the elements'
+ * orthonormal polynomials, m of them in all; degree 1 gives the rod's space E, 2 the
+ * beam's space V, and the elastic energy is the identity. With B the matrix that integrates, the
+ * singular value decomposition B = Y diag(s) U' gives modes that are orthogonal
+ * in the mass and in the energy: mode i is s_i times the unit function with the
+ * coefficients Y_i, and its derivative of order `degree` has the coefficients U_i. */
+struct br_modes {
+    struct br_pieces pieces;
+    size_t count;     /* m, the pieces' terms */
+    size_t width;     /* m, and zeros up to a multiple of BR_STAGE_LANES */
+    size_t degree;    /* 1: axial, 2: bending */
+    double *size;     /* s, width: L2 norm of each mode */
+    double *shape;    /* Y, br_modes_length(0) x m, by columns */
+    double *function; /* B U = Y s, br_modes_length(0) x width, by rows: modes integrated from the
+                         clamp */
+    double *curve;    /* U, m x m, by columns */
+    double *tip;      /* width: value of each mode at the free end */
+    double *slope;    /* width: derivative of each there; degree 2 only, else zeros */
+
+    struct br_quadrature quadrature; /* of functions that are tested with shapes */
+};
+
+/* modes: in, with its pieces, all else zero. Fails with BR_NO_MEMORY or BR_SINGULAR. */
+enum br_status br_modes_init(struct br_modes *modes, size_t degree, struct br_store *store,
+                             struct br_error *err);
+
+/* Number of Legendre coefficients of a sum of modes derived `order` times,
+ * order <= degree. */
+size_t br_modes_length(const struct br_modes *modes, size_t order);
+
+/* c (out, br_modes_length) = Legendre coefficients of the order-th derivative of
+ * sum_i q_i mode_i in x / L, order <= degree. */
+void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c);
+
+/* ---- the field ---- */
+
+struct br_oscillators {
+    struct br_modes modes;
+    double length;             /* L, m */
+    double *mass;              /* width, kg; behind the modes 1 */
+    double damping, stiffness; /* N s/m, N/m */
+    struct br_exact_data data; /* borrowed */
+    bool fronts;               /* places where the load jumps move */
+    double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
+                                  in time */
+    double *load_series;       /* BR_STAGES x br_modes_length(0), workspace for one that is not */
+    double *load_sum;          /* BR_STAGES x width, likewise */
+    double *displacement;      /* modes: at t = 0, m */
+    double *velocity;          /* modes: at t = 0, m/s */
+    double tip_displacement, tip_velocity; /* at t = 0, m, m/s */
+};
+
+/* *out (owned by the store). The scene (borrowed, with its functions) must model the field. On the
+ * outline's elements, of as many polynomials as it has for `modes`. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR. */
+enum br_status br_oscillators_create(struct br_oscillators **out, const struct br_scene *scene,
+                                     const struct br_outline *outline, size_t modes,
+                                     struct br_store *store, struct br_error *err);
+
+/* out (BR_STAGES x width): load_i(t) at each t, N. *size: out, of loads that no product gives, N:
+ * what a mode of size 1 gets of them may be wrong by round-off of that at any t. Fails with
+ * BR_NO_MEMORY, or BR_BAD_INPUT: too many fronts. */
+enum br_status br_oscillators_load(const struct br_oscillators *field, const double t[BR_STAGES],
+                                   double *out, double *size, struct br_error *err);
+
+/* What a step costs in the units of br_effort: its modes, and loads that no product gives. */
+double br_oscillators_work(const struct br_oscillators *field);
+
+/* L2 norm over the beam of sum_i q_i mode_i. */
+double br_oscillators_norm(const struct br_oscillators *field, const double *q);
+
+/* How much work an exact solution may take, and who may end it and gets its progress. */
+struct br_effort {
+    double done, most; /* units of about 1.4 microseconds of a core: counted, not measured */
+    const struct br_exact_options *who;
+};
+
+/* Fails with BR_INTERRUPTED, or BR_NOT_FINITE where no work is left. */
+enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_error *err);
+
+/* ---- the tip (tip.c) ----
+ *
+ * The laws (10) and (12), one phase at a time. In each phase the law is linear, and a guard
+ * measures how far the phase is from its end. */
+
+/* The tip along one step; series in p_k((t - start) / length). */
+struct br_tip_step {
+    double start, length; /* s */
+    enum br_phase phase;
+    double displacement;        /* at the start, less the gap of a contact, m */
+    double velocity[BR_STAGES]; /* m/s */
+    double force[BR_STAGES];    /* of the obstacle on the beam, against +displacement, N */
+    double *values; /* BR_HISTORY_ROWS x modes: series of the velocity, m/s, and the displacement
+                       at the start, m; of a step that is kept */
+};
+enum { BR_HISTORY_ROWS = BR_STAGES + 1 };
+
+struct br_entry {
+    double time;  /* s */
+    double error; /* of the time, from round-off alone, s */
+    enum br_phase phase;
+};
+
+struct br_history {
+    size_t modes;
+    double gap;           /* m */
+    double free_velocity; /* largest root mean square over the beam of a step's mean velocity,
+                             had the tip been let go for that step, m/s */
+    double impulse;       /* sum over the steps of the velocity that their loads alone give, L2 */
+    double blurred;       /* sum of squares of what the rounding of t may do to it */
+    size_t steps, step_room;
+    struct br_tip_step *tip; /* steps */
+    size_t entries, entry_room;
+    struct br_entry *entry; /* phases in order of time, the first at t = 0 */
+    struct br_store *store; /* that it is from */
+};
+
+/* Values at one time. */
+struct br_tip_state {
+    double displacement; /* less the gap of a contact, m */
+    double velocity;     /* m/s */
+    double force;        /* N */
+    enum br_phase phase;
+};
+
+/* The step that holds t; where two steps meet the later one. */
+size_t br_history_find(const struct br_history *track, double t);
+
+/* The tip at the time start + theta length. */
+struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta);
+
+/* q and v (out, modes each, may be NULL): coefficients of displacement and
+ * velocity at t. Returns the tip's values. */
+struct br_tip_state br_history_at(const struct br_history *track, double t, double *q, double *v);
+
+struct br_law {
+    bool contact;                   /* (10), on the axial field; else (12), on the bending field */
+    bool obstacle;                  /* whether there is one to be in contact with */
+    double stiffness;               /* c_H, N/m; 0 without a contact */
+    enum br_friction_law friction;  /* of the bending field */
+    double coefficient;             /* c_V */
+    const struct br_history *axial; /* whose tip sets Coulomb's bound; borrowed */
+};
+
+/* The friction bound b(t), N. */
+double br_law_bound(const struct br_law *law, double t);
+
+/* What the law says of a tip in its phase. */
+struct br_law_state {
+    double force;       /* on it, N: the series' value only where the law does not give it */
+    double guard;       /* distance to the end of the phase: negative when it is over */
+    enum br_phase next; /* the phase that follows when the guard ends it */
+};
+struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip);
+
+/* The phase at t of a tip with this displacement (less the gap) and velocity;
+ * `now` is the phase before t, BR_FREE at t = 0. */
+enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
+                           double displacement, double velocity);
+
+/* ---- one step (step.c) ---- */
+
+/* A field at one time. The tip's own values are carried along by increments,
+ * and set when an event fixes them: summed over modes they would lose what is
+ * small just after an event. */
+struct br_stepper {
+    const struct br_oscillators *field; /* borrowed */
+    const struct br_law *law;           /* borrowed */
+    struct br_radau radau;
+
+    double time;     /* s */
+    double from, to; /* s: the load is taken between these, where it does not jump */
+    double blur;     /* of the load: what the rounding of t does to it, relative */
+    enum br_phase phase;
+    double *q, *v;                         /* modes: m, m/s */
+    double tip_displacement, tip_velocity; /* less the gap, m, m/s */
+
+    struct br_tip_step tip; /* the last trial step */
+    double *series;         /* BR_STAGES x width of the modes: its velocity, m/s */
+    double free_size;       /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
+                               force cancels it, its round-off is what remains */
+
+    double work; /* of the trial steps, see br_effort; whoever reads it sets it to zero */
+
+    double length;                 /* s, of the step that the responses are for */
+    struct br_stage_system system; /* of this length, over stiffness h */
+    double *gain;      /* width: mean velocity in a step over a constant force, m/(N s) */
+    double tip_length; /* s, of the step that this is for: only phases that need it have it */
+    double tip_response[BR_STAGES][BR_STAGES]; /* velocity over force, m/(N s) */
+    double *load;                              /* BR_STAGES x width, at the stages, N */
+    double *rest;          /* the same size: series of what the state leaves of it, N */
+    double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double impulse;        /* m^(3/2)/s: velocity that the loads alone give in the step, in L2 */
+    double noise_response; /* the same of a load of 1 N of every shape */
+};
+
+/* s: in, with its field and law, all else zero; gap in m. Starts at t = 0. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_stepper_init(struct br_stepper *s, double gap, struct br_store *store,
+                               struct br_error *err);
+
+/* Sets tip and series to a step of length h from the current state, which stays.
+ * Fails with BR_NO_MEMORY, BR_SINGULAR or BR_NOT_FINITE. */
+enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err);
+
+/* Moves the state to the end of the last trial step, called `time`. */
+void br_stepper_accept(struct br_stepper *s, double time);
+
+/* Sets exactly what the end of the state's phase fixes: the tip's displacement
+ * where a contact opens or closes, its velocity where a slip ends. */
+void br_stepper_settle(struct br_stepper *s);
+
+/* ---- the march ---- */
+
+struct br_march_options {
+    double duration;                     /* T, s */
+    const struct br_outline *outline[2]; /* of this field, and NULL or the one that it depends on:
+                                            the steps that they ask for */
+    double gap;                          /* of the contact, m; 0 for friction */
+    double tolerance;  /* what the last coefficients of a step may be of the largest value */
+    double first_step; /* s: length of the first step of a phase, always accepted */
+    size_t max_steps;
+    struct br_effort *effort;
+};
+
+/* *out (owned by the store): the history of the field under the law, both of
+ * which are only read. Fails with BR_NO_MEMORY, BR_SINGULAR, BR_INTERRUPTED, or BR_NOT_FINITE
+ * where the solution blows up, asks for too many steps, or has phases that
+ * follow each other without end. */
+enum br_status br_march(const struct br_oscillators *field, const struct br_law *law,
+                        const struct br_march_options *options, struct br_store *store,
+                        struct br_history **out, struct br_error *err);
+
+/* ---- a solution ---- */
+
+/* One march of each modelled field; the others are NULL. */
+struct br_exact_solution {
+    struct br_oscillators *field[BR_EXACT_FIELDS];
+    struct br_law law[BR_EXACT_FIELDS];
+    struct br_history *track[BR_EXACT_FIELDS];
+    struct br_store store; /* of the fields */
+};
+
+struct br_exact {
+    double duration; /* T, s */
+    struct br_exact_solution *solution;
+    struct br_exact_report report[BR_EXACT_FIELDS];
+    double noise[BR_EXACT_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
+                                      of the velocity is round-off */
+    size_t events;
+    struct br_exact_event *event;
+};
+
+#endif
