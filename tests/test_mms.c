@@ -129,39 +129,39 @@ TEST(test_friction_data)
 
 /* ---- the judge ---- */
 
+/* exp(x) t^2 at t = 3 on three elements of [0, 2]: the modes and what they leave out make up the
+ * norm; the first of them is a mean. */
 TEST(test_projection)
 {
-    static const struct {
-        struct br_projected what;
-        double square; /* of the L2 norm over [0, 2] at t = 3 of that of exp(x) t^2 */
-    } cases[] = {
-        {{{0, 0}, 2}, 81}, {{{0, 0}, 4}, 81}, {{{2, 1}, 3}, 36},
-        {{{1, 0}, 1}, 81}, {{{0, 1}, 8}, 36},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct br_error err = {0};
-        struct br_projection *p;
-        const size_t kept = cases[i].what.kept;
-        struct br_function f = br_test_function("exp(x)*t^2");
-        MUST(br_projection_create(&p, &f, &cases[i].what, 2, 3, &err));
-        br_function_free(&f);
-        double modes[24], sum = 0;
-        const struct br_projection_rest rest = br_projection_apply(p, 3, modes);
-        for (size_t m = 0; m < 3 * kept; m++)
-            sum += modes[m] * modes[m];
-        const double norm = cases[i].square * expm1(4) / 2;
-        CLOSE(sum + rest.rest, norm, 1e-12 * norm);
-        assert_true(rest.rest > 0 && rest.tail < 1e-20 * norm);
-        /* the mean of the first element */
-        CLOSE(modes[0], sqrt(cases[i].square / (2.0 / 3)) * expm1(2.0 / 3), 1e-12);
-        br_projection_free(p);
-    }
+    static const size_t mesh[] = {5, 3};
+    static const double factor[] = {9, 6, 6}; /* of exp(x) and all its derivatives */
     struct br_error err = {0};
-    struct br_projection *p;
-    const struct br_projected many = {{0, 0}, 9};
-    REFUSED(br_projection_create(&p, NULL, &many, 1, 1, &err), BR_BAD_INPUT,
-            "9 modes are to be kept, expected at most 8");
-    br_projection_free(NULL);
+    struct br_scene scene = br_test_bare();
+    scene.length = 2;
+    scene.duration = 6;
+    scene.axial.solution = scene.bending.solution = (char[]){"exp(x)*t^2"};
+    scene.axial.given = scene.bending.given = br_test_function(scene.axial.solution);
+    const struct br_judge_request request = {
+        .scene = &scene, .axial_degree = 2, .levels = 10, .mesh_count = 2, .mesh = mesh};
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_TIP; measure++) {
+            void *judge;
+            double modes[3 * BR_MOST_MODES], sum = 0;
+            struct br_view view = {.values = modes};
+            const struct br_sample_at at = {(enum br_field_kind)kind, (enum br_measure)measure, 1};
+            MUST(br_judge_mms.create(&judge, &request, &err));
+            MUST(br_judge_mms.advance(judge, at.kind, 5, &err));
+            br_judge_mms.sample(judge, &at, &view);
+            for (size_t m = 0; m < 3 * view.modes; m++)
+                sum += modes[m] * modes[m];
+            const double norm = factor[measure] * factor[measure] * expm1(4) / 2;
+            CLOSE(sum + view.rest, norm, 1e-12 * norm);
+            CLOSE(modes[0], factor[measure] * sqrt(1.5) * expm1(2.0 / 3), 1e-12);
+            assert_true(view.rest > 0);
+            AT_MOST(br_judge_mms.report(judge).own_error[kind][measure], 1e-10 * sqrt(norm));
+            br_judge_mms.free(judge);
+        }
+    br_function_free(&scene.axial.given);
 }
 
 static struct br_study study_of(const struct br_scene *scene, const size_t *n, const size_t *steps)
