@@ -49,7 +49,8 @@ static inline void pull_back(size_t d, const long double *p, long double *state,
 /* Entry (a, b) of the element's mass over rho h. */
 static long double mass_entry(size_t d, size_t a, size_t b)
 {
-    return d == 1 ? br_rod_mass[a][b] / 6.0L : br_beam_mass[a][b] / 420.0L;
+    const struct br_element *e = br_element_of(d == 1 ? BR_AXIAL : BR_BENDING, 1);
+    return (long double)e->entry[BR_MASS][a][b] / e->over[BR_MASS];
 }
 
 /* D of strain c, which the stiffness multiplies, 1/m or 1/m^3. */
