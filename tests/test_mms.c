@@ -229,6 +229,31 @@ TEST(test_threads)
     br_scene_clear(&scene);
 }
 
+/* Coulomb's bound takes the axial tip value, which is right to O(h^2) only: on fine meshes the
+ * bending's order falls to 2; with Tresca's it stays 4. Seen against a run with the same steps, so
+ * that there is no time error at all. What other orders the scheme has is seen by `check --all`. */
+TEST(test_coulomb_limit)
+{
+    static const struct {
+        const char *scene;
+        double order;
+    } rows[] = {{"mms_opening", 2}, {"mms_stick", 4}};
+    static const size_t n[] = {96, 128}, steps = 1000;
+    for (size_t i = 0; i < 2 && !br_test_quick(); i++) {
+        struct br_error err = {0};
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        struct br_study s = br_test_study(&scene, &br_judge_fine, 2, n, 1, &steps);
+        s.method = s.reference_method = br_test_method(NULL, "implicit", NULL);
+        s.reference = (struct br_resolution){768, steps};
+        MUST(br_study_run(&s, 1, 2, NULL, &err));
+        CLOSE(log(s.cell[0].error[BR_PART_BENDING] / s.cell[1].error[BR_PART_BENDING]) /
+                  log(4.0 / 3),
+              rows[i].order, 0.1);
+        br_study_clear(&s);
+        br_scene_clear(&scene);
+    }
+}
+
 /* ---- out of memory ---- */
 
 static enum br_status attempt(const void *text, struct br_error *err)
