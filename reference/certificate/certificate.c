@@ -519,12 +519,10 @@ static bool finite_field(const struct br_step *s, enum br_field_kind kind)
     return good;
 }
 
-static const struct br_certificate not_finite = {NAN, NAN, NAN, NAN, NAN};
-
 struct br_certificate br_certify_field(const struct br_step *s, enum br_field_kind kind)
 {
     if (!finite_field(s, kind))
-        return not_finite;
+        return (struct br_certificate){NAN, NAN, NAN, NAN, NAN};
     if (kind == BR_AXIAL)
         return (struct br_certificate){
             .axial_residual = residual_of(s, BR_AXIAL),
@@ -536,14 +534,6 @@ struct br_certificate br_certify_field(const struct br_step *s, enum br_field_ki
         .update = update_error(s, BR_BENDING),
         .friction = friction_error(s),
     };
-}
-
-struct br_certificate br_certify(const struct br_step *s)
-{
-    struct br_certificate certificate = br_certify_field(s, BR_AXIAL);
-    const struct br_certificate bending = br_certify_field(s, BR_BENDING);
-    br_certificate_merge(&certificate, &bending);
-    return finite_field(s, BR_AXIAL) && finite_field(s, BR_BENDING) ? certificate : not_finite;
 }
 
 /* ---- verdicts ---- */
