@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Manufactured solutions as scenes: every refusal, the data that a solution determines
- * against closed forms, and the judge. */
+/* Manufactured solutions as scenes: every refusal, the data that a solution determines against
+ * closed forms, derivatives against those by hand, what is checked of a solution, and the judge. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -68,13 +68,6 @@ TEST(test_refusals)
         br_test_scene_refused(refusals[i].text, false, refusals[i].message);
 }
 
-static double at(const struct br_function *f, double x, double t)
-{
-    double value;
-    br_function_evaluate(f, 1, &x, t, &value);
-    return value;
-}
-
 static struct br_scene scene_of(const char *text)
 {
     struct br_error err = {0};
@@ -95,14 +88,16 @@ TEST(test_data)
     CLOSE(br_load_value(&s.bending.load, x, t), 3 * pow(x, 4) * 2 + 24 * (11 * g + 13 * g_t),
           1e-11);
     const double press = 4 * g - 0.1;
-    CLOSE(at(&s.axial.tip_force, 0, t), 2 * tip * (5 * g + 7 * g_t) + 17 * press, 1e-11);
-    CLOSE(at(&s.bending.tip_force, 0, t), 19 * press - 24 * tip * (11 * g + 13 * g_t), 1e-11);
-    CLOSE(at(&s.bending.tip_moment, 0, t), 12 * tip * tip * (11 * g + 13 * g_t), 1e-11);
-    CLOSE(at(&s.axial.velocity, x, 9), x * x, 1e-15);
-    CLOSE(at(&s.bending.velocity, x, 9), pow(x, 4), 1e-15);
-    CLOSE(at(&s.bending.velocity_slope, x, 9), 4 * pow(x, 3), 1e-14);
+    CLOSE(br_function_at(&s.axial.tip_force, 0, t), 2 * tip * (5 * g + 7 * g_t) + 17 * press,
+          1e-11);
+    CLOSE(br_function_at(&s.bending.tip_force, 0, t), 19 * press - 24 * tip * (11 * g + 13 * g_t),
+          1e-11);
+    CLOSE(br_function_at(&s.bending.tip_moment, 0, t), 12 * tip * tip * (11 * g + 13 * g_t), 1e-11);
+    CLOSE(br_function_at(&s.axial.velocity, x, 9), x * x, 1e-15);
+    CLOSE(br_function_at(&s.bending.velocity, x, 9), pow(x, 4), 1e-15);
+    CLOSE(br_function_at(&s.bending.velocity_slope, x, 9), 4 * pow(x, 3), 1e-14);
     assert_true(!s.axial.tip_force.uses_x && !s.axial.velocity.uses_t && s.axial.velocity.uses_x);
-    CLOSE(at(&s.axial.displacement, x, 9), 0, 0);
+    CLOSE(br_function_at(&s.axial.displacement, x, 9), 0, 0);
     br_scene_clear(&s);
 }
 
@@ -111,20 +106,137 @@ TEST(test_friction_data)
 {
     struct br_scene s = scene_of(TOP BENDING "  solution: x^4*(1 - (t - 0.5)^2*step(t - 0.5)) [m]\n"
                                              "  stick_force: 10*t [N]\n" TRESCA);
-    CLOSE(at(&s.bending.tip_force, 0, 0.25), 2.5 - 24 * 2 * 11, 1e-11);
-    CLOSE(at(&s.bending.tip_force, 0, 0.75), -19 - 24 * 2 * (11 * (1 - 0.0625) - 13 * 0.5), 1e-11);
-    CLOSE(at(&s.bending.displacement_slope, 0.5, 0), 0.5, 1e-15);
+    CLOSE(br_function_at(&s.bending.tip_force, 0, 0.25), 2.5 - 24 * 2 * 11, 1e-11);
+    CLOSE(br_function_at(&s.bending.tip_force, 0, 0.75),
+          -19 - 24 * 2 * (11 * (1 - 0.0625) - 13 * 0.5), 1e-11);
+    CLOSE(br_function_at(&s.bending.displacement_slope, 0.5, 0), 0.5, 1e-15);
     br_scene_clear(&s);
     s = scene_of(TOP AXIAL "  solution: -x [m]\n" BENDING W CONTACT COULOMB);
-    CLOSE(at(&s.axial.tip_force, 0, 0.5), -5, 1e-15);
-    CLOSE(at(&s.bending.tip_force, 0, 0.5), -24 * 2 * (11 * 0.25 + 13), 1e-11);
+    CLOSE(br_function_at(&s.axial.tip_force, 0, 0.5), -5, 1e-15);
+    CLOSE(br_function_at(&s.bending.tip_force, 0, 0.5), -24 * 2 * (11 * 0.25 + 13), 1e-11);
     br_scene_clear(&s);
     /* without density an initial velocity means nothing */
     s = scene_of("title: t\nlength: 1 m\nduration: 1 s\ndensity: 0 kg/m\n" AXIAL
                  "  solution: x*(1 + t) [m]\n");
     assert_true(br_function_is_zero(&s.axial.velocity));
-    CLOSE(at(&s.axial.displacement, 0.5, 0), 0.5, 0);
+    CLOSE(br_function_at(&s.axial.displacement, 0.5, 0), 0.5, 0);
     br_scene_clear(&s);
+}
+
+/* ---- derivatives ---- */
+
+static const struct {
+    const char *text;
+    struct br_partial order;
+    double x, t, expected;
+    bool uses_x, uses_t;
+} derivatives[] = {
+    {"x^3*t^2", {0, 0}, 2, 3, 72, true, true},
+    {"x^3*t^2", {2, 1}, 2, 3, 72, true, true},
+    {"x^3*t^2", {3, 2}, 2, 3, 12, false, false},
+    {"sin(2*x)*exp(-t)",
+     {4, 1},
+     0.3,
+     0.7,
+     -16 * 0.5646424733950354 * 0.4965853037914095,
+     true,
+     true},
+    {"sin(2*x)*exp(-t) + 0",
+     {4, 1},
+     0.3,
+     0.7,
+     -16 * 0.5646424733950354 * 0.4965853037914095,
+     true,
+     true}, /* no product */
+    {"cos(x*t)", {1, 1}, 0.5, 2, -0.8414709848078965 - 0.5403023058681398, true, true},
+    {"log(1 + x)", {1, 0}, 1, 0, 0.5, true, false},
+    {"2^t", {0, 1}, 0, 3, 8 * 0.6931471805599453, false, true},
+    {"-x^2*2e-3/4", {1, 0}, 3, 0, -3e-3, true, false},
+    {"pi*x", {1, 0}, 5, 5, M_PI, false, false},
+    {"3", {1, 0}, 5, 5, 0, false, false},
+    /* at kinks: from the right */
+    {"abs(t - 0.5)", {0, 1}, 0, 0.5, 1, false, true},
+    {"abs(t - 0.5)", {0, 1}, 0, 0.25, -1, false, true},
+    {"x*abs(t - 0.5)^3", {0, 2}, 2, 0.5, 0, true, true},
+    {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.5, 2, false, true},
+    {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.4999, 0, false, true},
+    {"(x - 0.5)^2*step(x - 0.5) + t", {2, 0}, 0.5, 0.5, 2, true, false},
+    {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2, true, true},
+};
+
+TEST(test_derivatives)
+{
+    for (size_t i = 0; i < sizeof derivatives / sizeof *derivatives; i++) {
+        struct br_error err = {0};
+        struct br_function f = br_test_function(derivatives[i].text), d;
+        MUST(br_function_derivative(&f, derivatives[i].order, &d, &err));
+        CLOSE(br_function_at(&d, derivatives[i].x, derivatives[i].t), derivatives[i].expected,
+              1e-9 + 1e-14 * fabs(derivatives[i].expected));
+        assert_true(derivatives[i].uses_x == d.uses_x && derivatives[i].uses_t == d.uses_t);
+        br_function_free(&d);
+        br_function_free(&f);
+    }
+}
+
+/* ---- the check of a solution ---- */
+
+static const struct {
+    enum br_field_kind kind;
+    const char *text, *message; /* NULL: accepted */
+} solutions[] = {
+    {BR_AXIAL, "sin(x)*exp(t)", NULL},
+    {BR_AXIAL, "x*abs(t - 0.3)*(t - 0.3)", NULL},                        /* u_tt jumps */
+    {BR_BENDING, "x^2*(t - 0.4)^2*step(t - 0.4)", NULL},                 /* at no sample point */
+    {BR_AXIAL, "x*(0.5 + (x + t - 1)^2*step(x + t - 1))", "u_xx jumps"}, /* u_xx jumps */
+    {BR_AXIAL, "1 + x", "u is 1 at x = 0, t = 0 s, expected 0 where the beam is clamped"},
+    {BR_AXIAL, "x + (t - 0.5)^2*step(t - 0.5)", "u is "},
+    {BR_BENDING, "1 + x^2", "w is 1 at x = 0, t = 0 s"},
+    {BR_BENDING, "sin(x)", "w_x is 1 at x = 0, t = 0 s, expected 0"},
+    {BR_AXIAL, "x/(t - 0.5)", "u: "},
+    {BR_AXIAL, "x*log(t)", "u: "},
+    {BR_AXIAL, "x*sqrt(t)", "u_t: "},
+    {BR_AXIAL, "x*abs(t - 0.3)^1.5", "u_tt: "},
+    {BR_AXIAL, "x*abs(t - 0.5)^1.5", "u_tt: "},
+    {BR_AXIAL, "x*t^1.5", "u_tt: "},
+    {BR_AXIAL, "x^1.5", "u_xx: "},
+    {BR_AXIAL, "x*(1 + exp(-100*t))", NULL},
+    {BR_AXIAL, "x/(t - 0.3)", "u: "},
+    /* jumps, whose deltas the derivatives leave out */
+    {BR_AXIAL, "x*step(t - 0.3)",
+     "u jumps by 0.125 at t = 0.3 s, x = 0.125 m, expected a solution whose derivatives"},
+    {BR_AXIAL, "x*abs(t - 0.3)", "u_t jumps by 0.25 at t = 0.3 s"},
+    {BR_AXIAL, "x*step(x - 0.3)", "u jumps"},
+    {BR_AXIAL, "x*abs(x - 0.3)", "u_x jumps"},
+    {BR_BENDING, "x^2*step(t - 0.3)", "w jumps"},
+    {BR_BENDING, "x^2*abs(t - 0.3)", "w_t jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)", "w_x jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)*(x - 0.3)", "w_xx jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)^3", "w_xxx jumps"},
+    {BR_BENDING, "x^2*abs(x - 0.3)^3*(x - 0.3)", NULL},
+    {BR_AXIAL, "asinh(x/2)*t", NULL},
+    {BR_AXIAL, "x*asinh(t/2)", NULL},
+    {BR_AXIAL, "x > 0.3 ? x : x", NULL},
+    {BR_AXIAL, "x > 0.3 ? x : 0", "u jumps"},
+    {BR_AXIAL, "x*min(t, 0.3)", "u_t jumps"},
+    {BR_BENDING, "ln(1 + x^2)*2^3^t", NULL},
+    /* between all samples */
+    {BR_AXIAL, "x*(1 + step(t - 0.3001) - step(t - 0.3002))", "u jumps by "},
+    {BR_AXIAL, "x*(1 + (t > 0.3001 && t < 0.3002 && x > 0.7001 && x < 0.7002))", "u jumps by "},
+    {BR_AXIAL, "x + 1e-9*x/(t - 0.300001)", "u: "},
+};
+
+TEST(test_given)
+{
+    for (size_t i = 0; i < sizeof solutions / sizeof *solutions; i++) {
+        struct br_error err = {0};
+        struct br_function f = br_test_function(solutions[i].text);
+        const struct br_given s = {&f, solutions[i].kind, 1, 1};
+        if (solutions[i].message)
+            REFUSED(br_given_check(&s, &err), BR_BAD_INPUT, solutions[i].message);
+        else
+            MUST(br_given_check(&s, &err));
+        br_function_free(&f);
+    }
 }
 
 /* ---- the judge ---- */
