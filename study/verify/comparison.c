@@ -42,10 +42,10 @@ static enum br_severity grade(double change, const double steps[BR_SERIOUS])
     return (enum br_severity)severity;
 }
 
-/* The factor between two positive numbers, >= 1; 1 where both are missing. */
+/* The factor between two numbers that are not negative, >= 1; 1 where both are missing or 0. */
 static double factor(double before, double now)
 {
-    if (isnan(before) && isnan(now))
+    if ((isnan(before) && isnan(now)) || before == now)
         return 1;
     return now > before ? now / before : before / now;
 }
