@@ -76,22 +76,6 @@ TEST(test_sound)
     made_clear(&m);
 }
 
-/* Expectations that do not hold are told so. */
-TEST(test_wrong_expectation)
-{
-    struct made_check m;
-    made_create(&m);
-    m.verify.study[BR_VERIFY_SPACE].expectation[0].order = 3;
-    m.verify.study[BR_VERIFY_TIME].expectation[0].ceiling = 1e-12;
-    made_run(&m, 1);
-    assert_int_equal(case_of(&m, BR_VERIFY_SPACE)->verdict, BR_FAIL);
-    assert_int_equal(case_of(&m, BR_VERIFY_TIME)->verdict, BR_FAIL);
-    assert_int_equal(case_of(&m, BR_VERIFY_JOINT)->verdict, BR_PASS);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_FAIL), 2);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_PASS), 1);
-    made_clear(&m);
-}
-
 /* A march that breaks down is a verdict, not an end of the check. */
 TEST(test_failing_march)
 {
@@ -159,18 +143,6 @@ TEST(test_unverifiable)
     MUST(br_check_run(&m.check, 1, 1, NULL, &err));
     assert_non_null(strstr(m.check.failure.message,
                            "made.yaml:22: verify: space: the scene cannot be verified"));
-    made_clear(&m);
-}
-
-/* A rod at rest has errors of 0: that is no order. */
-TEST(test_nothing_moves)
-{
-    struct made_check m;
-    made_create(&m);
-    br_load_clear(&m.scene.axial.load);
-    m.scene.axial.load = (struct br_load){0};
-    made_run(&m, 1);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_PASS), 0);
     made_clear(&m);
 }
 

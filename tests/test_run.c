@@ -168,20 +168,6 @@ TEST(test_events)
     CLOSE(w.friction_force.value, 5, 0);
 }
 
-/* Example 3 lets go at 0.8 s: within a step. */
-TEST(test_release)
-{
-    struct br_scene scene = br_test_bundled("example3");
-    const struct br_run_report p = run(&scene, 20, 10000, NULL);
-    assert_int_equal(p.watch.count[BR_TIP_SLIPPED], 1);
-    assert_int_equal(p.watch.events, 1);
-    CLOSE(p.watch.event[0].time, 0.8, 1.01 * p.k);
-    CLOSE(p.work.friction, p.watch.friction_work, 1e-12 * p.work.friction);
-    assert_int_equal(p.bad_steps, 0);
-    assert_int_equal(p.watch.event[0].direction, -1);
-    br_scene_clear(&scene);
-}
-
 /* ---- the history ---- */
 
 static void check_rows_and_looks(int degree)
