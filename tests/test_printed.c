@@ -38,85 +38,72 @@ TEST(test_good)
     br_printed_clear(&p);
 }
 
+static void refuse(const char *text, const char *message)
+{
+    struct br_error err;
+    struct br_printed p;
+    REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, message);
+    br_printed_clear(&p);
+}
+
 TEST(test_bad_lines)
 {
-    static const char *const lines[] = {
-        "",
-        "100",
-        "100,0.01",
-        "100,0.01,",
-        "100;0.01;1e-3",
-        "a,0.01,1e-3",
-        "100,b,1e-3",
-        "100,0.01,c",
-        "0,0.01,1e-3",
-        "100,0,1e-3",
-        "100,-1,1e-3",
-        "100,nan,1e-3",
-        "100,inf,1e-3",
-        "100,0.01,0",
-        "100,0.01,-1e-3",
-        "100,0.01,nan",
-        "100,0.01,inf",
-        "100,0.01,1e-3,",
-        "1.5,0.01,1e-3",
-        "100,0.01,1e-3 x",
-        "n,k,error",
-        "100,0.01,1e999",
-        "-100,0.01,1e-3",
-    };
+    static const char *const lines[] = {"",
+                                        "100",
+                                        "100,0.01",
+                                        "100,0.01,",
+                                        "100;0.01;1e-3",
+                                        "a,0.01,1e-3",
+                                        "100,b,1e-3",
+                                        "100,0.01,c",
+                                        "0,0.01,1e-3",
+                                        "100,0,1e-3",
+                                        "100,-1,1e-3",
+                                        "100,nan,1e-3",
+                                        "100,inf,1e-3",
+                                        "100,0.01,0",
+                                        "100,0.01,-1e-3",
+                                        "100,0.01,nan",
+                                        "100,0.01,inf",
+                                        "100,0.01,1e-3,",
+                                        "1.5,0.01,1e-3",
+                                        "100,0.01,1e-3 x",
+                                        "n,k,error",
+                                        "100,0.01,1e999",
+                                        "-100,0.01,1e-3"};
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
         char text[128], where[128];
-        struct br_error err;
-        struct br_printed p;
         snprintf(text, sizeof text, "n,k,error\n100,0.01,5e-3\n%s\n200,0.01,5e-3\n", lines[i]);
         snprintf(where, sizeof where, "%s:3: found '%s', expected n,k,error",
                  br_test_scene_file(text), lines[i]);
-        REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, where);
-        br_printed_clear(&p);
+        refuse(text, where);
     }
 }
 
 TEST(test_bad_files)
 {
-    static const char *const headings[][2] = {
-        {"100,0.01,5e-3\n", ":1: found '100,0.01,5e-3'"},
-        {"n,h,error\n", ":1: found 'n,h,error'"},
-        {"k,n,error\n", ":1: found 'k,n,error'"},
-        {"\nn,k,error\n", ":1: found ''"},
-        {"", ":1: found nothing"},
-    };
     struct br_error err = {0};
     struct br_printed p;
-    for (size_t i = 0; i < sizeof headings / sizeof *headings; i++) {
-        REFUSED(read_text(headings[i][0], &p, &err), BR_BAD_INPUT, headings[i][1]);
-        br_printed_clear(&p);
-    }
-    REFUSED(br_printed_read("/no/such/file", &p, &err), BR_BAD_INPUT, "/no/such/file: No such");
-    br_printed_clear(&p);
-    REFUSED(br_printed_read("/proc", &p, &err), BR_IO, "/proc: "); /* a folder */
-    br_printed_clear(&p);
-
-    char *many = malloc(100000);
+    char line[1024] = "n,k,error\n100,0.01,0.", *many = malloc(100000);
     assert_non_null(many);
+    refuse("100,0.01,5e-3\n", ":1: found '100,0.01,5e-3'");
+    refuse("n,h,error\n", ":1: found 'n,h,error'");
+    refuse("k,n,error\n", ":1: found 'k,n,error'");
+    refuse("\nn,k,error\n", ":1: found ''");
+    refuse("", ":1: found nothing");
+    /* a line longer than the buffer must not be cut into two that look right */
+    const size_t start = strlen(line);
+    memset(line + start, '1', 10 + 255 - start); /* the buffer is full here: */
+    strcpy(line + 10 + 255, "7,0.01,1e-3\n");    /* one line all the same */
+    refuse(line, ":2: ");
     size_t used = (size_t)sprintf(many, "n,k,error\n");
     for (int i = 1; i <= 4097; i++)
         used += (size_t)sprintf(many + used, "%d,0.01,1e-3\n", i);
-    REFUSED(read_text(many, &p, &err), BR_BAD_INPUT, "more than 4096 cells");
-    br_printed_clear(&p);
+    refuse(many, "more than 4096 cells");
     free(many);
-}
-
-/* A line longer than the buffer must not be cut into two that look right. */
-TEST(test_long_line)
-{
-    struct br_error err = {0};
-    struct br_printed p;
-    char text[1024] = "n,k,error\n100,0.01,0.";
-    const size_t start = strlen(text);
-    memset(text + start, '1', 10 + 255 - start); /* the buffer is full here: */
-    strcpy(text + 10 + 255, "7,0.01,1e-3\n");    /* one line all the same */
-    REFUSED(read_text(text, &p, &err), BR_BAD_INPUT, ":2: ");
+    REFUSED(br_printed_read("/no/such/file", &p, &err), BR_BAD_INPUT, "/no/such/file: No such");
+    br_printed_clear(&p);
+    REFUSED(br_printed_read("/proc", &p, &err), BR_IO, "/proc: "); /* a folder */
     br_printed_clear(&p);
 }
 
