@@ -125,54 +125,30 @@ TEST(test_friction_data)
 
 /* ---- derivatives ---- */
 
-static const struct {
-    const char *text;
-    struct br_partial order;
-    double x, t, expected;
-    bool uses_x, uses_t;
-} derivatives[] = {
-    {"x^3*t^2", {0, 0}, 2, 3, 72, true, true},
-    {"x^3*t^2", {2, 1}, 2, 3, 72, true, true},
-    {"x^3*t^2", {3, 2}, 2, 3, 12, false, false},
-    {"sin(2*x)*exp(-t)",
-     {4, 1},
-     0.3,
-     0.7,
-     -16 * 0.5646424733950354 * 0.4965853037914095,
-     true,
-     true},
-    {"sin(2*x)*exp(-t) + 0",
-     {4, 1},
-     0.3,
-     0.7,
-     -16 * 0.5646424733950354 * 0.4965853037914095,
-     true,
-     true}, /* no product */
-    {"cos(x*t)", {1, 1}, 0.5, 2, -0.8414709848078965 - 0.5403023058681398, true, true},
-    {"log(1 + x)", {1, 0}, 1, 0, 0.5, true, false},
-    {"2^t", {0, 1}, 0, 3, 8 * 0.6931471805599453, false, true},
-    {"-x^2*2e-3/4", {1, 0}, 3, 0, -3e-3, true, false},
-    {"pi*x", {1, 0}, 5, 5, M_PI, false, false},
-    {"3", {1, 0}, 5, 5, 0, false, false},
-    /* at kinks: from the right */
-    {"abs(t - 0.5)", {0, 1}, 0, 0.5, 1, false, true},
-    {"abs(t - 0.5)", {0, 1}, 0, 0.25, -1, false, true},
-    {"x*abs(t - 0.5)^3", {0, 2}, 2, 0.5, 0, true, true},
-    {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.5, 2, false, true},
-    {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.4999, 0, false, true},
-    {"(x - 0.5)^2*step(x - 0.5) + t", {2, 0}, 0.5, 0.5, 2, true, false},
-    {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2, true, true},
-};
-
+/* Of higher orders, and at kinks: from the right. */
 TEST(test_derivatives)
 {
-    for (size_t i = 0; i < sizeof derivatives / sizeof *derivatives; i++) {
+    static const struct {
+        const char *text;
+        struct br_partial order;
+        double x, t, expected;
+    } rows[] = {
+        {"x^3*t^2", {2, 1}, 2, 3, 72},
+        {"x^3*t^2", {3, 2}, 2, 3, 12},
+        {"sin(2*x)*exp(-t)", {4, 1}, 0.3, 0.7, -16 * 0.5646424733950354 * 0.4965853037914095},
+        {"abs(t - 0.5)", {0, 1}, 0, 0.5, 1},
+        {"abs(t - 0.5)", {0, 1}, 0, 0.25, -1},
+        {"x*abs(t - 0.5)^3", {0, 2}, 2, 0.5, 0},
+        {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.5, 2},
+        {"(t - 0.5)^2*step(t - 0.5)", {0, 2}, 0, 0.4999, 0},
+        {"(x - 0.5)^2*step(x - 0.5) + t", {2, 0}, 0.5, 0.5, 2},
+        {"(x + t - 1)^2*step(x + t - 1)", {1, 1}, 0.5, 0.5, 2},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_function f = br_test_function(derivatives[i].text), d;
-        MUST(br_function_derivative(&f, derivatives[i].order, &d, &err));
-        CLOSE(br_function_at(&d, derivatives[i].x, derivatives[i].t), derivatives[i].expected,
-              1e-9 + 1e-14 * fabs(derivatives[i].expected));
-        assert_true(derivatives[i].uses_x == d.uses_x && derivatives[i].uses_t == d.uses_t);
+        struct br_function f = br_test_function(rows[i].text), d;
+        MUST(br_function_derivative(&f, rows[i].order, &d, &err));
+        CLOSE(br_function_at(&d, rows[i].x, rows[i].t), rows[i].expected, 1e-9);
         br_function_free(&d);
         br_function_free(&f);
     }
