@@ -281,23 +281,6 @@ TEST(test_exact)
     br_scene_clear(&scene);
 }
 
-TEST(test_judge)
-{
-    assert_ptr_equal(br_judge_find("mms"), &br_judge_mms);
-    static const char *const names[] = {"example2", "example3"}; /* both parts; bending alone */
-    static const size_t n[] = {2, 3}, steps[] = {5, 7};
-    for (size_t i = 0; i < 2; i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(names[i]);
-        struct br_study s = study_of(&scene, n, steps);
-        REFUSED(br_study_run(&s, 1, 1, NULL, &err), BR_BAD_INPUT,
-                "--reference mms needs a scene with a manufactured solution: keys 'solution' in "
-                "axial and bending");
-        br_scene_clear(&scene);
-    }
-    br_judge_mms.free(NULL);
-}
-
 /* Evaluators are made and used on several threads at once: the same bits. */
 TEST(test_threads)
 {
