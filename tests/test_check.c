@@ -114,54 +114,6 @@ TEST(test_unstable_reference)
     made_clear(&m);
 }
 
-/* Without a solution to compare with there is nothing to verify. */
-TEST(test_unverifiable)
-{
-    struct made_check m;
-    struct br_error err = {0};
-    made_create(&m);
-    m.verify.study[BR_VERIFY_JOINT].line = 33;
-    m.scene.density = m.scene.axial.viscosity = 0; /* the velocity is not determined */
-    struct made_check sound;
-    made_create(&sound);
-    struct br_check both[] = {m.check, sound.check};
-    MUST(br_check_run(both, 2, 1, NULL, &err));
-    assert_int_equal(both[0].failure.status, BR_BAD_INPUT);
-    assert_non_null(strstr(both[0].failure.message,
-                           "made.yaml:33: verify: joint: the scene cannot be verified"));
-    assert_null(both[0].cases);
-    assert_int_equal(br_check_tally(both, 2, BR_PASS), 3); /* the other one's */
-    const struct br_check *first;
-    assert_int_equal(br_check_failures(both, 2, &first), 1);
-    assert_ptr_equal(first, &both[0]);
-    br_check_clear(&both[1]);
-    made_clear(&sound);
-    m.scene.friction = (struct br_friction){BR_TRESCA, 1, 0};
-    m.scene.bending.modelled = true;
-    m.verify.study[BR_VERIFY_SPACE].method.friction = br_friction_rule_find("regularised");
-    m.verify.study[BR_VERIFY_SPACE].line = 22;
-    MUST(br_check_run(&m.check, 1, 1, NULL, &err));
-    assert_non_null(strstr(m.check.failure.message,
-                           "made.yaml:22: verify: space: the scene cannot be verified"));
-    made_clear(&m);
-}
-
-/* A path whose cells share one mesh. */
-TEST(test_one_mesh)
-{
-    struct made_check m;
-    made_create(&m);
-    struct br_verify_study *joint = &m.verify.study[BR_VERIFY_JOINT];
-    for (size_t i = 0; i < joint->count; i++)
-        joint->n[i] = 640;
-    made_run(&m, 2);
-    const struct br_case *c = case_of(&m, BR_VERIFY_JOINT);
-    if (c->verdict != BR_PASS)
-        fail_msg("%s", c->reason);
-    CLOSE(c->order.value, 1, 0.1);
-    made_clear(&m);
-}
-
 /* The same bits on 1 to 8 threads, and the second time. */
 TEST(test_threads)
 {
