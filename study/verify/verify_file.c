@@ -25,22 +25,21 @@ struct block {
 };
 
 /* The name of a key; NULL: it is none of a scene's. */
-static const char *name_of(size_t key, char name[BR_METHOD_VALUE])
+static const char *name_of(size_t key)
 {
     if (key < FIELDS)
         return key == MESHES ? "n" : "k";
     const struct br_method_field *f = &br_method_fields[key - FIELDS];
-    return f->unsaid ? NULL : br_method_field_key(f, name);
+    return f->unsaid ? NULL : br_method_field_key(f);
 }
 
 /* The keys of a study. */
 static const char *expected_study(struct block *b)
 {
-    char name[BR_METHOD_VALUE];
     b->keys[0] = '\0';
     for (size_t i = 0; i < KEYS; i++)
-        if (name_of(i, name))
-            br_append(b->keys, sizeof b->keys, "%s, ", name_of(i, name));
+        if (name_of(i))
+            br_append(b->keys, sizeof b->keys, "%s, ", name_of(i));
     return br_append(
         b->keys, sizeof b->keys,
         "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
@@ -203,9 +202,8 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
                                "found a list or a mapping, expected one line each of %s",
                                expected_study(b));
     const char *text = br_yaml_text(name);
-    char known[BR_METHOD_VALUE];
     size_t key = 0;
-    while (key < KEYS && (!name_of(key, known) || strcmp(name_of(key, known), text) != 0))
+    while (key < KEYS && (!name_of(key) || strcmp(name_of(key), text) != 0))
         key++;
     if (key == KEYS)
         return read_expectation(b, text, value);
@@ -222,12 +220,11 @@ static enum br_status read_method(struct block *b)
     struct br_method *m = &b->study->method;
     const struct br_method *const methods[] = {m};
     struct br_error inner = {0};
-    char key[BR_METHOD_VALUE];
     *m = br_method_default();
     for (size_t i = FIELDS; i < KEYS; i++)
         if (b->text[i] &&
             br_method_field_read(&br_method_fields[i - FIELDS], b->text[i], m, &inner))
-            return br_scene_pass_on(b->r, b->line[i], name_of(i, key), &inner);
+            return br_scene_pass_on(b->r, b->line[i], name_of(i), &inner);
     const char *const *text = b->text + FIELDS;
     enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, m, &inner);
     if (!status)
