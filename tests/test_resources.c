@@ -86,7 +86,7 @@ TEST(test_refused)
                                    .steps = steps,
                                    .n_count = 2,
                                    .k_count = 2};
-    MUST(br_fit_together(&study, 1, 3.1 * br_march_bytes(&o), &err));
+    MUST(br_fit_together(&study, 1, 3 * br_march_bytes(&o), &err));
     REFUSED(br_fit_together(&study, 1, 2.9 * br_march_bytes(&o), &err), BR_NO_MEMORY,
             "5 marches at once take about");
     REFUSED(br_fit_together(&study, 1, NAN, &err), BR_NO_MEMORY, "5 marches");

@@ -9,9 +9,6 @@
 /* Nodal arrays of a march beside its solvers, bytes an element. */
 static const double nodal_arrays = 80;
 
-/* What does not depend on the mesh, bytes. */
-static const double structures = 2048;
-
 static const double day = 86400, most_days = 36525; /* a century */
 
 double br_march_bytes(const struct br_planned_march *o)
@@ -26,7 +23,7 @@ double br_march_bytes(const struct br_planned_march *o)
             element += br_by_element_of(&l->bytes, &field) +
                        states * br_by_element_of(&l->state_bytes, &field);
     }
-    return element * (double)o->n + structures;
+    return element * (double)o->n;
 }
 
 double br_march_seconds(const struct br_planned_march *o)
