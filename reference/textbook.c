@@ -130,13 +130,95 @@ enum br_regime br_textbook_regime(const struct br_scene *scene, enum br_field_ki
     return force > 0 ? BR_REGIME_FORWARD : BR_REGIME_BACKWARD;
 }
 
-/* ---- element matrices ---- */
+/* ---- elements ---- */
 
-const int br_rod_mass[2][2] = {{2, 1}, {1, 2}};
-const int br_rod3_mass[3][3] = {{4, 2, -1}, {2, 16, 2}, {-1, 2, 4}};
-const int br_beam_mass[4][4] = {
-    {156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
-const int br_rod_stiffness[2][2] = {{1, -1}, {-1, 1}};
-const int br_rod3_stiffness[3][3] = {{7, -8, 1}, {-8, 16, -8}, {1, -8, 7}};
-const int br_beam_stiffness[4][4] = {
-    {12, 6, -12, 6}, {6, 4, -6, 2}, {-12, -6, 12, -6}, {6, 2, -6, 4}};
+static const struct br_element rod = {
+    .unknowns = 1,
+    .power = 1,
+    .entry = {{{2, 1}, {1, 2}}, {{1, -1}, {-1, 1}}},
+    .over = {6, 1},
+};
+
+/* Szabo and Babuska 1991: the chord and a bubble, here that of the element's second node. */
+static const struct br_element quadratic_rod = {
+    .unknowns = 2,
+    .power = 1,
+    .entry = {{{20, 0, 10, -5}, {0}, {10, 0, 20, -5}, {-5, 0, -5, 2}},
+              {{3, 0, -3, 0}, {0}, {-3, 0, 3, 0}, {0, 0, 0, 1}}},
+    .over = {60, 3},
+};
+
+static const struct br_element beam = {
+    .unknowns = 2,
+    .power = 3,
+    .entry = {{{156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}},
+              {{12, 6, -12, 6}, {6, 4, -6, 2}, {-12, -6, 12, -6}, {6, 2, -6, 4}}},
+    .over = {420, 1},
+};
+
+const struct br_element *br_element_of(enum br_field_kind kind, int axial_degree)
+{
+    return kind == BR_BENDING ? &beam : axial_degree == 2 ? &quadratic_rod : &rod;
+}
+
+/* Nodal values. A rigid motion has no elastic forces, so that of the element's first node is then
+ * taken off beforehand, exactly but for the last bits. */
+static inline void take(const struct br_element *e, enum br_element_matrix matrix, size_t size,
+                        const double *nodal, long double out[4])
+{
+    for (size_t i = 0; i < size; i++)
+        out[i] = nodal[i];
+    if (matrix == BR_MASS)
+        return;
+    const long double turned = e->power == 3 ? out[1] : 0;
+    out[size / 2] = out[size / 2] - out[0] - turned;
+    if (size == 4)
+        out[3] -= turned;
+}
+
+/* Of so many unknowns: a number, so that the loops are unrolled. Without its rigid motion the first
+ * node has no part. */
+static inline void forces(const struct br_element *e, enum br_element_matrix matrix, size_t size,
+                          const long double v[4], long double out[4])
+{
+    for (size_t i = 0; i < size; i++) {
+        out[i] = 0;
+        for (size_t j = matrix == BR_MASS ? 0 : size / 2; j < size; j++)
+            out[i] += e->entry[matrix][i][j] * v[j];
+    }
+}
+
+static inline long double product(const struct br_element *e, enum br_element_matrix matrix,
+                                  size_t size, const double *a, const double *b)
+{
+    long double v[4], w[4], force[4], sum = 0;
+    take(e, matrix, size, a, v);
+    take(e, matrix, size, b, w);
+    forces(e, matrix, size, w, force);
+    for (size_t i = matrix == BR_MASS ? 0 : size / 2; i < size; i++)
+        sum += v[i] * force[i];
+    return sum / e->over[matrix];
+}
+
+long double br_element_product(const struct br_element *e, enum br_element_matrix matrix,
+                               const double *a, const double *b)
+{
+    if (e->unknowns == 1)
+        return product(e, matrix, 2, a, b);
+    return matrix == BR_MASS ? product(e, BR_MASS, 4, a, b) : product(e, BR_STIFFNESS, 4, a, b);
+}
+
+void br_element_forces(const struct br_element *e, enum br_element_matrix matrix,
+                       long double factor, const double *nodal, long double out[4])
+{
+    long double v[4];
+    take(e, matrix, 2 * e->unknowns, nodal, v);
+    if (e->unknowns == 1)
+        forces(e, matrix, 2, v, out);
+    else if (matrix == BR_MASS)
+        forces(e, BR_MASS, 4, v, out);
+    else
+        forces(e, BR_STIFFNESS, 4, v, out);
+    for (size_t i = 0; i < 2 * e->unknowns; i++)
+        out[i] *= factor;
+}

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes and element matrices as the literature prints them, written down apart from the
- * solver, for all who judge it. */
+/* Time schemes, laws and element matrices as the literature prints them, written down apart from
+ * the solver, for all who judge it. */
 #ifndef BR_REFERENCE_TEXTBOOK_H
 #define BR_REFERENCE_TEXTBOOK_H
 
@@ -27,13 +27,28 @@ const struct br_textbook *br_textbook_step(const char *scheme, size_t since);
 enum br_regime br_textbook_regime(const struct br_scene *scene, enum br_field_kind kind,
                                   long double force, long double bound);
 
-/* Element matrices. The unknowns are u at the nodes of a rod, from begin to end, and (w, h w_x) at
- * both of a beam. */
-extern const int br_rod_mass[2][2];       /* over rho h / 6 */
-extern const int br_rod3_mass[3][3];      /* of three nodes, over rho h / 30 */
-extern const int br_beam_mass[4][4];      /* over rho h / 420 */
-extern const int br_rod_stiffness[2][2];  /* over 1 / h */
-extern const int br_rod3_stiffness[3][3]; /* over 1 / (3 h) */
-extern const int br_beam_stiffness[4][4]; /* over 1 / h^3 */
+/* ---- elements ---- */
+
+enum br_element_matrix { BR_MASS, BR_STIFFNESS };
+
+/* An element's matrices in the unknowns of solver/field.h: u at both nodes of a rod, (u, b) of a
+ * quadratic one, (w, h w_x) of a beam. */
+struct br_element {
+    size_t unknowns;    /* of a node */
+    int power;          /* of h */
+    double entry[2][4][4]; /* by br_element_matrix; entry / over times rho h or a / h^power */
+    int over[2];
+};
+
+const struct br_element *br_element_of(enum br_field_kind kind, int axial_degree);
+
+/* factor times the entries, without what they are over, times nodal values: forces on the element's
+ * nodes (out, 2 * unknowns values). */
+void br_element_forces(const struct br_element *element, enum br_element_matrix matrix,
+                       long double factor, const double *nodal, long double out[4]);
+
+/* a'M b over rho h, or a'K b over a / h^power. */
+long double br_element_product(const struct br_element *element, enum br_element_matrix matrix,
+                               const double *a, const double *b);
 
 #endif

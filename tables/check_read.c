@@ -33,27 +33,34 @@ static bool read_word(const json_t *o, char *word, size_t size)
     return true;
 }
 
-static bool read_case(const json_t *o, const char *scene_name, struct br_old_case *c)
+static int index_of(const json_t *word, const char *const *names, int count)
+{
+    int i = 0;
+    while (i < count && (!json_is_string(word) || strcmp(json_string_value(word), names[i]) != 0))
+        i++;
+    return i;
+}
+
+static bool read_case(const json_t *o, struct br_case *c)
 {
     const json_t *order = json_object_get(o, "order");
-    const char *word = json_string_value(json_object_get(o, "verdict"));
-    int verdict = BR_PASS;
+    const int kind = index_of(json_object_get(o, "study"), br_verify_names, BR_VERIFY_KINDS);
+    const int verdict =
+        index_of(json_object_get(o, "verdict"), br_verdict_names, BR_INCONCLUSIVE + 1);
+    struct br_expectation *e = &c->expected;
     if (json_is_object(order)) /* of format 1 */
         order = json_object_get(order, "value");
-    strcpy(c->scene, scene_name);
-    while (verdict <= BR_INCONCLUSIVE && (!word || strcmp(word, br_verdict_names[verdict]) != 0))
-        verdict++;
+    c->kind = (enum br_verify_kind)kind;
     c->verdict = (enum br_verdict)verdict;
-    return verdict <= BR_INCONCLUSIVE &&
-           read_word(json_object_get(o, "study"), c->study, sizeof c->study) &&
-           read_word(json_object_get(o, "norm"), c->norm, sizeof c->norm) &&
-           read_word(json_object_get(o, "part"), c->part, sizeof c->part) &&
-           read_number(order, -INFINITY, &c->order) &&
+    c->measure = json_string_value(json_object_get(o, "norm"));
+    c->part = json_string_value(json_object_get(o, "part"));
+    return kind < BR_VERIFY_KINDS && verdict <= BR_INCONCLUSIVE && c->measure && c->part &&
+           read_number(order, -INFINITY, &c->order.value) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
-           read_number(json_object_get(o, "expected"), 0, &c->expected) &&
-           read_number(json_object_get(o, "tolerance"), 0, &c->tolerance) &&
-           read_number(json_object_get(o, "floor"), 0, &c->floor) &&
-           read_number(json_object_get(o, "ceiling"), 0, &c->ceiling);
+           read_number(json_object_get(o, "expected"), 0, &e->order) &&
+           read_number(json_object_get(o, "tolerance"), 0, &e->tolerance) &&
+           read_number(json_object_get(o, "floor"), 0, &e->floor) &&
+           read_number(json_object_get(o, "ceiling"), 0, &e->ceiling);
 }
 
 /* A value of a method as br_method_field_text has it. */
@@ -99,29 +106,34 @@ static enum br_status read_scene(const char *path, const json_t *o, const json_t
                                  const json_t *cases, bool first, struct br_old_check *old,
                                  struct br_error *err)
 {
-    struct br_old_cost *cost = &old->costs[old->scenes++];
+    const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
+    struct br_check *check = &old->check[old->count];
     bool good = !first || json_is_array(cases);
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
-        good &= read_method(json_object_get(methods, br_verify_names[kind]), &cost->method[kind]);
-    if (!good || !read_word(json_object_get(o, "scene"), cost->scene, sizeof cost->scene) ||
-        !read_number(json_object_get(o, "seconds"), 0, &cost->seconds) ||
-        !read_number(json_object_get(o, "element_steps"), 0, &cost->element_steps))
+        good &= read_method(json_object_get(methods, br_verify_names[kind]),
+                            &old->method[old->count][kind]);
+    check->name = json_string_value(json_object_get(o, "scene"));
+    if (!good || !check->name || !read_number(json_object_get(o, "seconds"), 0, &check->seconds) ||
+        !read_number(json_object_get(o, "element_steps"), 0, &check->element_steps))
         return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
-    const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
-    if (json_is_string(problem) && !read_word(problem, cost->problem, sizeof cost->problem))
+    if (json_is_string(problem) && !read_word(problem, check->problem, sizeof check->problem))
         return refuse(path, "problem", "a hash", err);
-    for (size_t i = 0; i + 1 < old->scenes; i++)
-        if (strcmp(old->costs[i].scene, cost->scene) == 0)
-            return refuse(path, cost->scene, "each scene once", err);
+    for (size_t i = 0; i < old->count; i++)
+        if (strcmp(old->check[i].name, check->name) == 0)
+            return refuse(path, check->name, "each scene once", err);
+    old->count++;
+    check->cases = br_allocate(json_array_size(cases) + 1, sizeof *check->cases);
+    if (!check->cases)
+        return br_no_memory(err, "the earlier check");
     for (size_t i = 0; i < json_array_size(cases); i++) {
         const json_t *row = json_array_get(cases, i);
         if (!first && !json_equal(json_object_get(row, "scene"), json_object_get(o, "scene")))
             continue;
-        if (!read_case(row, cost->scene, &old->cases[old->count++]))
-            return refuse(path, cost->scene,
-                          "cases with a study, a norm, a part, an order, a "
-                          "constant and a verdict",
+        if (!read_case(row, &check->cases[check->count]))
+            return refuse(path, check->name,
+                          "cases with a study, a norm, a part, an order, a constant and a verdict",
                           err);
+        check->count++;
     }
     return BR_OK;
 }
@@ -141,12 +153,9 @@ static enum br_status read_document(const char *path, const json_t *root, struct
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
     enum br_status status = BR_OK;
-    size_t count = json_array_size(orders);
-    for (size_t i = 0; i < json_array_size(list); i++)
-        count += json_array_size(json_object_get(json_array_get(list, i), "cases"));
-    old->costs = br_allocate(json_array_size(list) + 1, sizeof *old->costs);
-    old->cases = br_allocate(count + 1, sizeof *old->cases);
-    if (!old->costs || !old->cases)
+    old->check = br_allocate(json_array_size(list) + 1, sizeof *old->check);
+    old->method = br_allocate(json_array_size(list) + 1, sizeof *old->method);
+    if (!old->check || !old->method)
         return br_no_memory(err, "the earlier check");
     for (size_t i = 0; i < json_array_size(list) && !status; i++) {
         const json_t *o = json_array_get(list, i), *methods = json_object_get(root, "methods");
@@ -166,12 +175,10 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
     const int file = open(path, O_RDONLY | O_CLOEXEC);
     if (file < 0)
         return br_fail(err, BR_BAD_INPUT, "%s:1: unable to open: %s", path, strerror(errno));
-    json_t *root = br_json_read(file, &problem);
+    old->json = br_json_read(file, &problem);
     close(file);
-    if (!root)
+    if (!old->json)
         return br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, problem.line > 0 ? problem.line : 1,
                        problem.text);
-    const enum br_status status = read_document(path, root, old, err);
-    json_decref(root);
-    return status;
+    return read_document(path, old->json, old, err);
 }

@@ -1,13 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks of real scenes: what is right passes, what is wrong does not, on any number of threads. */
+/* Checks of real scenes: what is right passes, what is wrong does not, on any number of threads;
+ * and what has moved since an earlier check, and how serious that is. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "made_check.h"
-#include "study/scene/file.h"
+#include "study/verify/comparison.h"
 #include "support.h"
+
+/* A small scene of its own with the default expectations, and its check. */
+struct made_check {
+    struct br_scene scene;
+    struct br_verify verify;
+    struct br_check check;
+};
+
+/* A rod that is pulled; to be cleared. It may be changed before it is checked. */
+static void made_create(struct made_check *m)
+{
+    struct br_error err = {0};
+    *m = (struct made_check){.scene = br_test_bare()};
+    m->scene.bending.modelled = false;
+    m->scene.axial.load = br_test_load("sin(x)*(1 + t)");
+    MUST(br_verify_default(&m->scene, &m->verify, &err));
+    m->verify.study[BR_VERIFY_JOINT].count = 4; /* the fifth cell costs more than all others */
+    m->check = (struct br_check){
+        .path = "made.yaml", .name = "made", .scene = &m->scene, .verify = &m->verify};
+}
+
+static void made_clear(struct made_check *m)
+{
+    br_check_clear(&m->check);
+    br_verify_clear(&m->verify);
+    br_load_clear(&m->scene.axial.load);
+}
+
+/* Runs the check, again if need be. */
+static void made_run(struct made_check *m, int threads)
+{
+    struct br_error err = {0};
+    br_check_clear(&m->check);
+    MUST(br_check_run(&m->check, 1, threads, NULL, &err));
+}
 
 static const struct br_case *case_of(const struct made_check *m, enum br_verify_kind kind)
 {
@@ -38,22 +73,6 @@ TEST(test_sound)
     assert_int_equal(joint->point[3].against.n, 0);
     assert_true(m.check.seconds > 0);
     CLOSE(m.check.element_steps, br_check_work(&m.check), 3 * br_check_work(&m.check));
-    made_clear(&m);
-}
-
-/* Expectations that do not hold are told so. */
-TEST(test_wrong_expectation)
-{
-    struct made_check m;
-    made_create(&m);
-    m.verify.study[BR_VERIFY_SPACE].expectation[0].order = 3;
-    m.verify.study[BR_VERIFY_TIME].expectation[0].ceiling = 1e-12;
-    made_run(&m, 1);
-    assert_int_equal(case_of(&m, BR_VERIFY_SPACE)->verdict, BR_FAIL);
-    assert_int_equal(case_of(&m, BR_VERIFY_TIME)->verdict, BR_FAIL);
-    assert_int_equal(case_of(&m, BR_VERIFY_JOINT)->verdict, BR_PASS);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_FAIL), 2);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_PASS), 1);
     made_clear(&m);
 }
 
@@ -95,97 +114,188 @@ TEST(test_unstable_reference)
     made_clear(&m);
 }
 
-/* Without a solution to compare with there is nothing to verify. */
-TEST(test_unverifiable)
-{
-    struct made_check m;
-    struct br_error err = {0};
-    made_create(&m);
-    m.verify.study[BR_VERIFY_JOINT].line = 33;
-    m.scene.density = m.scene.axial.viscosity = 0; /* the velocity is not determined */
-    struct made_check sound;
-    made_create(&sound);
-    struct br_check both[] = {m.check, sound.check};
-    MUST(br_check_run(both, 2, 1, NULL, &err));
-    assert_int_equal(both[0].failure.status, BR_BAD_INPUT);
-    assert_non_null(strstr(both[0].failure.message,
-                           "made.yaml:33: verify: joint: the scene cannot be verified"));
-    assert_null(both[0].cases);
-    assert_int_equal(br_check_tally(both, 2, BR_PASS), 3); /* the other one's */
-    const struct br_check *first;
-    assert_int_equal(br_check_failures(both, 2, &first), 1);
-    assert_ptr_equal(first, &both[0]);
-    br_check_clear(&both[1]);
-    made_clear(&sound);
-    m.scene.friction = (struct br_friction){BR_TRESCA, 1, 0};
-    m.scene.bending.modelled = true;
-    m.verify.study[BR_VERIFY_SPACE].method.friction = br_friction_rule_find("regularised");
-    m.verify.study[BR_VERIFY_SPACE].line = 22;
-    MUST(br_check_run(&m.check, 1, 1, NULL, &err));
-    assert_non_null(strstr(m.check.failure.message,
-                           "made.yaml:22: verify: space: the scene cannot be verified"));
-    made_clear(&m);
-}
-
-/* A rod at rest has errors of 0: that is no order. */
-TEST(test_nothing_moves)
-{
-    struct made_check m;
-    made_create(&m);
-    br_load_clear(&m.scene.axial.load);
-    m.scene.axial.load = (struct br_load){0};
-    made_run(&m, 1);
-    assert_int_equal(br_check_tally(&m.check, 1, BR_PASS), 0);
-    made_clear(&m);
-}
-
-/* A path whose cells share one mesh. */
-TEST(test_one_mesh)
-{
-    struct made_check m;
-    made_create(&m);
-    struct br_verify_study *joint = &m.verify.study[BR_VERIFY_JOINT];
-    for (size_t i = 0; i < joint->count; i++)
-        joint->n[i] = 640;
-    made_run(&m, 2);
-    const struct br_case *c = case_of(&m, BR_VERIFY_JOINT);
-    if (c->verdict != BR_PASS)
-        fail_msg("%s", c->reason);
-    CLOSE(c->order.value, 1, 0.1);
-    made_clear(&m);
-}
-
-static bool same_estimate(const struct br_estimate *a, const struct br_estimate *b)
-{
-    return memcmp(a, b, sizeof *a) == 0;
-}
-
 /* The same bits on 1 to 8 threads, and the second time. */
 TEST(test_threads)
 {
-    struct br_scene scene;
-    struct br_verify verify;
-    struct br_error err = {0};
-    char path[1024], *text;
-    MUST(br_scene_find("example2", path, sizeof path, &err));
-    MUST(br_scene_load(path, &text, &err));
-    MUST(br_scene_parse(path, text, &(struct br_scene_asked){.verify = &verify}, &scene, &err));
-    free(text);
-    struct br_check first = {.path = path, .name = scene.name, .scene = &scene, .verify = &verify};
-    MUST(br_check_run(&first, 1, 1, NULL, &err));
-    assert_true(first.count > 0);
-    assert_int_equal(br_check_tally(&first, 1, BR_PASS), first.count);
-    for (int threads = 1; threads <= (br_test_quick() ? 2 : 8); threads *= 2) {
-        struct br_check again = {
-            .path = path, .name = scene.name, .scene = &scene, .verify = &verify};
-        MUST(br_check_run(&again, 1, threads, NULL, &err));
-        for (size_t i = 0; i < first.count; i++) {
-            assert_true(same_estimate(&first.cases[i].order, &again.cases[i].order));
-            assert_int_equal(first.cases[i].verdict, again.cases[i].verdict);
+    struct made_check m;
+    struct br_estimate first[3];
+    made_create(&m);
+    for (int threads = 1; threads <= 8; threads *= 2)
+        for (size_t time = 0; time < 2; time++) {
+            made_run(&m, threads);
+            for (size_t i = 0; i < 3; i++) {
+                const struct br_case *c = &m.check.cases[i];
+                if (threads == 1 && time == 0)
+                    first[i] = c->order;
+                assert_memory_equal(&first[i], &c->order, sizeof c->order);
+                assert_int_equal(c->verdict, BR_PASS);
+            }
         }
-        br_check_clear(&again);
+    made_clear(&m);
+}
+
+/* ---- comparisons ---- */
+
+/* What the check itself would have left behind, as the earlier check of a scene of that name. */
+static struct br_old_check as_old(const struct made_check *m, const char *name)
+{
+    struct br_old_check old = {.count = 1};
+    const size_t cases = m->check.count;
+    old.check = br_allocate(1, sizeof *old.check);
+    old.method = br_allocate(1, sizeof *old.method);
+    struct br_case *copy = br_allocate(cases + 1, sizeof *copy);
+    assert_true(old.check && old.method && copy);
+    memcpy(copy, m->check.cases, cases * sizeof *copy);
+    for (size_t i = 0; i < cases; i++)
+        copy[i].point = NULL;
+    *old.check = m->check;
+    old.check->cases = copy;
+    old.check->name = name;
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
+        br_old_method_of(&m->verify.study[kind].method, &old.method[0][kind]);
+    return old;
+}
+
+/* The most serious difference. */
+static void compare(const struct made_check *m, const struct br_old_check *old, bool whole,
+                    enum br_severity expected, const char *subject)
+{
+    struct br_comparison c;
+    struct br_error err = {0};
+    MUST(br_compare(&m->check, 1, whole, old, &c, &err));
+    const enum br_severity found = c.count ? c.difference[0].severity : BR_SAME;
+    if (found != expected || (c.count && !strstr(c.difference[0].subject, subject)))
+        fail_msg("found %s of '%s', expected %s of '%s'", br_severity_names[found],
+                 c.count ? c.difference[0].subject : "", br_severity_names[expected], subject);
+    for (size_t i = 1; i < c.count; i++)
+        assert_true(c.difference[i - 1].severity >= c.difference[i].severity);
+    br_comparison_clear(&c);
+}
+
+/* What is changed of the earlier check's first case: added to, multiplied or set. The tolerance is
+ * 0.2. */
+#define OF(member) offsetof(struct br_case, member)
+static const struct {
+    size_t offset;
+    char how;
+    double by;
+    enum br_severity severity;
+    const char *subject;
+} moved[] = {
+    {OF(order.value), '+', 0, BR_SAME, ""},
+    {OF(order.value), '+', 0.0001, BR_SAME, ""},
+    {OF(order.value), '+', 0.01, BR_NOTE, "order"},
+    {OF(order.value), '+', -0.1, BR_WARNING, "order"},
+    {OF(order.value), '+', 0.3, BR_SERIOUS, "order"},
+    {OF(order.value), '+', NAN, BR_SERIOUS, "order"},
+    {OF(constant), '*', 1.0005, BR_SAME, ""},
+    {OF(constant), '*', 1.02, BR_NOTE, "constant"},
+    {OF(constant), '*', 1.5, BR_WARNING, "constant"},
+    {OF(constant), '*', 0.6, BR_WARNING, "constant"},
+    {OF(constant), '*', 2.1, BR_SERIOUS, "constant"},
+    {OF(constant), '*', NAN, BR_SERIOUS, "constant"},
+    {OF(expected.tolerance), '*', 0.5, BR_WARNING, "made space l2 axial: expectation"},
+    {OF(expected.tolerance), '*', 2, BR_SAME, ""}, /* it is narrower now */
+    {OF(expected.ceiling), '=', 1, BR_WARNING, "made space l2 axial: expectation"}, /* none now */
+};
+
+TEST(test_comparison)
+{
+    struct made_check m;
+    made_create(&m);
+    made_run(&m, 1);
+    struct br_old_check old = as_old(&m, "made");
+    struct br_case *const first = &old.check->cases[0], sound = *first;
+    for (size_t i = 0; i < sizeof moved / sizeof *moved; i++) {
+        double *value = (double *)((char *)first + moved[i].offset);
+        *value = moved[i].how == '+'   ? *value + moved[i].by
+                 : moved[i].how == '*' ? *value * moved[i].by
+                                       : moved[i].by;
+        compare(&m, &old, false, moved[i].severity, moved[i].subject);
+        *first = sound;
     }
-    br_check_clear(&first);
-    br_verify_clear(&verify);
-    br_scene_clear(&scene);
+    first->verdict = BR_FAIL;
+    compare(&m, &old, false, BR_NOTE, "verdict");
+    first->order.value = first->constant = NAN; /* that it has one now is no harm */
+    compare(&m, &old, false, BR_NOTE, "made space l2 axial");
+    *first = sound;
+    m.check.cases[0].verdict = BR_FAIL;
+    compare(&m, &old, false, BR_SERIOUS, "made space l2 axial: verdict");
+    m.check.cases[0].verdict = BR_PASS;
+    struct br_expectation *now = &m.check.cases[0].expected;
+    const struct br_expectation expected = *now;
+    first->expected.floor = 1e-9;
+    first->expected.ceiling = 1e9;
+    now->floor = 1e-10;
+    now->ceiling = 1e9;
+    compare(&m, &old, false, BR_WARNING, "made space l2 axial: expectation");
+    now->floor = 1e-8; /* narrower at both ends */
+    now->ceiling = 1e8;
+    compare(&m, &old, false, BR_SAME, "");
+    *now = expected;
+    *first = sound;
+    old.check->seconds = NAN;
+    compare(&m, &old, false, BR_SAME, "");
+    old.check->seconds = m.check.seconds / 10;
+    compare(&m, &old, false, BR_WARNING, "made: ns per element-step");
+    old.check->seconds = m.check.seconds;
+    old.check->element_steps *= 2;
+    compare(&m, &old, false, BR_WARNING, "made: ");
+    old.check->element_steps /= 2;
+    m.check.element_steps = old.check->element_steps = 0; /* neither was marched */
+    compare(&m, &old, false, BR_SAME, "");
+    first->measure = "tip";
+    compare(&m, &old, false, BR_SERIOUS, "made space tip axial: gone");
+    old.check->name = "other"; /* which is not checked now: that is no loss */
+    compare(&m, &old, false, BR_NOTE, "new");
+    compare(&m, &old, true, BR_SERIOUS, "gone"); /* or it is, where these are all there are */
+    br_old_check_clear(&old);
+    made_clear(&m);
+}
+
+/* Another method is told, whatever has changed of it. */
+TEST(test_methods)
+{
+    struct made_check m;
+    made_create(&m);
+    made_run(&m, 1);
+    struct br_old_check old = as_old(&m, "made");
+    struct br_old_method *method = &old.method[0][BR_VERIFY_TIME];
+    const struct br_old_method same = *method;
+    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
+        const bool unsaid = br_method_fields[i].unsaid;
+        strcpy(method->value[i], "another");
+        compare(&m, &old, false, unsaid ? BR_SAME : BR_NOTE, unsaid ? "" : "made time: method");
+        *method = same;
+    }
+    *method = (struct br_old_method){0}; /* not made then */
+    compare(&m, &old, false, BR_SAME, "");
+    struct br_verify_study *time = &m.verify.study[BR_VERIFY_TIME];
+    time->method.scheme = br_time_scheme_find("adaptive");
+    br_old_method_of(&time->method, method);
+    compare(&m, &old, false, BR_SAME, "");
+    strcpy(method->value[BR_METHOD_TOLERANCE], "2e-06");
+    compare(&m, &old, false, BR_NOTE, "made time: method");
+    br_old_check_clear(&old);
+    made_clear(&m);
+}
+
+/* What a comparison needs of the names. */
+TEST(test_names)
+{
+    struct made_check m;
+    struct br_error err = {0};
+    made_create(&m);
+    m.check.name = "m\xe4"
+                   "de";
+    made_run(&m, 1);
+    struct br_old_check old = as_old(&m, "made");
+    REFUSED(br_compare_check(&m.check, 1, &old, &err), BR_BAD_INPUT, "none of these scenes");
+    old.check->name = "m?de"; /* as JSON has it */
+    MUST(br_compare_check(&m.check, 1, &old, &err));
+    compare(&m, &old, false, BR_SAME, "");
+    const struct br_check twice[] = {m.check, m.check};
+    REFUSED(br_compare_check(twice, 2, &old, &err), BR_BAD_INPUT, "two scenes are called");
+    br_old_check_clear(&old);
+    made_clear(&m);
 }

@@ -31,24 +31,19 @@ static int remove_folder(void **state)
     return 0;
 }
 
-/* Two norms of one study, and where they are kept. */
-struct both {
-    struct br_study s[2];
-};
-
-static void prepare(struct both *b, const struct br_scene *scene, size_t n, struct br_kept *kept)
+/* All norms of one study, and where they are kept. */
+static void prepare(struct br_study s[BR_TEST_NORMS], const struct br_scene *scene, size_t n,
+                    struct br_kept *kept)
 {
-    const struct br_judge *judge = br_judge_best(scene);
-    b->s[0] = b->s[1] = br_test_study(scene, judge, n, grid_n, STEPS, grid_steps);
-    b->s[0].next_norm = &b->s[1];
-    b->s[1].norm = &br_norm_energy;
-    b->s[0].kept = b->s[1].kept = kept;
+    s[0] = br_test_study(scene, br_judge_best(scene), n, grid_n, STEPS, grid_steps);
+    s[0].kept = kept;
+    br_test_all_norms(s);
 }
 
-static void clear(struct both *b)
+static void clear(struct br_study s[BR_TEST_NORMS])
 {
-    br_study_clear(&b->s[0]);
-    br_study_clear(&b->s[1]);
+    for (size_t m = 0; m < BR_TEST_NORMS; m++)
+        br_study_clear(&s[m]);
 }
 
 static struct br_kept open_kept(bool take, const char *machine, const char *scene)
@@ -75,18 +70,17 @@ static size_t count_entries(void)
     return count;
 }
 
-static void expect_same(const struct both *a, const struct both *b, size_t cells)
+static void expect_same(const struct br_study a[BR_TEST_NORMS],
+                        const struct br_study b[BR_TEST_NORMS], size_t cells)
 {
-    for (size_t m = 0; m < 2; m++) {
-        const struct br_study *x = &a->s[m], *y = &b->s[m];
+    for (const struct br_study *x = a, *y = b; x < a + BR_TEST_NORMS; x++, y++) {
         assert_memory_equal(&x->reference_scale, &y->reference_scale, sizeof x->reference_scale);
         assert_memory_equal(x->reference_size, y->reference_size, sizeof x->reference_size);
         assert_memory_equal(x->reference_tip, y->reference_tip, sizeof x->reference_tip);
         assert_string_equal(x->events, y->events);
         for (size_t c = 0; c < cells; c++) {
             const struct br_cell *p = &x->cell[c], *q = &y->cell[c];
-            assert_int_equal(p->at.n, q->at.n);
-            assert_int_equal(p->at.steps, q->at.steps);
+            assert_memory_equal(&p->at, &q->at, sizeof p->at);
             assert_memory_equal(p->error, q->error, sizeof p->error);
             assert_memory_equal(p->worst_time, q->worst_time, sizeof p->worst_time);
             assert_memory_equal(p->tip, q->tip, sizeof p->tip);
@@ -105,75 +99,61 @@ static bool stop_when_kept(void *self)
     return count_entries() >= stop_at;
 }
 
-/* A study in one go, and one that is stopped in the middle and resumed. */
+/* Runs n meshes with what is kept; returns how many cells were taken. */
+static size_t run(struct br_study s[BR_TEST_NORMS], const struct br_scene *scene, size_t n,
+                  struct br_kept *kept)
+{
+    struct br_error err = {0};
+    prepare(s, scene, n, kept);
+    MUST(br_study_run(s, 1, 2, NULL, &err));
+    return kept ? atomic_load(&kept->taken) : 0;
+}
+
+/* A study in one go, and one that is stopped in the middle and resumed; then all of it is there,
+ * and a larger one goes on from it. */
 TEST(test_stopped_and_resumed)
 {
     struct br_error err;
-    struct both whole, cut, resumed;
+    struct br_study whole[BR_TEST_NORMS], s[BR_TEST_NORMS];
     const struct br_observer observer = {.stop = stop_when_kept};
     struct br_scene scene = br_test_bundled("example2");
-    prepare(&whole, &scene, N, NULL);
-    MUST(br_study_run(whole.s, 1, 2, NULL, &err));
     struct br_kept first = open_kept(false, "here", "scene"),
-                   second = open_kept(true, "here", "scene");
-    stop_at = 4;
-    prepare(&cut, &scene, N, &first);
-    cut.s[0].judge = cut.s[1].judge = &br_judge_exact;
-    assert_int_equal(br_study_run(cut.s, 1, 2, &observer, &err), BR_INTERRUPTED);
+                   second = open_kept(true, "here", "scene"),
+                   third = open_kept(true, "here", "scene"),
+                   more = open_kept(true, "here", "scene");
+    run(whole, &scene, N, NULL);
+    stop_at = 6;
+    prepare(s, &scene, N, &first);
+    assert_int_equal(br_study_run(s, 1, 2, &observer, &err), BR_INTERRUPTED);
     const size_t kept = count_entries();
-    if (!(kept >= stop_at && kept < 2 * N * STEPS))
+    if (!(kept >= stop_at && kept < BR_TEST_NORMS * N * STEPS))
         fail_msg("%zu entries were kept", kept);
-    prepare(&resumed, &scene, N, &second);
-    assert_int_equal(br_study_run(resumed.s, 1, 2, NULL, &err), BR_OK);
-    assert_int_equal(atomic_load(&second.taken), kept / 2);
+    assert_int_equal(run(s, &scene, N, &second), kept / BR_TEST_NORMS);
     assert_int_equal(atomic_load(&second.bad), 0);
-    expect_same(&whole, &resumed, N * STEPS);
-    assert_int_equal(count_entries(), 2 * (N * STEPS + 1));
-    clear(&whole);
-    clear(&resumed);
-    br_scene_clear(&scene);
-}
-
-/* Runs n meshes with what is kept; returns how many cells were taken. */
-static size_t run_again(struct both *b, const struct br_scene *scene, size_t n,
-                        struct br_kept *kept)
-{
-    struct br_error err;
-    prepare(b, scene, n, kept);
-    assert_int_equal(br_study_run(b->s, 1, 2, NULL, &err), BR_OK);
-    return atomic_load(&kept->taken);
-}
-
-TEST(test_whole_and_larger)
-{
-    struct both again, plain;
-    struct br_error err;
-    struct br_scene scene = br_test_bundled("example2");
-    prepare(&plain, &scene, N, NULL);
-    assert_int_equal(br_study_run(plain.s, 1, 2, NULL, &err), BR_OK);
-    struct br_kept all = open_kept(true, "here", "scene"), more = open_kept(true, "here", "scene");
-    assert_int_equal(run_again(&again, &scene, N, &all), N * STEPS);
-    expect_same(&plain, &again, N * STEPS);
-    clear(&again);
-    assert_int_equal(run_again(&again, &scene, N + 1, &more), N * STEPS);
+    expect_same(whole, s, N * STEPS);
+    assert_int_equal(count_entries(), BR_TEST_NORMS * (N * STEPS + 1));
+    clear(s);
+    assert_int_equal(run(s, &scene, N, &third), N * STEPS);
+    expect_same(whole, s, N * STEPS);
+    clear(s);
+    assert_int_equal(run(s, &scene, N + 1, &more), N * STEPS);
     for (size_t c = 0; c < N * STEPS; c++)
-        CLOSE(again.s[0].cell[c].error[BR_PART_TOTAL], plain.s[0].cell[c].error[BR_PART_TOTAL],
-              1e-12);
-    clear(&again);
-    clear(&plain);
+        CLOSE(s[0].cell[c].error[BR_PART_TOTAL], whole[0].cell[c].error[BR_PART_TOTAL], 1e-12);
+    clear(s);
+    clear(whole);
     br_scene_clear(&scene);
 }
 
 /* What follows from something else has another name. */
 TEST(test_not_taken)
 {
-    struct both b;
+    struct br_study s[BR_TEST_NORMS];
     struct br_scene scene = br_test_bundled("example2");
     struct br_kept other[] = {open_kept(true, "there", "scene"), open_kept(true, "here", "another"),
                               open_kept(false, "here", "scene")};
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
-        assert_int_equal(run_again(&b, &scene, N, &other[i]), 0);
-        clear(&b);
+        assert_int_equal(run(s, &scene, N, &other[i]), 0);
+        clear(s);
     }
     br_scene_clear(&scene);
 }

@@ -7,7 +7,6 @@
 
 #include "study/fit/fit.h"
 #include "study/grid/sweep.h"
-#include "study/run/history.h"
 #include "support.h"
 
 static struct br_method method_of(const char *contact)
@@ -171,40 +170,4 @@ TEST(test_extrapolation)
         AT_MOST(e.high - e.low, 1e-9);
         br_tips_clear(&tips);
     }
-}
-
-TEST(test_record)
-{
-    enum { N = 4 };
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("initial_data");
-    const struct br_method method = method_of(NULL);
-    struct br_history_record record = {0};
-    const struct br_history_observer observer = br_history_recorder(&record, N);
-    static const size_t level[] = {0, 7};
-    const struct br_history_request request = {.scene = &scene,
-                                               .method = &method,
-                                               .n = N,
-                                               .steps = 7,
-                                               .stride = 1,
-                                               .level = level,
-                                               .levels = 2,
-                                               .observer = &observer,
-                                               .observers = 1};
-    struct br_history_end end;
-    struct br_march *march;
-    MUST(br_history_run(&request, &march, &end, &err));
-    double u[2 * (N + 1)], v[2 * (N + 1)];
-    br_march_get(march, BR_AXIAL, u, v);
-    assert_int_equal(record.unknowns[BR_AXIAL], 2);
-    assert_memory_equal(br_history_field(&record, 1, BR_AXIAL, false), u, sizeof u);
-    assert_memory_equal(br_history_field(&record, 1, BR_AXIAL, true), v, sizeof v);
-    br_march_get(march, BR_BENDING, u, v);
-    assert_memory_equal(br_history_field(&record, 1, BR_BENDING, false), u, sizeof u);
-    assert_memory_equal(br_history_field(&record, 1, BR_BENDING, true), v, sizeof v);
-    CLOSE(br_history_field(&record, 0, BR_AXIAL, true)[2 * N], record.row[0].velocity[BR_AXIAL], 0);
-    CLOSE(record.row[0].velocity[BR_AXIAL], -0.5, 1e-15);
-    br_history_record_clear(&record);
-    br_march_free(march);
-    br_scene_clear(&scene);
 }

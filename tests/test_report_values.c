@@ -36,16 +36,18 @@ static void is_read(const char *text)
     struct br_old_check old;
     char found[1200];
     MUST(br_check_read_json(br_test_scene_file(text), &old, &err));
-    const struct br_old_case *c = old.cases;
-    const struct br_old_method *m = &old.costs[0].method[BR_VERIFY_TIME];
-    assert_int_equal(old.count, 1);
-    assert_int_equal(old.scenes, 2);
-    assert_true(m->known && !old.costs[0].method[BR_VERIFY_SPACE].known);
-    snprintf(found, sizeof found, "%s %s %s %s %d %g %g %g %g %g %g; %g %g %s %s %s; %s", c->scene,
-             c->study, c->norm, c->part, c->verdict == BR_FAIL, c->order, c->constant, c->expected,
-             c->tolerance, c->floor, c->ceiling, old.costs[0].seconds, old.costs[0].element_steps,
-             m->value[BR_METHOD_SCHEME], m->value[BR_METHOD_SOLVER], m->value[BR_METHOD_TOLERANCE],
-             old.costs[1].scene);
+    assert_int_equal(old.count, 2);
+    const struct br_check *made = &old.check[0];
+    const struct br_case *c = made->cases;
+    const struct br_expectation *e = &c->expected;
+    const struct br_old_method *m = &old.method[0][BR_VERIFY_TIME];
+    assert_int_equal(made->count, 1);
+    assert_true(m->known && !old.method[0][BR_VERIFY_SPACE].known);
+    snprintf(found, sizeof found, "%s %s %s %s %d %g %g %g %g %g %g; %g %g %s %s %s; %s",
+             made->name, br_verify_names[c->kind], c->measure, c->part, c->verdict == BR_FAIL,
+             c->order.value, c->constant, e->order, e->tolerance, e->floor, e->ceiling,
+             made->seconds, made->element_steps, m->value[BR_METHOD_SCHEME],
+             m->value[BR_METHOD_SOLVER], m->value[BR_METHOD_TOLERANCE], old.check[1].name);
     assert_string_equal(found, "made time l2 axial 1 2.25 3.5 2.75 0.375 0.75 7.5; 4.25 5.25 "
                                "adaptive banded 0.0625; refused");
     br_old_check_clear(&old);

@@ -47,6 +47,9 @@ TEST(test_whole)
                    "  joint:\n"
                    "    n: 10, 20,40, 80\n"
                    "    k: 0.1, 0.05, 0.025, 0.0125 s\n"
+                   "    tolerance: 1e-7\n"
+                   "    scheme: adaptive\n"
+                   "    axial_degree: 2\n"
                    "    energy bending: 1 +- 0.5\n"
                    "  time:\n"
                    "    n: 7\n"
@@ -68,6 +71,10 @@ TEST(test_whole)
     assert_int_equal(joint->steps[3], 80);
     assert_int_equal(joint->line, 16);
     assert_ptr_equal(joint->method.solver, br_linear_solvers[0]);
+    assert_string_equal(joint->method.scheme->name, "adaptive");
+    assert_true(joint->method.contact->at_new_step); /* as the scheme wants it */
+    CLOSE(joint->method.tolerance, 1e-7, 0);
+    assert_int_equal(joint->method.axial_degree, 2);
     assert_int_equal(time->count, 5);
     assert_int_equal(time->n[4], 7);
     assert_string_equal(time->method.solver->name, "umfpack");
@@ -83,7 +90,7 @@ TEST(test_whole)
     CLOSE(l2->tolerance, 0.05, 0);
     CLOSE(l2->ceiling, 3e-4, 0);
     assert_true(isnan(l2->floor));
-    assert_int_equal(l2->line, 25);
+    assert_int_equal(l2->line, 28);
     assert_ptr_equal(tip->norm, &br_norm_tip);
     assert_int_equal(tip->part, BR_PART_AXIAL);
     CLOSE(tip->floor, 1e-5, 0);
@@ -92,29 +99,7 @@ TEST(test_whole)
     br_scene_clear(&scene);
 }
 
-TEST(test_method)
-{
-    struct br_scene scene;
-    struct br_verify v;
-    struct br_error err = {0};
-    MUST(read_part("verify:\n"
-                   "  time:\n"
-                   "    n: 7\n"
-                   "    k: 0.25, 0.5, 0.03125, 0.125, 0.0625 s\n"
-                   "    tolerance: 1e-7\n"
-                   "    scheme: adaptive\n"
-                   "    axial_degree: 2\n"
-                   "    l2: 1 +- 0.05\n",
-                   &scene, &v, &err));
-    const struct br_method *m = &v.study[BR_VERIFY_TIME].method;
-    assert_string_equal(m->scheme->name, "adaptive");
-    assert_true(m->contact->at_new_step); /* as the scheme wants it */
-    CLOSE(m->tolerance, 1e-7, 0);
-    assert_int_equal(m->axial_degree, 2);
-    br_verify_clear(&v);
-    br_scene_clear(&scene);
-}
-
+/* A part that the scene does not model has no order. */
 TEST(test_default)
 {
     struct br_scene scene;
@@ -129,6 +114,8 @@ TEST(test_default)
         assert_true(br_verify_points((enum br_verify_kind)kind, v.study[kind].count) >=
                     BR_VERIFY_LEAST_POINTS);
     }
+    scene.axial.modelled = false;
+    REFUSED(br_verify_check(&scene, &v, &line, &err), BR_BAD_INPUT, "the scene has no axial part");
     br_verify_clear(&v);
     br_scene_clear(&scene);
 }
@@ -142,20 +129,6 @@ static void refuse(char *row)
 TEST(test_refusals)
 {
     br_test_rows("verify parts, behind the scene of test_verify.c", refuse);
-}
-
-/* A part that the scene does not model has no order. */
-TEST(test_missing_part)
-{
-    struct br_scene scene = br_test_bare();
-    struct br_verify v;
-    struct br_error err = {0};
-    size_t line;
-    MUST(br_verify_default(&scene, &v, &err));
-    MUST(br_verify_check(&scene, &v, &line, &err));
-    scene.axial.modelled = false;
-    REFUSED(br_verify_check(&scene, &v, &line, &err), BR_BAD_INPUT, "the scene has no axial part");
-    br_verify_clear(&v);
 }
 
 /* Nobody but the check asks for it: a study is not stopped by what it does not need. */

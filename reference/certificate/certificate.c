@@ -327,9 +327,10 @@ enum term {
     ELASTIC,        /*  K w_n */
     RATE_BEFORE,    /*  (C + kK) v_{n-1}, for the size alone */
     ELASTIC_BEFORE, /*  K w_{n-1}, for the size alone */
-    LOAD,           /* -F_n */
-    TIP,            /*  the force that resists the tip */
     RESIDUAL,
+    OF_ELEMENTS,        /* the terms before this one have shares of each element */
+    LOAD = OF_ELEMENTS, /* -F_n */
+    TIP,                /*  the force that resists the tip */
     TERMS
 };
 
@@ -343,68 +344,12 @@ struct resultant {
 struct balance {
     const struct br_step *step;
     const struct br_step_field *field;
+    const struct br_element *element;
     enum br_field_kind kind;
-    bool quadratic;
     size_t unknowns;
     real h, density, stiffness, viscosity, k;
     struct resultant term[TERMS];
 };
-
-/* ---- element matrices ---- */
-
-/* A quadratic rod is taken by its nodes here: begin, middle, end, less a rigid motion. The unknowns
- * of the march are (u, b) a node, with u = chord - b/4 in the middle. */
-static void quadratic_times(const int matrix[3][3], real factor, const double *v, real base,
-                            real out[4])
-{
-    const real begin = v[0] - base, end = v[2] - base;
-    const real node[3] = {begin, (begin + end) / 2 - (real)v[3] / 4, end};
-    real force[3];
-    for (int i = 0; i < 3; i++) {
-        force[i] = 0;
-        for (int j = 0; j < 3; j++)
-            force[i] += factor * matrix[i][j] * node[j];
-    }
-    out[0] = force[0] + force[1] / 2;
-    out[1] = 0; /* the bubble before */
-    out[2] = force[2] + force[1] / 2;
-    out[3] = -force[1] / 4;
-}
-
-static void mass_times(const struct balance *b, const double *v, real out[4])
-{
-    const bool axial = b->kind == BR_AXIAL;
-    if (b->quadratic) {
-        quadratic_times(br_rod3_mass, b->density * b->h / 30, v, 0, out);
-        return;
-    }
-    const real factor = b->density * b->h / (axial ? 6 : 420);
-    for (size_t i = 0; i < 2 * b->unknowns; i++) {
-        out[i] = 0;
-        for (size_t j = 0; j < 2 * b->unknowns; j++)
-            out[i] += factor * (real)(axial ? br_rod_mass[i][j] : br_beam_mass[i][j]) * (real)v[j];
-    }
-}
-
-/* A rigid motion has no forces, so that of the element's first node is taken off beforehand,
- * exactly but for the last bits: the last two columns remain. */
-static void stiffness_times(const struct balance *b, const double *w, real out[4])
-{
-    if (b->quadratic) {
-        quadratic_times(br_rod3_stiffness, 1 / (3 * b->h), w, w[0], out);
-        return;
-    }
-    if (b->kind == BR_AXIAL) {
-        const real stretch = ((real)w[1] - w[0]) / b->h;
-        out[0] = -stretch;
-        out[1] = stretch;
-        return;
-    }
-    const real deflection = ((real)w[2] - w[0]) - w[1], rotation = (real)w[3] - w[1];
-    for (int i = 0; i < 4; i++)
-        out[i] = (br_beam_stiffness[i][2] * deflection + br_beam_stiffness[i][3] * rotation) /
-                 (b->h * b->h * b->h);
-}
 
 /* ---- resultants, from the free end to the clamped one ---- */
 
@@ -431,34 +376,38 @@ static void cross_element(const struct balance *b, struct resultant *r)
 }
 
 /* Forces that the terms of element e put on its nodes. */
-static void element_terms(const struct balance *b, size_t e, real out[TERMS][4])
+static void element_terms(const struct balance *b, size_t e, real out[OF_ELEMENTS][4])
 {
-    const size_t first = e * b->unknowns;
     const struct br_step_field *f = b->field;
-    mass_times(b, f->velocity + first, out[INERTIA_AFTER]);
-    mass_times(b, f->velocity_before + first, out[INERTIA_BEFORE]);
-    stiffness_times(b, f->velocity + first, out[VISCOUS]);
-    stiffness_times(b, f->displacement + first, out[ELASTIC]);
-    stiffness_times(b, f->velocity_before + first, out[RATE_BEFORE]);
-    stiffness_times(b, f->displacement_before + first, out[ELASTIC_BEFORE]);
-    for (size_t i = 0; i < 2 * b->unknowns; i++) {
-        out[INERTIA_AFTER][i] /= b->k;
-        out[INERTIA_BEFORE][i] /= -b->k;
-        out[VISCOUS][i] *= b->viscosity;
-        out[ELASTIC][i] *= b->stiffness;
-        out[RATE_BEFORE][i] *= b->viscosity + b->k * b->stiffness;
-        out[ELASTIC_BEFORE][i] *= b->stiffness;
-        out[RESIDUAL][i] =
-            out[INERTIA_AFTER][i] + out[INERTIA_BEFORE][i] + out[VISCOUS][i] + out[ELASTIC][i];
+    const int *over = b->element->over;
+    const real inertia = b->density * b->h / over[BR_MASS] / b->k,
+               bent = 1 / (over[BR_STIFFNESS] * (b->kind == BR_AXIAL ? b->h : b->h * b->h * b->h)),
+               elastic = b->stiffness * bent, viscous = b->viscosity * bent;
+    const struct {
+        enum br_element_matrix matrix;
+        const double *nodal;
+        real factor;
+    } terms[] = {
+        [INERTIA_AFTER] = {BR_MASS, f->velocity, inertia},
+        [INERTIA_BEFORE] = {BR_MASS, f->velocity_before, -inertia},
+        [VISCOUS] = {BR_STIFFNESS, f->velocity, viscous},
+        [ELASTIC] = {BR_STIFFNESS, f->displacement, elastic},
+        [RATE_BEFORE] = {BR_STIFFNESS, f->velocity_before, viscous + b->k * elastic},
+        [ELASTIC_BEFORE] = {BR_STIFFNESS, f->displacement_before, elastic},
+    };
+    memset(out[RESIDUAL], 0, sizeof out[RESIDUAL]);
+    for (size_t t = INERTIA_AFTER; t < RESIDUAL; t++) {
+        br_element_forces(b->element, terms[t].matrix, terms[t].factor,
+                          terms[t].nodal + e * b->unknowns, out[t]);
+        for (size_t i = 0; i < 2 * b->unknowns && t <= ELASTIC; i++)
+            out[RESIDUAL][i] += out[t][i];
     }
 }
 
-static void add_element_node(struct balance *b, real forces[TERMS][4], size_t node)
+static void add_element_node(struct balance *b, real forces[OF_ELEMENTS][4], size_t node)
 {
-    static const enum term of_elements[] = {INERTIA_AFTER, INERTIA_BEFORE, VISCOUS, ELASTIC,
-                                            RATE_BEFORE,   ELASTIC_BEFORE, RESIDUAL};
-    for (size_t i = 0; i < sizeof of_elements / sizeof *of_elements; i++)
-        add_node(b, of_elements[i], forces[of_elements[i]] + node * b->unknowns, 1);
+    for (enum term t = INERTIA_AFTER; t < OF_ELEMENTS; t++)
+        add_node(b, t, forces[t] + node * b->unknowns, 1);
 }
 
 static void add_load(struct balance *b, size_t node)
@@ -512,7 +461,7 @@ static double relative_residual(struct balance *b, double tip_force)
     add_node(b, RESIDUAL, tip, 1);
     add_load(b, b->step->n);
     for (size_t e = b->step->n; e-- > 0;) {
-        real forces[TERMS][4];
+        real forces[OF_ELEMENTS][4];
         element_terms(b, e, forces);
         add_element_node(b, forces, 1);
         for (int t = 0; t < TERMS; t++)
@@ -521,8 +470,8 @@ static double relative_residual(struct balance *b, double tip_force)
         add_load(b, e);
     }
     real size = 0;
-    for (int t = 0; t < RESIDUAL; t++)
-        size += sqrtl(b->term[t].square);
+    for (int t = 0; t < TERMS; t++)
+        size += t == RESIDUAL ? 0 : sqrtl(b->term[t].square);
     const double residual = (double)sqrtl(b->term[RESIDUAL].square);
     if (b->step->size_now)
         b->step->size_now[b->kind] = (double)size;
@@ -540,7 +489,7 @@ static double residual_of(const struct br_step *s, enum br_field_kind kind)
         .step = s,
         .field = &s->field[kind],
         .kind = kind,
-        .quadratic = axial && s->method->axial_degree == 2,
+        .element = br_element_of(kind, s->method->axial_degree),
         .unknowns = br_step_unknowns(s->method, kind),
         .h = (real)s->scene->length / (real)s->n,
         .density = s->scene->density,
@@ -570,12 +519,10 @@ static bool finite_field(const struct br_step *s, enum br_field_kind kind)
     return good;
 }
 
-static const struct br_certificate not_finite = {NAN, NAN, NAN, NAN, NAN};
-
 struct br_certificate br_certify_field(const struct br_step *s, enum br_field_kind kind)
 {
     if (!finite_field(s, kind))
-        return not_finite;
+        return (struct br_certificate){NAN, NAN, NAN, NAN, NAN};
     if (kind == BR_AXIAL)
         return (struct br_certificate){
             .axial_residual = residual_of(s, BR_AXIAL),
@@ -587,14 +534,6 @@ struct br_certificate br_certify_field(const struct br_step *s, enum br_field_ki
         .update = update_error(s, BR_BENDING),
         .friction = friction_error(s),
     };
-}
-
-struct br_certificate br_certify(const struct br_step *s)
-{
-    struct br_certificate certificate = br_certify_field(s, BR_AXIAL);
-    const struct br_certificate bending = br_certify_field(s, BR_BENDING);
-    br_certificate_merge(&certificate, &bending);
-    return finite_field(s, BR_AXIAL) && finite_field(s, BR_BENDING) ? certificate : not_finite;
 }
 
 /* ---- verdicts ---- */

@@ -83,8 +83,6 @@ struct br_step {
                                  that is certified; 0: nothing */
 };
 
-struct br_certificate br_certify(const struct br_step *step);
-
 /* BR_OK where no number of the certificate is above the one in `limits`; a NaN is.
  * Fails with BR_VERDICT, naming the first that is. */
 enum br_status br_certificate_check(const struct br_certificate *certificate,
@@ -128,7 +126,7 @@ static inline size_t br_step_unknowns(const struct br_method *method, enum br_fi
 /* The larger of two numbers; NaN where one is. */
 double br_worse_of(double a, double b);
 
-/* What a certificate says of one field alone: the other's entries are 0. */
+/* What a certificate says of one field: the other's entries are 0. */
 struct br_certificate br_certify_field(const struct br_step *step, enum br_field_kind kind);
 
 /* Distances (out) from each branch of a field's law prolonged beyond its end: contact that may

@@ -11,108 +11,31 @@
 
 typedef long double real;
 
-/* ---- products of two sets of an element's nodal values ---- */
-
-/* The middle of a quadratic element, for (u, b) of its nodes. */
-static real middle(const real *v)
+/* a'Mb, or a'Kb of the stiffness without its coefficient. */
+static real product(const struct br_field *f, enum br_element_matrix matrix, const double *a,
+                    const double *b)
 {
-    return (v[0] + v[2]) / 2 - v[3] / 4;
-}
-
-/* A quadratic rod in Legendre polynomials: v = mean + slope P_1 + curve P_2. */
-static void legendre(const real *v, real out[3])
-{
-    const real m = middle(v);
-    out[0] = (v[0] + 4 * m + v[2]) / 6;
-    out[1] = (v[2] - v[0]) / 2;
-    out[2] = (v[0] - 2 * m + v[2]) / 3;
-}
-
-/* a'Mb over rho h. */
-static real mass_form(const struct br_field *field, const real *a, const real *b)
-{
-    if (br_field_is_quadratic(field)) {
-        real p[3], q[3];
-        legendre(a, p);
-        legendre(b, q);
-        return p[0] * q[0] + p[1] * q[1] / 3 + p[2] * q[2] / 5;
-    }
-    if (field->kind == BR_AXIAL)
-        return (2 * (a[0] * b[0] + a[1] * b[1]) + a[0] * b[1] + a[1] * b[0]) / 6;
-    real sum = 0;
-    for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++)
-            sum += (real)br_beam_mass[i][j] * a[i] * b[j];
-    return sum / 420;
-}
-
-/* h u_x at the beginning, the middle and the end of a quadratic element. */
-static void slopes(const real *w, real out[3])
-{
-    const real m = 4 * (middle(w) - w[0]), chord = w[2] - w[0];
-    out[0] = m - chord;
-    out[1] = chord;
-    out[2] = 3 * chord - m;
-}
-
-/* h int u_x y_x, or h^3 int w_xx y_xx: the rigid motion of the first node is taken off first. With
- * the deflection d and the rotation r that remain, the latter is 12 dd - 6 (dr + rd) + 4 rr. Of a
- * quadratic rod Simpson's rule has the former. */
-static real stiffness_form(const struct br_field *field, const real *a, const real *b)
-{
-    if (br_field_is_quadratic(field)) {
-        real p[3], q[3];
-        slopes(a, p);
-        slopes(b, q);
-        return (p[0] * q[0] + 4 * p[1] * q[1] + p[2] * q[2]) / 6;
-    }
-    if (field->kind == BR_AXIAL)
-        return (a[1] - a[0]) * (b[1] - b[0]);
-    const real d = a[2] - a[0] - a[1], r = a[3] - a[1];
-    const real e = b[2] - b[0] - b[1], s = b[3] - b[1];
-    return 12 * d * e - 6 * (d * s + r * e) + 4 * r * s;
-}
-
-typedef real (*form)(const struct br_field *field, const real *a, const real *b);
-
-/* The sum over the elements. */
-static real sum_form(form f, const struct br_field *field, const double *a, const double *b)
-{
-    const size_t d = br_field_unknowns(field);
-    real sum = 0;
-    for (size_t e = 0; e < field->n; e++) {
-        real v[4], w[4];
-        for (size_t i = 0; i < 2 * d; i++) {
-            v[i] = a[e * d + i];
-            w[i] = b[e * d + i];
-        }
-        sum += f(field, v, w);
-    }
-    return sum;
-}
-
-/* a'Mb, and a'Kb of the stiffness without its coefficient. */
-static real mass_product(const struct br_field *f, const double *a, const double *b)
-{
-    return (real)f->density * (real)f->h * sum_form(mass_form, f, a, b);
-}
-
-static real bend_product(const struct br_field *f, const double *a, const double *b)
-{
+    const struct br_element *e = br_element_of(f->kind, f->degree);
     const real h = (real)f->h;
-    return sum_form(stiffness_form, f, a, b) / (f->kind == BR_AXIAL ? h : h * h * h);
+    real sum = 0;
+    for (size_t i = 0; i < f->n * e->unknowns; i += e->unknowns)
+        sum += br_element_product(e, matrix, a + i, b + i);
+    return matrix == BR_MASS     ? (real)f->density * h * sum
+           : f->kind == BR_AXIAL ? sum / h
+                                 : sum / (h * h * h);
 }
 
 /* ---- of a state ---- */
 
 double br_energy_kinetic(const struct br_field *field, const double *velocity)
 {
-    return (double)(mass_product(field, velocity, velocity) / 2);
+    return (double)(product(field, BR_MASS, velocity, velocity) / 2);
 }
 
 double br_energy_stored(const struct br_field *field, const double *displacement)
 {
-    return (double)((real)field->stiffness * bend_product(field, displacement, displacement) / 2);
+    return (double)((real)field->stiffness *
+                    product(field, BR_STIFFNESS, displacement, displacement) / 2);
 }
 
 /* Of one field's state, J, with the contact's potential of an axial one. */
@@ -125,8 +48,8 @@ static struct field_energy energy_of_field(const struct br_field *f,
                                            const double *displacement, const double *velocity)
 {
     struct field_energy e = {
-        .kinetic = mass_product(f, velocity, velocity) / 2,
-        .stored = (real)f->stiffness * bend_product(f, displacement, displacement) / 2,
+        .kinetic = product(f, BR_MASS, velocity, velocity) / 2,
+        .stored = (real)f->stiffness * product(f, BR_STIFFNESS, displacement, displacement) / 2,
     };
     if (f->kind != BR_AXIAL || !contact->modelled)
         return e;
@@ -245,7 +168,7 @@ struct br_energy_meter {
 /* ---- a stage ---- */
 
 /* c'v, and the sum of the sizes of its terms (out). */
-static real nodal_product(const double *c, const double *v, size_t size, real *sizes)
+static real dot(const double *c, const double *v, size_t size, real *sizes)
 {
     real sum = 0;
     *sizes = 0;
@@ -257,15 +180,10 @@ static real nodal_product(const double *c, const double *v, size_t size, real *s
     return sum;
 }
 
-/* The norms of K, without its coefficient, and of M. */
-static real bend_norm(const struct br_field *f, const double *y)
+/* In the norm of M, or of K without its coefficient. */
+static real norm(const struct br_field *f, enum br_element_matrix matrix, const double *y)
 {
-    return sqrtl(bend_product(f, y, y));
-}
-
-static real mass_norm(const struct br_field *f, const double *y)
-{
-    return f->density > 0 ? sqrtl(mass_product(f, y, y)) : 0;
+    return sqrtl(product(f, matrix, y, y));
 }
 
 /* A stage goes from Z to Y in tau, and its residual r is relative to the sum of its terms, those of
@@ -280,9 +198,9 @@ static real residual_power(const struct br_field *f, const struct br_watched_fie
     const real length = (real)f->h * f->n;
     const real tip = tip_force * sqrtl(f->kind == BR_AXIAL ? length : length * length * length / 3);
     const struct br_nodal *y = &seen->y.row[seen->last], *z = &seen->y.start;
-    const real w = bend_norm(f, y->displacement), v = bent_speed,
-               before = bend_norm(f, z->velocity);
-    const real moving = mass_norm(f, y->velocity) + mass_norm(f, z->velocity);
+    const real w = norm(f, BR_STIFFNESS, y->displacement), v = bent_speed,
+               before = norm(f, BR_STIFFNESS, z->velocity);
+    const real moving = norm(f, BR_MASS, y->velocity) + norm(f, BR_MASS, z->velocity);
     return v * ((real)f->stiffness * (2 * w + 2 * tau * v + tau * before) +
                 (real)f->viscosity * (v + before) + fabsl(tip)) +
            moving * moving / tau;
@@ -304,7 +222,7 @@ static struct power power_of(const struct br_energy_meter *m, enum br_field_kind
     const struct br_watched_field *seen = &m->seen.field[kind];
     const struct br_tip *tip = br_march_tip(m->seen.march);
     const double *v = seen->y.row[seen->last].velocity;
-    const real bent = bend_product(&f->field, v, v);
+    const real bent = product(&f->field, BR_STIFFNESS, v, v);
     const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
     struct power p = {
         .viscous = (real)f->field.viscosity * bent,
@@ -312,7 +230,7 @@ static struct power power_of(const struct br_energy_meter *m, enum br_field_kind
             excess_of(m, &f->field) * residual_power(&f->field, seen, tau, sqrtl(bent), force),
         .tip = (real)force * v[f->field.n * br_field_unknowns(&f->field)],
     };
-    p.load = nodal_product(seen->load, v, br_field_size(&f->field), &p.load_size);
+    p.load = dot(seen->load, v, br_field_size(&f->field), &p.load_size);
     return p;
 }
 
@@ -329,9 +247,10 @@ static void watch_stage(void *self, const struct br_march_stage *told)
 /* ---- what a scheme takes ---- */
 
 /* <Y, Z> of displacements and velocities. */
-static real product(const struct br_field *f, const double *const y[2], const double *const z[2])
+static real inner(const struct br_field *f, const double *const y[2], const double *const z[2])
 {
-    return (real)f->stiffness * bend_product(f, y[0], z[0]) + mass_product(f, y[1], z[1]);
+    return (real)f->stiffness * product(f, BR_STIFFNESS, y[0], z[0]) +
+           product(f, BR_MASS, y[1], z[1]);
 }
 
 /* A sum and the sum of its terms' sizes, J. */
@@ -373,7 +292,7 @@ static struct sum runge_kutta_takes(struct meter_field *m, const struct br_watch
         }
         const struct br_nodal *y = row_of(seen, t, i);
         const double *const rate[2] = {y->velocity, y->acceleration};
-        add(&taken, m->k * m->k / 2 * product(&m->field, rate, (const double *const *)m->scratch));
+        add(&taken, m->k * m->k / 2 * inner(&m->field, rate, (const double *const *)m->scratch));
     }
     return taken;
 }
@@ -403,7 +322,7 @@ static struct sum differences_take(struct meter_field *m, const struct br_watche
     for (int order = 1; order <= t->back; order++) {
         difference(seen, order, false, m->scratch[0]);
         difference(seen, order, true, m->scratch[1]);
-        add(&taken, product(&m->field, order == 1 ? d : now, d) / (order == 1 ? 2 : order));
+        add(&taken, inner(&m->field, order == 1 ? d : now, d) / (order == 1 ? 2 : order));
     }
     return taken;
 }
@@ -445,9 +364,9 @@ static double relative(real a, real size)
 static real noise_of_ways(const struct br_energy_meter *m, const struct meter_field *f,
                           const struct br_watched_field *seen)
 {
-    const real ways = bend_norm(&f->field, seen->y.past[0].velocity) +
-                      bend_norm(&f->field, seen->y.start.velocity);
-    const real size = bend_norm(&f->field, seen->y.row[seen->last].displacement);
+    const real ways = norm(&f->field, BR_STIFFNESS, seen->y.past[0].velocity) +
+                      norm(&f->field, BR_STIFFNESS, seen->y.start.velocity);
+    const real size = norm(&f->field, BR_STIFFNESS, seen->y.row[seen->last].displacement);
     return (real)m->update * (real)f->field.stiffness * f->k * ways * size;
 }
 

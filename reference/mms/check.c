@@ -2,6 +2,7 @@
 #include "reference/mms/mms.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "solver/laws.h"
 #include "solver/proof.h"
@@ -17,15 +18,8 @@ static const struct br_partial bending_orders[] = {
 /* "u_xxt" */
 static const char *name_of(enum br_field_kind kind, struct br_partial order, char text[16])
 {
-    size_t length = 0;
-    text[length++] = kind == BR_AXIAL ? 'u' : 'w';
-    if (order.x + order.t > 0)
-        text[length++] = '_';
-    for (int i = 0; i < order.x; i++)
-        text[length++] = 'x';
-    for (int i = 0; i < order.t; i++)
-        text[length++] = 't';
-    text[length] = '\0';
+    snprintf(text, 16, "%c%s%.*s%.*s", kind == BR_AXIAL ? 'u' : 'w',
+             order.x + order.t > 0 ? "_" : "", order.x, "xxxx", order.t, "tt");
     return text;
 }
 

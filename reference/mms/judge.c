@@ -1,97 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The given solution of a scene as a judge: its derivatives in Legendre modes, by quadrature. */
 #include <gsl/gsl_integration.h>
 #include <math.h>
 #include <string.h>
 
 #include "reference/exact/legendre.h"
 #include "reference/judge.h"
-#include "reference/mms/mms.h"
 #include "solver/clock.h"
 #include "solver/modes.h"
 
-/* Twelve Gauss points know the modes up to degree 10 of a polynomial of degree 13. */
+/* Twelve Gauss points know the modes up to degree 10 of a polynomial of degree 13; the last two
+ * degrees tell how well they are known. */
 enum { POINTS = 12, MODES = 11, TAIL = 2 };
 
-struct br_projection {
-    struct br_function derivative;
-    size_t kept, n;
-    double h;                     /* m */
-    double weight[POINTS][MODES]; /* Gauss weight times mode */
-    double *x;                    /* n * POINTS, m */
-    double *value;                /* there */
-};
-
-enum br_status br_projection_create(struct br_projection **out, const struct br_function *solution,
-                                    const struct br_projected *what, double length, size_t n,
-                                    struct br_error *err)
-{
-    *out = NULL;
-    if (what->kept > BR_PROJECTION_MOST_KEPT)
-        return br_fail(err, BR_BAD_INPUT, "%zu modes are to be kept, expected at most %d",
-                       what->kept, BR_PROJECTION_MOST_KEPT);
-    struct br_projection *p = *out = br_allocate(1, sizeof *p);
-    if (!p)
-        return br_no_memory(err, "a projection");
-    p->kept = what->kept;
-    p->n = n;
-    p->h = length / (double)n;
-    p->x = br_allocate(2 * n * POINTS, sizeof *p->x);
-    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
-    for (size_t q = 0; q < POINTS && p->x && table; q++) {
-        double xi, weight, legendre[MODES];
-        gsl_integration_glfixed_point(0, 1, q, &xi, &weight, table);
-        br_legendre(MODES, xi, legendre);
-        for (size_t m = 0; m < MODES; m++)
-            p->weight[q][m] = weight * legendre[m];
-        for (size_t e = 0; e < n; e++)
-            p->x[e * POINTS + q] = p->h * ((double)e + xi);
-    }
-    const bool room = p->x && table;
-    gsl_integration_glfixed_table_free(table);
-    if (!room)
-        return br_no_memory(err, "a projection");
-    p->value = p->x + n * POINTS;
-    return br_function_derivative(solution, what->order, &p->derivative, err);
-}
-
-void br_projection_free(struct br_projection *p)
-{
-    if (!p)
-        return;
-    br_function_free(&p->derivative);
-    free(p->x);
-    free(p);
-}
-
-struct br_projection_rest br_projection_apply(struct br_projection *p, double t, double *modes)
-{
-    struct br_projection_rest sums = {0};
-    br_function_evaluate(&p->derivative, p->n * POINTS, p->x, t, p->value);
-    for (size_t e = 0; e < p->n; e++) {
-        double mode[MODES] = {0};
-        for (size_t q = 0; q < POINTS; q++)
-            for (size_t m = 0; m < MODES; m++)
-                mode[m] += sqrt(p->h) * p->value[e * POINTS + q] * p->weight[q][m];
-        memcpy(modes + e * p->kept, mode, p->kept * sizeof *mode);
-        for (size_t m = p->kept; m < MODES; m++)
-            sums.rest += mode[m] * mode[m];
-        for (size_t m = MODES - TAIL; m < MODES; m++)
-            sums.tail += mode[m] * mode[m];
-    }
-    return sums;
-}
-
-/* The given solution of a scene as a judge. */
-
 struct mms_judge {
-    struct br_projection **projection[2][BR_MEASURES]; /* by br_field_kind, then by mesh */
-    struct br_function tip[2];                         /* the solution itself */
+    struct br_function derivative[2][BR_MEASURES]; /* by br_field_kind; the tip's: the solution */
     const struct br_scene *scene;
-    size_t meshes, levels;
+    size_t *mesh, meshes, levels; /* mesh: elements; owned */
     int axial_degree;
-    double time[2];              /* by br_field_kind, s */
-    double tail[2][BR_MEASURES]; /* the largest of br_projection_rest, squared */
-    double seconds[2];           /* by br_field_kind */
+    double xi[POINTS], weight[POINTS][MODES]; /* Gauss weight times mode */
+    double *x[2];                             /* by br_field_kind: the points of a mesh, m; */
+    double *value[2];                         /* there */
+    double time[2];                           /* by br_field_kind, s */
+    double tail[2][BR_MEASURES];              /* the largest sum of squares of the last modes */
+    double seconds[2];                        /* by br_field_kind */
 };
 
 static void mms_free(void *self)
@@ -100,43 +32,50 @@ static void mms_free(void *self)
     if (!j)
         return;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        for (int measure = 0; measure < BR_MEASURES; measure++) {
-            struct br_projection **projection = j->projection[kind][measure];
-            for (size_t i = 0; projection && i < j->meshes; i++)
-                br_projection_free(projection[i]);
-            free(projection);
-        }
-        br_function_free(&j->tip[kind]);
+        for (int measure = 0; measure < BR_MEASURES; measure++)
+            br_function_free(&j->derivative[kind][measure]);
+        free(j->x[kind]);
     }
+    free(j->mesh);
     free(j);
 }
 
-static enum br_status create_part(struct mms_judge *j, enum br_field_kind kind,
-                                  const struct br_judge_request *r, struct br_error *err)
+static enum br_status derive(struct mms_judge *j, enum br_field_kind kind, struct br_error *err)
 {
     const bool axial = kind == BR_AXIAL;
-    const struct br_scene *s = r->scene;
-    if (!(axial ? s->axial.solution : s->bending.solution))
-        return BR_OK;
-    enum br_status status =
-        br_function_clone(axial ? &s->axial.given : &s->bending.given, &j->tip[kind], err);
-    for (enum br_measure measure = 0; measure < BR_TIP && !status; measure++) {
-        const int derived = axial ? 1 : 2;
-        const struct br_projected what = {
-            .order = {measure == BR_STRAIN_RATE ? derived : 0, measure != BR_DISPLACEMENT},
-            .kept = br_mode_count((struct br_elements){kind, r->axial_degree}, measure),
-        };
-        if (!r->measured[kind][measure])
-            continue;
-        struct br_projection **projection = br_allocate(r->mesh_count, sizeof *projection);
-        j->projection[kind][measure] = projection;
-        if (!projection)
-            return br_no_memory(err, "the manufactured solution");
-        for (size_t i = 0; i < r->mesh_count && !status; i++)
-            status = br_projection_create(&projection[i], &j->tip[kind], &what, s->length,
-                                          r->mesh[i], err);
-    }
+    const struct br_function *given = axial ? &j->scene->axial.given : &j->scene->bending.given;
+    static const struct br_partial order[] = {
+        [BR_DISPLACEMENT] = {0, 0}, [BR_VELOCITY] = {0, 1}, [BR_STRAIN_RATE] = {1, 1}};
+    enum br_status status = br_function_clone(given, &j->derivative[kind][BR_TIP], err);
+    for (int measure = 0; measure < BR_TIP && !status; measure++)
+        status = br_function_derivative(
+            given, (struct br_partial){order[measure].x * (axial ? 1 : 2), order[measure].t},
+            &j->derivative[kind][measure], err);
     return status;
+}
+
+/* Room for the points of the finest mesh, for each field its own: they may be in two threads. */
+static enum br_status make_points(struct mms_judge *j, struct br_error *err)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < j->meshes; i++)
+        most = j->mesh[i] > most ? j->mesh[i] : most;
+    gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POINTS);
+    for (size_t q = 0; q < POINTS && table; q++) {
+        double weight;
+        gsl_integration_glfixed_point(0, 1, q, &j->xi[q], &weight, table);
+        br_legendre(MODES, j->xi[q], j->weight[q]);
+        for (size_t m = 0; m < MODES; m++)
+            j->weight[q][m] *= weight;
+    }
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        j->x[kind] = br_allocate(2 * most * POINTS, sizeof(double));
+        j->value[kind] = j->x[kind] ? j->x[kind] + most * POINTS : NULL;
+    }
+    gsl_integration_glfixed_table_free(table);
+    return table && j->x[BR_AXIAL] && j->x[BR_BENDING]
+               ? BR_OK
+               : br_no_memory(err, "the manufactured solution");
 }
 
 static enum br_status mms_create(void **self, const struct br_judge_request *r,
@@ -149,16 +88,19 @@ static enum br_status mms_create(void **self, const struct br_judge_request *r,
         return br_fail(err, BR_BAD_INPUT,
                        "--reference mms needs a scene with a manufactured solution: keys "
                        "'solution' in axial and bending");
-    struct mms_judge *j = br_allocate(1, sizeof *j);
-    *self = j;
-    if (!j)
+    struct mms_judge *j = *self = br_allocate(1, sizeof *j);
+    if (!j || !(j->mesh = br_allocate(r->mesh_count + 1, sizeof *j->mesh)))
         return br_no_memory(err, "the manufactured solution");
+    if (r->mesh_count > 0)
+        memcpy(j->mesh, r->mesh, r->mesh_count * sizeof *j->mesh);
     j->meshes = r->mesh_count;
     j->levels = r->levels;
     j->axial_degree = r->axial_degree;
     j->scene = scene;
-    const enum br_status status = create_part(j, BR_AXIAL, r, err);
-    return status ? status : create_part(j, BR_BENDING, r, err);
+    enum br_status status = make_points(j, err);
+    if (!status && scene->axial.solution)
+        status = derive(j, BR_AXIAL, err);
+    return !status && scene->bending.solution ? derive(j, BR_BENDING, err) : status;
 }
 
 static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
@@ -170,23 +112,46 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
     return BR_OK;
 }
 
+/* The modes on n elements into the view, and what they leave out, up to degree 10; returns the sum
+ * of squares of the last ones. */
+static double project(struct mms_judge *j, const struct br_sample_at *at, struct br_view *view)
+{
+    const size_t n = j->mesh[at->mesh], kept = view->modes;
+    const double h = j->scene->length / (double)n;
+    double *x = j->x[at->kind], *value = j->value[at->kind], tail = 0;
+    for (size_t e = 0; e < n; e++)
+        for (size_t q = 0; q < POINTS; q++)
+            x[e * POINTS + q] = h * ((double)e + j->xi[q]);
+    br_function_evaluate(&j->derivative[at->kind][at->measure], n * POINTS, x, j->time[at->kind],
+                         value);
+    for (size_t e = 0; e < n; e++) {
+        double mode[MODES] = {0};
+        for (size_t q = 0; q < POINTS; q++)
+            for (size_t m = 0; m < MODES; m++)
+                mode[m] += sqrt(h) * value[e * POINTS + q] * j->weight[q][m];
+        memcpy(view->values + e * kept, mode, kept * sizeof *mode);
+        for (size_t m = kept; m < MODES; m++)
+            view->rest += mode[m] * mode[m];
+        for (size_t m = MODES - TAIL; m < MODES; m++)
+            tail += mode[m] * mode[m];
+    }
+    return tail;
+}
+
 static void mms_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     struct mms_judge *j = self;
     const double start = br_seconds();
-    struct br_projection_rest sums = {0};
+    double *tail = &j->tail[at->kind][at->measure];
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        *view->values = br_function_at(&j->tip[at->kind], j->scene->length, j->time[at->kind]);
+        *view->values =
+            br_function_at(&j->derivative[at->kind][BR_TIP], j->scene->length, j->time[at->kind]);
     } else {
         br_view_modes(view,
                       br_mode_count((struct br_elements){at->kind, j->axial_degree}, at->measure));
-        sums = br_projection_apply(j->projection[at->kind][at->measure][at->mesh],
-                                   j->time[at->kind], view->values);
+        *tail = fmax(*tail, project(j, at, view));
     }
-    view->rest = sums.rest;
-    double *tail = &j->tail[at->kind][at->measure];
-    *tail = fmax(*tail, sums.tail);
     j->seconds[at->kind] += br_seconds() - start;
 }
 

@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The method of manufactured solutions: a scene whose loads, tip forces and initial data
- * are derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
+/* A solution that is given, and from which a scene is manufactured (study/scene/manufactured.c):
+ * what is checked of it, and the judge. */
 #ifndef BR_REFERENCE_MMS_MMS_H
 #define BR_REFERENCE_MMS_MMS_H
 
 #include "solver/field.h"
-
-/* Fills the loads, tip forces and initial data of a scene whose axial.solution or
- * bending.solution is given, so that these solve (1)-(12); a scene without one stays as it
- * is. A load is left as one term f(x, t). Refuses (BR_BAD_INPUT) a scene of which only one
- * modelled part has a solution, a solution beside what it determines, and what
- * br_given_check refuses; *culprit is then the part whose solution it is about. Fails with
- * BR_NO_MEMORY; br_scene_clear releases what was made until then. */
-enum br_status br_manufactured_apply(struct br_scene *scene, enum br_field_kind *culprit,
-                                     struct br_error *err);
 
 /* ---- the given solution ---- */
 
@@ -36,37 +27,5 @@ enum br_status br_given_check(const struct br_given *solution, struct br_error *
  * rests. u, velocity: u(L, t), m, and w_t(L, t), m/s. */
 enum br_status br_stick_check(const struct br_scene *scene, const struct br_function *u,
                               const struct br_function *velocity, struct br_error *err);
-
-/* ---- its derivatives in the orthonormal Legendre modes of solver/modes.h ---- */
-
-enum { BR_PROJECTION_MOST_KEPT = 8 };
-
-/* What is projected: d^x/dx^x of the displacement, or of the velocity, and how many modes
- * of an element are kept, at most BR_PROJECTION_MOST_KEPT. */
-struct br_projected {
-    struct br_partial order; /* t: 0 displacement, 1 velocity */
-    size_t kept;
-};
-
-/* The squares of L2 norms, m^3 for a displacement. */
-struct br_projection_rest {
-    double rest; /* of what the kept modes leave out, up to degree 10 */
-    double tail; /* of the last two degrees of it: how well that is known */
-};
-
-struct br_projection;
-
-/* Of a solution, on n equal elements of [0, length], m. Fails with BR_BAD_INPUT (not kept <=
- * BR_PROJECTION_MOST_KEPT, or as br_function_derive) or BR_NO_MEMORY; free *projection even then.
- */
-enum br_status br_projection_create(struct br_projection **projection,
-                                    const struct br_function *solution,
-                                    const struct br_projected *what, double length, size_t n,
-                                    struct br_error *err);
-void br_projection_free(struct br_projection *projection); /* accepts NULL */
-
-/* At t, s: modes out, n * kept values. */
-struct br_projection_rest br_projection_apply(struct br_projection *projection, double t,
-                                              double *modes);
 
 #endif

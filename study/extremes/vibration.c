@@ -10,19 +10,20 @@
 
 static void assemble(const struct br_field *f, gsl_matrix *k, gsl_matrix *m)
 {
-    const size_t d = br_field_unknowns(f);
-    const bool axial = f->kind == BR_AXIAL;
-    const double bend = f->stiffness / (axial ? f->h : f->h * f->h * f->h);
+    const struct br_element *element = br_element_of(f->kind, 1);
+    const size_t d = element->unknowns;
+    const double bend = f->stiffness / (f->kind == BR_AXIAL ? f->h : f->h * f->h * f->h);
     for (size_t e = 0; e < f->n; e++)
         for (size_t i = 0; i < 2 * d; i++)
             for (size_t j = 0; j < 2 * d; j++) {
                 const size_t row = e * d + i, column = e * d + j;
                 if (row < d || column < d)
                     continue; /* clamped */
-                const double mass = axial ? br_rod_mass[i][j] / 6.0 : br_beam_mass[i][j] / 420.0;
                 *gsl_matrix_ptr(k, row - d, column - d) +=
-                    bend * (axial ? br_rod_stiffness[i][j] : br_beam_stiffness[i][j]);
-                *gsl_matrix_ptr(m, row - d, column - d) += f->density * f->h * mass;
+                    bend * element->entry[BR_STIFFNESS][i][j];
+                *gsl_matrix_ptr(m, row - d, column - d) +=
+                    f->density * f->h *
+                    ((double)element->entry[BR_MASS][i][j] / element->over[BR_MASS]);
             }
 }
 

@@ -51,15 +51,11 @@ struct size {
 /* The square of the L2 norm of nodal values, by the element's mass. */
 static double square(const struct br_field *field, const double *nodal)
 {
-    const size_t unknowns = br_field_unknowns(field), size = 2 * unknowns;
-    double sum = 0;
-    for (size_t e = 0; e < field->n; e++)
-        for (size_t i = 0; i < size; i++)
-            for (size_t j = 0; j < size; j++)
-                sum += nodal[e * unknowns + i] * nodal[e * unknowns + j] *
-                       (field->kind == BR_AXIAL ? br_rod_mass[i][j] / 6.0
-                                                : br_beam_mass[i][j] / 420.0);
-    return field->h * sum;
+    const struct br_element *e = br_element_of(field->kind, 1);
+    long double sum = 0;
+    for (size_t i = 0; i < field->n * e->unknowns; i += e->unknowns)
+        sum += br_element_product(e, BR_MASS, nodal + i, nodal + i);
+    return field->h * (double)sum;
 }
 
 static enum br_status measure(void *self, const struct br_march *march,

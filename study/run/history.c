@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "study/scene/words.h"
 
 struct run {
     const struct br_history_request *request;
@@ -120,11 +121,10 @@ static void append_last(const struct run *r, struct br_error *err)
     if (!err)
         return;
     const struct br_history_row *last = &r->row;
-    const size_t used = strlen(err->message);
-    snprintf(err->message + used, sizeof err->message - used,
-             "; the last good step, %zu at t = %.15g s, has velocities of %.3g m/s (axial) and "
-             "%.3g m/s (bending) at the tip",
-             last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
+    br_append(err->message, sizeof err->message,
+              "; the last good step, %zu at t = %.15g s, has velocities of %.3g m/s (axial) and "
+              "%.3g m/s (bending) at the tip",
+              last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
 }
 
 /* Gives `row` the last good row, if it has not had it: without the bending displacement, which is

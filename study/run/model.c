@@ -41,55 +41,45 @@ __attribute__((format(printf, 5, 6))) static void add(struct br_run_report *r, c
     va_end(args);
 }
 
-static void add_axial(struct br_run_report *r)
+static void add_fields(struct br_run_report *r)
 {
-    if (r->marched.axial.modelled)
+    const struct br_scene *s = r->scene, *m = &r->marched;
+    const bool tresca = s->friction.law == BR_TRESCA && m->bending.modelled;
+    if (m->axial.modelled)
         add(r, "axial", "axial field", true, "%zu unknowns, P%d elements",
             r->n * (size_t)r->method.axial_degree, r->method.axial_degree);
-    else if (!r->scene->axial.modelled)
-        add(r, "axial", "axial field", false, "the scene has no axial part");
-    else if (r->scene->friction.law == BR_TRESCA && r->marched.bending.modelled)
-        add(r, "axial", "axial field", false,
-            "not asked for: Tresca's bound does not depend on it, nor does bending; --fields "
-            "axial,bending marches it");
     else
-        add(r, "axial", "axial field", false, "not asked for by --fields");
-}
-
-static void add_bending(struct br_run_report *r)
-{
-    if (r->marched.bending.modelled)
+        add(r, "axial", "axial field", false, "%s",
+            !s->axial.modelled ? "the scene has no axial part"
+            : tresca           ? "not asked for: Tresca's bound does not depend on it, nor does "
+                                 "bending; --fields axial,bending marches it"
+                               : "not asked for by --fields");
+    if (m->bending.modelled)
         add(r, "bending", "bending field", true, "%zu unknowns, cubic Hermite elements", 2 * r->n);
-    else if (!r->scene->bending.modelled)
-        add(r, "bending", "bending field", false, "the scene has no bending part");
     else
-        add(r, "bending", "bending field", false, "not asked for by --fields");
+        add(r, "bending", "bending field", false, "%s",
+            s->bending.modelled ? "not asked for by --fields" : "the scene has no bending part");
 }
 
-static void add_contact(struct br_run_report *r)
+static void add_laws(struct br_run_report *r)
 {
-    if (r->marched.contact.modelled)
-        add(r, "contact", "contact", true, "normal compliance (10), %s", r->method.contact->title);
-    else if (!r->scene->contact.modelled)
-        add(r, "contact", "contact", false, "the scene has no contact part: no lagged force");
-    else
-        add(r, "contact", "contact", false, "it acts on the axial field, which is not marched");
-}
-
-static void add_friction(struct br_run_report *r)
-{
-    const struct br_friction *f = &r->marched.friction;
+    const struct br_scene *s = r->scene, *m = &r->marched;
     const char *title = r->method.friction->title;
-    if (f->law == BR_TRESCA)
+    add(r, "contact", "contact", m->contact.modelled, "%s%s",
+        m->contact.modelled   ? "normal compliance (10), "
+        : s->contact.modelled ? "it acts on the axial field, which is not marched"
+                              : "the scene has no contact part: no lagged force",
+        m->contact.modelled ? r->method.contact->title : "");
+    if (m->friction.law == BR_TRESCA)
         add(r, "friction", "friction", true, "Tresca, the bound is constant, %g N; %s",
-            f->coefficient, title);
-    else if (f->law == BR_COULOMB)
+            m->friction.coefficient, title);
+    else if (m->friction.law == BR_COULOMB)
         add(r, "friction", "friction", true, "Coulomb, the bound is c_V (u(L) - g)_+; %s", title);
-    else if (r->scene->friction.law == BR_FRICTIONLESS)
-        add(r, "friction", "friction", false,
-            "the scene has no friction part: no friction algebra");
     else
-        add(r, "friction", "friction", false, "it acts on the bending field, which is not marched");
+        add(r, "friction", "friction", false, "%s",
+            s->friction.law == BR_FRICTIONLESS
+                ? "the scene has no friction part: no friction algebra"
+                : "it acts on the bending field, which is not marched");
 }
 
 static void add_terms(struct br_run_report *r, const char *key, const char *part,
@@ -170,8 +160,14 @@ static void add_initial(struct br_run_report *r)
         add(r, "initial_data", "initial data", false, "zero: not interpolated");
 }
 
-static void add_rebuilding(struct br_run_report *r)
+void br_run_fill_model(struct br_run_report *r)
 {
+    add_fields(r);
+    add_laws(r);
+    add_load(r, BR_AXIAL);
+    add_load(r, BR_BENDING);
+    add_tip_loads(r);
+    add_initial(r);
     if (r->summed)
         add(r, "nodal_fields", "nodal fields", true,
             "rebuilt every step, for the certificate or the energies");
@@ -179,17 +175,4 @@ static void add_rebuilding(struct br_run_report *r)
         add(r, "nodal_fields", "nodal fields", true,
             "rebuilt at t = 0, at %zu output time%s and at the end, not in the steps", r->levels,
             r->levels == 1 ? "" : "s");
-}
-
-void br_run_fill_model(struct br_run_report *r)
-{
-    add_axial(r);
-    add_bending(r);
-    add_contact(r);
-    add_friction(r);
-    add_load(r, BR_AXIAL);
-    add_load(r, BR_BENDING);
-    add_tip_loads(r);
-    add_initial(r);
-    add_rebuilding(r);
 }

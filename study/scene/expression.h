@@ -4,8 +4,8 @@
 #ifndef BR_STUDY_SCENE_EXPRESSION_H
 #define BR_STUDY_SCENE_EXPRESSION_H
 
+#include "solver/field.h"
 #include "solver/function.h"
-#include "solver/scene.h"
 
 /* X(name, arguments, word): the operations. The word is how a person writes a function, or what
  * stands between both arguments; a > b is b < a, and a != b is !(a == b). `not`, `and`, `or` and
@@ -172,5 +172,16 @@ enum br_status br_tree_derivation(const struct br_tree *tree, const struct br_de
  * What mixes x and t, and the product of two sums that do (multiplied out, it may cancel), remains
  * one term f(x, t). f is taken over, even where it fails (BR_NO_MEMORY; *load is then zero). */
 enum br_status br_products(struct br_function *f, struct br_load *load, struct br_error *err);
+
+/* ---- manufactured solutions ---- */
+
+/* Fills the loads, tip forces and initial data of a scene whose axial.solution or
+ * bending.solution is given, so that these solve (1)-(12); a scene without one stays as it
+ * is. A load is left as one term f(x, t). Refuses (BR_BAD_INPUT) a scene of which only one
+ * modelled part has a solution, a solution beside what it determines, and what
+ * br_given_check refuses; *culprit is then the part whose solution it is about. Fails with
+ * BR_NO_MEMORY; br_scene_clear releases what was made until then. */
+enum br_status br_manufactured_apply(struct br_scene *scene, enum br_field_kind *culprit,
+                                     struct br_error *err);
 
 #endif

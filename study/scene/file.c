@@ -9,7 +9,6 @@
 #include <unistd.h>
 #include <yaml.h>
 
-#include "reference/mms/mms.h"
 #include "study/scene/expression.h"
 #include "study/scene/quote.h"
 #include "study/scene/schema.h"
@@ -257,7 +256,7 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
-/* What a solution determines (reference/mms). */
+/* What a solution determines (manufactured.c). */
 static enum br_status apply_solutions(const struct br_scene_reader *r)
 {
     struct br_error inner = {0};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/verify/comparison.h"
 
+#include <jansson.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,8 +19,11 @@ static const double time_steps[] = {1.25, 1.5, INFINITY}; /* machines differ: ne
 
 void br_old_check_clear(struct br_old_check *old)
 {
-    free(old->cases);
-    free(old->costs);
+    for (size_t i = 0; i < old->count; i++)
+        br_check_clear(&old->check[i]);
+    free(old->check);
+    free(old->method);
+    json_decref(old->json);
     *old = (struct br_old_check){0};
 }
 
@@ -38,10 +42,10 @@ static enum br_severity grade(double change, const double steps[BR_SERIOUS])
     return (enum br_severity)severity;
 }
 
-/* The factor between two positive numbers, >= 1; 1 where both are missing. */
+/* The factor between two numbers that are not negative, >= 1; 1 where both are missing or 0. */
 static double factor(double before, double now)
 {
-    if (isnan(before) && isnan(now))
+    if ((isnan(before) && isnan(now)) || before == now)
         return 1;
     return now > before ? now / before : before / now;
 }
@@ -67,21 +71,34 @@ __attribute__((format(printf, 7, 8))) static void add(struct br_comparison *c, c
 /* ---- cases ---- */
 
 /* A name that is not UTF-8 has got question marks in JSON (tables/json_value.h). */
-static bool same_name(const char *old, const char *now)
+static bool same_name(const char *a, const char *b)
 {
-    while (*old && (*old == *now || (*old == '?' && (unsigned char)*now >= 0x80))) {
-        old++;
-        now++;
+    while (*a && (*a == *b || (*a == '?' && (unsigned char)*b >= 0x80) ||
+                  (*b == '?' && (unsigned char)*a >= 0x80))) {
+        a++;
+        b++;
     }
-    return *old == *now;
+    return *a == *b;
 }
 
-static bool is_case(const struct br_old_case *old, const struct br_check *check,
-                    const struct br_case *c)
+static const struct br_check *find_check(const struct br_check *checks, size_t count,
+                                         const char *name)
 {
-    return same_name(old->scene, check->name) &&
-           strcmp(old->study, br_verify_names[c->kind]) == 0 &&
-           strcmp(old->norm, c->measure) == 0 && strcmp(old->part, c->part) == 0;
+    for (size_t i = 0; i < count; i++)
+        if (same_name(checks[i].name, name))
+            return &checks[i];
+    return NULL;
+}
+
+static const struct br_case *find_case(const struct br_check *check, const struct br_case *c)
+{
+    for (size_t i = 0; i < check->count; i++) {
+        const struct br_case *x = &check->cases[i];
+        if (x->kind == c->kind && strcmp(x->measure, c->measure) == 0 &&
+            strcmp(x->part, c->part) == 0)
+            return x;
+    }
+    return NULL;
 }
 
 /* Whether a limit has gone or moved outward; direction: 1 for an upper one, -1 for a lower one. */
@@ -91,22 +108,22 @@ static bool is_looser(double before, double now, double direction)
 }
 
 /* A band that is wider lets pass what failed before. */
-static bool expects_less(const struct br_expectation *e, const struct br_old_case *old)
+static bool expects_less(const struct br_expectation *e, const struct br_expectation *old)
 {
-    return is_looser(old->expected + old->tolerance, e->order + e->tolerance, 1) ||
-           is_looser(old->expected - old->tolerance, e->order - e->tolerance, -1) ||
+    return is_looser(old->order + old->tolerance, e->order + e->tolerance, 1) ||
+           is_looser(old->order - old->tolerance, e->order - e->tolerance, -1) ||
            is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1);
 }
 
 static void compare_known(struct br_comparison *out, const char *subject, const struct br_case *c,
-                          const struct br_old_case *old)
+                          const struct br_case *old)
 {
-    const struct br_expectation *e = &c->expected;
-    const double shift = c->order.value - old->order;
+    const struct br_expectation *e = &c->expected, *before = &old->expected;
+    const double shift = c->order.value - old->order.value;
     const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
                                      : c->verdict == BR_PASS    ? BR_NOTE
                                                                 : BR_SERIOUS;
-    enum br_severity order = isnan(old->order) && isnan(c->order.value)
+    enum br_severity order = isnan(old->order.value) && isnan(c->order.value)
                                  ? BR_SAME
                                  : grade(fabs(shift) / e->tolerance, order_steps);
     enum br_severity constant = grade(factor(old->constant, c->constant), constant_steps);
@@ -116,46 +133,35 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
     }
     add(out, subject, "verdict", NAN, NAN, verdict, "%s before, %s now",
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
-    add(out, subject, "expectation", old->expected, e->order,
-        expects_less(e, old) ? BR_WARNING : BR_SAME,
-        "looser: +- %g and %g to %g before, +- %g and %g to %g now", old->tolerance, old->floor,
-        old->ceiling, e->tolerance, e->floor, e->ceiling);
-    add(out, subject, "order", old->order, c->order.value, order, "%+.2g of a tolerance of %.2g",
-        shift, e->tolerance);
+    add(out, subject, "expectation", before->order, e->order,
+        expects_less(e, before) ? BR_WARNING : BR_SAME,
+        "looser: +- %g and %g to %g before, +- %g and %g to %g now", before->tolerance,
+        before->floor, before->ceiling, e->tolerance, e->floor, e->ceiling);
+    add(out, subject, "order", old->order.value, c->order.value, order,
+        "%+.2g of a tolerance of %.2g", shift, e->tolerance);
     add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",
         100 * (c->constant / old->constant - 1));
 }
 
-static void compare_case(struct br_comparison *out, const struct br_check *check,
-                         const struct br_case *c, const struct br_old_check *old)
+/* Cases of now, and earlier ones that should be there again, and are not. NULL: the scene is not
+ * there now, or was not. */
+static void compare_cases(struct br_comparison *out, const struct br_check *check,
+                          const struct br_check *old)
 {
-    char subject[SUBJECT];
-    snprintf(subject, sizeof subject, "%.100s %s %s %s", check->name, br_verify_names[c->kind],
-             c->measure, c->part);
-    for (size_t i = 0; i < old->count; i++)
-        if (is_case(&old->cases[i], check, c)) {
-            compare_known(out, subject, c, &old->cases[i]);
-            return;
+    const struct br_check *const both[] = {check, old}, *const other[] = {old, check};
+    for (int was = 0; was < 2; was++)
+        for (size_t i = 0; both[was] && i < both[was]->count; i++) {
+            const struct br_case *c = &both[was]->cases[i];
+            const struct br_case *beside = other[was] ? find_case(other[was], c) : NULL;
+            char subject[SUBJECT];
+            snprintf(subject, sizeof subject, "%.100s %s %s %s", both[was]->name,
+                     br_verify_names[c->kind], c->measure, c->part);
+            if (beside && !was)
+                compare_known(out, subject, c, beside);
+            else if (!beside)
+                add(out, subject, was ? "gone" : "new", was ? c->order.value : NAN,
+                    was ? NAN : c->order.value, was ? BR_SERIOUS : BR_NOTE, "%s", "");
         }
-    add(out, subject, "new", NAN, c->order.value, BR_NOTE, "%s", "");
-}
-
-/* An earlier case that should be there again, and is not. */
-static void report_lost(struct br_comparison *out, const struct br_check *checks, size_t count,
-                        bool whole, const struct br_old_case *old)
-{
-    bool scene = whole;
-    for (size_t i = 0; i < count; i++) {
-        scene |= same_name(old->scene, checks[i].name);
-        for (size_t c = 0; c < checks[i].count; c++)
-            if (is_case(old, &checks[i], &checks[i].cases[c]))
-                return;
-    }
-    char subject[SUBJECT];
-    snprintf(subject, sizeof subject, "%.100s %s %s %s", old->scene, old->study, old->norm,
-             old->part);
-    if (scene)
-        add(out, subject, "gone", old->order, NAN, BR_SERIOUS, "%s", "");
 }
 
 /* ---- methods ---- */
@@ -186,17 +192,17 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
 }
 
 static void compare_methods(struct br_comparison *out, const struct br_check *check,
-                            const struct br_old_cost *old)
+                            const struct br_old_method old[BR_VERIFY_KINDS])
 {
     for (int kind = 0; kind < BR_VERIFY_KINDS && check->verify; kind++)
-        if (old->method[kind].known && check->verify->study[kind].count)
-            compare_method(out, check, (enum br_verify_kind)kind, &old->method[kind]);
+        if (old[kind].known && check->verify->study[kind].count)
+            compare_method(out, check, (enum br_verify_kind)kind, &old[kind]);
 }
 
 /* ---- cost ---- */
 
 static void compare_cost(struct br_comparison *out, const struct br_check *check,
-                         const struct br_old_cost *old)
+                         const struct br_check *old)
 {
     const double before = old->seconds / old->element_steps * 1e9;
     const double now = check->seconds / check->element_steps * 1e9;
@@ -219,7 +225,7 @@ static int by_severity(const void *a, const void *b)
 }
 
 /* Numbers of two problems differ for more reasons than a comparison can tell. */
-static enum br_status check_problem(const struct br_check *check, const struct br_old_cost *old,
+static enum br_status check_problem(const struct br_check *check, const struct br_check *old,
                                     struct br_error *err)
 {
     if (!*check->problem || !*old->problem || strcmp(check->problem, old->problem) == 0)
@@ -242,12 +248,10 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
                                "two scenes are called %s, expected names that tell them apart from "
                                "each other in a comparison",
                                checks[i].name);
-        for (size_t s = 0; s < old->scenes; s++)
-            if (same_name(old->costs[s].scene, checks[i].name)) {
-                found = true;
-                if (check_problem(&checks[i], &old->costs[s], err))
-                    return err->status;
-            }
+        const struct br_check *before = find_check(old->check, old->count, checks[i].name);
+        found |= before != NULL;
+        if (before && check_problem(&checks[i], before, err))
+            return err->status;
     }
     return found ? BR_OK
                  : br_fail(err, BR_BAD_INPUT,
@@ -259,23 +263,25 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
                           struct br_error *err)
 {
     *out = (struct br_comparison){0};
-    size_t most = old->count;
+    size_t most = 1;
+    for (size_t i = 0; i < old->count; i++)
+        most += old->check[i].count;
     for (size_t i = 0; i < count; i++)
-        most += 4 * checks[i].count + (2 + BR_VERIFY_KINDS * BR_METHOD_FIELDS) * old->scenes;
-    out->difference = br_allocate(most + 1, sizeof *out->difference);
+        most += 4 * checks[i].count + 2 + BR_VERIFY_KINDS * BR_METHOD_FIELDS;
+    out->difference = br_allocate(most, sizeof *out->difference);
     if (!out->difference)
         return br_no_memory(err, "the comparison");
     for (size_t i = 0; i < count; i++) {
-        for (size_t c = 0; c < checks[i].count; c++)
-            compare_case(out, &checks[i], &checks[i].cases[c], old);
-        for (size_t s = 0; s < old->scenes; s++)
-            if (same_name(old->costs[s].scene, checks[i].name)) {
-                compare_methods(out, &checks[i], &old->costs[s]);
-                compare_cost(out, &checks[i], &old->costs[s]);
-            }
+        const struct br_check *before = find_check(old->check, old->count, checks[i].name);
+        compare_cases(out, &checks[i], before);
+        if (before) {
+            compare_methods(out, &checks[i], old->method[before - old->check]);
+            compare_cost(out, &checks[i], before);
+        }
     }
-    for (size_t i = 0; i < old->count; i++)
-        report_lost(out, checks, count, whole, &old->cases[i]);
+    for (size_t i = 0; i < old->count && whole; i++)
+        if (!find_check(checks, count, old->check[i].name))
+            compare_cases(out, NULL, &old->check[i]);
     qsort(out->difference, out->count, sizeof *out->difference, by_severity);
     return BR_OK;
 }

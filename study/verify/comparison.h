@@ -7,6 +7,8 @@
 #include "study/scene/method_fields.h"
 #include "study/verify/check.h"
 
+struct json_t;
+
 enum br_severity {
     BR_SAME,    /* nothing that is worth a line */
     BR_NOTE,    /* moved a little, or new */
@@ -14,14 +16,6 @@ enum br_severity {
     BR_SERIOUS, /* moved by the whole tolerance, twice the constant; a worse verdict; gone */
 };
 extern const char *const br_severity_names[];
-
-/* What an earlier check knew of one case. */
-struct br_old_case {
-    char scene[256], study[16], norm[16], part[16];
-    double order, constant;                     /* NaN: none */
-    double expected, tolerance, floor, ceiling; /* what was expected; NaN: nothing */
-    enum br_verdict verdict;
-};
 
 /* The method of a study, each field as br_method_field_text has it; "": it was not heeded. */
 struct br_old_method {
@@ -32,19 +26,13 @@ struct br_old_method {
 /* What a method is to a later check (out). */
 void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 
-/* And what one of its scenes cost. */
-struct br_old_cost {
-    char scene[256];
-    char problem[40]; /* as br_check has it */
-    double seconds, element_steps;
-    struct br_old_method method[BR_VERIFY_KINDS];
-};
-
+/* What an earlier check has left behind: of each scene its name, problem and cost, and of its cases
+ * what they are of, the order, the constant, the expectation and the verdict. */
 struct br_old_check {
-    struct br_old_case *cases; /* owned */
+    struct br_check *check;                          /* count; owned with their cases */
+    struct br_old_method (*method)[BR_VERIFY_KINDS]; /* of each; owned */
     size_t count;
-    struct br_old_cost *costs; /* owned */
-    size_t scenes;
+    struct json_t *json; /* of jansson, whose words are borrowed; owned */
 };
 void br_old_check_clear(struct br_old_check *old);
 

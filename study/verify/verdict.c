@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "study/fit/fit.h"
+#include "study/scene/words.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
 
@@ -18,16 +19,6 @@ __attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
     va_list args;
     va_start(args, format);
     vsnprintf(c->reason, sizeof c->reason, format, args);
-    va_end(args);
-}
-
-__attribute__((format(printf, 3, 4))) static void append(char *text, size_t size,
-                                                         const char *format, ...)
-{
-    const size_t used = strlen(text);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(text + used, size - used, format, args);
     va_end(args);
 }
 
@@ -59,9 +50,9 @@ static void list_left_out(struct br_case *c)
 {
     for (size_t i = 0; i < c->points; i++) {
         if (c->point[i].flag)
-            append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
-                   c->note[0] ? ", " : "left out: ", c->point[i].label,
-                   br_flag_name(c->point[i].flag), c->point[i].error);
+            br_append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
+                      c->note[0] ? ", " : "left out: ", c->point[i].label,
+                      br_flag_name(c->point[i].flag), c->point[i].error);
     }
 }
 
@@ -115,7 +106,7 @@ static void advise_tolerance(struct br_case *c)
     const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
     const double enough = ceil(100 * off + 1e-9) / 100;
     if (enough < expected)
-        append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
+        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
 }
 
 /* What would make it conclusive. */
@@ -124,17 +115,17 @@ static void advise(struct br_case *c)
     const double expected = c->expected.order, last = last_order(c);
     if (fabs(last - expected) <= c->expected.tolerance &&
         fabs(last - expected) < fabs(c->order.value - expected)) {
-        append(
+        br_append(
             c->reason, sizeof c->reason,
             "; the two finest show %.2f, so the coarse ones are not asymptotic: begin finer, or go "
             "on refining",
             last);
         return;
     }
-    append(c->reason, sizeof c->reason, "; %s",
-           c->order.high - c->order.low > 2 * c->expected.tolerance
-               ? "it is wider than the band: finer grids would narrow it"
-               : "finer grids would tell");
+    br_append(c->reason, sizeof c->reason, "; %s",
+              c->order.high - c->order.low > 2 * c->expected.tolerance
+                  ? "it is wider than the band: finer grids would narrow it"
+                  : "finer grids would tell");
     advise_tolerance(c);
 }
 
@@ -216,7 +207,7 @@ static void judge_constant(struct br_case *c)
     conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
              high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
-        append(c->reason, sizeof c->reason, "; and %s", before);
+        br_append(c->reason, sizeof c->reason, "; and %s", before);
 }
 
 enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err)

@@ -9,59 +9,67 @@
 #include "study/scene/value.h"
 #include "study/scene/words.h"
 
-/* One study on its way: its lists are put together when both are known. */
+enum { MESHES, STEPS, FIELDS, KEYS = FIELDS + BR_METHOD_FIELDS };
+
+/* One study on its way. */
 struct block {
     const struct br_scene_reader *r;
     enum br_verify_kind kind;
     struct br_verify_study *study;
-    size_t *n, n_count, n_line; /* as given; line 0: not yet */
+    const char *text[KEYS]; /* n, k and the method's fields; NULL: not given */
+    size_t line[KEYS];
+    size_t *n, n_count;
     double *k;
-    size_t k_count, k_line;
-    const char *text[BR_METHOD_FIELDS]; /* of the method; NULL: not given */
-    size_t line[BR_METHOD_FIELDS];
+    size_t k_count;
     char keys[512]; /* for messages */
 };
+
+/* The name of a key; NULL: it is none of a scene's. */
+static const char *name_of(size_t key)
+{
+    if (key < FIELDS)
+        return key == MESHES ? "n" : "k";
+    const struct br_method_field *f = &br_method_fields[key - FIELDS];
+    return f->unsaid ? NULL : br_method_field_key(f);
+}
 
 /* The keys of a study. */
 static const char *expected_study(struct block *b)
 {
-    char *const text = b->keys;
-    size_t used = (size_t)snprintf(text, sizeof b->keys, "n, k, ");
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        if (!br_method_fields[i].unsaid)
-            used += (size_t)snprintf(text + used, sizeof b->keys - used, "%s, ",
-                                     br_method_field_key(&br_method_fields[i]));
-    snprintf(text + used, sizeof b->keys - used,
-             "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
-    return text;
+    b->keys[0] = '\0';
+    for (size_t i = 0; i < KEYS; i++)
+        if (name_of(i))
+            br_append(b->keys, sizeof b->keys, "%s, ", name_of(i));
+    return br_append(
+        b->keys, sizeof b->keys,
+        "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
 }
 
 /* ---- n and k ---- */
 
-static enum br_status read_meshes(struct block *b, const yaml_node_t *node)
-{
-    struct br_error inner = {0};
-    b->n_line = br_yaml_line(node);
-    if (br_read_counts("the list", br_yaml_text(node), &b->n, &b->n_count, &inner))
-        return br_scene_pass_on(b->r, b->n_line, "n", &inner);
-    return BR_OK;
-}
-
 /* "8e-3, 4e-3 s" */
-static enum br_status read_steps(struct block *b, const yaml_node_t *node)
+static enum br_status read_steps(struct block *b, struct br_error *err)
 {
-    struct br_error inner = {0};
-    b->k_line = br_yaml_line(node);
-    const char *text = br_yaml_text(node);
+    const char *text = b->text[STEPS];
     const size_t length = strlen(text);
     char numbers[1024];
     if (length < 2 || length >= sizeof numbers || strcmp(text + length - 2, " s") != 0)
-        return br_scene_refuse(
-            b->r, b->k_line, "k",
-            "found '%s', expected time steps and their unit, like '8e-3, 4e-3 s'", text);
+        return br_fail(err, BR_BAD_INPUT,
+                       "found '%s', expected time steps and their unit, like '8e-3, 4e-3 s'", text);
     snprintf(numbers, sizeof numbers, "%.*s", (int)(length - 2), text);
-    if (br_read_numbers("the list", numbers, &b->k, &b->k_count, &inner))
-        return br_scene_pass_on(b->r, b->k_line, "k", &inner);
+    return br_read_numbers("the list", numbers, &b->k, &b->k_count, err);
+}
+
+static enum br_status read_lists(struct block *b)
+{
+    struct br_error inner = {0};
+    if (b->text[MESHES] && br_read_counts("the list", b->text[MESHES], &b->n, &b->n_count, &inner))
+        return br_scene_pass_on(b->r, b->line[MESHES], "n", &inner);
+    if (b->text[STEPS] && read_steps(b, &inner))
+        return br_scene_pass_on(b->r, b->line[STEPS], "k", &inner);
+    if (!b->text[MESHES] || !b->text[STEPS])
+        return br_scene_refuse(b->r, b->study->line, b->text[MESHES] ? "k" : "n",
+                               "missing in verify %s", br_verify_names[b->kind]);
     return BR_OK;
 }
 
@@ -100,7 +108,7 @@ static enum br_status make_cells(struct block *b)
         struct br_error inner = {0};
         v->n[i] = b->n[b->n_count == 1 ? 0 : i];
         if (br_steps_of(b->r->scene, b->k[b->k_count == 1 ? 0 : i], &v->steps[i], &inner))
-            return br_scene_pass_on(b->r, b->k_line, "k", &inner);
+            return br_scene_pass_on(b->r, b->line[STEPS], "k", &inner);
     }
     br_sort_counts(v->n, count);
     br_sort_counts(v->steps, count);
@@ -187,33 +195,22 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
 
 /* ---- a study ---- */
 
-static bool is_key(const struct br_method_field *f, const char *key)
-{
-    return !f->unsaid && strcmp(br_method_field_key(f), key) == 0;
-}
-
 static enum br_status read_key(struct block *b, const yaml_node_t *name, const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_scene_refuse(b->r, br_yaml_line(name), br_verify_names[b->kind],
                                "found a list or a mapping, expected one line each of %s",
                                expected_study(b));
-    const char *key = br_yaml_text(name);
-    const bool is_n = strcmp(key, "n") == 0;
-    if (is_n || strcmp(key, "k") == 0) {
-        if (is_n ? b->n_line : b->k_line)
-            return br_scene_refuse(b->r, br_yaml_line(name), key, "given twice");
-        return is_n ? read_meshes(b, value) : read_steps(b, value);
-    }
-    size_t field = 0;
-    while (field < BR_METHOD_FIELDS && !is_key(&br_method_fields[field], key))
-        field++;
-    if (field == BR_METHOD_FIELDS)
-        return read_expectation(b, key, value);
-    if (b->text[field])
-        return br_scene_refuse(b->r, br_yaml_line(name), key, "given twice");
-    b->text[field] = br_yaml_text(value);
-    b->line[field] = br_yaml_line(value);
+    const char *text = br_yaml_text(name);
+    size_t key = 0;
+    while (key < KEYS && (!name_of(key) || strcmp(name_of(key), text) != 0))
+        key++;
+    if (key == KEYS)
+        return read_expectation(b, text, value);
+    if (b->text[key])
+        return br_scene_refuse(b->r, br_yaml_line(name), text, "given twice");
+    b->text[key] = br_yaml_text(value);
+    b->line[key] = br_yaml_line(value);
     return BR_OK;
 }
 
@@ -224,13 +221,14 @@ static enum br_status read_method(struct block *b)
     const struct br_method *const methods[] = {m};
     struct br_error inner = {0};
     *m = br_method_default();
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        if (b->text[i] && br_method_field_read(&br_method_fields[i], b->text[i], m, &inner))
-            return br_scene_pass_on(b->r, b->line[i], br_method_field_key(&br_method_fields[i]),
-                                    &inner);
-    enum br_status status = br_method_read(b->text, BR_METHOD_IN_SCENE, m, &inner);
+    for (size_t i = FIELDS; i < KEYS; i++)
+        if (b->text[i] &&
+            br_method_field_read(&br_method_fields[i - FIELDS], b->text[i], m, &inner))
+            return br_scene_pass_on(b->r, b->line[i], name_of(i), &inner);
+    const char *const *text = b->text + FIELDS;
+    enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, m, &inner);
     if (!status)
-        status = br_method_check_heeded(b->text, BR_METHOD_IN_SCENE, methods, 1, &inner);
+        status = br_method_check_heeded(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
     return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 
@@ -249,9 +247,8 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
          p < node->data.mapping.pairs.top && !status; p++)
         status = read_key(b, yaml_document_get_node(r->document, p->key),
                           yaml_document_get_node(r->document, p->value));
-    if (!status && (!b->n_line || !b->k_line))
-        status =
-            br_scene_refuse(r, b->study->line, b->n_line ? "k" : "n", "missing in verify %s", name);
+    if (!status)
+        status = read_lists(b);
     if (!status)
         status = read_method(b);
     if (!status)

@@ -122,7 +122,7 @@ const struct br_linear_solver br_riccati = {
     .axial_quadratic = &br_plain_form,
     .bending = &br_pieces,
     .round_off = riccati_round_off,
-    .bytes = {40, 62, 140},
+    .bytes = {40, 62, 141},
     .state_bytes = {28, 44, 32},
     .cost = pieces_cost,
 };
