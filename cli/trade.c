@@ -33,19 +33,6 @@ struct run {
 
 /* ---- what is tried ---- */
 
-/* The scheme of the highest order that does not choose its steps: a fine run's. */
-static struct br_method fine_method(void)
-{
-    struct br_named_method finest = {.method = br_method_default()};
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
-        struct br_named_method c;
-        if (!(*s)->adaptive && (*s)->order > finest.method.scheme->order &&
-            !br_named_method_read((*s)->name, &c, NULL))
-            finest = c;
-    }
-    return finest.method;
-}
-
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
@@ -53,6 +40,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
+    struct br_named_method fine;
     *q = br_trial_request_default(scene);
     q->judge = r->study.judge;
     q->threads = r->session.threads;
@@ -63,7 +51,9 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     q->norm = r->study.norm[0];
     if (!q->judge || !q->judge->nests)
         return BR_OK;
-    q->reference_method = fine_method();
+    if (br_named_method_read(br_highest_scheme()->name, &fine, err))
+        return err->status;
+    q->reference_method = fine.method;
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
@@ -114,24 +104,22 @@ static enum br_status check_heeded(const struct run *r, bool split, struct br_er
 {
     const struct br_options *o = r->session.options;
     const struct br_named_methods *methods = &r->study.methods;
-    bool fixed = methods->count == 0, adaptive = methods->count == 0;
+    bool fixed = methods->count == 0 || split, adaptive = methods->count == 0;
     for (size_t i = 0; i < methods->count; i++) {
         fixed |= !methods->list[i].method.scheme->adaptive;
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
+    static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPT_STEPS, BR_OPTIONS};
     const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerances"
-                          : fixed || split                                   ? NULL
-                          : br_option_given(o, BR_OPT_K)                     ? "k"
-                          : br_option_given(o, BR_OPT_STEPS)                 ? "steps"
-                                                                             : NULL;
+                          : fixed                                            ? NULL
+                                  : br_first_given(o, of_fixed);
     return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it", dropped)
                    : BR_OK;
 }
 
-static enum br_status read_request(struct run *r, struct br_error *err)
+/* One norm, and a judge that gives errors. */
+static enum br_status check_judge(const struct run *r, struct br_error *err)
 {
-    if (br_study_request_read(r->session.options, &r->study, err))
-        return err->status;
     const struct br_judge *judge = r->study.judge;
     if (r->study.norms > 1)
         return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
@@ -140,7 +128,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
             err, BR_BAD_INPUT,
             "--reference: found '%s', expected a judge that gives errors: exact, mms or fine:N,K",
             judge->name);
-    return check_heeded(r, false, err);
+    return BR_OK;
 }
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
@@ -268,19 +256,6 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
     return BR_OK;
 }
 
-/* Without --methods the first scheme marches. */
-static enum br_status read_split(struct run *r, struct br_error *err)
-{
-    const struct br_options *o = r->session.options;
-    struct br_named_methods *methods = &r->study.methods;
-    const bool failed =
-        check_split(o, err) || br_study_request_read(o, &r->study, err) ||
-        (methods->count == 0 &&
-         br_named_methods_read("--methods", br_time_schemes[0]->name, methods, err)) ||
-        check_heeded(r, true, err) || read_scenes(r, err);
-    return failed ? err->status : BR_OK;
-}
-
 /* Of a method on a mesh: time steps, then tolerances. */
 static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
 {
@@ -310,7 +285,10 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
     const size_t *n = o->count[BR_OPT_N] ? o->whole[BR_OPT_N] : default_n;
     const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
     size_t steps;
-    if (read_split(r, err) ||
+    if (check_split(o, err) || br_study_request_read(o, &r->study, err) ||
+        (r->study.methods.count == 0 && /* the first scheme marches */
+         br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
+        check_heeded(r, true, err) || read_scenes(r, err) ||
         br_option_steps(o, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
@@ -359,7 +337,8 @@ static bool split(struct run *r, struct br_error *err)
 
 static bool trade(struct run *r, struct br_error *err)
 {
-    if (br_session_alone(err) || read_request(r, err) || read_scenes(r, err))
+    if (br_session_alone(err) || br_study_request_read(r->session.options, &r->study, err) ||
+        check_judge(r, err) || check_heeded(r, false, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))

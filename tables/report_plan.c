@@ -160,15 +160,15 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
 
     br_put_table(d, "models", "How far the models are off (root mean square over the trials)", 0);
     for (size_t i = 0; i < p->methods.count; i++) {
-        const struct br_plan_models *m = &p->model[i];
-        const double *c = m->cost.c;
+        const struct br_plan_model *m = &p->model[i];
+        const double *c = m->cost;
         br_put_row(d);
         BR_PUT(d, br_text(p->methods.list[i].name), .key = "method");
-        BR_PUT(d, br_count(m->error.points), .key = "trials");
+        BR_PUT(d, br_count(m->points), .key = "trials");
         br_put_blank(d, !m->known);
-        BR_PUT(d, br_number(m->error.r), .key = "r", .format = "%.2f");
-        put_scatter(d, "error_scatter", "error", m->error.scatter);
-        put_scatter(d, "cost_scatter", "CPU", m->cost.scatter);
+        BR_PUT(d, br_number(m->r), .key = "r", .format = "%.2f");
+        put_scatter(d, "error_scatter", "error", m->scatter[BR_PLAN_ERROR]);
+        put_scatter(d, "cost_scatter", "CPU", m->scatter[BR_PLAN_SECONDS]);
         br_hide(d, "seconds_set_up", "s", br_number(c[0]));
         br_hide(d, "seconds_element", "s", br_number(c[1]));
         BR_PUT(d, br_number(c[2]), .key = "seconds_solve", .heading = "a solve", .unit = "s",
@@ -185,9 +185,9 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     static const char *const names[] = {"log_space_error", "log_time_error", "log_solves"};
     BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, curves_columns);
     for (size_t i = 0; i < p->methods.count; i++) {
-        const struct br_plan_models *m = &p->model[i];
-        const struct br_plan_curve *const curves[] = {&m->error.space, &m->error.time,
-                                                      &m->cost.solves};
+        const struct br_plan_model *m = &p->model[i];
+        const struct br_plan_curve *const curves[] = {&m->part[BR_PLAN_X], &m->part[BR_PLAN_Y],
+                                                      &m->solves};
         for (size_t c = 0; c < 3 && m->known; c++)
             for (size_t j = 0; j < curves[c]->count; j++)
                 BR_PUT_ROW(d, br_text(p->methods.list[i].name), br_text(names[c]),
@@ -195,30 +195,34 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     }
 
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
-    br_hide_fact(d, br_text(p->request.scene->name), NULL, "scene.name");
-    br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
-    br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
-    br_hide_fact(d, br_text(p->request.norm->name), NULL, "norm");
-    br_hide_fact(d, br_text(br_plan_end_names[p->end]), NULL, "end");
-    br_hide_fact(d, br_number(p->own), NULL, "own_error");
-    br_hide_fact(d, br_count(p->rounds), NULL, "rounds");
-    br_hide_fact(d, br_if(p->first < p->count, br_count(p->first)), NULL, "first");
-    br_hide_fact(d, br_if(p->chosen < p->count, br_count(p->chosen)), NULL, "chosen");
-    br_hide_fact(d, br_number(br_plan_spent(p)), NULL, "marched_seconds");
-    br_hide_fact(d, br_number(p->wall_seconds), NULL, "wall_seconds");
-    br_hide_fact(d, br_number(parts.space), NULL, "space_error");
-    br_hide_fact(d, br_number(parts.time), NULL, "time_error");
-    br_hide_fact(d, br_number(parts.p), NULL, "space_order");
-    br_hide_fact(d, br_number(parts.q), NULL, "time_order");
+    const struct br_fact facts[] = {
+        {"scene.name", NULL, NULL, br_text(scene->name)},
+        {"goal_error", NULL, NULL, br_number(p->goal.error)},
+        {"goal_seconds", NULL, NULL, br_number(p->goal.seconds)},
+        {"norm", NULL, NULL, br_text(p->request.norm->name)},
+        {"end", NULL, NULL, br_text(br_plan_end_names[p->end])},
+        {"own_error", NULL, NULL, br_number(p->own)},
+        {"rounds", NULL, NULL, br_count(p->rounds)},
+        {"first", NULL, NULL, br_if(p->first < p->count, br_count(p->first))},
+        {"chosen", NULL, NULL, br_if(p->chosen < p->count, br_count(p->chosen))},
+        {"marched_seconds", NULL, NULL, br_number(br_plan_spent(p))},
+        {"wall_seconds", NULL, NULL, br_number(p->wall_seconds)},
+        {"space_error", NULL, NULL, br_number(parts.error[BR_PLAN_X])},
+        {"time_error", NULL, NULL, br_number(parts.error[BR_PLAN_Y])},
+        {"space_order", NULL, NULL, br_number(parts.order[BR_PLAN_X])},
+        {"time_order", NULL, NULL, br_number(parts.order[BR_PLAN_Y])},
+    };
+    BR_FACTS(d, facts);
 
     br_put_section(d, "What is measured");
-    if (isfinite(parts.space))
+    if (isfinite(parts.error[BR_PLAN_X]))
         br_put_note(
             d,
             "By the model, the proposal has a space error of %.2e and a time error of %.2e, "
             "both relative. The observed order in h is %.2f, in %s it is %.2f.",
-            parts.space, parts.time, parts.p,
-            p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k", parts.q);
+            parts.error[BR_PLAN_X], parts.error[BR_PLAN_Y], parts.order[BR_PLAN_X],
+            p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k",
+            parts.order[BR_PLAN_Y]);
     br_put_note(d, "%s", p->request.norm->title);
     br_put_note(d,
                 "Relative errors are over the norm of the solution; the judge's own error, %.1e, "

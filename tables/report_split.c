@@ -53,67 +53,38 @@ static bool models(const struct br_split *s, enum br_part part)
            (part == BR_PART_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled);
 }
 
-/* A part of a run's error in one norm, the sum of the parts, or the whole. */
-struct line {
-    const char *name;
-    const char *none;          /* why there is no such part; NULL: there is */
-    const double *error, *tip; /* by br_part; by br_field_kind, m */
-    const double *floor;       /* by br_part; NULL: none */
-    double share;              /* of the sum; NaN: cannot be told */
-};
-
+/* The lines of a run: its parts, then their sum and the whole. */
 enum { OTHERS = 2 };
-
-static struct line line_of(const struct br_split *s, size_t norm, size_t i)
-{
-    if (i == s->shares)
-        return (struct line){.name = "sum",
-                             .error = s->sum[norm],
-                             .tip = s->tip_sum,
-                             .share = s->sum[norm][BR_PART_TOTAL] > 0};
-    if (i > s->shares)
-        return (struct line){.name = "whole",
-                             .error = s->whole.error[norm],
-                             .tip = s->whole.tip,
-                             .floor = s->whole.floor[norm],
-                             .share = NAN};
-    const struct br_share *share = &s->share[i];
-    return (struct line){
-        .name = share->source->name,
-        .none = share->none,
-        .error = share->error[norm],
-        .tip = share->tip,
-        .floor = share->floor[norm],
-        .share = is_told(share, norm) ? br_share_of_sum(s, share, norm, BR_PART_TOTAL) : NAN,
-    };
-}
 
 /* People see "< 3.4e-16" for an error below its floor. */
 static void put_line(struct br_document *d, const struct br_split *s, size_t norm, size_t i)
 {
     static const char *const key[BR_PARTS] = {"error", "axial", "bending"},
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
-    const struct line line = line_of(s, norm, i), *l = &line;
-    const bool told = i > s->shares || isfinite(l->share);
+    const bool is_sum = i == s->shares, is_whole = i > s->shares;
+    const struct br_share *l = is_sum ? &s->sum : is_whole ? &s->whole : &s->share[i];
+    const bool told = is_sum || (!is_whole && is_told(l, norm));
+    const double share =
+        is_sum ? l->error[norm][BR_PART_TOTAL] > 0 : br_share_of_sum(s, l, norm, BR_PART_TOTAL);
     br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
     br_hide(d, "unit", NULL, br_text(s->norm[norm]->unit));
-    BR_PUT(d, br_text(l->name), .key = "part");
+    BR_PUT(d, br_text(l->source ? l->source->name : is_sum ? "sum" : "whole"), .key = "part");
     br_hide(d, "applies", NULL, br_truth(!l->none));
     br_put_blank(d, l->none);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        const double error = models(s, part) ? l->error[part] : (double)NAN;
-        const double floor = l->floor ? l->floor[part] : (double)NAN;
+        const double error = models(s, part) ? l->error[norm][part] : (double)NAN;
+        const double floor = is_sum ? (double)NAN : l->floor[norm][part];
         br_hide(d, floor_key[part], NULL, br_number(floor));
         BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part],
                .format = "%.3e");
         if (isfinite(error) && floor > 0 && !(error > floor))
             br_put_shown(d, "< %.1e", floor);
     }
-    BR_PUT(d, br_number(l->share), .key = "share", .heading = "of the sum");
-    if (isfinite(l->share))
-        br_put_shown(d, share_format(l->share), 100 * l->share);
-    BR_PUT(d, br_number(told ? l->error[BR_PART_TOTAL] / s->scale[norm] : NAN), .key = "relative",
-           .heading = "of the solution", .format = "%.2e");
+    BR_PUT(d, br_number(told ? share : NAN), .key = "share", .heading = "of the sum");
+    if (told)
+        br_put_shown(d, share_format(share), 100 * share);
+    BR_PUT(d, br_if(told || is_whole, br_number(l->error[norm][BR_PART_TOTAL] / s->scale[norm])),
+           .key = "relative", .heading = "of the solution", .format = "%.2e");
     BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])), .key = "axial_tip",
            .heading = "axial tip", .unit = "m", .format = "%+.3e");
     BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l->tip[BR_BENDING])),
@@ -152,7 +123,7 @@ static void put_run_for_people(struct br_document *d, const struct br_split *s)
         }
     }
     for (size_t m = 0; m < s->norms; m++) {
-        const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum[m][BR_PART_TOTAL];
+        const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum.error[m][BR_PART_TOTAL];
         br_put_note(d, "The whole is %.3g of the sum of its parts%s (%s).", whole / sum,
                     whole < 0.9 * sum ? ", which point against each other" : "", s->norm[m]->name);
     }
@@ -162,8 +133,8 @@ static void put_run_for_people(struct br_document *d, const struct br_split *s)
     br_put_note(
         d, "Without time error: %s.%s At the tip the parts add up but for %.1e m.", s->refined.name,
         s->method.scheme->adaptive ? " The part called time is what the tolerance leaves." : "",
-        fmax(fabs(s->tip_sum[BR_AXIAL] - s->whole.tip[BR_AXIAL]),
-             fabs(s->tip_sum[BR_BENDING] - s->whole.tip[BR_BENDING])));
+        fmax(fabs(s->sum.tip[BR_AXIAL] - s->whole.tip[BR_AXIAL]),
+             fabs(s->sum.tip[BR_BENDING] - s->whole.tip[BR_BENDING])));
 }
 
 void br_report_split(const struct br_split *split, size_t count,

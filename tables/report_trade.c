@@ -153,11 +153,6 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
     }
 }
 
-static const struct br_judge *judge_of(const struct br_trade *t)
-{
-    return t->request.judge ? t->request.judge : br_judge_best(t->request.scene);
-}
-
 /* The first trial that has an error: it knows the solution and the judge's own error. */
 static void note_judge(struct br_document *d, const struct br_trade *t)
 {
@@ -165,7 +160,7 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
     while (known < t->trial + t->count && !isfinite(known->scale))
         known++;
     br_put_note(d, "%s", t->request.norm->title);
-    br_put_note(d, "Judged by: %s.", judge_of(t)->title);
+    br_put_note(d, "Judged by: %s.", br_trials_judge(&t->request)->title);
     if (known == t->trial + t->count)
         return;
     br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale,
@@ -239,7 +234,7 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
         {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
         {"norm", NULL, NULL, br_text(t->request.norm->name)},
         {"unit", NULL, NULL, br_text(t->request.norm->unit)},
-        {"judge", NULL, NULL, br_text(judge_of(t)->name)},
+        {"judge", NULL, NULL, br_text(br_trials_judge(&t->request)->name)},
         {"repeats", NULL, NULL, br_count(t->request.repeats)},
         {"repeat_seconds", NULL, NULL, br_number(t->request.repeat_seconds)},
         {"time_limit", NULL, NULL, br_number(t->request.time_limit)},

@@ -24,92 +24,81 @@ static double made_error(const struct made *m, double n, double k)
     return sqrt(a * a + 2 * m->r * a * b + b * b);
 }
 
-static struct br_plan_model made_model(const struct made *m)
+/* Costs as of a machine: set-up, an element, a solve, an element and solve, s. */
+static const double costs[BR_PLAN_COSTS] = {4e-5, 2e-8, 1.3e-6, 2e-9};
+
+static double made_seconds(double n, double k)
 {
-    struct br_plan_point point[MESHES * STEPS];
-    struct br_error err = {0};
-    struct br_plan_model model;
+    const double solves = 3 * k;
+    return costs[0] + costs[1] * n + (costs[2] + costs[3] * n) * solves;
+}
+
+/* The trials of a grid as a model sees them. */
+static struct br_plan_model *made_model(const struct made *m)
+{
+    struct br_plan_model *model = calloc(1, sizeof *model);
+    assert_non_null(model);
     for (int i = 0; i < MESHES * STEPS; i++) {
         const double n = meshes[i / STEPS], k = steps[i % STEPS];
-        point[i] = (struct br_plan_point){log(n), log(k), made_error(m, n, k)};
+        model->point[model->points++] = (struct br_plan_point){
+            {log(n), log(k)}, {made_error(m, n, k), made_seconds(n, k)}, 3 * k, {0}};
     }
-    MUST(br_plan_model_fit(&model, point, MESHES * STEPS, 2, 1, &err));
     return model;
 }
 
-/* The parts, their orders and r are found, between the trials and beyond. */
-TEST(test_error_model)
+/* The parts, their orders and r are found, and the costs, between the trials and beyond. */
+TEST(test_model)
 {
     static const struct made all[] = {{2, 1, 0}, {2, 2, 0.5}, {3, 1, -0.5}, {4, 2, 0.8}};
     static const double at[][2] = {{50, 30}, {200, 100}, {15, 250}, {5000, 500}};
+    struct br_error err = {0};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        struct br_plan_model model = made_model(&all[i]);
-        AT_MOST(model.scatter, 0.01);
-        CLOSE(model.r, all[i].r, 0.1);
+        struct br_plan_model *model = made_model(&all[i]);
+        MUST(br_plan_model_fit(model, 2, 1, &err));
+        AT_MOST(model->scatter[BR_PLAN_ERROR], 0.01);
+        AT_MOST(model->scatter[BR_PLAN_SECONDS], 1e-9);
+        CLOSE(model->r, all[i].r, 0.1);
+        for (int c = 0; c < BR_PLAN_COSTS; c++)
+            CLOSE(model->cost[c] / costs[c], 1, 1e-6);
         for (size_t j = 0; j < sizeof at / sizeof *at; j++) {
-            const struct br_plan_prediction p =
-                br_plan_model_predict(&model, log(at[j][0]), log(at[j][1]));
-            CLOSE(p.log_error, log(made_error(&all[i], at[j][0], at[j][1])), 0.05);
+            const double there[] = {log(at[j][0]), log(at[j][1])};
+            const struct br_plan_prediction p = br_plan_model_predict(model, there);
+            CLOSE(p.log[BR_PLAN_ERROR], log(made_error(&all[i], at[j][0], at[j][1])), 0.05);
+            CLOSE(p.log[BR_PLAN_SECONDS], log(made_seconds(at[j][0], at[j][1])), 1e-6);
         }
-        const struct br_plan_parts parts = br_plan_model_parts(&model, log(8), log(100));
-        CLOSE(parts.p, all[i].p, 0.1);
-        CLOSE(parts.q, all[i].q, 0.1);
-        CLOSE(log(parts.space), log(200 * pow(8, -all[i].p)), 0.1);
-        CLOSE(log(parts.time), log(5 * pow(100, -all[i].q)), 0.1);
-        br_plan_model_clear(&model);
+        const double coarse[] = {log(8), log(100)};
+        const struct br_plan_parts parts = br_plan_model_parts(model, coarse);
+        CLOSE(parts.order[BR_PLAN_X], all[i].p, 0.1);
+        CLOSE(parts.order[BR_PLAN_Y], all[i].q, 0.1);
+        CLOSE(log(parts.error[BR_PLAN_X]), log(200 * pow(8, -all[i].p)), 0.1);
+        CLOSE(log(parts.error[BR_PLAN_Y]), log(5 * pow(100, -all[i].q)), 0.1);
+        free(model);
     }
 }
 
-/* What was tried is known, though the model leaves it over; farther away it has no say. */
+/* What was tried is known, though the model leaves it over; farther away it has no say. No term of
+ * the costs is ever a saving. */
 TEST(test_residuals)
 {
-    const struct made smooth = {2, 2, 0};
-    struct br_plan_point point[MESHES * STEPS];
     struct br_error err = {0};
-    struct br_plan_model model;
-    for (int i = 0; i < MESHES * STEPS; i++) {
-        const double n = meshes[i / STEPS], k = steps[i % STEPS];
-        point[i] = (struct br_plan_point){log(n), log(k), made_error(&smooth, n, k)};
-    }
-    point[20].error *= 3; /* one of them is off */
-    MUST(br_plan_model_fit(&model, point, MESHES * STEPS, 2, 2, &err));
-    const struct br_plan_prediction there = br_plan_model_predict(&model, point[20].x, point[20].y);
-    CLOSE(there.log_error, log(point[20].error), 1e-9);
-    AT_MOST(there.deviation, 1e-9);
-    assert_true(model.scatter > 0.05);
-    const struct br_plan_prediction between =
-        br_plan_model_predict(&model, point[20].x + 0.4, point[20].y + 0.3);
-    assert_true(between.deviation > 0.05);
-    br_plan_model_clear(&model);
-    REFUSED(br_plan_model_fit(&model, point, 3, 2, 2, &err), BR_BAD_INPUT, "at least 4");
-    br_plan_model_clear(&model);
-}
-
-TEST(test_cost_model)
-{
-    static const double c[BR_PLAN_COSTS] = {4e-5, 2e-8, 1.3e-6, 2e-9};
-    struct br_plan_work work[MESHES * STEPS];
-    struct br_plan_cost cost;
-    struct br_error err = {0};
-    for (int i = 0; i < MESHES * STEPS; i++) {
-        const double n = meshes[i / STEPS], solves = 3 * steps[i % STEPS] + 5;
-        work[i] = (struct br_plan_work){n, log(steps[i % STEPS]), solves,
-                                        c[0] + c[1] * n + (c[2] + c[3] * n) * solves};
-    }
-    MUST(br_plan_cost_fit(&cost, work, MESHES * STEPS, &err));
+    struct br_plan_model *model = made_model(&(struct made){2, 2, 0});
+    struct br_plan_point *odd = &model->point[20];
+    odd->value[BR_PLAN_ERROR] *= 3; /* one of them is off */
+    for (struct br_plan_point *p = model->point; p < model->point + model->points; p++)
+        p->value[BR_PLAN_SECONDS] = exp(p->at[0]) * p->solves * 1e-9 / (1 + exp(p->at[0]) / 1e3);
+    MUST(br_plan_model_fit(model, 2, 2, &err));
+    const struct br_plan_prediction there = br_plan_model_predict(model, odd->at);
+    CLOSE(there.log[BR_PLAN_ERROR], log(odd->value[BR_PLAN_ERROR]), 1e-9);
+    AT_MOST(there.deviation[BR_PLAN_ERROR], 1e-9);
+    assert_true(model->scatter[BR_PLAN_ERROR] > 0.05);
+    const double between[] = {odd->at[0] + 0.4, odd->at[1] + 0.3};
+    assert_true(br_plan_model_predict(model, between).deviation[BR_PLAN_ERROR] > 0.05);
     for (int i = 0; i < BR_PLAN_COSTS; i++)
-        CLOSE(cost.c[i] / c[i], 1, 1e-6);
-    AT_MOST(cost.scatter, 1e-9);
-    CLOSE(br_plan_cost_solves(&cost, log(160)), 485, 1e-6);
-    CLOSE(br_plan_cost_seconds(&cost, 5000, log(320)),
-          c[0] + c[1] * 5000 + (c[2] + c[3] * 5000) * 965, 1e-9);
-    /* No term is ever a saving. */
-    for (int i = 0; i < MESHES * STEPS; i++)
-        work[i].seconds = work[i].n * work[i].solves * 1e-9 / (1 + work[i].n / 1e3);
-    MUST(br_plan_cost_fit(&cost, work, MESHES * STEPS, &err));
-    for (int i = 0; i < BR_PLAN_COSTS; i++)
-        assert_true(cost.c[i] >= 0);
-    REFUSED(br_plan_cost_fit(&cost, work, 0, &err), BR_BAD_INPUT, "no trial");
+        assert_true(model->cost[i] >= 0);
+    model->points = 3;
+    REFUSED(br_plan_model_fit(model, 2, 2, &err), BR_BAD_INPUT, "at least 4");
+    assert_false(model->known);
+    free(model);
 }
 
 /* ---- the promise ---- */
@@ -125,18 +114,23 @@ static double counted(const struct br_trial *t)
 }
 
 #define METHODS "euler+implicit,bdf2,esdirk3,adaptive"
+enum { ALL = 4 };
 
-static struct br_plan *new_plan(const struct br_scene *scene, double error, double seconds)
+/* Made, or with the failure; methods: of these the first so many. */
+static struct br_plan *make(const struct br_scene *scene, struct br_plan_goal goal, size_t methods,
+                            enum br_status *status, struct br_error *failure)
 {
     struct br_error err = {0};
     struct br_plan *plan = calloc(1, sizeof *plan);
     assert_non_null(plan);
     br_plan_default(plan, scene);
     MUST(br_named_methods_read("--methods", METHODS, &plan->methods, &err));
-    plan->goal = (struct br_plan_goal){error, seconds};
+    plan->methods.count = methods;
+    plan->goal = goal;
     plan->seconds = counted;
     plan->request.repeats = 1;
     plan->request.time_limit = 0;
+    *status = br_plan_make(plan, failure);
     return plan;
 }
 
@@ -191,9 +185,11 @@ TEST(test_promise)
             if ((s + e) % 2 && !br_test_long())
                 continue;
             struct br_error err = {0};
+            enum br_status status;
             struct br_scene scene = br_test_bundled(scenes[s]);
-            struct br_plan *plan = new_plan(&scene, errors[e], NAN);
-            MUST(br_plan_make(plan, &err));
+            struct br_plan *plan =
+                make(&scene, (struct br_plan_goal){errors[e], NAN}, ALL, &status, &err);
+            MUST(status);
             assert_true(plan->chosen < plan->count);
             const struct br_trial *t = &plan->trial[plan->chosen];
             const double achieved = br_trial_bound(t), cost = counted(t);
@@ -211,72 +207,47 @@ TEST(test_promise)
         }
 }
 
-/* The least error within some work: more work never is worse. */
-TEST(test_seconds)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    static const double seconds[] = {1e-4, 2e-3};
-    static const double least[] = {1e-4, 1e-6}; /* errors that are possible */
-    for (size_t i = 0; i < 2; i++) {
-        struct br_plan *plan = new_plan(&scene, NAN, seconds[i]);
-        MUST(br_plan_make(plan, &err));
-        assert_int_equal(plan->end, BR_PLAN_MET);
-        AT_MOST(counted(&plan->trial[plan->chosen]), seconds[i]);
-        AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), least[i]);
-        drop(plan);
-    }
-    br_scene_clear(&scene);
-}
-
-/* The coarsest mesh does, and says so. */
-TEST(test_coarsest)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example3");
-    struct br_plan *plan = new_plan(&scene, 0.9, NAN);
-    MUST(br_plan_make(plan, &err));
-    assert_int_equal(plan->end, BR_PLAN_COARSEST);
-    assert_int_equal(plan->trial[plan->chosen].at.n, BR_PLAN_LEAST_N);
-    drop(plan);
-    br_scene_clear(&scene);
-}
-
-/* A judge whose own error depends on the mesh is asked where it is best. */
-TEST(test_own_error)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("mms_slip");
-    struct br_plan *plan = new_plan(&scene, 1e-5, NAN);
-    MUST(br_plan_make(plan, &err));
-    assert_int_equal(plan->end, BR_PLAN_MET);
-    AT_MOST(br_trial_bound(&plan->trial[plan->chosen]), 1e-5);
-    drop(plan);
-    br_scene_clear(&scene);
-}
-
-TEST(test_refused)
+/* The least error within some work: more work never is worse. The coarsest mesh does, and says so.
+ * A judge whose own error depends on the mesh is asked where it is best. What makes no sense is
+ * refused. */
+TEST(test_goals)
 {
     static const struct {
-        double error, seconds;
-        const char *message;
-    } wrong[] = {
-        {NAN, NAN, "needs an error or seconds"},
-        {1e-3, 1, "and not both"},
-        {0, NAN, "between 0 and 1"},
-        {1, NAN, "between 0 and 1"},
-        {-1, NAN, "between 0 and 1"},
-        {NAN, 0, "seconds > 0"},
-        {NAN, INFINITY, "seconds > 0"},
-        {1e-16, NAN, "an error of"},
+        const char *scene;
+        struct br_plan_goal goal;
+        enum br_plan_end end;
+        double error;        /* at most */
+        const char *refusal; /* NULL: none */
+    } rows[] = {
+        {"example2", {NAN, 1e-4}, BR_PLAN_MET, 1e-4, NULL},
+        {"example2", {NAN, 2e-3}, BR_PLAN_MET, 1e-6, NULL},
+        {"example3", {0.9, NAN}, BR_PLAN_COARSEST, 0.9, NULL},
+        {"mms_slip", {1e-5, NAN}, BR_PLAN_MET, 1e-5, NULL},
+        {"example3", {NAN, NAN}, 0, 0, "needs an error or seconds"},
+        {"example3", {1e-3, 1}, 0, 0, "and not both"},
+        {"example3", {0, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {1, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {-1, NAN}, 0, 0, "between 0 and 1"},
+        {"example3", {NAN, 0}, 0, 0, "seconds > 0"},
+        {"example3", {NAN, INFINITY}, 0, 0, "seconds > 0"},
+        {"example3", {1e-16, NAN}, 0, 0, "an error of"},
     };
-    struct br_scene scene = br_test_bundled("example3");
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_error err = {0};
-        struct br_plan *plan = new_plan(&scene, wrong[i].error, wrong[i].seconds);
-        plan->methods.count = 1;
-        REFUSED(br_plan_make(plan, &err), BR_BAD_INPUT, wrong[i].message);
+        enum br_status status;
+        struct br_scene scene = br_test_bundled(rows[i].scene);
+        struct br_plan *plan = make(&scene, rows[i].goal, rows[i].refusal ? 1 : ALL, &status, &err);
+        if (rows[i].refusal) {
+            REFUSED(status, BR_BAD_INPUT, rows[i].refusal);
+        } else {
+            MUST(status);
+            const struct br_trial *t = &plan->trial[plan->chosen];
+            assert_int_equal(plan->end, rows[i].end);
+            AT_MOST(br_trial_bound(t), rows[i].error);
+            assert_false(counted(t) > rows[i].goal.seconds);
+            assert_true(plan->end != BR_PLAN_COARSEST || t->at.n == BR_PLAN_LEAST_N);
+        }
         drop(plan);
+        br_scene_clear(&scene);
     }
-    br_scene_clear(&scene);
 }

@@ -210,8 +210,7 @@ static struct br_split made_split(struct br_scene *scene)
         .norms = 1,
         .judge = &br_judge_exact,
         .whole = {.error = {{16, 32, 48}}, .floor = {{0.5, 0.625, 0.75}}, .tip = {17, 33}},
-        .sum = {{64, 128, 192}},
-        .tip_sum = {65, 129},
+        .sum = {.error = {{64, 128, 192}}, .tip = {65, 129}},
         .tip = {66, 130},
         .solution_tip = {67, 131},
         .scale = {4},
@@ -269,13 +268,15 @@ static struct br_plan *made_plan(const struct br_scene *scene)
     p->rounds = 9;
     p->own = 0.0078125;
     p->wall_seconds = 10.5;
-    struct br_plan_models *m = &p->model[0];
-    m->known = true;
-    m->error = (struct br_plan_model){.r = 0.75, .scatter = 0.875, .points = 13};
-    m->error.space = m->error.time = (struct br_plan_curve){1, {1.25}, {-2.25}};
-    m->error.time.value[0] = -3.25;
-    m->cost =
-        (struct br_plan_cost){.c = {1, 2, 3, 4}, .scatter = 0.9375, .solves = {1, {4.25}, {5.25}}};
+    p->model = calloc(2, sizeof *p->model);
+    assert_non_null(p->model);
+    *p->model = (struct br_plan_model){.known = true,
+                                       .points = 13,
+                                       .part = {{1, {1.25}, {-2.25}}, {1, {1.25}, {-3.25}}},
+                                       .solves = {1, {4.25}, {5.25}},
+                                       .r = 0.75,
+                                       .cost = {1, 2, 3, 4},
+                                       .scatter = {0.875, 0.9375}};
     return p;
 }
 
@@ -310,8 +311,7 @@ static void print_comparisons(FILE *out)
     free(trade->trial);
     free(trade->front);
     free(trade);
-    free(plan->trial);
-    free(plan->forecast);
+    br_plan_clear(plan);
     free(plan);
 }
 

@@ -45,7 +45,7 @@ static void check_triangle(const struct br_split *split, size_t m, enum br_part 
     AT_MOST(whole, sum - whole + slack);
     for (size_t i = 0; i < split->shares; i++)
         AT_MOST(split->share[i].error[m][part], sum - split->share[i].error[m][part] + slack);
-    CLOSE(split->sum[m][part], sum - whole, 1e-14 * sum);
+    CLOSE(split->sum.error[m][part], sum - whole, 1e-14 * sum);
 }
 
 /* Signed at the tip: exactly the whole, but for the rounding of the sums. */
@@ -57,7 +57,7 @@ static void check_tip(const struct br_split *split, enum br_field_kind kind)
     const double round_off = 1e-15 * (fabs(split->tip[kind]) + fabs(split->solution_tip[kind]));
     CLOSE(sum, split->tip[kind] - split->solution_tip[kind], round_off);
     CLOSE(split->whole.tip[kind], split->tip[kind] - split->solution_tip[kind], round_off);
-    CLOSE(split->tip_sum[kind], sum, round_off);
+    CLOSE(split->sum.tip[kind], sum, round_off);
 }
 
 static void check_sums(const struct br_split *split)
@@ -110,12 +110,13 @@ TEST(test_links)
     br_scene_clear(&scene);
 }
 
-/* The whole is what a study says of the run. */
+/* The whole is what a study says of the run; what is at the round-off is below the floor, and what
+ * is not is above it. */
 TEST(test_whole)
 {
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("example2");
-    const struct br_split split = split_of(&scene, 30, 40, br_method_default());
+    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
     for (size_t m = 0; m < split.norms; m++) {
         struct br_study study =
             br_test_study(&scene, &br_judge_exact, 1, &split.at.n, 1, &split.at.steps);
@@ -127,6 +128,15 @@ TEST(test_whole)
         assert_true(split.scale[m] == study.reference_scale);
         br_study_clear(&study);
     }
+    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
+    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
+    AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
+    AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
+    AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
+    struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    share.error[0][0] = 1e-15;
+    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
     br_scene_clear(&scene);
 }
 
@@ -141,6 +151,7 @@ static void check_none(const struct br_split *split, const char *name, const cha
     assert_true(share->tip[BR_AXIAL] == 0 && share->tip[BR_BENDING] == 0);
 }
 
+/* What is not there is none; and one source alone moves its part, and no other. */
 TEST(test_none)
 {
     struct br_scene scene = br_test_bundled("example2");
@@ -149,8 +160,14 @@ TEST(test_none)
     check_none(&split, "iteration", "directly");
     check_none(&split, "mu", "not smoothed");
     check_none(&split, "lag", "implicit");
-    split = split_of(&scene, 10, 20, br_test_method(NULL, "lagged", NULL));
-    assert_null(share_of(&split, "lag")->none);
+    const struct br_split lagged = split_of(&scene, 10, 20, br_test_method(NULL, "lagged", NULL));
+    assert_null(share_of(&lagged, "lag")->none);
+    for (int part = 0; part < BR_PARTS; part++) {
+        assert_true(share_of(&lagged, "time")->error[0][part] ==
+                    share_of(&split, "time")->error[0][part]);
+        assert_true(share_of(&lagged, "space")->error[0][part] ==
+                    share_of(&split, "space")->error[0][part]);
+    }
     br_scene_clear(&scene);
     scene = br_test_bundled("vibration"); /* no contact, no friction */
     split = split_of(&scene, 10, 50, br_method_default());
@@ -161,106 +178,62 @@ TEST(test_none)
     br_scene_clear(&scene);
 }
 
-/* The order of a part over a list of resolutions, each the double of the one before. */
-static void check_order(const char *name, enum br_part part, const double *error, size_t count,
-                        double order, double tolerance)
-{
-    for (size_t i = 1; i < count; i++) {
-        const double found = log2(error[i - 1] / error[i]);
-        if (!(fabs(found - order) <= tolerance))
-            fail_msg("%s, %s: order %g, expected %g +- %g", name, br_part_names[part], found, order,
-                     tolerance);
-    }
-}
-
 enum { SIZES = 3 };
 
-TEST(test_space_order)
+/* Orders of parts, over resolutions each the double of the one before. In Example 2 the lag is of
+ * order k and, at the end, the start's transients gone, what the time steps leave beside it. A tip
+ * that sticks creeps where friction is smoothed, in proportion to mu. */
+static const struct {
+    const char *scene, *scheme, *contact, *friction;
+    size_t n, steps;
+    enum { IN_SPACE, IN_TIME, IN_MU } over;
+    const char *name;
+    enum br_part part;
+    double order, tolerance;
+} orders[] = {
+    {"example2", "euler", "lagged", "exact", 8, 50, IN_SPACE, "space", BR_PART_AXIAL, 2, 0.02},
+    {"example2", "euler", "lagged", "exact", 8, 50, IN_SPACE, "space", BR_PART_BENDING, 4, 0.1},
+    {"vibration", "euler", "implicit", "exact", 8, 1000, IN_TIME, "time", BR_PARTS, 1, 0.06},
+    {"vibration", "bdf2", "implicit", "exact", 8, 1000, IN_TIME, "time", BR_PARTS, 2, 0.06},
+    {"example2", "euler", "lagged", "exact", 16, 100, IN_TIME, "lag", BR_PART_TOTAL, 1, 0.05},
+    {"example1", "euler", NULL, "regularised", 20, 50, IN_MU, "mu", BR_PART_BENDING, 1, 0.02},
+};
+
+static void check_order(size_t row, double coarse, double fine)
 {
-    struct br_scene scene = br_test_bundled("example2");
-    double error[BR_PARTS][SIZES];
-    for (size_t i = 0; i < SIZES; i++) {
-        const struct br_split split = split_of(&scene, (size_t)8 << i, 50, br_method_default());
-        for (int part = 0; part < BR_PARTS; part++)
-            error[part][i] = share_of(&split, "space")->error[0][part];
-    }
-    check_order("space", BR_PART_AXIAL, error[BR_PART_AXIAL], SIZES, 2, 0.02);
-    check_order("space", BR_PART_BENDING, error[BR_PART_BENDING], SIZES, 4, 0.1);
-    br_scene_clear(&scene);
+    const double found = log2(coarse / fine);
+    if (!(fabs(found - orders[row].order) <= orders[row].tolerance))
+        fail_msg("%s of %s: order %g, expected %g +- %g", orders[row].name, orders[row].scene,
+                 found, orders[row].order, orders[row].tolerance);
 }
 
-static void check_time_order(const char *scheme, double order)
+TEST(test_orders)
 {
-    struct br_scene scene = br_test_bundled("vibration");
-    struct br_method method = br_test_method(NULL, "implicit", NULL);
-    method.scheme = br_time_scheme_find(scheme);
-    assert_non_null(method.scheme);
-    double error[BR_PARTS][SIZES];
-    for (size_t i = 0; i < SIZES; i++) {
-        const struct br_split split = split_of(&scene, 8, (size_t)1000 << i, method);
-        for (int part = 0; part < BR_PARTS; part++)
-            error[part][i] = share_of(&split, "time")->error[0][part];
+    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+        struct br_scene scene = br_test_bundled(orders[i].scene);
+        struct br_method method = br_test_method(NULL, orders[i].contact, orders[i].friction);
+        struct br_split split[SIZES];
+        method.scheme = br_time_scheme_find(orders[i].scheme);
+        for (size_t j = 0; j < SIZES; j++) {
+            if (orders[i].over == IN_MU)
+                scene.friction.regularisation = 1e-4 / (1 << j);
+            split[j] =
+                split_of(&scene, orders[i].n * (orders[i].over == IN_SPACE ? 1u << j : 1),
+                         orders[i].steps * (orders[i].over == IN_TIME ? 1u << j : 1), method);
+            check_sums(&split[j]);
+            const struct br_share *fine = share_of(&split[j], orders[i].name);
+            assert_true(orders[i].over != IN_MU || br_share_told(fine, 0, BR_PART_BENDING));
+            for (int part = 0; part < BR_PARTS && j > 0; part++)
+                if (orders[i].part == BR_PARTS || (int)orders[i].part == part)
+                    check_order(i, share_of(&split[j - 1], orders[i].name)->error[0][part],
+                                fine->error[0][part]);
+            for (int kind = BR_AXIAL; kind <= BR_BENDING && j > 0; kind++)
+                if (strcmp(orders[i].name, "lag") == 0)
+                    check_order(i, fabs(share_of(&split[j - 1], "time")->tip[kind]),
+                                fabs(share_of(&split[j], "time")->tip[kind]));
+        }
+        br_scene_clear(&scene);
     }
-    for (int part = 0; part < BR_PARTS; part++)
-        check_order("time", (enum br_part)part, error[part], SIZES, order, 0.06);
-    br_scene_clear(&scene);
-}
-
-TEST(test_time_order)
-{
-    check_time_order("euler", 1);
-    check_time_order("bdf2", 2);
-}
-
-/* In Example 2 the lag is of order k, and at the end, the start's transients gone, what the time
- * steps leave beside it. */
-TEST(test_lag_order)
-{
-    struct br_scene scene = br_test_bundled("example2");
-    double lag[SIZES], end[2][SIZES];
-    for (size_t i = 0; i < SIZES; i++) {
-        const struct br_split split = split_of(&scene, 16, (size_t)100 << i, br_method_default());
-        lag[i] = share_of(&split, "lag")->error[0][BR_PART_TOTAL];
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            end[kind][i] = fabs(share_of(&split, "time")->tip[kind]);
-    }
-    check_order("lag", BR_PART_TOTAL, lag, SIZES, 1, 0.05);
-    check_order("time at the tip", BR_PART_AXIAL, end[BR_AXIAL], SIZES, 1, 0.05);
-    check_order("time at the tip", BR_PART_BENDING, end[BR_BENDING], SIZES, 1, 0.05);
-    br_scene_clear(&scene);
-}
-
-/* One source alone moves its part, and no other. */
-TEST(test_independence)
-{
-    struct br_scene scene = br_test_bundled("example2");
-    const struct br_split lagged = split_of(&scene, 20, 50, br_method_default());
-    const struct br_split implicit =
-        split_of(&scene, 20, 50, br_test_method(NULL, "implicit", NULL));
-    for (int part = 0; part < BR_PARTS; part++) {
-        assert_true(share_of(&lagged, "time")->error[0][part] ==
-                    share_of(&implicit, "time")->error[0][part]);
-        assert_true(share_of(&lagged, "space")->error[0][part] ==
-                    share_of(&implicit, "space")->error[0][part]);
-    }
-    br_scene_clear(&scene);
-}
-
-/* A tip that sticks creeps where friction is smoothed, in proportion to mu. */
-TEST(test_mu)
-{
-    struct br_scene scene = br_test_bundled("example1");
-    double error[SIZES];
-    for (size_t i = 0; i < SIZES; i++) {
-        scene.friction.regularisation = 1e-4 / (double)(1 << i);
-        const struct br_split split =
-            split_of(&scene, 20, 50, br_test_method(NULL, NULL, "regularised"));
-        error[i] = share_of(&split, "mu")->error[0][BR_PART_BENDING];
-        assert_true(br_share_told(share_of(&split, "mu"), 0, BR_PART_BENDING));
-        check_sums(&split);
-    }
-    check_order("mu", BR_PART_BENDING, error, SIZES, 1, 0.02);
-    br_scene_clear(&scene);
 }
 
 /* A tip that sticks creeps by what an iteration leaves: the less, the smaller its tolerance. */
@@ -281,23 +254,6 @@ TEST(test_iteration)
             last = share->error[0][BR_PART_BENDING];
         }
     }
-    br_scene_clear(&scene);
-}
-
-/* What is at the round-off is below the floor, and what is not is above it. */
-TEST(test_floors)
-{
-    struct br_scene scene = br_test_bundled("example2");
-    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
-    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
-    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
-    AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
-    AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
-    AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
-    struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
-    share.error[0][0] = 1e-15;
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
     br_scene_clear(&scene);
 }
 

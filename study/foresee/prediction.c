@@ -85,12 +85,6 @@ static struct br_predicted by_orders(double e, double beyond, const double order
     };
 }
 
-/* With errors C h^q of cells h and h/2 against h/4 their ratio is 2^q + 1. */
-static double observed_order(double coarse, double fine)
-{
-    return log2(coarse / fine - 1);
-}
-
 /* Orders between which the run's lies, when so much was observed and theory says q; and, if it
  * is spoilt, at least `spoilt`. */
 static void bracket(double observed, double q, double spoilt, double order[3])
@@ -181,31 +175,20 @@ static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell
                   can_switch(&p->scene) ? doubt : measured_doubt);
 }
 
-static bool is_measured(const struct br_probe_set *s)
-{
-    return s->probe[BR_PROBE_TIGHT].held || s->probe[BR_PROBE_WHOLE].held;
-}
-
-/* By the reference that is surer of the run's error; but one of equal steps may have missed
- * what dies away within a step, and is not believed where the other one contradicts it. */
-static struct br_predicted measured(const struct br_probe_set *s, enum br_whole_cell cell, int kind)
+/* The probe whose reference is surer of the run's error; but one of equal steps may have missed
+ * what dies away within a step, and is not believed where the other one contradicts it. NULL: the
+ * run itself was not marched. */
+static const struct br_probe *whole_probe(const struct br_probe_set *s, int kind)
 {
     const struct br_probe *tight = &s->probe[BR_PROBE_TIGHT], *whole = &s->probe[BR_PROBE_WHOLE];
-    if (!whole->held)
-        return distance(tight, cell, kind);
-    if (!tight->held)
-        return distance(whole, cell, kind);
+    if (!whole->held || !tight->held)
+        return whole->held ? whole : tight->held ? tight : NULL;
     const struct br_predicted a = distance(tight, BR_WHOLE_RUN, kind);
     const struct br_predicted b = distance(whole, BR_WHOLE_RUN, kind);
-    return distance(b.high < a.low || a.high <= b.high ? tight : whole, cell, kind);
+    return b.high < a.low || a.high <= b.high ? tight : whole;
 }
 
 /* ---- time ---- */
-
-static double order_in_time(const struct br_planned_march *o)
-{
-    return o->method->contact->at_new_step ? o->method->scheme->order : 1;
-}
 
 static struct br_predicted measured_time(const struct br_probe *p, int kind)
 {
@@ -214,24 +197,18 @@ static struct br_predicted measured_time(const struct br_probe *p, int kind)
     return around(e, reference_error(e, p->ratio, finer, 3, 1), doubt);
 }
 
-static struct br_predicted extrapolated_time(const struct br_probe *p,
-                                             const struct br_planned_march *o, int kind)
+/* And what the steps of an iteration leave: it adds up, if it always points the same way. */
+static struct br_predicted extrapolated_time(const struct br_probe_set *s, int kind)
 {
-    const double q = order_in_time(o), fine = cell_error(p, 1, kind);
-    const double observed = log2(cell_error(p, 0, kind) / fine);
+    const struct br_planned_march *o = s->planned;
+    const struct br_probe *p = &s->probe[BR_PROBE_TIME], *iterated = &s->probe[BR_PROBE_ITERATION];
+    const double q = o->method->contact->at_new_step ? o->method->scheme->order : 1;
+    const double fine = cell_error(p, 1, kind), observed = log2(cell_error(p, 0, kind) / fine);
+    const double left = iterated->held ? iterated->beyond * cell_error(iterated, 0, kind) : 0;
     double order[3];
     bracket(observed, q, can_switch(o->scene) ? fmin(1, q) : q, order);
-    struct br_predicted predicted = by_orders(fine, p->beyond, order);
-    predicted.order = observed;
-    return predicted;
-}
-
-/* What the steps of an iteration leave adds up, if it always points the same way. */
-static struct br_predicted and_iterated(const struct br_probe_set *s, struct br_predicted e,
-                                        int kind)
-{
-    const struct br_probe *p = &s->probe[BR_PROBE_ITERATION];
-    const double left = p->held ? p->beyond * cell_error(p, 0, kind) : 0;
+    struct br_predicted e = by_orders(fine, p->beyond, order);
+    e.order = observed;
     e.error += left;
     e.high += doubt * left;
     return e;
@@ -251,15 +228,12 @@ static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_
 
 static struct br_predicted time_error(const struct br_probe_set *s, int kind)
 {
-    const struct br_probe *p = &s->probe[BR_PROBE_TIME];
-    struct br_predicted e;
-    if (is_measured(s))
-        e = measured(s, BR_WHOLE_TIME, kind);
-    else if (s->planned->method->scheme->adaptive)
-        e = by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance);
-    else
-        e = p->measured ? measured_time(p, kind)
-                        : and_iterated(s, extrapolated_time(p, s->planned, kind), kind);
+    const struct br_probe *p = &s->probe[BR_PROBE_TIME], *whole = whole_probe(s, kind);
+    const struct br_predicted e = whole ? distance(whole, BR_WHOLE_TIME, kind)
+                                  : s->planned->method->scheme->adaptive
+                                      ? by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance)
+                                  : p->measured ? measured_time(p, kind)
+                                                : extrapolated_time(s, kind);
     return and_at_start(s, e, kind);
 }
 
@@ -267,9 +241,9 @@ static struct br_predicted time_error(const struct br_probe_set *s, int kind)
 
 static struct br_predicted space_error(const struct br_probe_set *s, int kind)
 {
-    const struct br_probe *p = &s->probe[BR_PROBE_SPACE];
-    if (is_measured(s))
-        return measured(s, BR_WHOLE_SPACE, kind);
+    const struct br_probe *p = &s->probe[BR_PROBE_SPACE], *whole = whole_probe(s, kind);
+    if (whole)
+        return distance(whole, BR_WHOLE_SPACE, kind);
     const double q = kind == BR_AXIAL ? s->planned->method->axial_degree + 1 : 4;
     const double fine = cell_error(p, p->study.n_count - 1, kind);
     const double unseen = unresolved(s->planned->scene, kind, p->study.reference.n);
@@ -278,9 +252,8 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
     if (p->measured)
         return around(cell_error(p, 0, kind),
                       reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen), doubt);
-    const double observed = observed_order(cell_error(p, 0, kind), fine);
-    double order[3];
-    bracket(observed, q, q, order);
+    double order[3]; /* with errors C h^q of cells h and h/2 against h/4 their ratio is 2^q + 1 */
+    bracket(log2(cell_error(p, 0, kind) / fine - 1), q, q, order);
     struct br_predicted e =
         by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
     e.high *= order[0] > 0 ? 1 : unseen;
@@ -291,8 +264,9 @@ static struct br_predicted space_error(const struct br_probe_set *s, int kind)
 
 static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
 {
-    if (is_measured(s))
-        return and_at_start(s, measured(s, BR_WHOLE_RUN, kind), kind);
+    const struct br_probe *whole = whole_probe(s, kind);
+    if (whole)
+        return and_at_start(s, distance(whole, BR_WHOLE_RUN, kind), kind);
     const struct br_predicted time = time_error(s, kind), space = space_error(s, kind);
     return (struct br_predicted){
         .error = time.error + space.error,
@@ -314,17 +288,6 @@ static struct br_predicted relative(struct br_predicted e, struct size size)
 static bool is_modelled(const struct br_scene *scene, int kind)
 {
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
-}
-
-/* Where an error may be as large as the solution itself, nothing of the answer need be right, and
- * by how much more it may be off is not told by marches that are as far off. */
-static void drop_what_means_nothing(struct br_prediction *p)
-{
-    struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
-                                         &p->whole};
-    for (size_t i = 0; i < sizeof each / sizeof *each; i++)
-        if (each[i]->high > all)
-            each[i]->high = INFINITY;
 }
 
 /* Whether a march has followed what happens at t = 0, however quick that is: one by a tolerance. */
@@ -414,20 +377,21 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         p->time = relative(time_error(s, kind), size);
         p->space = relative(space_error(s, kind), size);
     }
-    p->known = p->bounded && useful;
-    if (p->known)
-        drop_what_means_nothing(p);
-    else
+    p->known = p->bounded && useful && !release_unseen(s) && !switches_unseen(s);
+    if (!(p->bounded && useful))
         snprintf(p->why, sizeof p->why,
                  "the marches that it is compared with differ too much among themselves");
-    const char *unseen =
-        release_unseen(s)    ? "how the contact, pressed at t = 0, throws the tip back"
-        : switches_unseen(s) ? "the swings from t = 0 on, in which the tip may switch"
-                             : NULL;
-    if (p->known && unseen) {
-        p->known = false;
-        snprintf(p->why, sizeof p->why, "no march follows %s", unseen);
-    }
+    else if (!p->known)
+        snprintf(p->why, sizeof p->why, "no march follows %s",
+                 release_unseen(s) ? "how the contact, pressed at t = 0, throws the tip back"
+                                   : "the swings from t = 0 on, in which the tip may switch");
+    /* Where an error may be as large as the solution itself, nothing of the answer need be right,
+     * and by how much more it may be off is not told by marches that are as far off. */
+    struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
+                                         &p->whole};
+    for (size_t i = 0; i < sizeof each / sizeof *each && p->bounded && useful; i++)
+        if (each[i]->high > all)
+            each[i]->high = INFINITY;
 }
 
 const char *br_predicted_interval(const struct br_predicted *e, char text[BR_PREDICTED_TEXT])

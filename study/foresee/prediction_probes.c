@@ -297,11 +297,6 @@ static void set_time(struct br_probe *p, const struct br_planned_march *o)
         extrapolate_time(p, o, most);
 }
 
-static bool iterates_friction(const struct br_planned_march *o)
-{
-    return o->scene->friction.law != BR_FRICTIONLESS && o->method->friction->iterates;
-}
-
 /* What an iteration leaves in a step adds up over the steps, and is lost among the errors of the
  * few steps of an extrapolation. */
 static void set_iteration(struct br_probe *p, const struct br_probe *time,
@@ -309,6 +304,9 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
 {
     struct br_method direct = *o->method;
     direct.friction = br_friction_rules[0];
+    if (time->measured || o->scene->friction.law == BR_FRICTIONLESS ||
+        !o->method->friction->iterates)
+        return;
     p->scene = *o->scene;
     p->beyond = time->beyond;
     p->n[0] = time->n[0];
@@ -388,36 +386,26 @@ bool br_probe_failed(const struct br_probe *p, char why[200])
     return true;
 }
 
-/* Marches the probes from `first` to `last`. That a reference has made too many steps is its
- * failure, not the call's. */
-static enum br_status march(struct br_probe_set *set, int first, int last, struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    for (int i = first; i <= last && !status; i++) {
-        struct br_probe *p = &set->probe[i];
-        struct br_error failure = {0};
-        if (p->held)
-            status = br_study_run_each(&p->study, 1, 1, NULL, &failure);
-        if (status == BR_NO_MEMORY)
-            return br_fail(err, status, "%s", failure.message);
-        status = BR_OK;
-    }
-    return status;
-}
-
 static void forget(struct br_probe *p)
 {
     br_study_clear(&p->study);
     *p = (struct br_probe){0};
 }
 
-/* Marches one probe, and forgets one that fails. */
-static enum br_status try_probe(struct br_probe_set *set, enum br_probe_kind kind,
-                                struct br_error *err)
+/* Marches a probe that is held. That a reference has made too many steps is its failure, not the
+ * call's. */
+static enum br_status march(struct br_probe *p, struct br_error *err)
+{
+    struct br_error failure = {0};
+    const bool lost = p->held && br_study_run_each(&p->study, 1, 1, NULL, &failure) == BR_NO_MEMORY;
+    return lost ? br_fail(err, BR_NO_MEMORY, "%s", failure.message) : BR_OK;
+}
+
+/* The same, and forgets one that fails. */
+static enum br_status try_probe(struct br_probe *p, struct br_error *err)
 {
     char why[200];
-    struct br_probe *p = &set->probe[kind];
-    const enum br_status status = march(set, (int)kind, (int)kind, err);
+    const enum br_status status = march(p, err);
     if (!status && br_probe_failed(p, why))
         forget(p);
     return status;
@@ -426,12 +414,12 @@ static enum br_status try_probe(struct br_probe_set *set, enum br_probe_kind kin
 /* Whether the check is near enough to the reference. */
 static bool is_sure(const struct br_probe *p)
 {
-    static const enum br_part parts[] = {BR_PART_AXIAL, BR_PART_BENDING};
     bool all = p->held;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++) {
-        const double off = p->study.cell[BR_WHOLE_CHECK].error[parts[kind]];
-        const double error = p->study.cell[BR_WHOLE_RUN].error[parts[kind]];
-        all = off <= fmax(sure * error, negligible * p->study.reference_size[kind]);
+        const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+        const double error = p->study.cell[BR_WHOLE_RUN].error[part];
+        all = p->study.cell[BR_WHOLE_CHECK].error[part] <=
+              fmax(sure * error, negligible * p->study.reference_size[kind]);
     }
     return all;
 }
@@ -472,71 +460,70 @@ static struct finer first_refinement(const struct br_planned_march *o)
 }
 
 /* By ever finer references until one is sure, or there is no room for more. */
-static enum br_status march_whole(struct br_probe_set *set, struct br_error *err)
+static enum br_status march_whole(struct br_probe *whole, const struct br_planned_march *o,
+                                  struct br_error *err)
 {
-    struct br_probe *whole = &set->probe[BR_PROBE_WHOLE];
-    struct finer by = first_refinement(set->planned);
+    struct finer by = first_refinement(o);
     enum br_status status = BR_OK;
-    bool more = is_affordable(set->planned, by);
+    bool more = is_affordable(o, by);
     while (more && !status) {
         forget(whole);
-        set_whole(whole, set->planned, by);
-        status = try_probe(set, BR_PROBE_WHOLE, err);
-        more = whole->held && !is_sure(whole) && refine(set->planned, whole, &by);
+        set_whole(whole, o, by);
+        status = try_probe(whole, err);
+        more = whole->held && !is_sure(whole) && refine(o, whole, &by);
     }
     return status;
 }
 
-static enum br_status march_itself(struct br_probe_set *set, struct br_error *err)
+static enum br_status march_itself(struct br_probe *probe, const struct br_planned_march *o,
+                                   struct br_error *err)
 {
-    struct br_probe *probe = set->probe;
-    set_tight(&probe[BR_PROBE_TIGHT], set->planned);
-    enum br_status status = try_probe(set, BR_PROBE_TIGHT, err);
-    if (status || is_sure(&probe[BR_PROBE_TIGHT]))
+    struct br_probe *chosen = &probe[BR_PROBE_TIGHT], *whole = &probe[BR_PROBE_WHOLE];
+    set_tight(chosen, o);
+    const enum br_status status = try_probe(chosen, err);
+    if (status || is_sure(chosen))
         return status;
-    if (!set->planned->method->scheme->adaptive)
-        return march_whole(set, err);
-    if (probe[BR_PROBE_TIGHT].held)
+    if (!o->method->scheme->adaptive)
+        return march_whole(whole, o, err);
+    if (chosen->held)
         return BR_OK;
-    set_whole(&probe[BR_PROBE_WHOLE], set->planned,
-              (struct finer){.elements = refinement(set->planned->n)});
-    return try_probe(set, BR_PROBE_WHOLE, err);
+    set_whole(whole, o, (struct finer){.elements = refinement(o->n)});
+    return try_probe(whole, err);
 }
 
 /* What happens at t = 0, where no steps by a tolerance have seen it. */
-static enum br_status march_start(struct br_probe_set *set, struct br_error *err)
+static enum br_status march_start(struct br_probe *probe, const struct br_planned_march *o,
+                                  struct br_error *err)
 {
-    struct br_probe *start = &set->probe[BR_PROBE_START];
-    const bool at_once = follows_at_once(set->planned);
+    struct br_probe *start = &probe[BR_PROBE_START];
+    const bool at_once = follows_at_once(o);
     enum br_status status = BR_OK;
     if (!at_once) {
-        set_start(start, set->planned, false);
-        status = try_probe(set, BR_PROBE_START, err);
+        set_start(start, o, false);
+        status = try_probe(start, err);
     }
-    if (status || start->held || (set->probe[BR_PROBE_WHOLE].held && !at_once))
+    if (status || start->held || (probe[BR_PROBE_WHOLE].held && !at_once))
         return status;
-    set_start(start, set->planned, true);
-    return march(set, BR_PROBE_START, BR_PROBE_START, err);
+    set_start(start, o, true);
+    return march(start, err);
 }
 
-enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_march *planned,
+enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_march *o,
                               struct br_error *err)
 {
-    *set = (struct br_probe_set){.planned = planned};
+    *set = (struct br_probe_set){.planned = o};
     struct br_probe *probe = set->probe;
-    enum br_status status = march_itself(set, err);
+    enum br_status status = march_itself(probe, o, err);
     if (status || probe[BR_PROBE_TIGHT].held)
         return status;
     if (!probe[BR_PROBE_WHOLE].held) {
-        set_time(&probe[BR_PROBE_TIME], planned);
-        if (!probe[BR_PROBE_TIME].measured && iterates_friction(planned))
-            set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], planned);
-        set_space(&probe[BR_PROBE_SPACE], planned);
-        status = march(set, BR_PROBE_TIME, BR_PROBE_SPACE, err);
+        set_time(&probe[BR_PROBE_TIME], o);
+        set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], o);
+        set_space(&probe[BR_PROBE_SPACE], o);
+        for (int i = BR_PROBE_TIME; i <= BR_PROBE_SPACE && !status; i++)
+            status = march(&probe[i], err);
     }
-    if (status || planned->method->scheme->adaptive)
-        return status;
-    return march_start(set, err);
+    return status || o->method->scheme->adaptive ? status : march_start(probe, o, err);
 }
 
 void br_probes_clear(struct br_probe_set *set)

@@ -120,59 +120,46 @@ enum { MOST_ELEMENTS = 4, MOST_STEPS = 4000 };
 
 static const double little = 0.01; /* of what was put in */
 
-/* The largest share, of the energy that was put in until then, that the scheme has added. */
-static enum br_status march_coarsely(const struct br_scene *scene, const struct br_method *method,
-                                     size_t n, size_t steps, double *share, struct br_error *err)
+/* The largest share, of the energy that was put into the axial field until then, that the scheme
+ * has added; NaN: not known. */
+static double gain(const struct br_planned_march *o)
 {
-    struct br_march *march;
+    struct br_scene axial;
+    struct br_march *march = NULL;
     struct br_energy_meter *meter = NULL;
-    struct br_energy start, now;
-    struct br_work work;
-    enum br_status status = br_march_create(&march, scene, n, steps, method, err);
-    if (!status)
-        status = br_energy_meter_create(&meter, march, scene, method, err);
-    for (size_t i = 0; i < steps && !status; i++) {
-        status = br_march_step(march, err);
-        if (status)
+    struct br_error failure = {0};
+    const size_t n = o->n < MOST_ELEMENTS ? o->n : MOST_ELEMENTS;
+    double share = 0;
+    if (o->steps > MOST_STEPS)
+        return NAN;
+    bool failed = br_model_select(o->scene, BR_WANT_AXIAL, &axial, &failure) ||
+                  br_march_create(&march, &axial, n, o->steps, o->method, &failure) ||
+                  br_energy_meter_create(&meter, march, &axial, o->method, &failure);
+    for (size_t i = 0; i < o->steps && !failed; i++) {
+        struct br_energy start, now;
+        struct br_work work;
+        failed = br_march_step(march, &failure);
+        if (failed)
             break;
         br_energy_meter_step(meter);
         br_energy_meter_read(meter, &start, &now, &work);
         const double put_in = br_energy_put_in(&start, &work, BR_AXIAL);
         if (put_in > 0)
-            *share = fmax(*share, br_energy_added(&work, BR_AXIAL) / put_in);
+            share = fmax(share, br_energy_added(&work, BR_AXIAL) / put_in);
     }
     br_energy_meter_free(meter);
     br_march_free(march);
-    return status;
-}
-
-/* NaN: not known. */
-static double gain(const struct br_planned_march *o)
-{
-    struct br_scene scene;
-    struct br_error failure = {0};
-    const size_t n = o->n < MOST_ELEMENTS ? o->n : MOST_ELEMENTS;
-    double share = 0;
-    if (o->steps > MOST_STEPS || br_model_select(o->scene, BR_WANT_AXIAL, &scene, &failure))
-        return NAN;
-    return march_coarsely(&scene, o->method, n, o->steps, &share, &failure) ? NAN : share;
-}
-
-static bool may_bounce(const struct br_planned_march *o, struct br_field *field)
-{
-    const struct br_scene *s = o->scene;
-    if (!s->contact.modelled || o->method->contact->at_new_step)
-        return false;
-    *field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
-    field->degree = o->method->axial_degree;
-    return s->contact.stiffness > br_contact_limit_bouncing(field) &&
-           !br_contact_grows(field, s->contact.stiffness);
+    return failed ? (double)NAN : share;
 }
 
 static void look_at_bounces(const struct br_planned_march *o, struct br_warnings *w)
 {
-    struct br_field field;
-    if (!may_bounce(o, &field))
+    const struct br_scene *s = o->scene;
+    struct br_field field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
+    field.degree = o->method->axial_degree;
+    if (!s->contact.modelled || o->method->contact->at_new_step ||
+        !(s->contact.stiffness > br_contact_limit_bouncing(&field)) ||
+        br_contact_grows(&field, s->contact.stiffness))
         return;
     const double share = gain(o);
     char found[120] = "";
@@ -185,7 +172,7 @@ static void look_at_bounces(const struct br_planned_march *o, struct br_warnings
     br_warn(w, BR_WARN_BOUNCE, "--contact implicit  # gains none",
             "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
             "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
-            field.k, br_contact_limit_bouncing(&field), o->scene->contact.stiffness, found);
+            field.k, br_contact_limit_bouncing(&field), s->contact.stiffness, found);
 }
 
 /* ---- predicted errors ---- */

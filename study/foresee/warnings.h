@@ -90,12 +90,6 @@ enum br_status br_look_at_resources(const struct br_planned_march *planned,
  * it. */
 void br_look_at_contact(const struct br_planned_march *planned, struct br_warnings *warnings);
 
-/* At loads whose jumps and peaks in x the elements' quadrature misses: the load vector of hat
- * functions by the rule that is marched with is compared with their integrals on a mesh on which
- * the load is proved to be resolved. */
-enum br_status br_look_at_elements(const struct br_planned_march *planned,
-                                   struct br_warnings *warnings, struct br_error *err);
-
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);

@@ -74,37 +74,6 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     return BR_OK;
 }
 
-/* Whether a march of the scene begins with it. */
-static enum br_status try_scene(const struct br_scene *scene, const struct br_method *method,
-                                struct br_error *err)
-{
-    struct br_march *march = NULL;
-    const enum br_status status = br_march_create(&march, scene, 4, 4, method, err);
-    br_march_free(march);
-    return status;
-}
-
-/* What is refused with each field alone and with all there is goes with no scene. */
-static enum br_status check_somewhere(const struct br_method *m, struct br_error *err)
-{
-    const struct br_scene axial = {.length = 1,
-                                   .duration = 1,
-                                   .density = 1,
-                                   .axial = {.modelled = true, .stiffness = 1, .viscosity = 1}};
-    struct br_scene bending = axial, all = axial;
-    bending.axial.modelled = false;
-    bending.bending.modelled = all.bending.modelled = true;
-    bending.bending.stiffness = all.bending.stiffness = 1;
-    bending.bending.viscosity = all.bending.viscosity = 1;
-    all.contact = (struct br_contact){.modelled = true, .stiffness = 1};
-    all.friction = (struct br_friction){BR_TRESCA, 1, 1};
-    struct br_error refusal = {0};
-    const bool refused = try_scene(&axial, m, NULL) == BR_BAD_INPUT &&
-                         try_scene(&bending, m, NULL) == BR_BAD_INPUT &&
-                         try_scene(&all, m, &refusal) == BR_BAD_INPUT;
-    return refused ? br_fail(err, BR_BAD_INPUT, "%.1000s", refusal.message) : BR_OK;
-}
-
 /* A word that no march would use is refused. */
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
@@ -113,8 +82,7 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
         if (taken[i] && kinds[i]->word && !br_method_field_heeded(kinds[i], m))
             return br_fail(err, BR_BAD_INPUT, "solver %s does not heed '%s'", m->solver->name,
                            kinds[i]->word[0].word);
-    const enum br_status status = br_method_check(m, err);
-    return status ? status : check_somewhere(m, err);
+    return br_method_check(m, err);
 }
 
 enum br_status br_named_method_read(const char *name, struct br_named_method *c,
@@ -172,6 +140,24 @@ enum br_status br_named_methods_read(const char *option, const char *text,
 
 /* ---- the default ones ---- */
 
+const struct br_time_scheme *br_highest_scheme(void)
+{
+    const struct br_time_scheme *highest = br_time_schemes[0];
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        if (!(*s)->adaptive && (*s)->order > highest->order)
+            highest = *s;
+    return highest;
+}
+
+/* Whether a march of the scene begins with it. */
+static bool begins(const struct br_scene *scene, const struct br_method *method)
+{
+    struct br_march *march = NULL;
+    const enum br_status status = br_march_create(&march, scene, 4, 4, method, NULL);
+    br_march_free(march);
+    return !status;
+}
+
 /* Adds the method of that name, unless the scene or the list has no use for it. */
 __attribute__((format(printf, 3, 4))) static void add(const struct br_scene *scene,
                                                       struct br_named_methods *all,
@@ -184,7 +170,7 @@ __attribute__((format(printf, 3, 4))) static void add(const struct br_scene *sce
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     if (!br_named_method_read(name, &c, NULL) && !contains(all, &c) &&
-        all->count < BR_MOST_NAMED_METHODS && !try_scene(scene, &c.method, NULL))
+        all->count < BR_MOST_NAMED_METHODS && begins(scene, &c.method))
         all->list[all->count++] = c;
 }
 

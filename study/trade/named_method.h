@@ -37,6 +37,9 @@ enum br_status br_named_methods_read(const char *option, const char *text,
  * the same as another one in this scene, and what br_march_create refuses. */
 void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *methods);
 
+/* The scheme of the highest order among those that do not choose their steps: a fine run's. */
+const struct br_time_scheme *br_highest_scheme(void);
+
 /* The words of names as lines of help: a kind, then its words (out); NULL: behind the last. */
 const char *br_named_method_kind(size_t kind, char *words, size_t size);
 

@@ -19,52 +19,35 @@ struct pace {
     double set_up[2], level[2];
 };
 
-static bool is_late(void *self)
-{
-    const double *end = self;
-    return br_thread_seconds() > *end;
-}
-
 /* Marches until that has taken long enough. A march that fails takes nothing more; only
- * BR_NO_MEMORY fails the call. */
-static enum br_status march_a_little(const struct br_scene *scene, const struct br_trial *t,
-                                     int mesh, struct pace *pace, struct br_error *err)
-{
-    const struct br_method method = br_trial_method(t);
-    const size_t levels = method.scheme->adaptive ? t->at.steps : LEVELS;
-    struct br_march *march = NULL;
-    struct br_error failure = {0};
-    const double start = br_thread_seconds();
-    enum br_status status =
-        br_march_create(&march, scene, probe_mesh[mesh], levels, &method, &failure);
-    const double begin = br_thread_seconds();
-    double end = begin + longest_probe;
-    if (march)
-        br_march_stop_when(march, is_late, &end);
-    for (size_t i = 0; i < levels && !status && !is_late(&end); i++)
-        status = br_march_step(march, &failure);
-    pace->set_up[mesh] = begin - start;
-    pace->level[mesh] = 0;
-    if (!status || status == BR_INTERRUPTED) /* the level that it is in counts by half */
-        pace->level[mesh] =
-            (br_thread_seconds() - begin) / fmax(0.5, (double)br_march_steps_done(march));
-    br_march_free(march);
-    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
-}
-
-/* Trials of one method, and of one tolerance, have the same. */
-static enum br_status find_pace(const struct br_scene *scene, const struct br_trial *trial,
+ * BR_NO_MEMORY and BR_INTERRUPTED fail the call. Trials of one method, and of one tolerance, have
+ * the same. */
+static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
                                 size_t i, struct pace *pace, struct br_error *err)
 {
-    enum br_status status = BR_OK;
+    struct br_trial_request little = *r;
+    little.time_limit = longest_probe;
     for (size_t j = 0; j < i; j++)
         if (trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance) {
             pace[i] = pace[j];
             return BR_OK;
         }
-    for (int mesh = 0; mesh < 2 && !status; mesh++)
-        status = march_a_little(scene, &trial[i], mesh, &pace[i], err);
-    return status;
+    for (int mesh = 0; mesh < 2; mesh++) {
+        struct br_trial probe = trial[i];
+        struct br_trial_cost cost;
+        probe.at.n = probe_mesh[mesh];
+        probe.at.steps = probe.named->method.scheme->adaptive ? probe.at.steps : LEVELS;
+        const enum br_status status = br_trial_march(&probe, &little, &cost, err);
+        if (status == BR_INTERRUPTED)
+            return status;
+        if (status == BR_NO_MEMORY)
+            return br_fail(err, status, "%s", probe.failure.message);
+        pace[i].set_up[mesh] = isnan(cost.set_up) ? 0 : cost.set_up;
+        pace[i].level[mesh] = 0;
+        if (!status || status == BR_VERDICT) /* the level that it is in counts by half */
+            pace[i].level[mesh] = cost.march / fmax(0.5, (double)cost.levels);
+    }
+    return BR_OK;
 }
 
 /* Linear in n, and growing. */
@@ -87,46 +70,41 @@ struct judging {
     double mesh, level;
 };
 
-static const struct br_judge *judge_of(const struct br_trial_request *r)
-{
-    return r->judge ? r->judge : br_judge_best(r->scene);
-}
-
 static enum br_status create_judge(const struct br_trial_request *r,
                                    struct br_judge_request *request, void **self,
                                    struct br_error *err)
 {
-    const struct br_observer *o = r->observer;
+    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
     request->scene = r->scene;
     request->lead = request->levels;
-    request->stop = o ? o->stop : NULL;
-    request->stop_self = o ? o->self : NULL;
-    request->preparing = o ? o->preparing : NULL;
-    return judge_of(r)->create(self, request, err);
+    request->stop = o->stop;
+    request->stop_self = o->self;
+    request->preparing = o->preparing;
+    return br_trials_judge(r)->create(self, request, err);
 }
 
 enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
                                     struct br_error *err)
 {
+    const struct br_judge *judge = br_trials_judge(r);
     *self = NULL;
-    if (!judge_of(r)->create || judge_of(r)->nests)
-        return BR_OK;
-    return create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
+    return !judge->create || judge->nests
+               ? BR_OK
+               : create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
 }
 
 void br_trials_forget_judge(const struct br_trial_request *r, void *self)
 {
     if (self)
-        judge_of(r)->free(self);
+        br_trials_judge(r)->free(self);
 }
 
-/* A judge looks at a few levels of one field. */
-static enum br_status sample_levels(const struct br_judge_request *request,
-                                    const struct br_judge *judge, void *self,
-                                    enum br_field_kind kind, struct br_error *err)
+/* Looks at all levels of a field. */
+static enum br_status sample(const struct br_judge *judge, void *self,
+                             const struct br_judge_request *request, enum br_field_kind kind,
+                             double *values, struct br_error *err)
 {
-    double *values = br_allocate(BR_MOST_MODES * request->mesh[0], sizeof *values);
-    enum br_status status = values ? BR_OK : br_no_memory(err, "the trials");
+    enum br_status status = BR_OK;
     for (size_t level = 1; level <= request->levels && !status; level++) {
         status = judge->advance(self, kind, level, err);
         for (int measure = 0; measure < BR_TIP && !status; measure++) {
@@ -136,42 +114,39 @@ static enum br_status sample_levels(const struct br_judge_request *request,
                 judge->sample(self, &at, &view);
         }
     }
-    free(values);
     return status;
 }
 
-/* A fine run marches anew for each mesh. */
+/* It looks at a few levels of one mesh; a fine run marches anew for each mesh. */
 static enum br_status look_at_judge(const struct br_trial_request *r, struct judging *judging,
                                     struct br_error *err)
 {
-    static const size_t mesh = 100;
+    enum { N = 100, FEW = 10 };
+    static const size_t mesh = N;
+    double values[BR_MOST_MODES * N];
     struct br_judge_request request = {
-        .axial_degree = 1, .levels = 10, .mesh_count = 1, .mesh = &mesh};
-    const struct br_judge *judge = judge_of(r);
+        .axial_degree = 1, .levels = FEW, .mesh_count = 1, .mesh = &mesh};
+    const struct br_judge *judge = br_trials_judge(r);
+    const bool modelled[2] = {r->scene->axial.modelled, r->scene->bending.modelled};
     const struct br_planned_march fine = {.scene = r->scene,
                                           .method = &r->reference_method,
                                           .n = r->reference.n,
                                           .steps = r->reference.steps};
-    *judging = (struct judging){0, 0};
-    if (judge->nests)
-        judging->mesh = br_march_seconds(&fine);
+    *judging = (struct judging){judge->nests ? br_march_seconds(&fine) : 0, 0};
     if (!judge->create || judge->nests)
         return BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_TIP; measure++)
+            request.measured[kind][measure] =
+                modelled[kind] && br_norm_needs(r->norm, (enum br_measure)measure);
     void *self = NULL;
-    for (int measure = 0; measure < BR_TIP; measure++) {
-        const bool needed = br_norm_needs(r->norm, (enum br_measure)measure);
-        request.measured[BR_AXIAL][measure] = needed && r->scene->axial.modelled;
-        request.measured[BR_BENDING][measure] = needed && r->scene->bending.modelled;
-    }
-    double start = br_thread_seconds();
+    const double start = br_thread_seconds();
     enum br_status status = create_judge(r, &request, &self, err);
-    judging->mesh = br_thread_seconds() - start;
-    start = br_thread_seconds();
-    if (!status && r->scene->axial.modelled)
-        status = sample_levels(&request, judge, self, BR_AXIAL, err);
-    if (!status && r->scene->bending.modelled)
-        status = sample_levels(&request, judge, self, BR_BENDING, err);
-    judging->level = (br_thread_seconds() - start) / (double)(request.levels * mesh);
+    const double created = br_thread_seconds();
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (modelled[kind])
+            status = sample(judge, self, &request, (enum br_field_kind)kind, values, err);
+    *judging = (struct judging){created - start, (br_thread_seconds() - created) / (N * FEW)};
     judge->free(self);
     return status;
 }
@@ -238,8 +213,7 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     enum br_status status =
         pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
-        status = br_observer_stops(r->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                                : find_pace(r->scene, trial, i, pace, err);
+        status = find_pace(r, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
         outlook->seconds += trial[i].foreseen;

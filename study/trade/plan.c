@@ -9,154 +9,7 @@
 #include "solver/clock.h"
 #include "study/fit/fit.h"
 
-/* ---- the list of trials ---- */
-
-double br_plan_y(const struct br_trial *t)
-{
-    return t->named->method.scheme->adaptive ? -log(t->tolerance) : log((double)t->at.steps);
-}
-
-/* To three digits, as a person types it. */
-static double rounded(double tolerance)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.3g", tolerance);
-    return strtod(text, NULL);
-}
-
-struct br_trial br_plan_trial(const struct br_plan_candidate *c)
-{
-    return br_trial_at(c->named, (size_t)(c->n + 0.5), (size_t)(exp(c->y) + 0.5),
-                       rounded(exp(-c->y)));
-}
-
-bool br_plan_has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
-{
-    for (size_t i = 0; i < p->count; i++)
-        if ((p->forecast[i].round > 0 || cheap) && p->trial[i].named == trial->named &&
-            p->trial[i].at.n == trial->at.n &&
-            fabs(br_plan_y(&p->trial[i]) - br_plan_y(trial)) <= 1e-12)
-            return true;
-    return false;
-}
-
-/* Adds a trial without an outcome, unless it was added before. */
-static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_forecast forecast)
-{
-    if (br_plan_has(p, trial, forecast.round == 0))
-        return;
-    p->trial[p->count] = *trial;
-    p->forecast[p->count++] = forecast;
-}
-
-/* ---- cheap trials: the first models are made from them ---- */
-
-enum { MESHES = 8 };
-static const size_t probe_meshes[MESHES] = {2, 4, 12, 36, 108, 324, 972, 2916};
-
-/* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
- * solution switches are better than their neighbours. Many time levels in common spare the judge
- * work. */
-enum { PROBES = 10 };
-static const size_t probe_steps[PROBES] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
-static const size_t mesh_of_all_steps = 108;
-
-static const double probe_tolerances[PROBES] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
-                                                1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
-
-/* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
- * at most; solves of an adaptive scheme where they are not known yet. */
-static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
-
-/* Those of one method on one mesh. */
-static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
-{
-    const bool adaptive = named->method.scheme->adaptive;
-    const double stages = br_time_scheme_stages(named->method.scheme);
-    const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
-    for (size_t j = 0; j < PROBES; j += next) {
-        const struct br_trial trial = br_trial_at(named, n, probe_steps[j], probe_tolerances[j]);
-        const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
-        if (((double)n + overhead) * solves <= most_work)
-            add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
-    }
-}
-
-/* With room for as many rounds as there may be. */
-enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
-{
-    const size_t most = p->methods.count * MESHES * PROBES + p->most_rounds * BR_PLAN_BATCH;
-    p->trial = br_allocate(most, sizeof *p->trial);
-    p->forecast = br_allocate(most, sizeof *p->forecast);
-    if (!p->trial || !p->forecast)
-        return br_no_memory(err, "the trials");
-    for (size_t c = 0; c < p->methods.count; c++)
-        for (size_t i = 0; i < MESHES; i++)
-            add_column(p, &p->methods.list[c], probe_meshes[i]);
-    return BR_OK;
-}
-
-/* ---- models ---- */
-
-static void forget(struct br_plan *p)
-{
-    for (size_t c = 0; c < p->methods.count; c++) {
-        br_plan_model_clear(&p->model[c].error);
-        p->model[c].known = false;
-    }
-}
-
-/* By what is seen of its trials, in room for all. The space error's order is 2 for elements of
- * degree 1; of more it is measured. */
-static enum br_status fit_one(struct br_plan *p, size_t c, struct br_plan_point *point,
-                              struct br_plan_work *work, struct br_error *err)
-{
-    const struct br_named_method *named = &p->methods.list[c];
-    struct br_plan_models *m = &p->model[c];
-    size_t points = 0, works = 0;
-    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
-        const double error = br_trial_bound(t), seconds = p->seconds(t), n = (double)t->at.n;
-        const double solves = (double)t->cost.counts.stages;
-        if (t->named != named)
-            continue;
-        if (error > 0 && isfinite(error))
-            point[points++] = (struct br_plan_point){log(n), br_plan_y(t), error};
-        if (seconds > 0 && isfinite(seconds) && solves > 0)
-            work[works++] = (struct br_plan_work){n, br_plan_y(t), solves, seconds};
-    }
-    if (points < 4 || works == 0)
-        return BR_OK;
-    const double q = named->method.scheme->adaptive ? 1 : named->method.scheme->order;
-    enum br_status status =
-        br_plan_model_fit(&m->error, point, points, 1.0 + named->method.axial_degree, q, err);
-    if (!status)
-        status = br_plan_cost_fit(&m->cost, work, works, err);
-    m->known = !status;
-    return status == BR_NO_MEMORY ? status : BR_OK;
-}
-
-static enum br_status fit_all(struct br_plan *p, struct br_error *err)
-{
-    struct br_plan_point *point = br_allocate(p->count + 1, sizeof *point);
-    struct br_plan_work *work = br_allocate(p->count + 1, sizeof *work);
-    enum br_status status = point && work ? BR_OK : br_no_memory(err, "the models");
-    forget(p);
-    for (size_t c = 0; c < p->methods.count && !status; c++)
-        status = fit_one(p, c, point, work, err);
-    free(point);
-    free(work);
-    return status;
-}
-
-/* ---- plans ---- */
-
 const double br_plan_band = 3;
-
-/* Between E/3 and E something may cost this much more than the cheapest that is at most E. */
-static const double worth_the_band = 1.25;
-
-/* After so many rounds without anything better there is none more. */
-static const size_t most_idle_rounds = 3;
 
 const char *const br_plan_end_names[] = {[BR_PLAN_MET] = "met",
                                          [BR_PLAN_COARSEST] = "coarsest",
@@ -169,7 +22,6 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
     const struct br_method usual = br_method_default();
     *plan = (struct br_plan){.request = br_trial_request_default(scene),
                              .goal = {NAN, NAN},
-                             .most_rounds = 8,
                              .seconds = br_trial_seconds,
                              .own = NAN};
     plan->request.time_limit = 60;
@@ -180,66 +32,161 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
             plan->methods.list[plan->methods.count++] = all.list[i];
 }
 
-/* ---- what was found ---- */
+/* ---- the list of trials ---- */
 
-/* Whether a trial's error is at most the goal's, or its seconds. */
-static bool meets(const struct br_plan *p, const struct br_trial *t)
+/* Where a trial is in the model of its method. */
+static void place_of(const struct br_trial *t, double at[BR_PLAN_AXES])
 {
-    if (!isfinite(br_trial_bound(t)))
-        return false;
-    return isfinite(p->goal.error) ? br_trial_bound(t) <= p->goal.error
-                                   : p->seconds(t) <= p->goal.seconds;
+    at[BR_PLAN_X] = log((double)t->at.n);
+    at[BR_PLAN_Y] =
+        t->named->method.scheme->adaptive ? -log(t->tolerance) : log((double)t->at.steps);
 }
 
-/* The least of what is to be least among those that meet the goal, with an error of at least
- * `least_error`. */
-static size_t least_of(const struct br_plan *p, double least_error)
+/* Whether a trial was proposed before or, if `cheap`, was one of the cheap trials. */
+static bool has(const struct br_plan *p, const struct br_trial *trial, bool cheap)
 {
-    const bool by_error = isfinite(p->goal.error);
+    for (size_t i = 0; i < p->count; i++)
+        if ((p->forecast[i].round > 0 || cheap) && br_trials_same(&p->trial[i], trial))
+            return true;
+    return false;
+}
+
+/* Adds a trial without an outcome, unless it was added before. */
+static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_forecast forecast)
+{
+    if (has(p, trial, forecast.round == 0))
+        return;
+    p->trial[p->count] = *trial;
+    p->forecast[p->count++] = forecast;
+}
+
+/* ---- cheap trials: the first models are made from them ---- */
+
+static const size_t probe_meshes[BR_PLAN_MESHES] = {2, 4, 12, 36, 108, 324, 972, 2916};
+
+/* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
+ * solution switches are better than their neighbours. Many time levels in common spare the judge
+ * work. */
+static const size_t probe_steps[BR_PLAN_PROBES] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
+static const size_t mesh_of_all_steps = 108;
+
+static const double probe_tolerances[BR_PLAN_PROBES] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
+                                                        1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+
+/* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
+ * at most; solves of an adaptive scheme where they are not known yet. */
+static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
+
+/* Those of one method on one mesh. */
+static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
+{
+    const bool adaptive = named->method.scheme->adaptive;
+    const double stages = br_time_scheme_stages(named->method.scheme);
+    const size_t next = n == mesh_of_all_steps ? 1 : adaptive ? 3 : 2;
+    for (size_t j = 0; j < BR_PLAN_PROBES; j += next) {
+        const struct br_trial trial = br_trial_at(named, n, probe_steps[j], probe_tolerances[j]);
+        const double solves = adaptive ? guessed_solves : stages * (double)trial.at.steps;
+        if (((double)n + overhead) * solves <= most_work)
+            add(plan, &trial, (struct br_plan_forecast){0, NAN, NAN});
+    }
+}
+
+/* With room for as many rounds as there may be. */
+enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
+{
+    const size_t most =
+        p->methods.count * BR_PLAN_MESHES * BR_PLAN_PROBES + BR_PLAN_ROUNDS * BR_PLAN_BATCH;
+    p->trial = br_allocate(most, sizeof *p->trial);
+    p->forecast = br_allocate(most, sizeof *p->forecast);
+    p->model = br_allocate(p->methods.count, sizeof *p->model);
+    if (!p->trial || !p->forecast || !p->model)
+        return br_no_memory(err, "the trials");
+    for (size_t c = 0; c < p->methods.count; c++)
+        for (size_t i = 0; i < BR_PLAN_MESHES; i++)
+            add_column(p, &p->methods.list[c], probe_meshes[i]);
+    return BR_OK;
+}
+
+/* ---- models ---- */
+
+static struct br_plan_model *model_of(const struct br_plan *p, const struct br_named_method *named)
+{
+    return &p->model[named - p->methods.list];
+}
+
+/* By what is seen of the trials. The space error's order is 2 for elements of degree 1; of more it
+ * is measured. */
+static enum br_status fit_all(struct br_plan *p, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t c = 0; c < p->methods.count; c++)
+        p->model[c].points = 0;
+    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
+        struct br_plan_model *m = model_of(p, t->named);
+        const double error = br_trial_bound(t), seconds = p->seconds(t);
+        struct br_plan_point *point = &m->point[m->points];
+        *point = (struct br_plan_point){.value = {error, seconds},
+                                        .solves = (double)t->cost.counts.stages};
+        place_of(t, point->at);
+        m->points += error > 0 && isfinite(error) && seconds > 0 && point->solves > 0;
+    }
+    for (size_t c = 0; c < p->methods.count && status != BR_NO_MEMORY; c++) {
+        const struct br_method *method = &p->methods.list[c].method;
+        status = br_plan_model_fit(&p->model[c], 1.0 + method->axial_degree,
+                                   method->scheme->adaptive ? 1 : method->scheme->order, err);
+    }
+    return status == BR_NO_MEMORY ? status : BR_OK; /* else it is not known */
+}
+
+/* ---- what was found ---- */
+
+/* Between E/3 and E something may cost this much more than the cheapest that is at most E. */
+static const double worth_the_band = 1.25;
+
+/* What a plan makes least, of what meets its goal: seconds, and dearer where the error is less than
+ * it need be; or the error. INFINITY: misses it. */
+static double price(const struct br_plan *p, double error, double seconds)
+{
+    const double goal = p->goal.error;
+    if (isnan(goal))
+        return seconds <= p->goal.seconds ? error : INFINITY;
+    return error <= goal ? seconds * (error < goal / br_plan_band ? worth_the_band : 1) : INFINITY;
+}
+
+/* The trial that meets the goal best so far, *least (out) its price; count: none. */
+static size_t best_of(const struct br_plan *p, double *least)
+{
     size_t best = p->count;
-    double least = INFINITY;
+    *least = INFINITY;
     for (size_t i = 0; i < p->count; i++) {
-        const double error = br_trial_bound(&p->trial[i]), seconds = p->seconds(&p->trial[i]);
-        const double value = by_error ? seconds : error;
-        if (p->forecast[i].round > 0 && meets(p, &p->trial[i]) && error >= least_error &&
-            value < least) {
-            least = value;
+        const double here = price(p, br_trial_bound(&p->trial[i]), p->seconds(&p->trial[i]));
+        if (p->forecast[i].round > 0 && here < *least) {
+            *least = here;
             best = i;
         }
     }
     return best;
 }
 
-size_t br_plan_best(const struct br_plan *p)
-{
-    return least_of(p, 0);
-}
-
-/* Within the band, unless that is dearer. */
 static void choose(struct br_plan *p)
 {
-    const size_t best = br_plan_best(p);
-    p->chosen = best;
-    p->end = best == p->count ? BR_PLAN_MISSED : BR_PLAN_MET;
-    if (!isfinite(p->goal.error) || best == p->count)
-        return;
-    const size_t within = least_of(p, p->goal.error / br_plan_band);
-    if (within < p->count &&
-        p->seconds(&p->trial[within]) <= worth_the_band * p->seconds(&p->trial[best]))
-        p->chosen = within;
-    else
-        p->end = p->trial[best].at.n == BR_PLAN_LEAST_N ? BR_PLAN_COARSEST : BR_PLAN_BETTER;
+    double least;
+    p->chosen = best_of(p, &least);
+    p->end = BR_PLAN_MET;
+    if (p->chosen == p->count)
+        p->end = BR_PLAN_MISSED;
+    else if (br_trial_bound(&p->trial[p->chosen]) < p->goal.error / br_plan_band)
+        p->end = p->trial[p->chosen].at.n == BR_PLAN_LEAST_N ? BR_PLAN_COARSEST : BR_PLAN_BETTER;
 }
 
 struct br_plan_parts br_plan_chosen_parts(const struct br_plan *p)
 {
-    if (p->chosen == p->count)
-        return (struct br_plan_parts){NAN, NAN, NAN, NAN};
+    double at[BR_PLAN_AXES];
     const struct br_trial *t = &p->trial[p->chosen];
-    const struct br_plan_models *m = &p->model[t->named - p->methods.list];
-    if (!m->known)
-        return (struct br_plan_parts){NAN, NAN, NAN, NAN};
-    return br_plan_model_parts(&m->error, log((double)t->at.n), br_plan_y(t));
+    if (p->chosen == p->count || !model_of(p, t->named)->known)
+        return (struct br_plan_parts){{NAN, NAN}, {NAN, NAN}};
+    place_of(t, at);
+    return br_plan_model_parts(model_of(p, t->named), at);
 }
 
 double br_plan_spent(const struct br_plan *p)
@@ -251,32 +198,188 @@ double br_plan_spent(const struct br_plan *p)
     return sum;
 }
 
+/* ---- what to try next, by the models, in all resolutions of all named methods ---- */
+
+/* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
+static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
+
+/* Beyond the trials of its named method a candidate may be by so much, as factors. */
+static const double most_beyond = 8;
+
+/* A trial costs at most so many times what one has cost so far: models err. */
+static const double most_growth = 16;
+
+/* Where the goal is reached, a candidate has to promise so much: the logarithm of what it saves,
+ * times how likely that is. */
+static const double least_promise = 0.1;
+
+/* What any relative error is less than. */
+static const double any_error = 1e9;
+
+/* A resolution that might do. */
+struct candidate {
+    struct br_trial trial;
+    struct br_plan_prediction expected;
+    double promise;
+};
+
+/* The most promising candidate of each named method, by its index. */
+struct search {
+    const struct br_plan *plan;
+    double least; /* the price of the best so far, or of what is dearer than anything allowed */
+    double most;  /* s */
+    struct candidate best[BR_MOST_NAMED_METHODS];
+};
+
+/* Whether the nearest trial did not come to a good end. */
+static bool is_near_failure(const struct br_plan *p, const struct br_trial *trial)
+{
+    double nearest = INFINITY, here[BR_PLAN_AXES], there[BR_PLAN_AXES];
+    bool failed = false;
+    place_of(trial, here);
+    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
+        place_of(t, there);
+        const double distance =
+            hypot(there[BR_PLAN_X] - here[BR_PLAN_X], 2 * (there[BR_PLAN_Y] - here[BR_PLAN_Y]));
+        if (t->named == trial->named && distance < nearest) {
+            nearest = distance;
+            failed = !isfinite(br_trial_bound(t));
+        }
+    }
+    return failed;
+}
+
+/* The price is that of what just meets the goal where it is expected to miss it. */
+static double promise_of(const struct search *s, const struct br_plan_prediction *e)
+{
+    const struct br_plan_goal *goal = &s->plan->goal;
+    const int met = isnan(goal->error) ? BR_PLAN_SECONDS : BR_PLAN_ERROR;
+    const double distance = log(met == BR_PLAN_ERROR ? goal->error : goal->seconds) - e->log[met];
+    const double chance = 0.5 * erfc(-distance / fmax(e->deviation[met], 1e-6) / sqrt(2));
+    return chance * log(s->least / price(s->plan, fmin(exp(e->log[BR_PLAN_ERROR]), goal->error),
+                                         fmin(exp(e->log[BR_PLAN_SECONDS]), goal->seconds)));
+}
+
+/* What was a cheap trial is tried anew, with all repeats. */
+static void consider(struct search *s, const struct candidate *c)
+{
+    struct candidate *best = &s->best[c->trial.named - s->plan->methods.list];
+    if (c->promise > best->promise && !has(s->plan, &c->trial, false) &&
+        !is_near_failure(s->plan, &c->trial))
+        *best = *c;
+}
+
+/* To three digits, as a person types it. */
+static double rounded(double tolerance)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.3g", tolerance);
+    return strtod(text, NULL);
+}
+
+/* Elements from few to many, until the cost forbids more. */
+static void consider_column(struct search *s, const struct br_named_method *named, size_t steps,
+                            double tolerance, double most_n)
+{
+    const struct br_plan_model *m = model_of(s->plan, named);
+    size_t before = 0;
+    for (double real = BR_PLAN_LEAST_N; real <= most_n; real *= n_factor) {
+        const size_t n = (size_t)(real + 0.5);
+        double at[BR_PLAN_AXES];
+        if (n == before)
+            continue;
+        before = n;
+        struct candidate c = {.trial = br_trial_at(named, n, steps, tolerance)};
+        place_of(&c.trial, at);
+        c.expected = br_plan_model_predict(m, at);
+        if (!(exp(c.expected.log[BR_PLAN_SECONDS]) <= s->most))
+            return;
+        c.promise = promise_of(s, &c.expected);
+        consider(s, &c);
+    }
+}
+
+/* Columns that were tried are known best. */
+static void look_through(struct search *s, const struct br_named_method *named)
+{
+    const struct br_plan_model *m = model_of(s->plan, named);
+    double most[BR_PLAN_AXES] = {0, 0};
+    for (size_t i = 0; i < m->points; i++)
+        for (int axis = 0; axis < BR_PLAN_AXES; axis++)
+            most[axis] = fmax(most[axis], most_beyond * exp(m->point[i].at[axis]));
+    for (const struct br_trial *t = s->plan->trial; t < s->plan->trial + s->plan->count; t++)
+        if (t->named == named)
+            consider_column(s, named, t->at.steps, t->tolerance, most[BR_PLAN_X]);
+    if (named->method.scheme->adaptive)
+        for (double inverse = 10; inverse <= most[BR_PLAN_Y]; inverse *= tolerance_factor)
+            consider_column(s, named, 0, rounded(1 / inverse), most[BR_PLAN_X]);
+    else
+        for (double steps = BR_PLAN_LEAST_STEPS; steps <= most[BR_PLAN_Y]; steps *= step_factor)
+            consider_column(s, named, (size_t)(steps + 0.5), 0, most[BR_PLAN_X]);
+}
+
+static void search_all(struct search *s)
+{
+    const struct br_plan *p = s->plan;
+    const bool reached = best_of(p, &s->least) < p->count;
+    for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++)
+        s->most = fmax(s->most, most_growth * p->seconds(t)); /* NaN is passed over */
+    if (p->request.time_limit > 0)
+        s->most = fmin(s->most, p->request.time_limit);
+    if (isnan(p->goal.error)) {
+        s->most = fmin(s->most, p->goal.seconds);
+        s->least = reached ? s->least : any_error;
+    } else {
+        s->least = reached ? s->least : s->most;
+        s->most = fmin(s->most, s->least);
+    }
+    for (size_t c = 0; c < p->methods.count; c++) {
+        s->best[c] = (struct candidate){.promise = reached ? least_promise : 0};
+        if (p->model[c].known)
+            look_through(s, &p->methods.list[c]);
+    }
+}
+
 /* ---- rounds ---- */
 
-/* Whether the rounds have gone on for long without anything better than the best. */
+/* After so many rounds without anything better there is none more. */
+static const size_t most_idle_rounds = 3;
+
+/* Whether the rounds have gone on for long without anything better than the best, or the judge
+ * could not say what is better. */
 static bool is_idle(const struct br_plan *p)
 {
-    const size_t best = br_plan_best(p);
-    return best < p->count && p->rounds >= p->forecast[best].round + most_idle_rounds;
+    double least;
+    const size_t best = best_of(p, &least);
+    return best < p->count && (p->rounds >= p->forecast[best].round + most_idle_rounds ||
+                               (isnan(p->goal.error) && p->trial[best].end == BR_TRIAL_DOUBTFUL));
 }
 
 /* One round: whether anything was tried (*tried, out). */
 static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *err)
 {
-    struct br_plan_batch batch;
     const size_t from = p->count;
-    *tried = false;
-    enum br_status status = fit_all(p, err);
-    if (status)
-        return status;
-    br_plan_propose(p, &batch);
-    for (size_t i = 0; i < batch.count; i++) {
-        const struct br_plan_candidate *c = &batch.candidate[i];
-        const struct br_trial trial = br_plan_trial(c);
-        add(p, &trial, (struct br_plan_forecast){p->rounds + 1, exp(c->log_error), c->seconds});
+    struct search *s = br_allocate(1, sizeof *s);
+    enum br_status status = s ? fit_all(p, err) : br_no_memory(err, "the search");
+    if (!status) {
+        s->plan = p;
+        search_all(s);
     }
+    for (size_t i = 0; i < BR_PLAN_BATCH && !status; i++) {
+        struct candidate *most = &s->best[0];
+        for (size_t c = 1; c < p->methods.count; c++)
+            if (s->best[c].promise > most->promise)
+                most = &s->best[c];
+        const struct br_plan_forecast forecast = {p->rounds + 1,
+                                                  exp(most->expected.log[BR_PLAN_ERROR]),
+                                                  exp(most->expected.log[BR_PLAN_SECONDS])};
+        if (most->trial.named)
+            add(p, &most->trial, forecast);
+        *most = (struct candidate){.promise = 0};
+    }
+    free(s);
     *tried = p->count > from;
-    if (*tried)
+    if (!status && *tried)
         status = br_trials_hold(&p->trial[from], p->count - from, &p->request, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
@@ -338,7 +441,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     p->request.repeats = repeats;
     if (!status)
         status = check_probes(p, err);
-    while (!status && tried && p->rounds < p->most_rounds && !is_idle(p))
+    while (!status && tried && p->rounds < BR_PLAN_ROUNDS && !is_idle(p))
         status = go_round(p, &tried, err);
     if (!status)
         status = fit_all(p, err);
@@ -353,10 +456,11 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
 
 void br_plan_clear(struct br_plan *p)
 {
-    forget(p);
     free(p->trial);
     free(p->forecast);
+    free(p->model);
     p->trial = NULL;
     p->forecast = NULL;
+    p->model = NULL;
     p->count = 0;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 
 /* ---- the sources of error, in the order in which the chain takes them away ---- */
@@ -102,48 +103,6 @@ const struct br_source br_sources[] = {
     {NULL},
 };
 
-/* ---- refinements ---- */
-
-/* An adaptive scheme's error a step: a digit or two above the round-off of strains. */
-static const double finest_tolerance = 1e-11;
-
-/* Steps of a fixed length, at least; and of the run's, at least so many to one. */
-enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
-
-static struct br_refinement refined_by(const struct br_split *split,
-                                       const struct br_time_scheme *scheme)
-{
-    struct br_refinement r = {.stand = {.method = split->method, .steps = split->at.steps}};
-    r.stand.method.scheme = scheme;
-    if (scheme->adaptive) {
-        r.stand.method.tolerance = finest_tolerance;
-        snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
-        return r;
-    }
-    r.stand.steps *= LEAST_RATIO;
-    while (r.stand.steps < FINE_STEPS)
-        r.stand.steps *= 2; /* even: a march of half as many steps gives its error */
-    snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
-             br_time_step(split->scene, r.stand.steps));
-    return r;
-}
-
-/* Ways to refine in time, those that may be the best first, `most` of them into `out`; how many. */
-static size_t refinements(const struct br_split *split, size_t most, struct br_refinement *out)
-{
-    const struct br_time_scheme *highest = br_time_schemes[0];
-    size_t count = 0;
-    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
-        if ((*s)->adaptive && count + 1 < most)
-            out[count++] = refined_by(split, *s);
-        if (!(*s)->adaptive && (*s)->order > highest->order)
-            highest = *s;
-    }
-    if (count < most)
-        out[count++] = refined_by(split, highest);
-    return count;
-}
-
 /* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
 
 /* `heads` distances, each in all norms. */
@@ -201,44 +160,51 @@ static bool failed(const struct distances *d, size_t head)
 
 /* ---- the refinement in time ---- */
 
+/* An adaptive scheme's error a step: a digit or two above the round-off of strains. */
+static const double finest_tolerance = 1e-11;
+
+/* Steps of a fixed length, at least; and of the run's, at least so many to one. */
+enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
+
+static const double good_enough = 1e-8; /* relative to the solution */
+
 static struct br_stand start(const struct br_split *split)
 {
     return (struct br_stand){.method = split->method, .steps = split->at.steps};
 }
 
-/* The run with all sources but the elements taken away. */
-static struct br_stand without_time_error(const struct br_split *split,
-                                          const struct br_refinement *refined)
+/* The run with all sources but the elements taken away, by a scheme. */
+static struct br_refinement refined_by(const struct br_split *split,
+                                       const struct br_time_scheme *scheme)
 {
-    struct br_stand stand = start(split);
+    struct br_refinement r = {.stand = start(split)};
+    struct br_stand stand = r.stand;
+    r.stand.method.scheme = scheme;
+    if (scheme->adaptive) {
+        r.stand.method.tolerance = finest_tolerance;
+        snprintf(r.name, sizeof r.name, "%s, tolerance %.0e", scheme->name, finest_tolerance);
+    } else {
+        r.stand.steps *= LEAST_RATIO;
+        while (r.stand.steps < FINE_STEPS)
+            r.stand.steps *= 2; /* even: a march of half as many steps gives its error */
+        snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
+                 br_time_step(split->scene, r.stand.steps));
+    }
     for (const struct br_source *s = br_sources; s->name; s++) {
         struct br_stand next = stand;
-        if (s->remove(split->scene, refined, &next) == NULL && !next.continuous)
+        if (s->remove(split->scene, &r, &next) == NULL && !next.continuous)
             stand = next;
     }
-    return stand;
-}
-
-/* The same with ten times the tolerance, or half as many steps. */
-static struct br_stand coarser(const struct br_stand *stand)
-{
-    struct br_stand c = *stand;
-    if (c.method.scheme->adaptive)
-        c.method.tolerance *= 10;
-    else
-        c.steps /= 2;
-    return c;
+    r.stand = stand;
+    return r;
 }
 
 /* By norm and part. */
 typedef double by_norm[BR_MOST_NORMS][BR_PARTS];
 
-enum { MOST_REFINEMENTS = 4 };
-static const double good_enough = 1e-8; /* relative to the solution */
-
 struct refining {
     int threads;
-    const struct br_observer *observer;
+    struct br_observer observer;
     by_norm error;           /* of the best refinement, at most */
     double least;            /* the same, relative, in the first norm */
     struct br_error failure; /* the first */
@@ -247,47 +213,53 @@ struct refining {
 static void take_errors(const struct distances *d, size_t head, by_norm error)
 {
     for (size_t m = 0; m < d->split->norms; m++)
-        for (int part = 0; part < BR_PARTS; part++)
-            error[m][part] = d->study[m][head].cell[0].error[part];
+        memcpy(error[m], d->study[m][head].cell[0].error, sizeof error[m]);
 }
 
-/* How far a refined march is from a coarser one of its kind, in the first norm and relative to the
- * solution; infinite where one of them fails. Such errors are kept where they are the least yet. */
-static enum br_status try_refinement(struct br_split *split, const struct br_refinement *refined,
+/* How far a march refined by a scheme is from one with ten times the tolerance, or half as many
+ * steps, in the first norm and relative to the solution; infinite where one of them fails. Such
+ * errors are kept where they are the least yet. */
+static enum br_status try_refinement(struct br_split *split, const struct br_time_scheme *scheme,
                                      struct refining *r, struct br_error *err)
 {
-    const struct br_stand fine = without_time_error(split, refined), coarse = coarser(&fine);
+    const struct br_refinement fine = refined_by(split, scheme);
+    struct br_stand coarse = fine.stand;
+    coarse.method.tolerance *= scheme->adaptive ? 10 : 1;
+    coarse.steps /= scheme->adaptive ? 1 : 2;
     struct distances *d = br_allocate(1, sizeof *d);
     if (!d)
         return br_no_memory(err, "the parts of the error");
     d->split = split;
-    add_distance(d, &coarse, &fine);
+    add_distance(d, &coarse, &fine.stand);
     const struct br_study *s = d->study[0];
-    const enum br_status status = br_study_run_each(d->study[0], 1, r->threads, r->observer, err);
-    if (!status && failed(d, 0) && !r->failure.status)
+    const enum br_status status = br_study_run_each(d->study[0], 1, r->threads, &r->observer, err);
+    const bool is_known = !status && !failed(d, 0);
+    const double error = is_known ? s->cell[0].error[BR_PART_TOTAL] / s->reference_scale : NAN;
+    if (!status && !r->failure.status && !is_known)
         r->failure = *failure_of(d, 0);
-    else if (!status && !(s->reference_scale > 0) && !r->failure.status)
+    else if (!status && !r->failure.status && !(s->reference_scale > 0))
         br_fail(&r->failure, BR_NOT_FINITE, "the solution is zero: no error is relative to it");
-    if (!status && !failed(d, 0) &&
-        s->cell[0].error[BR_PART_TOTAL] / s->reference_scale < r->least) {
-        r->least = s->cell[0].error[BR_PART_TOTAL] / s->reference_scale;
-        split->refined = *refined;
-        split->refined.stand = fine;
+    if (error < r->least) {
+        r->least = error;
+        split->refined = fine;
         take_errors(d, 0, r->error);
     }
     distances_free(d);
     return status;
 }
 
-/* The first refinement that is good enough, or the best. */
+/* The first refinement that is good enough, or the best: by schemes that choose their steps, then
+ * by the one of the highest order. */
 static enum br_status refine(struct br_split *split, struct refining *r, struct br_error *err)
 {
-    struct br_refinement refined[MOST_REFINEMENTS];
-    const size_t count = refinements(split, MOST_REFINEMENTS, refined);
+    const struct br_time_scheme *highest = br_highest_scheme();
     enum br_status status = BR_OK;
     r->least = INFINITY;
-    for (size_t i = 0; i < count && !status && !(r->least <= good_enough); i++)
-        status = try_refinement(split, &refined[i], r, err);
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s && !status; s++)
+        if ((*s)->adaptive && !(r->least <= good_enough))
+            status = try_refinement(split, *s, r, err);
+    if (!status && !(r->least <= good_enough))
+        status = try_refinement(split, highest, r, err);
     if (status || isfinite(r->least))
         return status;
     return br_fail(err, r->failure.status ? r->failure.status : BR_NOT_FINITE,
@@ -353,36 +325,30 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     return BR_OK;
 }
 
-/* What a march's linear solver leaves open: measured or, where the audit fails, predicted. */
-static double floor_of_march(const struct br_split *split, const struct chain *c, bool in_time,
-                             size_t norm, int part)
+/* What a march's linear solver leaves open, measured or, where the audit fails, predicted; what the
+ * refined march and the judge are off by. */
+static double floor_of(const struct br_split *split, const struct chain *c,
+                       const struct br_study *s, bool in_time, size_t norm, int part)
 {
     const size_t audit = c->audit[in_time];
-    return failed(c->d, audit) ? split->predicted_round_off * split->scale[norm]
-                               : 2 * c->d->study[norm][audit].cell[0].error[part];
-}
-
-static void set_floor(const struct br_split *split, const struct chain *c, size_t head,
-                      bool in_time, struct br_share *share)
-{
-    for (size_t m = 0; m < split->norms; m++)
-        for (int part = 0; part < BR_PARTS; part++) {
-            const struct br_study *s = &c->d->study[m][head];
-            share->floor[m][part] = floor_of_march(split, c, in_time, m, part);
-            if (in_time)
-                share->floor[m][part] += c->refining.error[m][part];
-            if (s->judge == split->judge)
-                share->floor[m][part] += br_norm_of_constant(
-                    s->norm, s->scene, s->judged_by.own_error, (enum br_part)part);
-        }
+    double floor = failed(c->d, audit) ? split->predicted_round_off * split->scale[norm]
+                                       : 2 * c->d->study[norm][audit].cell[0].error[part];
+    if (in_time)
+        floor += c->refining.error[norm][part];
+    if (s->judge == split->judge)
+        floor += br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, (enum br_part)part);
+    return floor;
 }
 
 static void set_share(const struct br_split *split, const struct chain *c, size_t head,
                       struct br_share *share)
 {
     const struct br_study *s = &c->d->study[0][head];
+    const bool in_time = share->source && share->source->in_time;
     take_errors(c->d, head, share->error);
-    set_floor(split, c, head, share->source && share->source->in_time, share);
+    for (size_t m = 0; m < split->norms; m++)
+        for (int part = 0; part < BR_PARTS; part++)
+            share->floor[m][part] = floor_of(split, c, &c->d->study[m][head], in_time, m, part);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         share->tip[kind] = s->cell[0].tip[kind] - s->reference_tip[kind];
 }
@@ -390,60 +356,51 @@ static void set_share(const struct br_split *split, const struct chain *c, size_
 static void set_whole(struct br_split *split, const struct chain *c)
 {
     const struct br_study *s = &c->d->study[0][c->whole];
+    const struct br_planned_march run = {.scene = split->scene,
+                                         .method = &split->method,
+                                         .n = split->at.n,
+                                         .steps = split->at.steps};
     split->unstable = s->cell[0].unstable;
+    split->predicted_round_off = br_predict_round_off(&run);
     for (size_t m = 0; m < split->norms; m++)
         split->scale[m] = c->d->study[m][c->whole].reference_scale;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         split->tip[kind] = s->cell[0].tip[kind];
         split->solution_tip[kind] = s->reference_tip[kind];
     }
-    split->predicted_round_off = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field =
-            br_field_of_scene(split->scene, (enum br_field_kind)kind, split->at.n,
-                              br_time_step(split->scene, split->at.steps));
-        field.degree = split->method.axial_degree;
-        if (kind == BR_AXIAL ? split->scene->axial.modelled : split->scene->bending.modelled)
-            split->predicted_round_off =
-                fmax(split->predicted_round_off, br_method_round_off(&split->method, &field));
-    }
     set_share(split, c, c->whole, &split->whole);
 }
 
-static void add_up(struct br_split *split)
+static void set_shares(struct br_split *split, const struct chain *c)
 {
     for (size_t i = 0; i < split->shares; i++) {
+        struct br_share *share = &split->share[i];
+        if (!share->none)
+            set_share(split, c, c->link[i], share);
         for (size_t m = 0; m < split->norms; m++)
             for (int part = 0; part < BR_PARTS; part++)
-                split->sum[m][part] += split->share[i].error[m][part];
+                split->sum.error[m][part] += share->error[m][part];
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            split->tip_sum[kind] += split->share[i].tip[kind];
+            split->sum.tip[kind] += share->tip[kind];
     }
-}
-
-static void clear_results(struct br_split *split)
-{
-    struct br_split empty = {.scene = split->scene,
-                             .method = split->method,
-                             .at = split->at,
-                             .norms = split->norms,
-                             .judge = br_judge_best(split->scene)};
-    memcpy(empty.norm, split->norm, sizeof empty.norm);
-    *split = empty;
 }
 
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
                             struct br_error *err)
 {
-    struct chain c = {0};
-    clear_results(split);
+    const struct br_split given = *split;
+    struct chain c = {.refining.threads = threads};
+    *split = (struct br_split){.scene = given.scene,
+                               .method = given.method,
+                               .at = given.at,
+                               .norms = given.norms,
+                               .judge = br_judge_best(given.scene)};
+    memcpy(split->norm, given.norm, sizeof split->norm);
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");
-    struct br_observer quiet = observer ? *observer : (struct br_observer){0};
-    quiet.progress = NULL; /* the chain takes longer */
-    c.refining.threads = threads;
-    c.refining.observer = &quiet;
+    c.refining.observer = observer ? *observer : (struct br_observer){0};
+    c.refining.observer.progress = NULL; /* the chain takes longer */
     enum br_status status = refine(split, &c.refining, err);
     if (status)
         return status;
@@ -457,10 +414,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
         status = check_links(split, &c, err);
     if (!status) {
         set_whole(split, &c);
-        for (size_t i = 0; i < split->shares; i++)
-            if (!split->share[i].none)
-                set_share(split, &c, c.link[i], &split->share[i]);
-        add_up(split);
+        set_shares(split, &c);
     }
     distances_free(c.d);
     return status;
@@ -474,5 +428,5 @@ bool br_share_told(const struct br_share *share, size_t norm, enum br_part part)
 double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
                        enum br_part part)
 {
-    return share->error[norm][part] / split->sum[norm][part];
+    return share->error[norm][part] / split->sum.error[norm][part];
 }

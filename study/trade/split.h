@@ -10,6 +10,7 @@
 
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
+#include "study/trade/named_method.h"
 
 enum { BR_MOST_SOURCES = 8 };
 
@@ -39,9 +40,9 @@ struct br_source {
 /* The chain, in its order; ends with a NULL name. */
 extern const struct br_source br_sources[];
 
-/* One part of the error, or all of it. */
+/* One part of the error, the sum of the parts' norms, or the whole. */
 struct br_share {
-    const struct br_source *source;        /* NULL: the whole */
+    const struct br_source *source;        /* NULL: no part */
     const char *none;                      /* why there is no such part; NULL: there is */
     double error[BR_MOST_NORMS][BR_PARTS]; /* its norm, in the norm's unit; 0 where there is none */
     double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the part cannot be separated from what else
@@ -61,10 +62,9 @@ struct br_split {
     struct br_share share[BR_MOST_SOURCES]; /* in the order of br_sources */
     size_t shares;
     struct br_share whole;
-    double sum[BR_MOST_NORMS][BR_PARTS]; /* of the parts' norms: at least the whole's */
-    double tip_sum[2];                   /* of the parts at the tip: the whole's, m */
-    double tip[2], solution_tip[2];      /* of the run and of the solution, at t = T, m */
-    double scale[BR_MOST_NORMS];         /* the norm of the solution */
+    struct br_share sum; /* its norms are at least the whole's, its tip is; without floors */
+    double tip[2], solution_tip[2]; /* of the run and of the solution, at t = T, m */
+    double scale[BR_MOST_NORMS];    /* the norm of the solution */
     struct br_refinement refined;
     double predicted_round_off; /* of the run's linear solver, relative */
     bool unstable;              /* br_march_contact_unstable */

@@ -160,17 +160,6 @@ bool br_trade_is_printed_method(const struct br_named_method *c)
            m->friction == paper.friction && m->axial_degree == paper.axial_degree;
 }
 
-/* Whether the paper's table has a cell there. */
-static bool is_printed(const struct br_scene *scene, const struct br_printed *printed, size_t n,
-                       size_t steps)
-{
-    const double k = br_time_step(scene, steps);
-    for (size_t i = 0; printed && i < printed->count; i++)
-        if (printed->cell[i].n == n && fabs(printed->cell[i].k / k - 1) <= 1e-9)
-            return true;
-    return false;
-}
-
 /* Whether a default grid has it. */
 static bool is_light(const struct br_named_method *c, size_t n, double steps)
 {
@@ -179,49 +168,40 @@ static bool is_light(const struct br_named_method *c, size_t n, double steps)
     return work <= (quick ? most_work : most_slow_work);
 }
 
-static bool is_listed(const struct br_trade_grid *g, const struct br_named_method *c, size_t n,
-                      size_t steps)
-{
-    bool has_n = false, has_steps = false;
-    for (size_t i = 0; i < g->n_count; i++)
-        has_n |= g->n[i] == n;
-    for (size_t j = 0; j < g->step_count; j++)
-        has_steps |= g->steps[j] == steps;
-    return has_n && has_steps && is_light(c, n, (double)steps);
-}
-
-/* Where neither list is given, the paper's method has all that the paper prints. */
+/* Marks what the paper prints and, if `all`, adds what is not there. */
 static void add_printed(struct br_trade *t, const struct br_trade_grid *g,
-                        const struct br_named_method *c)
+                        const struct br_named_method *c, bool all)
 {
     for (size_t i = 0; g->printed && i < g->printed->count; i++) {
-        const struct br_printed_cell *cell = &g->printed->cell[i];
-        size_t steps;
-        if (br_steps_of(t->request.scene, cell->k, &steps, NULL) || is_listed(g, c, cell->n, steps))
+        struct br_trial trial = {.named = c, .at.n = g->printed->cell[i].n, .printed = true};
+        size_t j = 0;
+        if (br_steps_of(t->request.scene, g->printed->cell[i].k, &trial.at.steps, NULL))
             continue;
-        t->trial[t->count++] =
-            (struct br_trial){.named = c, .at = {cell->n, steps}, .printed = true};
+        while (j < t->count && !br_trials_same(&t->trial[j], &trial))
+            j++;
+        if (j < t->count)
+            t->trial[j].printed = true;
+        else if (all)
+            t->trial[t->count++] = trial;
     }
 }
 
 static void add_named(struct br_trade *t, const struct br_trade_grid *g,
                       const struct br_named_method *c)
 {
-    const bool paper = br_trade_is_printed_method(c), adaptive = c->method.scheme->adaptive;
+    const bool adaptive = c->method.scheme->adaptive;
     const bool capped_n = g->n == default_n, capped_steps = g->steps == default_steps;
     const bool capped = capped_n || (capped_steps && !adaptive);
     for (size_t i = 0; i < g->n_count; i++)
         for (size_t j = 0; j < (adaptive ? g->tolerances : g->step_count); j++) {
-            struct br_trial trial =
+            const struct br_trial trial =
                 br_trial_at(c, g->n[i], adaptive ? 0 : g->steps[j], adaptive ? g->tolerance[j] : 0);
             const double steps = adaptive ? guessed_steps : (double)trial.at.steps;
-            trial.printed =
-                paper && is_printed(t->request.scene, g->printed, trial.at.n, trial.at.steps);
             if (!capped || is_light(c, trial.at.n, steps))
                 t->trial[t->count++] = trial;
         }
-    if (paper && capped_n && capped_steps)
-        add_printed(t, g, c);
+    if (br_trade_is_printed_method(c))
+        add_printed(t, g, c, capped_n && capped_steps);
 }
 
 enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *given,

@@ -9,7 +9,7 @@
 #include "solver/clock.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/observer.h"
+#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 
@@ -47,6 +47,12 @@ struct br_method br_trial_method(const struct br_trial *trial)
     return method;
 }
 
+bool br_trials_same(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->named == b->named && a->at.n == b->at.n && a->at.steps == b->at.steps &&
+           a->tolerance == b->tolerance;
+}
+
 double br_trial_seconds(const struct br_trial *trial)
 {
     return trial->cost.set_up + trial->cost.march;
@@ -81,6 +87,8 @@ struct clocked {
     struct br_march *march;
     double set_up; /* s */
     double start;  /* of its steps, s of this thread */
+    size_t every;  /* steps between two looks at the clock */
+    size_t asked;  /* steps since the last one, within those of an adaptive scheme */
 };
 
 /* The seconds that the march surely takes to its end if it goes on like this; only those so far
@@ -93,75 +101,90 @@ static double foreseen(const struct clocked *c, double spent)
     return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
 }
 
-/* Ends a march that takes too long, its set-up included. */
-static enum br_status look_at_clock(const struct clocked *c, struct br_error *err)
+/* Whether a march takes too long, its set-up included. */
+static bool is_over(const struct clocked *c)
 {
     const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
-    const double spent = c->set_up + steps;
+    return limit > 0 && !(c->set_up + steps <= limit && foreseen(c, steps) <= limit);
+}
+
+/* Within the steps of an adaptive scheme. */
+static bool stops(void *self)
+{
+    struct clocked *c = self;
+    if (++c->asked < c->every)
+        return false;
+    c->asked = 0;
+    return br_observer_stops(c->request->observer) || is_over(c);
+}
+
+/* Ends a march that takes too long. */
+static enum br_status look_at_clock(struct clocked *c, struct br_error *err)
+{
     if (br_observer_stops(c->request->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (!(limit > 0) || (spent <= limit && foreseen(c, steps) <= limit))
+    if (!is_over(c))
         return BR_OK;
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
                    "over the time limit of %g s: %.2g s for set-up and %zu of %zu time levels",
-                   limit, spent, br_march_steps_done(c->march), c->trial->at.steps);
+                   c->request->time_limit, c->set_up + br_thread_seconds() - c->start,
+                   br_march_steps_done(c->march), c->trial->at.steps);
 }
 
-static enum br_status make_steps(const struct clocked *c, struct br_error *err)
+static enum br_status make_steps(struct clocked *c, struct br_error *err)
 {
     const size_t steps = c->trial->at.steps;
-    const size_t every = 1 + (size_t)(between_looks / (double)c->trial->at.n);
     const bool adaptive = c->trial->named->method.scheme->adaptive;
-    enum br_status status = BR_OK;
+    enum br_status status = look_at_clock(c, err);
     for (size_t i = 1; i <= steps && !status; i++) {
         status = br_march_step(c->march, &c->trial->failure);
-        if (!status && (i % every == 0 || i == steps || adaptive))
+        if (status == BR_INTERRUPTED || (!status && (i % c->every == 0 || i == steps || adaptive)))
             status = look_at_clock(c, err);
     }
     return status;
 }
 
-/* Marches once; *cost (out) is what it took. */
-static enum br_status march_once(struct clocked *c, struct br_trial_cost *cost,
-                                 struct br_error *err)
+enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
+                              struct br_trial_cost *cost, struct br_error *err)
 {
-    struct br_trial *t = c->trial;
+    struct clocked c = {
+        .trial = t, .request = r, .every = 1 + (size_t)(between_looks / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
-    const double start = br_thread_seconds();
     const struct br_planned_march planned = {
-        .scene = c->request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+        .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
+    *cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     enum br_status status = br_fits_memory(&planned, br_memory_available(), &t->failure);
+    c.start = br_thread_seconds();
     if (!status)
-        status = br_march_create(&c->march, c->request->scene, t->at.n, t->at.steps, &method,
-                                 &t->failure);
-    c->start = br_thread_seconds();
-    cost->set_up = c->set_up = c->start - start;
-    if (!status)
-        status = look_at_clock(c, err);
-    if (!status)
-        status = make_steps(c, err);
-    cost->march = br_thread_seconds() - c->start;
-    if (!status)
-        cost->counts = br_march_counts(c->march);
-    br_march_free(c->march);
-    c->march = NULL;
+        status = br_march_create(&c.march, r->scene, t->at.n, t->at.steps, &method, &t->failure);
+    if (status)
+        return status;
+    const double begin = br_thread_seconds();
+    cost->set_up = c.set_up = begin - c.start;
+    c.start = begin;
+    br_march_stop_when(c.march, stops, &c);
+    status = make_steps(&c, err);
+    cost->march = br_thread_seconds() - begin;
+    cost->counts = br_march_counts(c.march);
+    cost->levels = br_march_steps_done(c.march);
+    br_march_free(c.march);
     return status;
 }
 
 /* The first march warms up; it counts only where it takes so long that it is not repeated. */
-static enum br_status repeat(struct clocked *c, struct br_error *err)
+static enum br_status repeat(struct br_trial *t, const struct br_trial_request *r,
+                             struct br_error *err)
 {
-    const struct br_trial_request *r = c->request;
     struct br_trial_cost least = {.set_up = INFINITY}, now = {0};
-    enum br_status status = march_once(c, &now, err);
+    enum br_status status = br_trial_march(t, r, &now, err);
     double spent = now.set_up + now.march;
     if (!status && !(spent <= r->repeat_seconds))
         least = now, least.repeats = 1;
     for (spent = 0; !status && least.repeats < r->repeats && spent <= r->repeat_seconds;) {
         if (least.repeats == 1 && least.set_up + least.march > r->repeat_seconds)
             break;
-        status = march_once(c, &now, err);
+        status = br_trial_march(t, r, &now, err);
         spent += now.set_up + now.march;
         now.repeats = least.repeats + 1;
         if (now.set_up + now.march < least.set_up + least.march)
@@ -169,7 +192,7 @@ static enum br_status repeat(struct clocked *c, struct br_error *err)
         least.repeats = now.repeats;
     }
     if (!status)
-        c->trial->cost = least;
+        t->cost = least;
     return status;
 }
 
@@ -219,29 +242,39 @@ static void keep_trial(const struct br_trial *t, const struct br_trial_request *
     br_kept_write(r->kept, key, &k, sizeof k);
 }
 
-/* A failure of the march is a result of the trial; other failures end the call. */
-static enum br_status time_one(struct br_trial *trial, const struct br_trial_request *request,
-                               struct br_error *err)
+/* Trials that are held together. */
+struct held {
+    struct br_trial *trial;
+    const struct br_trial_request *request;
+};
+
+/* Sets `cost` and, where a trial does not come to its end, `end` and `failure`. A failure of the
+ * march is a result of the trial; an interruption ends the call. */
+static enum br_status time_one(void *self, size_t i, struct br_error *err)
 {
-    struct clocked c = {.trial = trial, .request = request};
-    if (take_kept(trial, request))
+    const struct held *held = self;
+    struct br_trial *t = &held->trial[i];
+    if (t->end == BR_TRIAL_LEFT || take_kept(t, held->request))
         return BR_OK;
-    const enum br_status status = repeat(&c, err);
+    const enum br_status status = repeat(t, held->request, err);
     if (status == BR_INTERRUPTED)
         return status;
-    if (status && trial->end != BR_TRIAL_OVER)
-        trial->end = BR_TRIAL_FAILED;
-    keep_trial(trial, request);
+    if (status && t->end != BR_TRIAL_OVER)
+        t->end = BR_TRIAL_FAILED;
+    keep_trial(t, held->request);
     return BR_OK;
 }
 
 /* What a trial costs, about, for the observer. */
-static double work_of(const struct br_trial *trial)
+static double work_of(const void *self, size_t i)
 {
-    if (trial->foreseen > 0)
-        return trial->foreseen;
-    return (double)trial->at.n * (double)trial->at.steps *
-               br_time_scheme_stages(trial->named->method.scheme) +
+    const struct held *held = self;
+    const struct br_trial *t = &held->trial[i];
+    if (t->end == BR_TRIAL_LEFT)
+        return 0;
+    if (t->foreseen > 0)
+        return t->foreseen;
+    return (double)t->at.n * (double)t->at.steps * br_time_scheme_stages(t->named->method.scheme) +
            1e5;
 }
 
@@ -255,85 +288,58 @@ static void begin(struct br_trial *t)
         t->error[part] = NAN;
 }
 
-/* Clears what is out, and sets `cost` and, where a trial did not come to its end, `end` and
- * `failure`. */
-static enum br_status time_all(struct br_trial *trial, size_t count,
-                               const struct br_trial_request *request, struct br_error *err)
-{
-    const struct br_observer *o = request->observer;
-    double whole = 0, done = 0;
-    for (size_t i = 0; i < count; i++) {
-        begin(&trial[i]);
-        whole += trial[i].end == BR_TRIAL_LEFT ? 0 : work_of(&trial[i]);
-    }
-    enum br_status status = BR_OK;
-    for (size_t i = 0; i < count && !status; i++) {
-        if (trial[i].end == BR_TRIAL_LEFT)
-            continue;
-        status = br_observer_stops(o) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                      : time_one(&trial[i], request, err);
-        done += work_of(&trial[i]);
-        if (o && o->progress)
-            o->progress(o->self, done / whole);
-    }
-    return status;
-}
-
 /* ---- errors ---- */
 
-/* Trials as cells of studies: one study for each mesh and degree, whose cells are marched by as
- * many methods, so that the judge looks at that mesh once. */
+/* Trials that came to their end, as cells of studies: one study for each mesh and degree, whose
+ * cells are marched by as many methods, so that the judge looks at that mesh once. Arrays are all
+ * owned. */
 struct groups {
-    size_t count;
-    struct br_study *study;   /* count; the arrays are all owned */
+    size_t count, cells;
+    struct br_study *study;
     struct br_trial **member; /* by cell, those of one study behind those of another; borrowed */
     size_t *steps;
     struct br_method *method;
-    size_t cells;
 };
 
-/* Whether two trials are judged, on the same elements. */
-static bool same_group(const struct br_trial *a, const struct br_trial *b)
+/* By elements, then as they are listed. */
+static int by_elements(const void *a, const void *b)
 {
-    return a->end == BR_TRIAL_DONE && b->end == BR_TRIAL_DONE && a->at.n == b->at.n &&
-           a->named->method.axial_degree == b->named->method.axial_degree;
+    const struct br_trial *x = *(struct br_trial *const *)a, *y = *(struct br_trial *const *)b;
+    const int p = x->named->method.axial_degree, q = y->named->method.axial_degree;
+    if (x->at.n != y->at.n)
+        return x->at.n < y->at.n ? -1 : 1;
+    return p != q ? p - q : (x > y) - (x < y);
 }
 
-/* Whether a trial is to be judged, and none before it on its elements. */
-static bool is_first(const struct br_trial *trial, size_t i)
+static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
+                    const struct br_trial_request *r)
 {
-    for (size_t j = 0; j < i; j++)
-        if (same_group(&trial[j], &trial[i]))
-            return false;
-    return trial[i].end == BR_TRIAL_DONE;
-}
-
-/* The study of a trial and of those behind it on the same elements. */
-static void add_group(struct groups *g, struct br_trial *first, const struct br_trial *end,
-                      const struct br_trial_request *r, const struct br_judge *judge)
-{
-    struct br_study *s = &g->study[g->count++];
-    *s = (struct br_study){
-        .scene = r->scene,
-        .norm = r->norm,
-        .method = br_trial_method(first),
-        .cell_method = &g->method[g->cells],
-        .judge = judge,
-        .reference_method = r->reference_method,
-        .reference = r->reference,
-        .n_count = 1,
-        .n = &first->at.n,
-        .steps = &g->steps[g->cells],
-        .kept = r->kept,
-    };
-    s->reference_method.axial_degree = s->method.axial_degree;
-    for (struct br_trial *t = first; t < end; t++)
-        if (same_group(t, first)) {
-            s->k_count++;
-            g->member[g->cells] = t;
-            g->steps[g->cells] = t->at.steps;
-            g->method[g->cells++] = br_trial_method(t);
+    for (struct br_trial *t = trial; t < trial + count; t++)
+        if (t->end == BR_TRIAL_DONE)
+            g->member[g->cells++] = t;
+    qsort(g->member, g->cells, sizeof(struct br_trial *), by_elements);
+    for (size_t c = 0; c < g->cells; c++) {
+        const struct br_trial *t = g->member[c];
+        struct br_study *s = &g->study[g->count - 1];
+        g->steps[c] = t->at.steps;
+        g->method[c] = br_trial_method(t);
+        if (c == 0 || t->at.n != *s->n || g->method[c].axial_degree != s->method.axial_degree) {
+            s = &g->study[g->count++];
+            *s = (struct br_study){.scene = r->scene,
+                                   .norm = r->norm,
+                                   .method = g->method[c],
+                                   .cell_method = &g->method[c],
+                                   .judge = br_trials_judge(r),
+                                   .reference_method = r->reference_method,
+                                   .reference = r->reference,
+                                   .n_count = 1,
+                                   .n = &t->at.n,
+                                   .steps = &g->steps[c],
+                                   .kept = r->kept};
+            s->reference_method.axial_degree = s->method.axial_degree;
         }
+        s->k_count++;
+    }
 }
 
 /* The judge's own error and round-off. */
@@ -385,11 +391,16 @@ static void clear(struct groups *g)
     free(g->method);
 }
 
+const struct br_judge *br_trials_judge(const struct br_trial_request *r)
+{
+    return r->judge ? r->judge : br_judge_best(r->scene);
+}
+
 /* Judges the trials that came to their end. */
 static enum br_status judge_all(struct br_trial *trial, size_t count,
                                 const struct br_trial_request *request, struct br_error *err)
 {
-    const struct br_judge *judge = request->judge ? request->judge : br_judge_best(request->scene);
+    const struct br_judge *judge = br_trials_judge(request);
     if (!judge->create)
         return br_fail(err, BR_BAD_INPUT, "there is no judge of this scene's errors: %s",
                        judge->title);
@@ -402,9 +413,8 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
     enum br_status status = BR_OK;
     if (!g.study || !g.member || !g.steps || !g.method)
         status = br_no_memory(err, "the trials");
-    for (size_t i = 0; i < count && !status; i++)
-        if (is_first(trial, i))
-            add_group(&g, &trial[i], &trial[count], request, judge);
+    else
+        lay_out(&g, trial, count, request);
     if (g.count && !status)
         status = br_study_run(g.study, g.count, request->threads, request->observer, err);
     if (!status)
@@ -426,7 +436,15 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
         part = br_observer_of(&share);
         own.observer = &part;
     }
-    enum br_status status = time_all(trial, count, &own, err);
+    for (size_t i = 0; i < count; i++)
+        begin(&trial[i]);
+    const struct br_each each = {.count = count,
+                                 .threads = 1,
+                                 .observer = own.observer,
+                                 .turn = time_one,
+                                 .work = work_of,
+                                 .self = &(struct held){trial, &own}};
+    enum br_status status = br_each(&each, err);
     share = (struct br_observer_share){request->observer, 0.75, 0.25};
     return status ? status : judge_all(trial, count, &own, err);
 }

@@ -28,6 +28,7 @@ struct br_trial_cost {
     double set_up, march; /* s of the processor, one thread; NaN: it did not end */
     size_t repeats;       /* marches that were timed */
     struct br_counts counts;
+    size_t levels; /* time levels that were reached */
 };
 
 struct br_trial {
@@ -97,6 +98,18 @@ void br_trials_forget_judge(const struct br_trial_request *request, void *self);
  * BR_INTERRUPTED. */
 enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                               const struct br_trial_request *request, struct br_error *err);
+
+/* Whether it is the same method at the same resolution. */
+bool br_trials_same(const struct br_trial *a, const struct br_trial *b);
+
+/* Marches a trial once, until its end or the time limit. *cost (out): what it took so far. Fails as
+ * the march does, the reason in trial->failure; with BR_VERDICT where it is over the limit, which
+ * trial->end is then; or with BR_INTERRUPTED. */
+enum br_status br_trial_march(struct br_trial *trial, const struct br_trial_request *request,
+                              struct br_trial_cost *cost, struct br_error *err);
+
+/* Who judges: the request's, or the best of the scene. */
+const struct br_judge *br_trials_judge(const struct br_trial_request *request);
 
 /* Set-up and march, s; NaN: it did not come to its end. */
 double br_trial_seconds(const struct br_trial *trial);
