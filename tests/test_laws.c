@@ -477,6 +477,9 @@ TEST(test_registries)
         assert_ptr_equal(br_linear_solver_find(br_linear_solvers[i]->name), br_linear_solvers[i]);
         assert_true(br_linear_solvers[i]->title && br_linear_solvers[i]->citation);
     }
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        assert_ptr_equal(br_kernel_find((*k)->name), *k);
+    assert_null(br_kernel_find("none of these"));
     assert_null(br_contact_rule_find("none of these"));
     assert_null(br_friction_rule_find("none of these"));
     assert_null(br_linear_solver_find("none of these"));

@@ -421,14 +421,6 @@ TEST(test_options)
     br_scene_clear(&scene);
 }
 
-TEST(test_find)
-{
-    for (const struct br_kernel *const *k = br_kernels; *k; k++)
-        assert_ptr_equal(br_kernel_find((*k)->name), *k);
-    assert_null(br_kernel_find("sse2"));
-    assert_null(br_kernel_find(""));
-}
-
 static bool never(void)
 {
     return false;
