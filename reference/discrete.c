@@ -32,7 +32,11 @@ struct br_discrete {
     int degree;          /* of the axial elements */
     struct part part[2]; /* by br_field_kind */
     struct path path;
-    struct br_discrete_tip tip;
+    struct {
+        real displacement[2], velocity[2];   /* m, m/s, by br_field_kind */
+        real contact_force;                  /* N */
+        real friction_force, friction_bound; /* N */
+    } tip;                                   /* after a step */
 };
 
 bool br_discrete_judges(void)
@@ -338,20 +342,6 @@ void br_discrete_free(struct br_discrete *d)
 }
 
 /* ---- looking ---- */
-
-size_t br_discrete_steps_done(const struct br_discrete *d)
-{
-    return d->done;
-}
-
-struct br_discrete_tip br_discrete_tip(const struct br_discrete *d)
-{
-    const struct br_discrete_field *beam = &d->part[BR_BENDING].field;
-    struct br_discrete_tip tip = d->tip;
-    if (d->part[BR_BENDING].modelled) /* the steps do not need it */
-        tip.displacement[BR_BENDING] = br_recursion_tip(&beam->recursion, beam->state[0]);
-    return tip;
-}
 
 void br_discrete_get(const struct br_discrete *d, enum br_field_kind kind,
                      long double *displacement, long double *velocity)

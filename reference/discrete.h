@@ -19,13 +19,6 @@
 
 struct br_discrete;
 
-/* The tip after a step; what is not modelled is zero. */
-struct br_discrete_tip {
-    long double displacement[2], velocity[2];   /* m, m/s, by br_field_kind */
-    long double contact_force;                  /* N */
-    long double friction_force, friction_bound; /* N */
-};
-
 /* At t = 0. Of the method the names of scheme, contact and friction rule count. The scene must
  * outlive it. Fails with BR_BAD_INPUT where a rule or the scheme is not known here; BR_SINGULAR,
  * BR_NOT_FINITE, BR_NO_MEMORY; *discrete is then NULL. */
@@ -36,9 +29,6 @@ void br_discrete_free(struct br_discrete *discrete); /* accepts NULL */
 
 /* One step. Fails with BR_NOT_FINITE, BR_SINGULAR; the state is then lost. */
 enum br_status br_discrete_step(struct br_discrete *discrete, struct br_error *err);
-
-size_t br_discrete_steps_done(const struct br_discrete *discrete);
-struct br_discrete_tip br_discrete_tip(const struct br_discrete *discrete);
 
 /* Nodal values, laid out as in solver/field.h, m and m/s (out; either may be NULL): zero where the
  * field is not modelled. */

@@ -193,16 +193,11 @@ enum br_status br_field_march_start_stage(struct br_field_march *part,
  * products with h are lost. */
 static long double lost_force(const struct br_field_march *part, double t)
 {
-    enum { PLACES = 64 };
     const struct br_step_load *load = &part->load;
-    double x[PLACES], value[PLACES], most = 0;
-    for (int i = 0; i < PLACES; i++)
-        x[i] = (i + 0.5) / PLACES * (double)part->field.n * part->field.h;
-    for (size_t term = 0; term < load->terms; term++) {
-        br_function_evaluate(&load->functions.term[term].space, PLACES, x, t, value);
-        for (int i = 0; i < PLACES; i++) /* a sum has the factors in its vector */
-            most = fmax(most, fabs(value[i]) * (load->sum ? fabs(load->factor[term]) : 1));
-    }
+    double most = 0; /* a sum has the factors in its vector */
+    for (size_t i = 0; i < load->terms; i++)
+        most = fmax(most, br_load_peak(&part->field, &load->functions.term[i].space, t) *
+                              (load->sum ? fabs(load->factor[i]) : 1));
     return (long double)most * part->field.h;
 }
 

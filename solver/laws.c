@@ -186,19 +186,9 @@ static double uzawa_force(struct br_friction_state *s)
     return iterated_force(s, false);
 }
 
-static double uzawa_contraction(double parameter)
-{
-    return fabs(1 - parameter);
-}
-
 static double penalty_duality_force(struct br_friction_state *s)
 {
     return iterated_force(s, true);
-}
-
-static double penalty_duality_contraction(double parameter)
-{
-    return fabs(1 - parameter) / (1 + parameter);
 }
 
 static const struct br_friction_rule penalty_duality = {
@@ -207,7 +197,6 @@ static const struct br_friction_rule penalty_duality = {
     .citation = "Bermudez and Moreno, Comput. Math. Appl. 7 (1981) 43-58",
     .iterates = true,
     .parameter_below = INFINITY,
-    .contraction = penalty_duality_contraction,
     .force = penalty_duality_force,
 };
 
@@ -218,7 +207,6 @@ static const struct br_friction_rule uzawa = {
                 "Han, Comput. Methods Appl. Mech. Eng. 192 (2003) 1451-1462",
     .iterates = true,
     .parameter_below = 2,
-    .contraction = uzawa_contraction,
     .force = uzawa_force,
 };
 

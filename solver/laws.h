@@ -65,8 +65,6 @@ struct br_friction_rule {
     bool needs_regularisation; /* the scene must give mu > 0 */
     bool iterates;             /* uses br_iteration */
     double parameter_below;    /* iterations converge for parameters > 0 below this */
-    /* What an iteration leaves of an error, at most, for such a parameter; NULL: none is made. */
-    double (*contraction)(double parameter);
     /* lambda = -sigma_V(L), N: the friction force that resists the tip. NaN: the data are, or the
      * iterations did not converge. */
     double (*force)(struct br_friction_state *state);

@@ -3,6 +3,18 @@
 
 #include <math.h>
 
+double br_load_peak(const struct br_field *field, const struct br_function *f, double t)
+{
+    enum { PLACES = 64 };
+    double x[PLACES], value[PLACES], most = 0;
+    for (int i = 0; i < PLACES; i++)
+        x[i] = (i + 0.5) / PLACES * (double)field->n * field->h;
+    br_function_evaluate(f, PLACES, x, t, value);
+    for (int i = 0; i < PLACES; i++)
+        most = fmax(most, fabs(value[i]));
+    return most;
+}
+
 enum br_status br_step_load_init(struct br_step_load *load, const struct br_scene *scene,
                                  const struct br_field *field, struct br_error *err)
 {

@@ -7,6 +7,9 @@
 
 #include "solver/linear/linear_solver.h"
 
+/* The largest magnitude of a load at some places of a field's mesh at time t, s; NaN is none. */
+double br_load_peak(const struct br_field *field, const struct br_function *f, double t);
+
 /* ---- a load f(x, t) that is no product, as a sum of few: load_fit.c ---- */
 
 struct br_load_fit;

@@ -8,15 +8,6 @@
 #include <string.h>
 #include <sys/mman.h>
 
-static const struct {
-    const char *text;
-    int exit_code;
-} statuses[] = {
-#define X(name, code, text) [name] = {text, code},
-    BR_STATUS_LIST(X)
-#undef X
-};
-
 enum br_status br_fail(struct br_error *err, enum br_status status, const char *format, ...)
 {
     if (err) {
@@ -34,14 +25,19 @@ enum br_status br_no_memory(struct br_error *err, const char *what)
     return br_fail(err, BR_NO_MEMORY, "out of memory for %s", what);
 }
 
-const char *br_status_text(enum br_status status)
-{
-    return statuses[status].text;
-}
-
 int br_status_exit_code(enum br_status status)
 {
-    return statuses[status].exit_code;
+    switch (status) {
+    case BR_OK:
+        return 0;
+    case BR_VERDICT:
+        return 1;
+    case BR_BAD_INPUT:
+    case BR_UNSUPPORTED:
+        return 2;
+    default:
+        return 3;
+    }
 }
 
 static atomic_long until_failure = -1;

@@ -1,28 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Outcomes: one list, expanded into the enum, the names and the exit codes. */
+/* Outcomes, and memory. */
 #ifndef BR_SOLVER_STATUS_H
 #define BR_SOLVER_STATUS_H
 
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* X(name, exit code, text). The exit codes are the program's: 0 done, 1 a
- * verdict failed, 2 bad input, 3 the computation failed. */
-#define BR_STATUS_LIST(X)                                    \
-    X(BR_OK, 0, "done")                                      \
-    X(BR_VERDICT, 1, "a verdict failed")                     \
-    X(BR_BAD_INPUT, 2, "bad input")                          \
-    X(BR_UNSUPPORTED, 2, "not in this build")                \
-    X(BR_NO_MEMORY, 3, "out of memory")                      \
-    X(BR_SINGULAR, 3, "the system is not positive definite") \
-    X(BR_NOT_FINITE, 3, "not a finite number")               \
-    X(BR_IO, 3, "input or output failed")                    \
-    X(BR_INTERRUPTED, 3, "interrupted")
-
 enum br_status {
-#define X(name, code, text) name,
-    BR_STATUS_LIST(X)
-#undef X
+    BR_OK,
+    BR_VERDICT, /* a verdict failed */
+    BR_BAD_INPUT,
+    BR_UNSUPPORTED, /* not in this build */
+    BR_NO_MEMORY,
+    BR_SINGULAR, /* the system is not positive definite */
+    BR_NOT_FINITE,
+    BR_IO,
+    BR_INTERRUPTED,
 };
 
 /* What went wrong, for a person. After anything but BR_OK the object that was
@@ -42,7 +35,7 @@ __attribute__((format(printf, 3, 4))) enum br_status br_fail(struct br_error *er
 /* Out of memory, with the name of what was being made. */
 enum br_status br_no_memory(struct br_error *err, const char *what);
 
-const char *br_status_text(enum br_status status);
+/* The program's: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed. */
 int br_status_exit_code(enum br_status status);
 
 /* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation

@@ -18,6 +18,8 @@ enum { STATES = BR_KNOWN + 1, Z = BR_KNOWN }; /* Y by what it is, and where a st
 struct dense_field {
     size_t u, order, band; /* unknowns a node; of the matrix, without the clamped node */
     const real (*mass)[4], (*stiffness)[4]; /* of an element: see below */
+    real heavy, stiff, viscous;             /* what these are multiplied by: rho h; a and c, over h
+                                               or h^3 */
     real *factor;                           /* L and D of A = L D L', lower band by rows */
     real *response;                         /* z */
     real *rhs, *free;                       /* workspace */
@@ -32,6 +34,7 @@ struct dense_march {
     const struct br_scene *scene;
     struct br_method method;
     size_t n;
+    real h;
     struct dense_field field[2];
     int stage_count;
     real stage_time[BR_MOST_STAGES], penetration[BR_MOST_STAGES]; /* of the axial field's step */
@@ -82,32 +85,6 @@ static void fill_shape(const struct dense_field *f, real xi, real shape[4])
         shape[3] = -xi * eta;
 }
 
-static real length_of(const struct dense_march *q)
-{
-    return (real)q->scene->length / (real)q->n;
-}
-
-static real mass_entry(const struct dense_march *q, int kind, size_t a, size_t b)
-{
-    return (real)q->scene->density * length_of(q) * q->field[kind].mass[a][b];
-}
-
-static real stiffness_entry(const struct dense_march *q, int kind, size_t a, size_t b)
-{
-    const real h = length_of(q);
-    return q->field[kind].stiffness[a][b] / (kind == BR_AXIAL ? h : h * h * h);
-}
-
-static real stiffness_of(const struct dense_march *q, int kind)
-{
-    return kind == BR_AXIAL ? q->scene->axial.stiffness : q->scene->bending.stiffness;
-}
-
-static real viscosity_of(const struct dense_march *q, int kind)
-{
-    return kind == BR_AXIAL ? q->scene->axial.viscosity : q->scene->bending.viscosity;
-}
-
 static real *at(struct dense_field *f, size_t i, size_t j)
 {
     return &f->factor[i * (f->band + 1) + i - j];
@@ -128,7 +105,7 @@ static void solve(struct dense_field *f, real *x)
 static void factorise(struct dense_march *q, int kind, real tau)
 {
     struct dense_field *f = &q->field[kind];
-    const real stiff = viscosity_of(q, kind) + tau * stiffness_of(q, kind);
+    const real stiff = f->viscous + tau * f->stiff;
     if (tau == f->tau)
         return;
     f->tau = tau;
@@ -138,7 +115,7 @@ static void factorise(struct dense_march *q, int kind, real tau)
             for (size_t b = 0; b <= a; b++)
                 if (e * f->u + b >= f->u)
                     *at(f, (e - 1) * f->u + a, (e - 1) * f->u + b) +=
-                        mass_entry(q, kind, a, b) / tau + stiff * stiffness_entry(q, kind, a, b);
+                        f->heavy * f->mass[a][b] / tau + stiff * f->stiffness[a][b];
     for (size_t i = 0; i < f->order; i++) {
         const size_t low = i > f->band ? i - f->band : 0;
         for (size_t j = low; j < i; j++) {
@@ -168,7 +145,7 @@ static void add_load(const struct dense_march *q, struct dense_field *f, const s
     static const real point[5] = {
         0.0469100770306680036011865608503035174Q, 0.230765344947158454481842789649895597Q, 0.5Q,
         0.769234655052841545518157210350104403Q, 0.953089922969331996398813439149696483Q};
-    const real h = length_of(q);
+    const real h = q->h;
     for (size_t e = 0; e < q->n; e++)
         for (int g = 0; g < 5; g++) {
             real shape[4];
@@ -194,19 +171,19 @@ static void form_rhs(struct dense_march *q, int kind, double t)
     struct dense_field *f = &q->field[kind];
     const struct br_scene *s = q->scene;
     const bool axial = kind == BR_AXIAL;
-    const real *w = f->state[Z], *v = w + f->order, stiff = stiffness_of(q, kind);
+    const real *w = f->state[Z], *v = w + f->order;
     memset(f->rhs, 0, f->order * sizeof *f->rhs);
     add_load(q, f, axial ? &s->axial.load : &s->bending.load, t);
     for (size_t e = 0; e < q->n; e++)
         for (size_t a = e > 0 ? 0 : f->u; a < 2 * f->u; a++)
             for (size_t b = e > 0 ? 0 : f->u; b < 2 * f->u; b++) {
                 const size_t j = (e - 1) * f->u + b;
-                f->rhs[(e - 1) * f->u + a] += mass_entry(q, kind, a, b) / f->tau * v[j] -
-                                              stiff * stiffness_entry(q, kind, a, b) * w[j];
+                f->rhs[(e - 1) * f->u + a] +=
+                    f->heavy * f->mass[a][b] / f->tau * v[j] - f->stiff * f->stiffness[a][b] * w[j];
             }
     f->rhs[f->order - f->u] += value_at(axial ? &s->axial.tip_force : &s->bending.tip_force, 0, t);
     if (!axial)
-        f->rhs[f->order - 1] += value_at(&s->bending.tip_moment, 0, t) / length_of(q);
+        f->rhs[f->order - 1] += value_at(&s->bending.tip_moment, 0, t) / q->h;
 }
 
 static real positive(real x)
@@ -340,13 +317,20 @@ static void follow_step(void *self, enum br_field_kind kind, bool switched)
 
 /* ---- from outside ---- */
 
-static bool init_field(struct dense_field *f, enum br_field_kind kind, int degree, size_t n)
+static bool init_field(struct dense_march *q, enum br_field_kind kind, int degree)
 {
+    struct dense_field *f = &q->field[kind];
+    const struct br_scene *s = q->scene;
+    const bool axial = kind == BR_AXIAL;
+    const real volume = axial ? q->h : q->h * q->h * q->h;
     const bool quadratic = kind == BR_AXIAL && degree == 2, linear = kind == BR_AXIAL && !quadratic;
     f->mass = linear ? linear_mass : quadratic ? quadratic_mass : bending_mass;
     f->stiffness = linear ? linear_stiffness : quadratic ? quadratic_stiffness : bending_stiffness;
     f->u = linear ? 1 : 2;
-    f->order = f->u * n;
+    f->heavy = s->density * q->h;
+    f->stiff = (axial ? s->axial.stiffness : s->bending.stiffness) / volume;
+    f->viscous = (axial ? s->axial.viscosity : s->bending.viscosity) / volume;
+    f->order = f->u * q->n;
     f->band = 2 * f->u - 1;
     const size_t count = f->order * (f->band + 1 + 3 + 2 * STATES);
     real *p = f->factor = calloc(count, sizeof *p);
@@ -364,7 +348,7 @@ static bool init_field(struct dense_field *f, enum br_field_kind kind, int degre
 static void interpolate(const struct dense_march *q, const struct dense_field *f,
                         const struct br_function *value, const struct br_function *slope, real *to)
 {
-    const real h = length_of(q);
+    const real h = q->h;
     for (size_t i = 1; i <= q->n; i++) {
         real *node = to + (i - 1) * f->u;
         node[0] = value_at(value, h * i, 0);
@@ -397,9 +381,10 @@ struct dense_march *dense_follow(struct br_march *march, const struct br_scene *
     q->scene = scene;
     q->method = *method;
     q->n = br_march_field(march, BR_AXIAL)->n;
+    q->h = (real)scene->length / (real)q->n;
     q->nodal = calloc(4 * (q->n + 1), sizeof *q->nodal);
-    if (!q->nodal || !init_field(&q->field[BR_AXIAL], BR_AXIAL, method->axial_degree, q->n) ||
-        !init_field(&q->field[BR_BENDING], BR_BENDING, 1, q->n)) {
+    if (!q->nodal || !init_field(q, BR_AXIAL, method->axial_degree) ||
+        !init_field(q, BR_BENDING, 1)) {
         dense_free(q);
         return NULL;
     }

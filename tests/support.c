@@ -34,7 +34,7 @@ void br_test_must(enum br_status status, const struct br_error *err, const char 
                   const char *file, int line)
 {
     if (status != BR_OK) {
-        print_error("%s:%d: %s: %s: %s\n", file, line, what, br_status_text(status), err->message);
+        print_error("%s:%d: %s: status %d: %s\n", file, line, what, status, err->message);
         _fail(file, line);
     }
 }
@@ -44,8 +44,8 @@ void br_test_refused(enum br_status status, enum br_status expected, const struc
 {
     const bool right = status == expected && err->status == expected && strstr(err->message, text);
     if (!right) {
-        print_error("%s:%d: %s: \"%s\" with \"%s\", expected \"%s\" with \"%s\"\n", file, line,
-                    what, br_status_text(status), err->message, br_status_text(expected), text);
+        print_error("%s:%d: %s: status %d with \"%s\", expected %d with \"%s\"\n", file, line, what,
+                    status, err->message, expected, text);
         _fail(file, line);
     }
 }

@@ -19,10 +19,10 @@ static struct br_discrete *created(const struct br_scene *scene, size_t n, size_
     return d;
 }
 
-static void advance(struct br_discrete *d, size_t until)
+static void advance(struct br_discrete *d, size_t steps)
 {
     struct br_error err = {0};
-    while (br_discrete_steps_done(d) < until)
+    for (size_t i = 0; i < steps; i++)
         MUST(br_discrete_step(d, &err));
 }
 
@@ -34,16 +34,14 @@ static void check_golden(const struct br_test_golden *row)
     const struct br_method method = br_test_method(NULL, "lagged", "exact");
     struct br_discrete *d = created(&scene, row->n, row->steps, &method);
     advance(d, row->steps);
-    const size_t size = 2 * (row->n + 1);
-    long double *w = calloc(size, sizeof *w);
+    const size_t n = row->n;
+    long double *w = calloc(3 * (n + 1), sizeof *w), *u = w + 2 * (n + 1);
     assert_non_null(w);
     br_discrete_get(d, BR_BENDING, w, NULL);
-    const struct br_discrete_tip tip = br_discrete_tip(d);
-    const struct br_test_end end = {(double)tip.displacement[BR_AXIAL],
-                                    (double)tip.displacement[BR_BENDING], (double)w[row->n]};
+    br_discrete_get(d, BR_AXIAL, u, NULL);
+    const struct br_test_end end = {(double)u[n], (double)w[2 * n], (double)w[n]};
     /* exp(t) - 1 is a double here */
     AT_MOST(br_test_deviation(&end, &row->end), 1e-14 * br_test_slack());
-    CLOSE((double)w[2 * row->n], end.w_tip, 0);
     free(w);
     br_discrete_free(d);
     br_scene_clear(&scene);
@@ -87,7 +85,7 @@ static void same_as_solver(const struct br_scene *scene, const struct br_method 
     struct br_discrete *d = created(scene, MOST_N, STEPS, method);
     struct br_march *march = br_test_march(scene, MOST_N, STEPS, method);
     for (size_t step = 8; step <= STEPS; step += 8) {
-        advance(d, step);
+        advance(d, 8);
         br_test_advance(march, step);
         AT_MOST(deviation(d, march, BR_AXIAL), tolerance * br_test_slack());
         AT_MOST(deviation(d, march, BR_BENDING), tolerance * br_test_slack());

@@ -41,6 +41,15 @@ static const struct br_field_solver *own_solver(const struct br_linear_solver *s
     return br_field_is_quadratic(field) ? solver->axial_quadratic : solver->axial;
 }
 
+double br_cost_by_elements(const struct br_linear_solver *row, const struct br_field *field,
+                           double sums)
+{
+    static const struct br_by_element sum = {0.65, 1.3, 1.3};
+    return row->step_cost + 42 * sums +
+           (double)field->n *
+               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
+}
+
 const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_solver *solver,
                                                       const struct br_field *field, double sums)
 {
@@ -69,12 +78,4 @@ const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver
 bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)
 {
     return strstr(solver->options, option) != NULL;
-}
-
-const struct br_kernel *br_linear_solver_kernel(const struct br_linear_solver *solver,
-                                                const struct br_linear_options *options)
-{
-    if (!br_linear_solver_heeds(solver, "--kernel"))
-        return NULL;
-    return options->kernel ? options->kernel : br_kernel_best();
 }

@@ -147,15 +147,6 @@ static double round_off(const struct br_linear_solver *row, const struct br_fiel
     return 4 * DBL_EPSILON * ((double)field->n + 1024);
 }
 
-/* See linear_solver.h; of an AMD EPYC with AVX-512 at about 3 GHz. */
-static double cost(const struct br_linear_solver *row, const struct br_field *field, double sums)
-{
-    static const struct br_by_element sum = {0.65, 1.3, 1.3};
-    return 120 + 42 * sums +
-           (double)field->n *
-               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
-}
-
 const struct br_linear_solver br_plain = {
     .name = "plain",
     .title = "the same form as it is written down: one backward and one forward recursion",
@@ -167,6 +158,7 @@ const struct br_linear_solver br_plain = {
     .round_off = round_off,
     .bytes = {92, 218, 141},
     .state_bytes = {16, 32, 32},
-    .cost = cost,
+    .cost = br_cost_by_elements,
+    .step_cost = 120,
     .element_cost = {2.5, 7.1, 3.9},
 };

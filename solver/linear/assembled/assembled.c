@@ -485,16 +485,6 @@ static void assembled_size(void *self, size_t which, double size[2])
     }
 }
 
-/* A step has the solve's own start in it; a pass over the states costs what it does in plain.c. */
-double br_assembled_cost(const struct br_linear_solver *row, const struct br_field *field,
-                         double sums)
-{
-    static const struct br_by_element sum = {0.65, 1.3, 0};
-    return 170 + 42 * sums +
-           (double)field->n *
-               (br_by_element_of(&row->element_cost, field) + sums * br_by_element_of(&sum, field));
-}
-
 const struct br_field_solver br_assembled = {
     .create = assembled_create,
     .free = assembled_free,

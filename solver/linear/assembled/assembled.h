@@ -45,13 +45,10 @@ struct br_factoriser {
 extern const struct br_field_solver br_assembled;
 
 /* For a row: what solves usually make a march lose, relative to the largest displacement, and what
- * elimination without refinement leaves of the equations, by measurements; and what a step costs by
- * what the row says of an element without refinement. */
+ * elimination without refinement leaves of the equations, by measurements. */
 double br_assembled_round_off(const struct br_linear_solver *row, const struct br_field *field,
                               const struct br_linear_options *options);
 double br_assembled_residual(const struct br_linear_solver *row, const struct br_field *field,
                              const struct br_linear_options *options);
-double br_assembled_cost(const struct br_linear_solver *row, const struct br_field *field,
-                         double sums);
 
 #endif

@@ -95,6 +95,7 @@ const struct br_linear_solver br_banded = {
     .residual = br_assembled_residual,
     .bytes = {135, 310, 0},
     .state_bytes = {16, 32, 0},
-    .cost = br_assembled_cost,
+    .cost = br_cost_by_elements,
+    .step_cost = 170,
     .element_cost = {22.1, 39, 0},
 };

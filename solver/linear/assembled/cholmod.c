@@ -114,6 +114,7 @@ const struct br_linear_solver br_cholmod = {
     .residual = br_assembled_residual,
     .bytes = {260, 650, 0},
     .state_bytes = {16, 32, 0},
-    .cost = br_assembled_cost,
+    .cost = br_cost_by_elements,
+    .step_cost = 170,
     .element_cost = {23.6, 44.8, 0},
 };

@@ -146,6 +146,7 @@ const struct br_linear_solver br_umfpack = {
     .residual = br_assembled_residual,
     .bytes = {410, 1110, 0},
     .state_bytes = {16, 32, 0},
-    .cost = br_assembled_cost,
+    .cost = br_cost_by_elements,
+    .step_cost = 170,
     .element_cost = {18.9, 36.2, 0},
 };
