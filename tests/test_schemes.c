@@ -40,16 +40,16 @@ static void run(const struct br_scene *scene, const struct br_method *method, si
 /* In L2, by the mass of each element. */
 static double distance(enum br_field_kind kind, const struct state *a, const struct state *b)
 {
-    const size_t unknowns = kind == BR_AXIAL ? 1 : 2;
-    double sum = 0;
-    for (size_t e = 0; e < N; e++)
-        for (size_t i = 0; i < 2 * unknowns; i++)
-            for (size_t j = 0; j < 2 * unknowns; j++) {
-                const double *x = &a->value[kind][e * unknowns], *y = &b->value[kind][e * unknowns];
-                sum += (x[i] - y[i]) * (x[j] - y[j]) *
-                       (kind == BR_AXIAL ? br_rod_mass[i][j] / 6.0 : br_beam_mass[i][j] / 420.0);
-            }
-    return sqrt(sum / N);
+    const struct br_element *element = br_element_of(kind, 1);
+    long double sum = 0;
+    for (size_t e = 0; e < N; e++) {
+        double difference[4];
+        for (size_t i = 0; i < 2 * element->unknowns; i++)
+            difference[i] = a->value[kind][e * element->unknowns + i] -
+                            b->value[kind][e * element->unknowns + i];
+        sum += br_element_product(element, BR_MASS, difference, difference);
+    }
+    return sqrt((double)sum / N);
 }
 
 static double size_of(enum br_field_kind kind, const struct state *a)
