@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate scenes: the bundled scenes, and what a new one may say. */
-#include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -51,25 +51,18 @@ static enum br_status list(struct br_error *err)
 /* The file to the byte, but on a terminal what can be seen of it. */
 static enum br_status show(const char *name, struct br_error *err)
 {
-    const bool terminal = isatty(STDOUT_FILENO);
-    char path[1024], *line = NULL;
-    size_t size = 0;
-    if (br_scene_find(name, path, sizeof path, err))
+    char path[1024], *text;
+    if (br_scene_find(name, path, sizeof path, err) || br_scene_load(path, &text, err))
         return err->status;
-    FILE *file = fopen(path, "r");
-    if (!file)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", path, strerror(errno));
-    for (ssize_t length; (length = getline(&line, &size, file)) > 0;)
-        if (terminal) {
-            line[strcspn(line, "\n")] = '\0';
-            br_quote(stdout, &br_for_text, line);
+    if (!isatty(STDOUT_FILENO))
+        fputs(text, stdout);
+    else
+        for (char *rest = text; rest && *rest;) {
+            br_quote(stdout, &br_for_text, strsep(&rest, "\n"));
             putchar('\n');
-        } else
-            fwrite(line, 1, (size_t)length, stdout);
-    free(line);
-    const bool failed = ferror(file);
-    fclose(file);
-    return failed ? br_fail(err, BR_IO, "%s could not be read", path) : BR_OK;
+        }
+    free(text);
+    return BR_OK;
 }
 
 /* ---- a new one ---- */

@@ -7,8 +7,6 @@
 #include "reference/discrete_field.h"
 #include "reference/textbook.h"
 
-typedef long double real;
-
 enum { ROWS = BR_TEXTBOOK_ROWS };
 
 /* The rod's tip over one step, for the friction bound. */
@@ -31,6 +29,7 @@ struct br_discrete {
     const char *scheme;
     bool implicit, regularised;
     size_t n, steps, done;
+    int degree;          /* of the axial elements */
     struct part part[2]; /* by br_field_kind */
     struct path path;
     struct br_discrete_tip tip;
@@ -76,14 +75,14 @@ static real contact_force(const struct br_discrete *d, real u, real free_velocit
         return 0;
     if (!d->implicit)
         return c->stiffness * positive(u - c->gap);
-    return c->stiffness * positive(u + f->tau * free_velocity - c->gap) /
-           (1 + c->stiffness * f->tau * f->compliance);
+    return c->stiffness * positive(u + f->recursion.k * free_velocity - c->gap) /
+           (1 + c->stiffness * f->recursion.k * f->recursion.compliance);
 }
 
 /* Equation (12), or (29). */
 static real friction_force(const struct br_discrete *d, real free_velocity)
 {
-    const real z = d->part[BR_BENDING].field.compliance, bound = d->tip.friction_bound;
+    const real z = d->part[BR_BENDING].field.recursion.compliance, bound = d->tip.friction_bound;
     if (d->scene->friction.law == BR_FRICTIONLESS)
         return 0;
     if (d->regularised)
@@ -109,23 +108,26 @@ static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real
     const double from = d->scene->duration * (double)d->done / (double)d->steps;
     const double to = d->scene->duration * (double)(d->done + 1) / (double)d->steps;
     const double t = time == 1 ? to : (double)(from + time * ((real)to - from));
-    enum br_status status = br_discrete_field_set_step(f, tau, err);
+    enum br_status status = BR_OK;
     real v = 0;
+    if (tau != f->recursion.k) {
+        f->recursion.k = tau;
+        status = br_recursion_fill(&f->recursion, "the exact discrete solution", err);
+    }
     if (!status)
         status = br_discrete_field_predict(f, t, &v, err);
     if (status)
         return status;
     if (kind == BR_AXIAL)
-        d->tip.contact_force = contact_force(d, br_discrete_field_tip(f, false), v);
+        d->tip.contact_force = contact_force(d, br_recursion_tip(&f->recursion, f->state[0]), v);
     else {
         d->tip.friction_bound = friction_bound(d, time);
         d->tip.friction_force = friction_force(d, v);
     }
     const real force = kind == BR_AXIAL ? d->tip.contact_force : d->tip.friction_force;
-    br_discrete_field_finish(f, force);
-    d->tip.velocity[kind] = v - force * f->compliance;
+    d->tip.velocity[kind] = br_recursion_finish(&f->recursion, f->state[0], force);
     if (kind == BR_AXIAL) {
-        d->tip.displacement[kind] = br_discrete_field_tip(f, false);
+        d->tip.displacement[kind] = br_recursion_tip(&f->recursion, f->state[0]);
         d->path.time[d->path.count] = time;
         d->path.depth[d->path.count++] =
             positive(d->tip.displacement[kind] - d->scene->contact.gap);
@@ -139,7 +141,7 @@ static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real
 static void sum_states(struct br_discrete_field *f, int into, int count, const int *state,
                        const real *weight)
 {
-    for (size_t i = 0; i < 2 * f->d * f->n; i++) {
+    for (size_t i = 0; i < br_recursion_size(&f->recursion); i++) {
         real sum = 0;
         for (int j = 0; j < count; j++)
             sum += weight[j] * f->state[state[j]][i];
@@ -149,19 +151,20 @@ static void sum_states(struct br_discrete_field *f, int into, int count, const i
 
 static void copy_state(struct br_discrete_field *f, int from, int into)
 {
-    memcpy(f->state[into], f->state[from], 2 * f->d * f->n * sizeof(real));
+    memcpy(f->state[into], f->state[from], br_recursion_size(&f->recursion) * sizeof(real));
 }
 
 /* Y' of the stage that has ended in state 0: of displacement the velocity, of velocity what the
  * step has added to Z, which is in state `into`, over tau. */
 static void find_rate(struct br_discrete_field *f, int into)
 {
-    const size_t count = f->d * f->n;
+    const size_t m = (size_t)f->recursion.m, size = br_recursion_size(&f->recursion);
     real *rate = f->state[into], *y = f->state[BR_DISCRETE_NOW];
-    for (size_t i = 0; i < count; i++) {
-        rate[count + i] = (y[count + i] - rate[count + i]) / f->tau;
-        rate[i] = y[count + i];
-    }
+    for (size_t e = 0; e < size; e += 2 * m)
+        for (size_t i = e; i < e + m; i++) {
+            rate[i] = y[i + m];
+            rate[i + m] = (y[i + m] - rate[i + m]) / f->recursion.k;
+        }
 }
 
 /* Y_i = Y_{n-1} + k sum_j a_ij Y'_j, row by row. */
@@ -269,11 +272,15 @@ static enum br_status check_method(const struct br_method *m, struct br_error *e
     if (strcmp(m->friction->name, "exact") != 0 && strcmp(m->friction->name, "regularised") != 0)
         return br_fail(err, BR_BAD_INPUT, "the exact discrete solution does not know friction '%s'",
                        m->friction->name);
-    if (m->axial_degree != 1)
-        return br_fail(err, BR_BAD_INPUT,
-                       "the exact discrete solution has axial elements of degree 1, not %d",
-                       m->axial_degree);
     return BR_OK;
+}
+
+/* The tip as the field has it. */
+static void look_at_tip(struct br_discrete *d, enum br_field_kind kind)
+{
+    const struct br_discrete_field *f = &d->part[kind].field;
+    d->tip.displacement[kind] = br_recursion_tip(&f->recursion, f->state[0]);
+    d->tip.velocity[kind] = f->state[0][br_recursion_tip_rate(&f->recursion)];
 }
 
 static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind,
@@ -285,10 +292,9 @@ static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind
         return BR_OK;
     const size_t states = strcmp(d->scheme, "euler") == 0 ? 1 : BR_DISCRETE_STATES;
     const enum br_status status =
-        br_discrete_field_init(&part->field, d->scene, kind, d->n, states, err);
-    for (int velocity = 0; velocity < 2 && !status; velocity++)
-        (velocity ? d->tip.velocity : d->tip.displacement)[kind] =
-            br_discrete_field_tip(&part->field, velocity);
+        br_discrete_field_init(&part->field, d->scene, kind, d->n, d->degree, states, err);
+    if (!status)
+        look_at_tip(d, kind);
     return status;
 }
 
@@ -310,6 +316,7 @@ enum br_status br_discrete_create(struct br_discrete **out, const struct br_scen
     d->scheme = method->scheme->name;
     d->implicit = strcmp(method->contact->name, "implicit") == 0;
     d->regularised = strcmp(method->friction->name, "regularised") == 0;
+    d->degree = method->axial_degree;
     d->n = n;
     d->steps = steps;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
@@ -339,12 +346,10 @@ size_t br_discrete_steps_done(const struct br_discrete *d)
 
 struct br_discrete_tip br_discrete_tip(const struct br_discrete *d)
 {
+    const struct br_discrete_field *beam = &d->part[BR_BENDING].field;
     struct br_discrete_tip tip = d->tip;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (d->part[kind].modelled) {
-            tip.displacement[kind] = br_discrete_field_tip(&d->part[kind].field, false);
-            tip.velocity[kind] = br_discrete_field_tip(&d->part[kind].field, true);
-        }
+    if (d->part[BR_BENDING].modelled) /* the steps do not need it */
+        tip.displacement[BR_BENDING] = br_recursion_tip(&beam->recursion, beam->state[0]);
     return tip;
 }
 
@@ -352,9 +357,10 @@ void br_discrete_get(const struct br_discrete *d, enum br_field_kind kind,
                      long double *displacement, long double *velocity)
 {
     const struct part *part = &d->part[kind];
-    const size_t bytes = (kind == BR_AXIAL ? 1 : 2) * (d->n + 1) * sizeof(long double);
+    const size_t unknowns = kind == BR_AXIAL ? (size_t)d->degree : 2;
+    const size_t bytes = unknowns * (d->n + 1) * sizeof(long double);
     if (part->modelled) {
-        br_discrete_field_get(&part->field, displacement, velocity);
+        br_recursion_get(&part->field.recursion, part->field.state[0], displacement, velocity);
         return;
     }
     if (displacement)

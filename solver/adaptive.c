@@ -153,7 +153,7 @@ static enum br_status try_step(struct br_march *m, double k, struct trial *trial
     const double now = m->adaptive->now;
     const struct br_step step = {now, now + k, k};
     *trial = (struct trial){.k = k};
-    m->method.scheme->stages(m->adaptive->since, &trial->stages);
+    br_time_scheme_step(m->method.scheme, m->adaptive->since, &trial->stages);
     enum br_status status = BR_OK;
     if (!m->adaptive->known)
         status = find_branches(m, &trial->stages, &step, err);

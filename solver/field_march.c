@@ -51,7 +51,7 @@ static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOW
 {
     for (size_t since = 0; since < 3; since++) {
         struct br_stages s;
-        scheme->stages(since, &s);
+        br_time_scheme_step(scheme, since, &s);
         for (int known = 0; known < BR_KNOWN; known++) {
             needed[known] |= s.error[known] != 0;
             for (int i = 0; i < s.count; i++)
@@ -66,7 +66,7 @@ int br_time_scheme_kept(const struct br_time_scheme *scheme)
 {
     bool needed[BR_KNOWN] = {false};
     int kept = 0;
-    if (scheme->stages)
+    if (scheme->form[2])
         find_needed(scheme, needed);
     for (int i = 0; i < BR_KNOWN; i++)
         kept += needed[i];
@@ -88,7 +88,7 @@ double br_time_scheme_sums(const struct br_time_scheme *scheme)
     bool needed[BR_KNOWN] = {false};
     double sum = 0;
     find_needed(scheme, needed);
-    scheme->stages(2, &s);
+    br_time_scheme_step(scheme, 2, &s);
     for (int i = 0; i < s.count; i++)
         if (i > 0 || !starts_now(&s.stage[i]))
             sum += passes(s.stage[i].weight);

@@ -61,7 +61,7 @@ struct br_function_ops {
 
     /* Guard i, borrowed, or NULL from the last one on: a function whose change of sign, and nothing
      * else, makes this function or a derivative of it jump. The argument of step, abs and sign, the
-     * difference of what min, max and a comparison compare. */
+     * difference of what min, max and a comparison compare. It is enclosed, and nothing else. */
     const struct br_function *(*guard)(const void *self, size_t i);
 
     /* A sum of derivatives as a function (out), by rule; at a jump or a kink what it is beside it.

@@ -20,7 +20,7 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_scen
         load->terms++;
     for (size_t i = 0; i < load->terms && !status; i++) {
         const struct br_function *space = &load->functions.term[i].space;
-        load->vector[i] = br_allocate(br_field_size(field), sizeof *load->vector[i]);
+        load->vector[i] = br_store_take(&load->store, br_field_size(field), sizeof(double));
         if (!load->vector[i])
             status = br_no_memory(err, "a load vector");
         else if (!space->uses_t)
@@ -29,7 +29,7 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_scen
             status = br_load_fit_create(field, space, scene->duration, &load->fit[i], err);
     }
     if (load->terms > 1 && !status) {
-        load->sum = br_allocate(br_field_size(field), sizeof *load->sum);
+        load->sum = br_store_take(&load->store, br_field_size(field), sizeof *load->sum);
         if (!load->sum)
             status = br_no_memory(err, "a load vector");
     }
@@ -42,11 +42,9 @@ void br_step_load_clear(struct br_step_load *load)
     br_load_clear(&load->functions);
     br_function_free(&load->tip_force);
     br_function_free(&load->tip_moment);
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        free(load->vector[i]);
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
         br_load_fit_free(load->fit[i]);
-    }
-    free(load->sum);
+    br_store_clear(&load->store);
     *load = (struct br_step_load){0};
 }
 

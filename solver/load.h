@@ -33,6 +33,7 @@ struct br_step_load {
     struct br_load_fit *fit[BR_LOAD_TERMS];   /* of f(x, t), where it has one */
     double factor[BR_LOAD_TERMS];             /* of each, at the last update */
     double *sum;                              /* of more than one */
+    struct br_store store;                    /* of the vectors */
     struct br_function tip_force, tip_moment; /* clones */
 };
 

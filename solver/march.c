@@ -29,7 +29,7 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
 static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
 {
     struct br_stages stages;
-    m->method.scheme->stages(0, &stages);
+    br_time_scheme_step(m->method.scheme, 0, &stages);
     const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
     enum br_status status = br_march_allow_lead(m, 1, err);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
@@ -104,7 +104,7 @@ static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, st
     const struct br_step step = {time_level(m, part->done), time_level(m, part->done + 1),
                                  m->scene->duration / (double)m->steps};
     struct br_stages stages;
-    m->method.scheme->stages(part->since, &stages);
+    br_time_scheme_step(m->method.scheme, part->since, &stages);
     const enum br_status status =
         br_march_stages(m, kind, &stages, &step, &m->path[part->done % m->lead], err);
     if (status)

@@ -34,7 +34,7 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
  * neighbouring numbers; wider where the place is not known better, as at a touched zero. */
 struct br_breaks {
     struct br_interval *at; /* count; owned */
-    size_t count, capacity;
+    size_t count;
     bool moving; /* a guard that depends on both variables changes sign at places of the one that
                     depend on the other: these are not listed */
 };

@@ -7,12 +7,13 @@
 /* ---- Runge-Kutta methods with one gamma on the diagonal, the last stage being the end ---- */
 
 /* As they are tabulated: Y_i = Y_{n-1} + k sum_j a_ij Y'_j at t_{n-1} + c_i k. With c_0 = 0 the
- * first of them is no stage, but Y_{n-1} itself. */
-struct tableau {
+ * first of them is no stage, but Y_{n-1} itself. Without rows the stages themselves are given. */
+struct br_step_form {
     int rows;
     double gamma;
     double a[BR_MOST_STAGES + 1][BR_MOST_STAGES + 1], c[BR_MOST_STAGES + 1];
     double embedded[BR_MOST_STAGES + 1]; /* weights of a second end; all 0: none */
+    struct br_stages stages;
 };
 
 /* The weights of states (tau Y' is none) sum to 1. Rounded ones may miss that by 1e-16, which a
@@ -47,7 +48,7 @@ static void add_rate(double factor, const struct br_stages *s, int stage, double
         sum[i] -= factor * s->stage[stage].weight[i];
 }
 
-static void of_tableau(const struct tableau *t, struct br_stages *s)
+static void of_tableau(const struct br_step_form *t, struct br_stages *s)
 {
     const int skipped = t->c[0] == 0;
     bool estimates = false;
@@ -67,7 +68,7 @@ static void of_tableau(const struct tableau *t, struct br_stages *s)
 /* 1 - 1/sqrt(2) */
 #define GAMMA2 0.29289321881345247560
 
-static const struct tableau sdirk2_tableau = {
+static const struct br_step_form sdirk2_form = {
     .rows = 2,
     .gamma = GAMMA2,
     .a = {{GAMMA2}, {1 - GAMMA2, GAMMA2}},
@@ -77,7 +78,7 @@ static const struct tableau sdirk2_tableau = {
 /* The root of x^3 - 3x^2 + 3x/2 - 1/6 in (1/6, 1/2) */
 #define GAMMA3 0.43586652150845899942
 
-static const struct tableau sdirk3_tableau = {
+static const struct br_step_form sdirk3_form = {
     .rows = 3,
     .gamma = GAMMA3,
     .a = {{GAMMA3},
@@ -87,7 +88,7 @@ static const struct tableau sdirk3_tableau = {
     .c = {GAMMA3, (1 + GAMMA3) / 2, 1},
 };
 
-static const struct tableau sdirk4_tableau = {
+static const struct br_step_form sdirk4_form = {
     .rows = 5,
     .gamma = 0.25,
     .a = {{1.0 / 4},
@@ -110,7 +111,7 @@ static const struct tableau sdirk4_tableau = {
 #define B1 ((THIRD - C2 * HALF) / (C1 * (C1 - C2)))
 #define B2 ((THIRD - C1 * HALF) / (C2 * (C2 - C1)))
 
-static const struct tableau esdirk3_tableau = {
+static const struct br_step_form esdirk3_form = {
     .rows = 4,
     .gamma = GAMMA3,
     .a = {{0},
@@ -120,7 +121,7 @@ static const struct tableau esdirk3_tableau = {
     .c = {0, C1, C2, 1},
 };
 
-static const struct tableau esdirk4_tableau = {
+static const struct br_step_form esdirk4_form = {
     .rows = 6,
     .gamma = 0.25,
     .a = {{0},
@@ -135,74 +136,38 @@ static const struct tableau esdirk4_tableau = {
                  -3700637.0 / 11593932, 61727.0 / 225920},
 };
 
-/* ---- one step of each scheme ---- */
+/* ---- stages that are given ---- */
 
-static void euler_stages(size_t since, struct br_stages *s)
-{
-    (void)since;
-    *s = (struct br_stages){.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}};
-}
+/* Their smallest weight is what the others leave of 1, see balance. */
 
-static void sdirk2_stages(size_t since, struct br_stages *s)
-{
-    (void)since;
-    of_tableau(&sdirk2_tableau, s);
-}
-
-static void esdirk3_stages(size_t since, struct br_stages *s)
-{
-    of_tableau(since == 0 ? &sdirk3_tableau : &esdirk3_tableau, s);
-}
-
-static void esdirk4_stages(size_t since, struct br_stages *s)
-{
-    of_tableau(since == 0 ? &sdirk4_tableau : &esdirk4_tableau, s);
-}
+static const struct br_step_form euler_form = {
+    .stages = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}},
+};
 
 /* Y_n = 4/3 Y_{n-1} - 1/3 Y_{n-2} + 2/3 k Y'_n */
-static void bdf2_stages(size_t since, struct br_stages *s)
-{
-    static const struct br_stages bdf2 = {
-        .count = 1,
-        .stage = {{1, 2.0 / 3, {[BR_NOW] = 4.0 / 3, [BR_BEFORE] = -1.0 / 3}}},
-    };
-    if (since == 0)
-        of_tableau(&sdirk2_tableau, s);
-    else
-        *s = bdf2;
-    balance(&s->stage[s->count - 1]);
-}
+static const struct br_step_form bdf2_form = {
+    .stages = {.count = 1,
+               .stage = {{1, 2.0 / 3, {[BR_NOW] = 4.0 / 3, [BR_BEFORE] = 1 - 4.0 / 3}}}},
+};
 
 /* Y_n = 18/11 Y_{n-1} - 9/11 Y_{n-2} + 2/11 Y_{n-3} + 6/11 k Y'_n */
-static void bdf3_stages(size_t since, struct br_stages *s)
-{
-    static const struct br_stages bdf3 = {
-        .count = 1,
-        .stage = {{1,
-                   6.0 / 11,
-                   {[BR_NOW] = 18.0 / 11, [BR_BEFORE] = -9.0 / 11, [BR_BEFORE_THAT] = 2.0 / 11}}},
-    };
-    if (since < 2)
-        bdf2_stages(since, s);
-    else
-        *s = bdf3;
-    balance(&s->stage[s->count - 1]);
-}
+static const struct br_step_form bdf3_form = {
+    .stages = {.count = 1,
+               .stage = {{1,
+                          6.0 / 11,
+                          {[BR_NOW] = 18.0 / 11,
+                           [BR_BEFORE] = -9.0 / 11,
+                           [BR_BEFORE_THAT] = 1 - 18.0 / 11 + 9.0 / 11}}}},
+};
 
 /* The trapezoidal rule over 2 gamma k, Y_1 = Y_{n-1} + gamma k (Y'_{n-1} + Y'_1), then a BDF2 of
  * unequal steps, Y_2 = Y_{n-1} + w k (Y'_{n-1} + Y'_1) + gamma k Y'_2 with w = (1 - gamma)/2. */
-static void trbdf2_stages(size_t since, struct br_stages *s)
-{
-    const double gamma = GAMMA2, ratio = (1 - gamma) / (2 * gamma);
-    if (since == 0)
-        of_tableau(&sdirk2_tableau, s);
-    else
-        *s = (struct br_stages){
-            .count = 2,
-            .stage = {{2 * gamma, gamma, {[BR_NOW] = 1, [BR_RATE] = 1}},
-                      {1, gamma, {[BR_NOW] = 1 - ratio, [BR_STAGE] = ratio}}},
-        };
-}
+#define RATIO ((1 - GAMMA2) / (2 * GAMMA2))
+static const struct br_step_form trbdf2_form = {
+    .stages = {.count = 2,
+               .stage = {{2 * GAMMA2, GAMMA2, {[BR_NOW] = 1, [BR_RATE] = 1}},
+                         {1, GAMMA2, {[BR_NOW] = 1 - RATIO, [BR_STAGE] = RATIO}}}},
+};
 
 /* ---- the registry ---- */
 
@@ -212,7 +177,7 @@ static const struct br_time_scheme euler = {
     .citation = "Campo et al. 2006, (16)-(17)",
     .order = 1,
     .may_lag = true,
-    .stages = euler_stages,
+    .form = {&euler_form, &euler_form, &euler_form},
 };
 
 static const struct br_time_scheme bdf2 = {
@@ -221,7 +186,7 @@ static const struct br_time_scheme bdf2 = {
     .citation = "Hairer and Wanner, Solving Ordinary Differential Equations II, V.1; started by "
                 "sdirk2",
     .order = 2,
-    .stages = bdf2_stages,
+    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},
 };
 
 static const struct br_time_scheme bdf3 = {
@@ -231,7 +196,7 @@ static const struct br_time_scheme bdf3 = {
                 "sdirk2 and bdf2",
     .order = 3,
     .needs_damping = true, /* A(86 degrees)-stable */
-    .stages = bdf3_stages,
+    .form = {&sdirk2_form, &bdf2_form, &bdf3_form},
 };
 
 static const struct br_time_scheme trbdf2 = {
@@ -240,7 +205,7 @@ static const struct br_time_scheme trbdf2 = {
     .citation = "Bank et al., IEEE Trans. Electron Devices 32 (1985) 1992-2007; Hosea and "
                 "Shampine, Appl. Numer. Math. 20 (1996) 21-37; started by sdirk2",
     .order = 2,
-    .stages = trbdf2_stages,
+    .form = {&sdirk2_form, &trbdf2_form, &trbdf2_form},
 };
 
 static const struct br_time_scheme sdirk2 = {
@@ -248,7 +213,7 @@ static const struct br_time_scheme sdirk2 = {
     .title = "diagonally implicit Runge-Kutta, L-stable, looks back at nothing; two solves a step",
     .citation = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006-1021, Theorem 5",
     .order = 2,
-    .stages = sdirk2_stages,
+    .form = {&sdirk2_form, &sdirk2_form, &sdirk2_form},
 };
 
 static const struct br_time_scheme esdirk3 = {
@@ -257,7 +222,7 @@ static const struct br_time_scheme esdirk3 = {
     .citation = "Kennedy and Carpenter, Appl. Numer. Math. 44 (2003) 139-181, ARK3(2)4L[2]SA; "
                 "started by Alexander's method of that order",
     .order = 3,
-    .stages = esdirk3_stages,
+    .form = {&sdirk3_form, &esdirk3_form, &esdirk3_form},
 };
 
 static const struct br_time_scheme esdirk4 = {
@@ -267,7 +232,7 @@ static const struct br_time_scheme esdirk4 = {
                 "started by Hairer and Wanner, Solving Ordinary Differential Equations II, Table "
                 "IV.6.5",
     .order = 4,
-    .stages = esdirk4_stages,
+    .form = {&sdirk4_form, &esdirk4_form, &esdirk4_form},
 };
 
 static const struct br_time_scheme adaptive = {
@@ -277,7 +242,7 @@ static const struct br_time_scheme adaptive = {
     .order = 4,
     .estimate_order = 4,
     .adaptive = true,
-    .stages = esdirk4_stages,
+    .form = {&sdirk4_form, &esdirk4_form, &esdirk4_form},
 };
 
 const struct br_time_scheme *const br_time_schemes[] = {
@@ -291,11 +256,20 @@ const struct br_time_scheme *br_time_scheme_find(const char *name)
     return NULL;
 }
 
+void br_time_scheme_step(const struct br_time_scheme *scheme, size_t since, struct br_stages *s)
+{
+    const struct br_step_form *form = scheme->form[since < 2 ? since : 2];
+    if (form->rows)
+        of_tableau(form, s);
+    else
+        *s = form->stages;
+}
+
 int br_time_scheme_stages(const struct br_time_scheme *scheme)
 {
     struct br_stages s;
-    if (!scheme->stages)
+    if (!scheme->form[2])
         return 1;
-    scheme->stages(2, &s);
+    br_time_scheme_step(scheme, 2, &s);
     return s.count;
 }

@@ -48,15 +48,18 @@ struct br_time_scheme {
     bool may_lag;       /* takes the lagged contact of (16), too */
     bool adaptive;      /* chooses its steps by a tolerance, and finds the times of switching; the
                            march's steps are then where it is looked at */
-    /* Fills the stages of a step; since: how many steps there were since t = 0 or since the
-     * solution switched (stick, slip, contact opens or closes), 2 or more being alike. Nothing
-     * before that is given a weight, nor is Y' of 0. */
-    void (*stages)(size_t since, struct br_stages *stages);
+    const struct br_step_form *form[3]; /* of a step, by how many there were: br_time_scheme_step */
 };
 
 /* NULL-terminated; the first is the default, the paper's. */
 extern const struct br_time_scheme *const br_time_schemes[];
 const struct br_time_scheme *br_time_scheme_find(const char *name);
+
+/* The stages (out) of a step; since: how many steps there were since t = 0 or since the solution
+ * switched (stick, slip, contact opens or closes), 2 or more being alike. Nothing before that is
+ * given a weight, nor is Y' of 0. */
+void br_time_scheme_step(const struct br_time_scheme *scheme, size_t since,
+                         struct br_stages *stages);
 
 /* States that its steps look back to, beside the solver's own. */
 int br_time_scheme_kept(const struct br_time_scheme *scheme);

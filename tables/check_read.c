@@ -82,9 +82,7 @@ static bool read_method(const json_t *o, struct br_old_method *m)
     for (size_t i = 0; i < BR_METHOD_FIELDS && m->known; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const json_t *in = f->group ? json_object_get(o, f->group) : o;
-        char key[BR_METHOD_VALUE];
-        const json_t *value =
-            json_object_get(in, f->group ? f->member : br_method_field_key(f, key));
+        const json_t *value = json_object_get(in, f->group ? f->member : br_method_field_key(f));
         const bool needed =
             i == BR_METHOD_SOLVER || i == BR_METHOD_CONTACT || i == BR_METHOD_FRICTION;
         if (value)

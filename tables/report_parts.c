@@ -24,10 +24,10 @@ void br_put_method_facts(struct br_document *d, const char *key, const struct br
     char taken[BR_METHOD_TEXT];
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
+        char text[BR_METHOD_VALUE];
         const struct br_value value = value_of(f, m, text);
         if (!f->group)
-            br_hide_fact(d, value, NULL, "%s.%s", key, br_method_field_key(f, name));
+            br_hide_fact(d, value, NULL, "%s.%s", key, br_method_field_key(f));
         else if (br_method_field_heeded(f, m))
             br_hide_fact(d, value, NULL, "%s.%s.%s", key, f->group, f->member);
         else if (f->group != group)
@@ -40,8 +40,8 @@ void br_put_method_facts(struct br_document *d, const char *key, const struct br
 void br_put_method_cells(struct br_document *d, const struct br_method *m)
 {
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        char text[BR_METHOD_VALUE], name[BR_METHOD_VALUE];
-        br_hide(d, br_method_field_key(&br_method_fields[i], name), NULL,
+        char text[BR_METHOD_VALUE];
+        br_hide(d, br_method_field_key(&br_method_fields[i]), NULL,
                 value_of(&br_method_fields[i], m, text));
     }
 }

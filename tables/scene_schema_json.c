@@ -104,11 +104,10 @@ static json_t *method_number(const struct br_method_field *f)
 
 static void add_methods(json_t *properties)
 {
-    char key[BR_METHOD_VALUE];
     for (const struct br_method_field *f = br_method_fields;
          f < br_method_fields + BR_METHOD_FIELDS; f++)
         if (!f->unsaid)
-            json_object_set_new(properties, br_method_field_key(f, key),
+            json_object_set_new(properties, br_method_field_key(f),
                                 f->words ? method_words(f->words) : method_number(f));
 }
 

@@ -295,7 +295,7 @@ static void follow_stage(void *self, const struct br_march_stage *told)
     struct dense_march *q = self;
     struct dense_field *f = &q->field[told->kind];
     struct br_stages stages;
-    q->method.scheme->stages(f->since, &stages);
+    br_time_scheme_step(q->method.scheme, f->since, &stages);
     const struct br_stage *stage = &stages.stage[told->index];
     const size_t tip = f->order - f->u;
     factorise(q, (int)told->kind, told->tau);
@@ -327,7 +327,7 @@ static void follow_step(void *self, enum br_field_kind kind, bool switched)
     struct dense_march *q = self;
     struct dense_field *f = &q->field[kind];
     struct br_stages stages;
-    q->method.scheme->stages(f->since, &stages);
+    br_time_scheme_step(q->method.scheme, f->since, &stages);
     const int last = BR_STAGE + stages.count - 1;
     copy(f, BR_RATE, last); /* Y - Z */
     add(f, BR_RATE, -1, Z);

@@ -4,7 +4,7 @@
 #define BR_TESTS_EXACT_SCENES_H
 
 #include "reference/exact/exact.h"
-#include "tests/test.h"
+#include "tests/support.h"
 
 /* A function of x and t with parameters; f gets them all. */
 struct formula {
@@ -15,28 +15,43 @@ struct formula {
 /* Borrows the formula. */
 struct br_function formula_function(struct formula *formula);
 
-/* amplitude times the formula's function of t alone */
-struct br_load formula_load(double amplitude, struct formula *time);
+/* amplitude times a function of t; to be freed with its scene */
+struct br_load uniform(double amplitude, const char *time);
 
-double f_expm1(const double *p, double x, double t); /* e^{p0 t} - 1 */
-double f_ramp(const double *p, double x, double t);  /* p0 t */
-double f_sine(const double *p, double x, double t);  /* sin(p0 t) */
-double f_power(const double *p, double x, double t); /* p0 x^p1 */
+/* A solution, and a state of it to read it with. */
+struct solved {
+    struct br_exact *exact;
+    struct br_exact_state *state;
+};
 
-/* The paper's example 1 to 4. */
-struct br_scene paper_example(int which);
+/* Solves the scene, or fails the test. To be released. */
+struct solved solve(const struct br_scene *scene, double tolerance);
+void release(struct solved *solved);
 
-/* Solves the scene, or fails the test. */
-struct br_exact *solve(const struct br_scene *scene, double tolerance);
-struct br_exact_state *new_state(const struct br_exact *exact);
-
-/* One value of a part. */
-double value_of(const struct br_exact *exact, const struct br_exact_state *state,
-                struct br_exact_part part, double x);
+/* One value of a part now. */
+double value_of(const struct solved *solved, struct br_exact_part part, double x);
 
 /* Square of the L2 norm of a part over the beam. */
-double square_of(const struct br_exact *exact, const struct br_exact_state *state,
-                 struct br_exact_part part);
+double square_of(const struct solved *solved, struct br_exact_part part);
+
+/* Room for a text that is made from numbers. */
+struct text {
+    char s[1000];
+};
+__attribute__((format(printf, 1, 2))) struct text text_of(const char *format, ...);
+
+/* What a solution must be: a part of it, or a force at the tip, as an expression in x and t. */
+struct expected {
+    enum { PART, CONTACT_FORCE, FRICTION_FORCE } what;
+    struct br_exact_part part;
+    struct text f;
+    double allowed;
+};
+
+/* Up to the time `until`, itself among `times` times, and at six places, the ends among them;
+ * values of the tip itself, too. */
+void check_closed(const struct solved *solved, double length, double until, int times, size_t count,
+                  const struct expected *expected);
 
 /* Fails the test unless |value - expected| <= allowed; NaN fails. */
 void assert_near(double value, double expected, double allowed);

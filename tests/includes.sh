@@ -15,7 +15,7 @@ tables: solver/ reference/ study/ tables/
 plots: solver/ reference/ study/ plots/
 cli: solver/ reference/ study/ tables/ plots/ cli/ build_info.h
 reference/exact: solver/clock.h solver/function.h solver/modes.h solver/proof.h solver/scene.h
-reference/exact: solver/status.h reference/
+reference/exact: solver/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
 # Prints each mistake of the tree in ROOT; at the end, how many files it has read.

@@ -19,7 +19,6 @@ struct solver {
     const struct oracle_term *term;
     size_t times;
     const double *t;
-    bool by_steps; /* the time's factor is steps and nothing moves: all in closed form */
     struct oracle_panels panels;
     real *time, *shift; /* at the panels' nodes */
     real *drive;        /* one mode's, where the load moves */
@@ -40,9 +39,7 @@ static void make_solver(struct solver *s, size_t most)
                                      (fabs(term->speed) + fabs(term->swing * term->rate)));
     if (term->time.kind == ORACLE_WAVE)
         fastest = fmaxl(fastest, fabs(term->time.p[0]));
-    s->by_steps = !term->moving && term->time.kind == ORACLE_STEPS;
-    if (!s->by_steps)
-        oracle_panels(&s->panels, term, p->length, 2 / fastest, s->times, s->t);
+    oracle_panels(&s->panels, term, p->length, 2 / fastest, s->times, s->t);
     const size_t nodes = s->panels.count * NODES, rests = term->moving ? nodes : 1;
     s->time = calloc(nodes + 1, sizeof *s->time);
     s->shift = calloc(nodes + 1, sizeof *s->shift);
@@ -100,14 +97,11 @@ static void slow_response(const struct solver *s, const real *drive, real (*slow
 {
     const struct oracle_equation e = oracle_slow_equation(s->problem);
     real(*state)[2] = calloc(s->times, sizeof *state);
-    if (s->by_steps)
-        oracle_respond_to_steps(&e, &s->term->time, s->times, s->t, state);
-    else
-        oracle_respond(&e, &s->panels, drive, s->times, state);
+    oracle_respond(&e, &s->panels, drive, s->times, state);
     for (size_t k = 0; k < s->times; k++) {
-        real value = s->by_steps ? oracle_value(&s->term->time, s->t[k]) : 0, slope = 0;
-        const size_t last = s->by_steps ? 0 : s->panels.reached[k] - 1;
-        for (size_t j = 0; j < NODES && !s->by_steps; j++) {
+        real value = 0, slope = 0;
+        const size_t last = s->panels.reached[k] - 1;
+        for (size_t j = 0; j < NODES; j++) {
             const real length = s->panels.length[s->panels.class_of[last]];
             value += oracle_gauss()->end_value[j] * drive[last * NODES + j];
             slope += oracle_gauss()->end_slope[j] * drive[last * NODES + j] * 2 / length;
@@ -180,13 +174,9 @@ static void add_mode(struct solver *s, size_t i)
     const real lambda = e.stiffness / (real)s->problem->stiffness,
                tip = oracle_mode_value(&mode, 1);
     const real p = s->term->moving ? 1 : part(s, &w);
-    if (s->by_steps) {
-        oracle_respond_to_steps(&e, &s->term->time, s->times, s->t, s->state);
-    } else {
-        if (s->term->moving)
-            moving_part(s, &w, s->drive);
-        oracle_respond(&e, &s->panels, s->term->moving ? s->drive : s->time, s->times, s->state);
-    }
+    if (s->term->moving)
+        moving_part(s, &w, s->drive);
+    oracle_respond(&e, &s->panels, s->term->moving ? s->drive : s->time, s->times, s->state);
     for (size_t k = 0; k < s->times; k++) {
         s->sum[k].displacement += tip * p * s->state[k][0];
         s->sum[k].velocity += tip * p * s->state[k][1];

@@ -76,8 +76,4 @@ struct oracle_equation oracle_slow_equation(const struct oracle_problem *p);
 void oracle_respond(const struct oracle_equation *e, const struct oracle_panels *p,
                     const real *drive, size_t times, real state[][2]);
 
-/* The same under steps, in closed form. */
-void oracle_respond_to_steps(const struct oracle_equation *e, const struct oracle_factor *f,
-                             size_t times, const double *t, real state[][2]);
-
 #endif

@@ -273,31 +273,3 @@ void oracle_respond(const struct oracle_equation *e, const struct oracle_panels 
     }
     free(passage);
 }
-
-/* The states a time s after a unit step: integrals of the equations give them. */
-static void step_response(const struct oracle_equation *e, real s, real value[2])
-{
-    real h[2];
-    e->impulse(e, s, h);
-    if (e->mass > 0) {
-        value[0] = (1 - e->mass * h[1] - e->damping * h[0]) / e->stiffness;
-        value[1] = h[0];
-    } else {
-        value[0] = -expm1l(-e->rate * s) / e->stiffness;
-        value[1] = (value[0] - e->damping * h[1]) / e->stiffness;
-    }
-}
-
-void oracle_respond_to_steps(const struct oracle_equation *e, const struct oracle_factor *f,
-                             size_t times, const double *t, real state[][2])
-{
-    for (size_t k = 0; k < times; k++) {
-        state[k][0] = state[k][1] = 0;
-        for (size_t i = 0; i < f->steps && f->step[i].at < t[k]; i++) {
-            real h[2];
-            step_response(e, t[k] - fmaxl(f->step[i].at, 0), h);
-            for (int s = 0; s < 2; s++)
-                state[k][s] += f->step[i].height * h[s];
-        }
-    }
-}

@@ -34,14 +34,8 @@ static real decide(enum br_operation operation, real a, real b)
         return truth(a < b);
     case BR_OP_LESS_EQUAL:
         return truth(a <= b);
-    case BR_OP_GREATER:
-        return truth(a > b);
-    case BR_OP_GREATER_EQUAL:
-        return truth(a >= b);
     case BR_OP_EQUAL:
         return truth(a == b);
-    case BR_OP_NOT_EQUAL:
-        return truth(a != b);
     case BR_OP_AND:
         return truth(a != 0 && b != 0);
     case BR_OP_OR:

@@ -47,7 +47,7 @@ TEST(test_second_ends)
 static double estimate_by_scheme(size_t since, double lambda, double y, double k)
 {
     struct br_stages s;
-    br_time_scheme_find("adaptive")->stages(since, &s);
+    br_time_scheme_step(br_time_scheme_find("adaptive"), since, &s);
     double known[BR_KNOWN] = {[BR_NOW] = y}, sum = 0;
     for (int i = 0; i < s.count; i++) {
         const double tau = s.stage[i].gamma * k;

@@ -166,9 +166,11 @@ TEST(test_threads)
     struct br_scene scene;
     struct br_verify verify;
     struct br_error err = {0};
-    char path[1024];
+    char path[1024], *text;
     MUST(br_scene_find("example2", path, sizeof path, &err));
-    MUST(br_scene_read_verify(path, &scene, &verify, &err));
+    MUST(br_scene_load(path, &text, &err));
+    MUST(br_scene_parse(path, text, &(struct br_scene_asked){.verify = &verify}, &scene, &err));
+    free(text);
     struct br_check first = {.path = path, .name = scene.name, .scene = &scene, .verify = &verify};
     MUST(br_check_run(&first, 1, 1, NULL, &err));
     assert_true(first.count > 0);

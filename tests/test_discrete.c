@@ -66,13 +66,13 @@ TEST(test_golden)
 
 /* Largest difference of the displacements, relative to the largest of them. */
 static double deviation(const struct br_discrete *d, const struct br_march *march,
-                        enum br_field_kind kind, size_t n)
+                        enum br_field_kind kind)
 {
     long double x[2 * (MOST_N + 1)];
     double w[2 * (MOST_N + 1)], most = 0, largest = 0;
     br_discrete_get(d, kind, x, NULL);
     br_march_get(march, kind, w, NULL);
-    for (size_t i = 0; i < (size_t)(kind + 1) * (n + 1); i++) {
+    for (size_t i = 0; i < br_field_size(br_march_field(march, kind)); i++) {
         const double error = (double)fabsl(x[i] - w[i]);
         most = !(error <= most) ? error : most;
         largest = fmax(largest, fabs((double)x[i]));
@@ -83,45 +83,40 @@ static double deviation(const struct br_discrete *d, const struct br_march *marc
 static void same_as_solver(const struct br_scene *scene, const struct br_method *method,
                            double tolerance)
 {
-    enum { STEPS = 160 };
+    enum { STEPS = 152 }; /* not 160: the tip of example3 lets go between two steps */
     struct br_discrete *d = created(scene, MOST_N, STEPS, method);
     struct br_march *march = br_test_march(scene, MOST_N, STEPS, method);
     for (size_t step = 8; step <= STEPS; step += 8) {
         advance(d, step);
         br_test_advance(march, step);
-        AT_MOST(deviation(d, march, BR_AXIAL, MOST_N), tolerance * br_test_slack());
-        AT_MOST(deviation(d, march, BR_BENDING, MOST_N), tolerance * br_test_slack());
+        AT_MOST(deviation(d, march, BR_AXIAL), tolerance * br_test_slack());
+        AT_MOST(deviation(d, march, BR_BENDING), tolerance * br_test_slack());
     }
     br_march_free(march);
     br_discrete_free(d);
+}
+
+/* Every scheme with both friction laws; those that may lag with both contacts. */
+static void check_scheme(const char *name, const struct br_time_scheme *scheme, int degree)
+{
+    for (int rules = scheme->may_lag ? 0 : 2; rules < 4; rules++) {
+        struct br_scene scene = br_test_bundled(name);
+        struct br_method method = br_test_method("plain", br_contact_rules[rules / 2]->name,
+                                                 br_friction_rules[rules % 2]->name);
+        method.scheme = scheme;
+        method.axial_degree = degree;
+        same_as_solver(&scene, &method, 1e-12);
+        br_scene_clear(&scene);
+    }
 }
 
 TEST(test_schemes)
 {
     static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
     for (size_t i = 0; i < 4; i++)
-        for (size_t j = 0; br_time_schemes[j]; j++) {
-            const struct br_time_scheme *scheme = br_time_schemes[j];
-            if (scheme->adaptive)
-                continue;
-            struct br_scene scene = br_test_bundled(scenes[i]);
-            struct br_method method = br_test_method("plain", "implicit", "exact");
-            method.scheme = scheme;
-            same_as_solver(&scene, &method, 1e-12);
-            br_scene_clear(&scene);
-        }
-}
-
-TEST(test_laws)
-{
-    static const char *const scenes[] = {"example1", "example2", "example3", "example4"};
-    for (size_t i = 0; i < 4 * 4; i++) {
-        struct br_scene scene = br_test_bundled(scenes[i / 4]);
-        const struct br_method method = br_test_method("plain", br_contact_rules[i % 2]->name,
-                                                       br_friction_rules[i / 2 % 2]->name);
-        same_as_solver(&scene, &method, 1e-12);
-        br_scene_clear(&scene);
-    }
+        for (size_t j = 0; br_time_schemes[j]; j++)
+            if (!br_time_schemes[j]->adaptive)
+                check_scheme(scenes[i], br_time_schemes[j], 1 + (int)(i + j) % 2);
 }
 
 TEST(test_data)
@@ -145,6 +140,7 @@ TEST(test_data)
     same_as_solver(&s, &method, 1e-12);
     s.friction.law = BR_TRESCA;
     method = br_test_method("plain", "implicit", "exact");
+    method.axial_degree = 2;
     same_as_solver(&s, &method, 1e-12);
     s.friction.law = BR_FRICTIONLESS;
     same_as_solver(&s, &method, 1e-12);
@@ -178,9 +174,6 @@ TEST(test_refusals)
     method = br_method_default();
     method.friction = br_friction_rule_find("uzawa");
     REFUSED(br_discrete_create(&d, &scene, 10, 10, &method, &err), BR_BAD_INPUT, "uzawa");
-    method = br_method_default();
-    method.axial_degree = 2;
-    REFUSED(br_discrete_create(&d, &scene, 10, 10, &method, &err), BR_BAD_INPUT, "degree 1, not 2");
     method = br_method_default();
     scene.bending.viscosity = NAN;
     d = created(&scene, 10, 10, &method);

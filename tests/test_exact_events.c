@@ -74,11 +74,12 @@ static double contact_guard(double t, void *scalar)
 }
 
 /* Compares the tip with s from s->start up to `end`. */
-static void check_piece(const struct br_exact *exact, struct br_exact_state *state,
-                        enum br_exact_field field, const struct scalar *s, double end)
+static void check_piece(const struct solved *solved, enum br_exact_field field,
+                        const struct scalar *s, double end)
 {
+    struct br_exact_state *state = solved->state;
     for (int i = 1; i < 10; i++) {
-        br_exact_at(exact, s->start + (end - s->start) * i / 10, state);
+        br_exact_at(solved->exact, s->start + (end - s->start) * i / 10, state);
         assert_near(state->tip[field].displacement, scalar_at(s, state->time), 1e-12);
         assert_near(state->tip[field].velocity, s->held ? 0 : drive(s, state->time), 1e-10);
     }
@@ -94,15 +95,13 @@ static void check_event(const struct br_exact_event *event, double t, enum br_ph
 /* The moment balance gives c w' + a w = (L^3 / 3) (3/8 f L - lambda) at the tip. */
 TEST(test_slider)
 {
-    struct formula time = {f_sine, {3}};
     struct br_scene s = {.length = 1.5, .duration = 10};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
-    s.bending.load = formula_load(20, &time);
+    s.bending.load = uniform(20, "sin(3*t)");
     s.friction = (struct br_friction){BR_TRESCA, 5, 0};
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
+    struct solved solved = solve(&s, 1e-10);
     size_t count;
-    const struct br_exact_event *event = br_exact_events(exact, &count);
+    const struct br_exact_event *event = br_exact_events(solved.exact, &count);
     const double flexibility = gsl_pow_3(s.length) / (3 * s.bending.viscosity);
     const double friction = flexibility * s.friction.coefficient;
     struct scalar tip = {.rate = s.bending.stiffness / s.bending.viscosity,
@@ -114,7 +113,7 @@ TEST(test_slider)
     check_event(&event[n++], 0, BR_STICK);
     for (;;) {
         const double t = first_root(tip.held ? stick_guard : slip_guard, &tip, s.duration);
-        check_piece(exact, state, BR_EXACT_BENDING, &tip, fmin(t, s.duration));
+        check_piece(&solved, BR_EXACT_BENDING, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;
         tip.value = scalar_at(&tip, t);
@@ -126,22 +125,20 @@ TEST(test_slider)
     }
     assert_int_equal(n, count);
     assert_true(count > 15);
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    release(&solved);
+    br_scene_clear(&s);
 }
 
 /* c u' + a u = f L^2 / 2 - p L at the tip. */
 TEST(test_bouncing)
 {
-    struct formula time = {f_sine, {5}};
     struct br_scene s = {.length = 1.5, .duration = 10};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 4, .viscosity = 3};
-    s.axial.load = formula_load(20, &time);
+    s.axial.load = uniform(20, "sin(5*t)");
     s.contact = (struct br_contact){true, 0.3, 50};
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
+    struct solved solved = solve(&s, 1e-10);
     size_t count;
-    const struct br_exact_event *event = br_exact_events(exact, &count);
+    const struct br_exact_event *event = br_exact_events(solved.exact, &count);
     const double open_rate = s.axial.stiffness / s.axial.viscosity;
     const double spring = s.contact.stiffness * s.length / s.axial.viscosity;
     struct scalar tip = {.rate = open_rate,
@@ -153,7 +150,7 @@ TEST(test_bouncing)
     check_event(&event[n++], 0, BR_OPEN);
     for (;;) {
         const double t = first_root(contact_guard, &tip, s.duration);
-        check_piece(exact, state, BR_EXACT_AXIAL, &tip, fmin(t, s.duration));
+        check_piece(&solved, BR_EXACT_AXIAL, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;
         tip.value = s.contact.gap;
@@ -165,8 +162,8 @@ TEST(test_bouncing)
     }
     assert_int_equal(n, count);
     assert_true(count > 10);
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    release(&solved);
+    br_scene_clear(&s);
 }
 
 /* A slip that a constant load drives comes to rest without an end. */
@@ -174,17 +171,16 @@ TEST(test_slip_to_rest)
 {
     struct br_scene s = {.length = 1, .duration = 100, .density = 0.1};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
-    s.bending.load =
-        (struct br_load){.term[0].space = {.constant = 8}, .term[0].time = {.constant = 1}};
+    s.bending.load = uniform(8, "1");
     s.friction = (struct br_friction){BR_TRESCA, 1, 0};
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
+    struct solved solved = solve(&s, 1e-10);
+    struct br_exact_state *state = solved.state;
     size_t count;
-    const struct br_exact_event *event = br_exact_events(exact, &count);
+    const struct br_exact_event *event = br_exact_events(solved.exact, &count);
     assert_int_equal(event[count - 1].phase, BR_SLIP_UP);
-    br_exact_at(exact, s.duration, state);
+    br_exact_at(solved.exact, s.duration, state);
     assert_near(state->tip[BR_EXACT_BENDING].displacement, (3.0 / 8 * 8 - 1) / (3 * 4), 1e-13);
     assert_near(state->friction_force, 1, 0);
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    release(&solved);
+    br_scene_clear(&s);
 }

@@ -1,234 +1,151 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exact reference against closed forms. */
+/* The exact reference against closed forms: vibrations, loads in x and t, forces and a moment at
+ * the tip, sticks; and that it stops when it is told to. */
 #include <gsl/gsl_math.h>
 #include <math.h>
+#include <string.h>
 
 #include "tests/exact_scenes.h"
 
-static const struct br_exact_part axial = {.field = BR_EXACT_AXIAL};
-static const struct br_exact_part axial_velocity = {.field = BR_EXACT_AXIAL, .velocity = true};
-static const struct br_exact_part bending = {.field = BR_EXACT_BENDING};
-static const struct br_exact_part bending_velocity = {.field = BR_EXACT_BENDING, .velocity = true};
+static const struct br_exact_part u = {BR_EXACT_AXIAL, false, 0}, v = {BR_EXACT_AXIAL, true, 0},
+                                  u_xt = {BR_EXACT_AXIAL, true, 1},
+                                  w = {BR_EXACT_BENDING, false, 0},
+                                  w_t = {BR_EXACT_BENDING, true, 0},
+                                  w_xxt = {BR_EXACT_BENDING, true, 2};
+
+/* Solves, checks up to the end, and clears all. */
+static void check_forms(struct br_scene *scene, int times, size_t count,
+                        const struct expected *expected)
+{
+    struct solved s = solve(scene, 1e-10);
+    check_closed(&s, scene->length, scene->duration, times, count, expected);
+    release(&s);
+    br_scene_clear(scene);
+}
+
+/* ---- free vibrations in one mode ---- */
 
 /* q'' + d q' + w q = 0, q(0) = 1, q'(0) = 0: q and q' at t, without loss where
  * the damping is large. */
-static void oscillate(double d, double w, double t, double *q, double *v)
+static void oscillate(double d, double square, struct text *q, struct text *rate)
 {
-    const double discriminant = d * d / 4 - w;
+    const double discriminant = d * d / 4 - square;
     if (discriminant < 0) {
-        const double omega = sqrt(-discriminant), decay = exp(-d * t / 2);
-        *q = decay * (cos(omega * t) + d / (2 * omega) * sin(omega * t));
-        *v = -decay * w / omega * sin(omega * t);
+        const double omega = sqrt(-discriminant);
+        *q = text_of("exp(-%.17g*t)*(cos(%.17g*t)+%.17g*sin(%.17g*t))", d / 2, omega,
+                     d / (2 * omega), omega);
+        *rate = text_of("-%.17g*exp(-%.17g*t)*sin(%.17g*t)", square / omega, d / 2, omega);
     } else {
-        const double fast = -d / 2 - sqrt(discriminant), slow = w / fast;
-        *q = (fast * exp(slow * t) - slow * exp(fast * t)) / (fast - slow);
-        *v = w * (exp(slow * t) - exp(fast * t)) / (fast - slow);
+        const double fast = -d / 2 - sqrt(discriminant), slow = square / fast, gap = fast - slow;
+        *q = text_of("(%.17g*exp(%.17g*t)-%.17g*exp(%.17g*t))", fast / gap, slow, slow / gap, fast);
+        *rate = text_of("%.17g*(exp(%.17g*t)-exp(%.17g*t))", square / gap, slow, fast);
     }
 }
 
-/* A mode of free vibration in a closed form. */
-struct vibration {
-    struct br_exact_part part;
-    double damping, square; /* d and w of oscillate() */
-    double (*shape)(const double *p, double x, double t);
-    const double *p;
-};
-
-/* All values over [0, T], with the estimate put to the test. */
-static void check_vibration(const struct br_scene *scene, const struct vibration *mode)
+/* A vibration of a shape, with the estimate put to the test. square: of the wave number, to the
+ * power of the field, over the density. reaction: at the tip, a shape; NULL: none. */
+static void check_vibration(struct br_scene *scene, struct br_exact_part part, const char *shape,
+                            double square, const char *reaction)
 {
-    struct br_exact *exact = solve(scene, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    const struct br_exact_report report = br_exact_report(exact, mode->part.field);
-    struct br_exact_part rate = mode->part;
-    rate.velocity = true;
-    double displacement_error = 0, velocity_error = 0;
-    for (int n = 0; n <= 500; n++) {
-        double q, v;
-        br_exact_at(exact, scene->duration * n / 500, state);
-        oscillate(mode->damping, mode->square, state->time, &q, &v);
-        for (int i = 0; i <= 4; i++) {
-            const double x = scene->length * i / 4, shape = mode->shape(mode->p, x, 0);
-            displacement_error =
-                fmax(displacement_error, fabs(value_of(exact, state, mode->part, x) - q * shape));
-            velocity_error =
-                fmax(velocity_error, fabs(value_of(exact, state, rate, x) - v * shape));
-        }
-    }
-    const struct br_exact_size *l = &report.largest, *e = &report.error;
-    assert_near(displacement_error, 0, 1e-10 * l->displacement);
-    assert_near(velocity_error, 0, 1e-9 * l->velocity);
-    assert_near(displacement_error, 0, 3 * e->displacement + 1e-13 * l->displacement);
-    assert_near(velocity_error, 0, 3 * e->velocity + 1e-12 * l->velocity);
-    br_exact_state_free(state);
-    br_exact_free(exact);
-}
-
-static double f_sine_shape(const double *p, double x, double t)
-{
-    (void)t;
-    return p[0] * sin(p[1] * x);
+    const bool axial = part.field == BR_EXACT_AXIAL;
+    const double a = axial ? scene->axial.stiffness : scene->bending.stiffness,
+                 c = axial ? scene->axial.viscosity : scene->bending.viscosity;
+    const struct br_exact_part velocity = {part.field, true, 0};
+    struct text q, rate;
+    oscillate(square * c, square * a, &q, &rate);
+    struct solved s = solve(scene, 1e-10);
+    const struct br_exact_report r = br_exact_report(s.exact, part.field);
+    const struct br_exact_size *l = &r.largest, *e = &r.error;
+    const struct expected expected[] = {
+        {PART, part, text_of("%s*%s", shape, q.s),
+         fmin(1e-10 * l->displacement, 3 * e->displacement + 1e-13 * l->displacement)},
+        {PART, velocity, text_of("%s*%s", shape, rate.s),
+         fmin(1e-9 * l->velocity, 3 * e->velocity + 1e-12 * l->velocity)},
+        {FRICTION_FORCE, part, text_of("%s*(%.17g*%s+%.17g*%s)", reaction, a, q.s, c, rate.s),
+         1e-9 * l->force},
+    };
+    check_closed(&s, scene->length, scene->duration, 500, reaction ? 3 : 2, expected);
+    release(&s);
+    br_scene_clear(scene);
 }
 
 TEST(test_axial_vibration)
 {
-    const double viscosities[] = {0, 1e-3, 0.3, 50};
+    const double viscosities[] = {0, 1e-3, 0.3, 50}, k = M_PI_2 / 2.5;
     for (size_t i = 0; i < 4; i++) {
-        struct formula shape = {f_sine_shape, {0.01, M_PI_2 / 2.5}};
+        const struct text shape = text_of("0.01*sin(%.17g*x)", k);
         struct br_scene s = {.length = 2.5, .duration = 10, .density = 1.5};
         s.axial = (struct br_axial){.modelled = true, .stiffness = 7, .viscosity = viscosities[i]};
-        s.axial.displacement = formula_function(&shape);
-        const double k2 = shape.p[1] * shape.p[1] / s.density;
-        check_vibration(&s, &(struct vibration){axial, k2 * s.axial.viscosity,
-                                                k2 * s.axial.stiffness, f_sine_shape, shape.p});
+        s.axial.displacement = br_test_function(shape.s);
+        check_vibration(&s, u, shape.s, k * k / s.density, NULL);
     }
 }
 
-/* cosh bx - cos bx - p2 (sinh bx - sin bx), b = p1 */
-static double f_beam(const double *p, double x, double t)
-{
-    (void)t;
-    const double y = p[1] * x;
-    return p[0] * (cosh(y) - cos(y) - p[2] * (sinh(y) - sin(y)));
-}
-
-static double f_beam_slope(const double *p, double x, double t)
-{
-    (void)t;
-    const double y = p[1] * x;
-    return p[0] * p[1] * (sinh(y) + sin(y) - p[2] * (cosh(y) - cos(y)));
-}
-
-static double f_beam_third(const double *p, double x)
-{
-    const double y = p[1] * x;
-    return p[0] * gsl_pow_3(p[1]) * (sinh(y) - sin(y) - p[2] * (cosh(y) + cos(y)));
-}
-
-static struct br_scene beam_scene(struct formula *shape, struct formula *slope, double viscosity)
-{
-    struct br_scene s = {.length = 1.25, .duration = 3, .density = 0.8};
-    s.bending = (struct br_bending){.modelled = true, .stiffness = 2, .viscosity = viscosity};
-    s.bending.displacement = formula_function(shape);
-    s.bending.displacement_slope = formula_function(slope);
-    return s;
-}
-
-static struct vibration beam_vibration(const struct br_scene *s, const struct formula *shape)
-{
-    const double b4 = gsl_pow_4(shape->p[1]) / s->density;
-    return (struct vibration){bending, b4 * s->bending.viscosity, b4 * s->bending.stiffness, f_beam,
-                              shape->p};
-}
-
-/* The cantilever's second mode. */
+/* The cantilever's second mode; and the first one of the clamped-propped beam, held by friction,
+ * with its reaction. */
 TEST(test_bending_vibration)
 {
-    const double b = 4.694091132974174576436, viscosities[] = {0, 1e-3, 0.02, 3};
-    const double ratio = (sinh(b) - sin(b)) / (cosh(b) + cos(b));
-    for (size_t i = 0; i < 4; i++) {
-        struct formula shape = {f_beam, {0.03, b / 1.25, ratio}}, slope = shape;
-        slope.f = f_beam_slope;
-        const struct br_scene s = beam_scene(&shape, &slope, viscosities[i]);
-        const struct vibration mode = beam_vibration(&s, &shape);
-        check_vibration(&s, &mode);
+    const double wave[] = {4.694091132974174576436, 3.926602312047918677556};
+    const double viscosities[] = {0, 1e-3, 0.02, 3};
+    for (size_t i = 0; i < 8; i++) {
+        const bool held = i >= 4;
+        const double b = wave[held], k = b / 1.25, viscosity = viscosities[i % 4];
+        const double ratio = held ? (cosh(b) - cos(b)) / (sinh(b) - sin(b))
+                                  : (sinh(b) - sin(b)) / (cosh(b) + cos(b));
+        const struct text y = text_of("(%.17g*x)", k);
+        const struct text shape = text_of("0.03*(cosh%s-cos%s-%.17g*(sinh%s-sin%s))", y.s, y.s,
+                                          ratio, y.s, y.s),
+                          slope = text_of("0.03*%.17g*(sinh%s+sin%s-%.17g*(cosh%s-cos%s))", k, y.s,
+                                          y.s, ratio, y.s, y.s),
+                          third = text_of("0.03*%.17g*(sinh%s-sin%s-%.17g*(cosh%s+cos%s))",
+                                          gsl_pow_3(k), y.s, y.s, ratio, y.s, y.s);
+        struct br_scene s = {.length = 1.25, .duration = 3, .density = 0.8};
+        if (held && viscosity == 0)
+            continue;
+        s.bending = (struct br_bending){.modelled = true, .stiffness = 2, .viscosity = viscosity};
+        s.bending.displacement = br_test_function(shape.s);
+        s.bending.displacement_slope = br_test_function(slope.s);
+        if (held)
+            s.friction = (struct br_friction){BR_TRESCA, 1e4, 0};
+        check_vibration(&s, w, shape.s, gsl_pow_4(k) / s.density, held ? third.s : NULL);
     }
-}
-
-/* The first mode of the clamped-propped beam, held by friction; its reaction. */
-TEST(test_stick_vibration)
-{
-    const double b = 3.926602312047918677556;
-    const double ratio = (cosh(b) - cos(b)) / (sinh(b) - sin(b));
-    const double viscosities[] = {1e-3, 0.02, 3};
-    for (size_t i = 0; i < 3; i++) {
-        struct formula shape = {f_beam, {0.03, b / 1.25, ratio}}, slope = shape;
-        slope.f = f_beam_slope;
-        struct br_scene s = beam_scene(&shape, &slope, viscosities[i]);
-        s.friction = (struct br_friction){BR_TRESCA, 1e4, 0};
-        const struct vibration mode = beam_vibration(&s, &shape);
-        check_vibration(&s, &mode);
-
-        struct br_exact *exact = solve(&s, 1e-10);
-        struct br_exact_state *state = new_state(exact);
-        const double third = f_beam_third(shape.p, s.length);
-        const double largest = br_exact_report(exact, BR_EXACT_BENDING).largest.force;
-        for (int n = 1; n <= 300; n++) {
-            double q, v;
-            br_exact_at(exact, s.duration * n / 300, state);
-            oscillate(mode.damping, mode.square, state->time, &q, &v);
-            assert_near(state->friction_force,
-                        third * (s.bending.stiffness * q + s.bending.viscosity * v),
-                        1e-9 * largest);
-        }
-        br_exact_state_free(state);
-        br_exact_free(exact);
-    }
-}
-
-/* slope x - bow x^2 + p2 sin(p3 x) */
-static double f_closed(const double *p, double x, double t)
-{
-    (void)t;
-    return p[0] * x - p[1] * x * x + p[2] * sin(p[3] * x);
 }
 
 /* A contact that never opens, without viscosity: a constant load's static shape,
  * and a mode of a rod on a spring, a k cos kL = -c_H sin kL, with k chosen. */
 TEST(test_closed_vibration)
 {
-    const double k = 2, a = 3, load = 6, x = 0.7;
+    const double k = 2, a = 3, load = 6, gap = 0.1, c = -a * k / tan(k), bow = load / (2 * a);
+    const double slope = (load + c * (bow + gap)) / (a + c), omega = k * sqrt(a / 2);
+    const struct text still = text_of("%.17g*x-%.17g*x^2+0.05*sin(2*x)", slope, bow),
+                      moving = text_of("(%.17g*x-%.17g*x^2+0.05*sin(2*x)*cos(%.17g*t))", slope, bow,
+                                       omega);
     struct br_scene s = {.length = 1, .duration = 4, .density = 2};
     s.axial = (struct br_axial){.modelled = true, .stiffness = a};
-    s.axial.load =
-        (struct br_load){.term[0].space = {.constant = load}, .term[0].time = {.constant = 1}};
-    s.contact = (struct br_contact){true, 0.1, -a * k / tan(k)};
-    const double c = s.contact.stiffness, bow = load / (2 * a);
-    const double slope = (load + c * (bow + s.contact.gap)) / (a + c);
-    struct formula start = {f_closed, {slope, bow, 0.05, k}};
-    s.axial.displacement = formula_function(&start);
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    for (int n = 0; n <= 200; n++) {
-        br_exact_at(exact, s.duration * n / 200, state);
-        const double omega = k * sqrt(a / s.density), wave = 0.05 * cos(omega * state->time);
-        const double rate = -0.05 * omega * sin(omega * state->time);
-        assert_near(value_of(exact, state, axial, x), slope * x - bow * x * x + wave * sin(k * x),
-                    1e-11);
-        assert_near(value_of(exact, state, axial_velocity, x), rate * sin(k * x), 1e-10);
-        assert_near(state->contact_force, c * (slope - bow + wave * sin(k) - s.contact.gap), 1e-9);
-    }
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    s.axial.load = uniform(load, "1");
+    s.contact = (struct br_contact){true, gap, c};
+    s.axial.displacement = br_test_function(still.s);
+    check_forms(&s, 200, 3,
+                (struct expected[]){
+                    {PART, u, moving, 1e-11},
+                    {PART, v, text_of("%.17g*sin(2*x)*sin(%.17g*t)", -0.05 * omega, omega), 1e-10},
+                    {CONTACT_FORCE, u, text_of("%.17g*(%s-0.1)", c, moving.s), 1e-9}});
 }
 
-/* sin(p0 x) (p1 sin p3 t + p2 cos p3 t) */
-static double f_forced(const double *p, double x, double t)
-{
-    return sin(p[0] * x) * (p[1] * sin(p[3] * t) + p[2] * cos(p[3] * t));
-}
+/* ---- loads that depend on x and t at once ---- */
 
-/* u = sin(kx) sin(omega t), by a load that depends on x and t at once. */
+/* u = sin(kx) sin(omega t) */
 TEST(test_forced)
 {
-    const double length = 0.8, k = 5 * M_PI_2 / length, omega = 4, x = 0.5;
+    const double length = 0.8, k = 5 * M_PI_2 / length, inertia = k * k * 2 - 0.3 * 4 * 4;
     struct br_scene s = {.length = length, .duration = 2, .density = 0.3};
     s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
-    struct formula load = {f_forced,
-                           {k, k * k * 2 - 0.3 * omega * omega, k * k * 0.1 * omega, omega}};
-    struct formula velocity = {f_sine_shape, {omega, k}};
-    s.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
-    s.axial.velocity = formula_function(&velocity);
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    for (int n = 0; n <= 100; n++) {
-        br_exact_at(exact, s.duration * n / 100, state);
-        assert_near(value_of(exact, state, axial, x), sin(k * x) * sin(omega * state->time), 1e-10);
-        assert_near(value_of(exact, state, axial_velocity, x),
-                    omega * sin(k * x) * cos(omega * state->time), 4e-9);
-    }
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    s.axial.load = br_test_load(
+        text_of("sin(%.17g*x)*(%.17g*sin(4*t)+%.17g*cos(4*t))", k, inertia, k * k * 0.1 * 4).s);
+    s.axial.velocity = br_test_function(text_of("4*sin(%.17g*x)", k).s);
+    check_forms(&s, 100, 2,
+                (struct expected[]){{PART, u, text_of("sin(%.17g*x)*sin(4*t)", k), 1e-10},
+                                    {PART, v, text_of("4*sin(%.17g*x)*cos(4*t)", k), 4e-9}});
 }
 
 /* sin(p0 x) (rho g'' + k^2 (a g + c g')), g a pulse of the width p3 around t = 1, rho = 1 */
@@ -239,117 +156,262 @@ static double f_pulse(const double *p, double x, double t)
     return sin(p[0] * x) * (force + p[0] * p[0] * (p[1] * g + p[2] * rate));
 }
 
-/* u = sin(kx) g(t): nothing happens for long, and then much in a short time. */
+/* u = sin(kx) g(t): nothing happens for long, and then much in a short time; nothing is proved of
+ * the load. */
 TEST(test_pulse)
 {
     struct formula load = {f_pulse, {M_PI_2, 2, 0.1, 0.01}};
-    struct br_scene s = {.length = 1, .duration = 2, .density = 1};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
-    s.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
-    struct br_exact *exact = solve(&s, 1e-9);
-    struct br_exact_state *state = new_state(exact);
-    const double allowed = br_exact_report(exact, BR_EXACT_AXIAL).error.displacement;
+    struct br_scene scene = {.length = 1, .duration = 2, .density = 1};
+    scene.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
+    scene.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
+    struct solved s = solve(&scene, 1e-9);
+    const double allowed = br_exact_report(s.exact, BR_EXACT_AXIAL).error.displacement;
     assert_near(allowed, 0, 1e-9);
-    for (int n = 0; n <= 1000; n++) {
-        br_exact_at(exact, s.duration * n / 1000, state);
-        assert_near(state->tip[BR_EXACT_AXIAL].displacement, exp(-pow((state->time - 1) / 0.01, 2)),
-                    allowed + 1e-13);
-    }
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    check_closed(
+        &s, 1, 2, 1000, 1,
+        &(struct expected){PART, u, text_of("sin(pi/2*x)*exp(-((t-1)/0.01)^2)"), allowed + 1e-13});
+    release(&s);
 }
+
+/* ---- the paper's examples ---- */
 
 /* Over a long stick the modes must go on adding up to the tip that is held. */
 TEST(test_held)
 {
-    const struct br_scene s = paper_example(4);
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    br_exact_at(exact, 2.1, state);
-    assert_near(value_of(exact, state, bending, 1), state->tip[BR_EXACT_BENDING].displacement,
-                1e-14);
-    assert_near(value_of(exact, state, bending_velocity, 1), 0, 3e-14);
-    assert_near(state->tip[BR_EXACT_BENDING].velocity, 0, 0);
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    struct br_scene scene = br_test_bundled("example4");
+    struct solved s = solve(&scene, 1e-10);
+    br_exact_at(s.exact, 2.1, s.state);
+    assert_near(value_of(&s, w, 1), s.state->tip[BR_EXACT_BENDING].displacement, 1e-14);
+    assert_near(value_of(&s, w_t, 1), 0, 3e-14);
+    assert_near(s.state->tip[BR_EXACT_BENDING].velocity, 0, 0);
+    release(&s);
+    br_scene_clear(&scene);
 }
 
+/* Values at t = 1, and the last event: example 3 lets go at 0.8 s, example 1 slips first, and then
+ * sticks for good. */
 TEST(test_examples)
 {
-    const struct {
-        int example;
-        double u, w;
-    } expected[] = {
-        {1, 0.171692329889782302, NAN},
-        {2, 0.0429230824724455755, -0.0715950242871993164},
-        {3, NAN, -0.24875},
+    static const struct {
+        const char *example;
+        double tip_u, tip_w, off_w;
+        size_t events;
+        enum br_phase phase[3];
+        double last, off;
+    } rows[] = {
+        {"example1",
+         0.171692329889782302,
+         -3.05935662255835e-7,
+         5e-18,
+         3,
+         {BR_CLOSED, BR_SLIP_DOWN, BR_STICK},
+         3.99152306461369e-5,
+         5e-17},
+        {"example2", 0.0429230824724455755, -0.0715950242871993164, 5e-15, 0, {0}, 0, 0},
+        {"example3", NAN, -0.24875, 5e-15, 2, {BR_STICK, BR_SLIP_DOWN}, 0.8, 1e-12},
     };
     for (size_t i = 0; i < 3; i++) {
-        const struct br_scene s = paper_example(expected[i].example);
-        struct br_exact *exact = solve(&s, 1e-10);
-        struct br_exact_state *state = new_state(exact);
-        br_exact_at(exact, 1, state);
-        if (!isnan(expected[i].u))
-            assert_near(state->tip[BR_EXACT_AXIAL].displacement, expected[i].u, 1e-13);
-        if (!isnan(expected[i].w))
-            assert_near(state->tip[BR_EXACT_BENDING].displacement, expected[i].w, 5e-15);
-        if (!isnan(expected[i].w))
-            assert_near(value_of(exact, state, bending, 1), expected[i].w, 5e-15);
-        if (expected[i].example == 3)
-            assert_near(value_of(exact, state, bending, 0.5), -0.129765625, 1e-13);
-        br_exact_state_free(state);
-        br_exact_free(exact);
+        struct br_scene scene = br_test_bundled(rows[i].example);
+        struct solved s = solve(&scene, 1e-10);
+        size_t count;
+        const struct br_exact_event *event = br_exact_events(s.exact, &count);
+        br_exact_at(s.exact, 1, s.state);
+        if (!isnan(rows[i].tip_u))
+            assert_near(s.state->tip[0].displacement, rows[i].tip_u, 1e-13);
+        assert_near(s.state->tip[1].displacement, rows[i].tip_w, rows[i].off_w);
+        assert_near(value_of(&s, w, 1), rows[i].tip_w, 5e-15);
+        if (strcmp(rows[i].example, "example3") == 0)
+            assert_near(value_of(&s, w, 0.5), -0.129765625, 1e-13);
+        for (size_t k = 0; k < rows[i].events; k++)
+            assert_int_equal(event[k].phase, rows[i].phase[k]);
+        if (rows[i].events) {
+            assert_int_equal(count, rows[i].events);
+            assert_near(event[count - 1].time, rows[i].last,
+                        fmin(rows[i].off, event[count - 1].error));
+            assert_near(event[count - 1].error, 0, 1e-12);
+        }
+        release(&s);
+        br_scene_clear(&scene);
     }
 }
 
-/* Example 3 lets go at 0.8 s; example 1 slips first, and then sticks for good. */
-TEST(test_example_events)
-{
-    const struct br_scene three = paper_example(3), one = paper_example(1);
-    struct br_exact *exact = solve(&three, 1e-10);
-    size_t count;
-    const struct br_exact_event *event = br_exact_events(exact, &count);
-    assert_int_equal(count, 2);
-    assert_int_equal(event[0].phase, BR_STICK);
-    assert_int_equal(event[1].phase, BR_SLIP_DOWN);
-    assert_near(event[1].time, 0.8, event[1].error);
-    assert_near(event[1].error, 0, 1e-12);
-    br_exact_free(exact);
+/* ---- creep, without mass ---- */
 
-    exact = solve(&one, 1e-10);
-    event = br_exact_events(exact, &count);
-    assert_int_equal(count, 3);
-    assert_int_equal(event[0].phase, BR_CLOSED);
-    assert_int_equal(event[1].phase, BR_SLIP_DOWN);
-    assert_int_equal(event[2].phase, BR_STICK);
-    assert_near(event[2].time, 3.99152306461369e-5, 1e-18);
-    struct br_exact_state *state = new_state(exact);
-    br_exact_at(exact, 1, state);
-    assert_near(state->tip[BR_EXACT_BENDING].displacement, -3.05935662255835e-7, 1e-20);
-    br_exact_state_free(state);
-    br_exact_free(exact);
+static struct br_scene bare_scene(double density)
+{
+    return (struct br_scene){
+        .length = 1.3,
+        .duration = 2,
+        .density = density,
+        .axial = {.modelled = true, .stiffness = 40, .viscosity = 8},
+        .bending = {.modelled = true, .stiffness = 40, .viscosity = 8},
+    };
 }
 
-/* Without mass a beam whose tip is held creeps to its static shape in the time
- * c / a, and the reaction is there at once. */
-TEST(test_creep)
+/* A beam whose tip is held creeps to its static shape in the time c / a; the reaction is there at
+ * once. */
+TEST(test_held_creep)
 {
+    static const char shape[] = "3/(48*5)*x^2*(2*x^2-10*x+12)";
     struct br_scene s = {.length = 2, .duration = 3};
     s.bending = (struct br_bending){.modelled = true, .stiffness = 5, .viscosity = 4};
-    s.bending.load =
-        (struct br_load){.term[0].space = {.constant = 3}, .term[0].time = {.constant = 1}};
+    s.bending.load = uniform(3, "1");
     s.friction = (struct br_friction){BR_TRESCA, 3, 0};
-    struct br_exact *exact = solve(&s, 1e-10);
-    struct br_exact_state *state = new_state(exact);
-    for (int n = 1; n <= 100; n++) {
-        const double x = 1.3, f = 3, a = 5, rate = a / s.bending.viscosity;
-        br_exact_at(exact, s.duration * n / 100, state);
-        const double shape = f / (48 * a) * x * x * (2 * x * x - 5 * s.length * x + 3 * 4);
-        assert_near(value_of(exact, state, bending, x), -shape * expm1(-rate * state->time), 1e-12);
-        assert_near(value_of(exact, state, bending_velocity, x),
-                    shape * rate * exp(-rate * state->time), 1e-11);
-        assert_near(state->friction_force, 3.0 / 8 * f * s.length, 1e-10);
+    check_forms(&s, 100, 3,
+                (struct expected[]){{PART, w, text_of("-%s*expm1(-1.25*t)", shape), 1e-12},
+                                    {PART, w_t, text_of("%s*1.25*exp(-1.25*t)", shape), 1e-11},
+                                    {FRICTION_FORCE, w, text_of("3/8*3*2"), 1e-10}});
+}
+
+/* The solution of q + tau q' = t with q(0) = 0. */
+static struct text creep(double tau)
+{
+    return text_of("(t+%.17g*expm1(-t/%.17g))", tau, tau);
+}
+
+/* Loads that grow like t make the beam creep in its static shape. */
+TEST(test_creep)
+{
+    struct br_scene s = bare_scene(0);
+    const struct text q = creep(8.0 / 40);
+    s.axial.tip_force = br_test_function("3*t");
+    s.bending.tip_force = br_test_function("-2*t");
+    s.bending.tip_moment = br_test_function("0.7*t");
+    check_forms(
+        &s, 20, 2,
+        (struct expected[]){{PART, u, text_of("3/40*x*%s", q.s), 1e-11},
+                            {PART, w, text_of("(-2*x^2*(3.9-x)/6+0.7*x^2/2)/40*%s", q.s), 1e-11}});
+}
+
+/* The same rod pressed against its foundation: one spring more. */
+TEST(test_pressed)
+{
+    struct br_scene s = bare_scene(0);
+    const double spring = 40 / 1.3 + 70;
+    const struct text tip = text_of("%.17g*%s*x/1.3", 3 / spring, creep(8 / 1.3 / spring).s);
+    s.bending.modelled = false;
+    s.axial.tip_force = br_test_function("3*t");
+    s.contact = (struct br_contact){.modelled = true, .gap = 0, .stiffness = 70};
+    check_forms(&s, 20, 2,
+                (struct expected[]){{PART, u, tip, 1e-11},
+                                    {CONTACT_FORCE, u, text_of("70*%s", tip.s), 1e-9}});
+}
+
+/* ---- with mass: u = t^3 sin x and w = t^3 (1 - cos x), loads to fit ---- */
+
+TEST(test_inertia)
+{
+    static const char stress[] = "(40*t^3+8*3*t^2)"; /* a q + c q' for q = t^3 */
+    struct br_scene scene = bare_scene(2);
+    scene.axial.load = br_test_load(text_of("sin(x)*(12*t+%s)", stress).s);
+    scene.axial.tip_force = br_test_function(text_of("cos(1.3)*%s", stress).s);
+    scene.bending.load = br_test_load(text_of("12*t*(1-cos(x))-cos(x)*%s", stress).s);
+    scene.bending.tip_force = br_test_function(text_of("sin(1.3)*%s", stress).s);
+    scene.bending.tip_moment = br_test_function(text_of("cos(1.3)*%s", stress).s);
+    struct solved s = solve(&scene, 1e-10);
+    check_closed(&s, 1.3, 2, 20, 5,
+                 (struct expected[]){{PART, u, text_of("t^3*sin(x)"), 8e-9},
+                                     {PART, v, text_of("3*t^2*sin(x)"), 1e-7},
+                                     {PART, w, text_of("t^3*(1-cos(x))"), 8e-9},
+                                     {PART, u_xt, text_of("3*t^2*cos(x)"), 1e-7},
+                                     {PART, w_xxt, text_of("3*t^2*cos(x)"), 1e-6}});
+    /* t = 2 is the last one and the largest; the estimate covers the error */
+    const double largest = 12 * sqrt((1.3 + sin(2.6) / 2) / 2 / 1.3); /* of cos^2, its mean */
+    const struct br_exact_report r = br_exact_report(s.exact, BR_EXACT_AXIAL);
+    assert_near(sqrt(square_of(&s, u_xt) / 1.3), largest, 1e-6);
+    assert_near(r.largest.strain_rate, largest, 1e-6);
+    assert_near(br_exact_report(s.exact, BR_EXACT_BENDING).largest.strain_rate, largest, 1e-6);
+    assert_true(r.error.strain_rate >= 0 && r.error.strain_rate <= 1e-6);
+    release(&s);
+    br_scene_clear(&scene);
+}
+
+/* ---- friction ---- */
+
+static struct br_scene stuck_scene(const char *push, double bound)
+{
+    struct br_scene scene = bare_scene(2);
+    scene.axial.modelled = false;
+    scene.bending.tip_force = br_test_function(push);
+    scene.friction = (struct br_friction){BR_TRESCA, bound, 0};
+    return scene;
+}
+
+/* A tip force holds against Tresca's bound as long as it can, and nothing moves. */
+TEST(test_stick)
+{
+    struct br_scene scene = stuck_scene("5*t", 2);
+    struct solved s = solve(&scene, 1e-10);
+    size_t count;
+    const struct br_exact_event *event = br_exact_events(s.exact, &count);
+    assert_true(count >= 2 && event[0].phase == BR_STICK && event[1].phase == BR_SLIP_UP);
+    assert_near(event[1].time, 0.4, 1e-12);
+    check_closed(&s, 1.3, 0.35, 7, 2,
+                 (struct expected[]){{FRICTION_FORCE, w, text_of("5*t"), 1e-9},
+                                     {PART, w, text_of("0"), 1e-12}});
+    br_exact_at(s.exact, 0.6, s.state);
+    assert_near(s.state->friction_force, 2, 0);
+    assert_true(s.state->tip[BR_EXACT_BENDING].displacement > 1e-4);
+    release(&s);
+    br_scene_clear(&scene);
+}
+
+/* Nothing ever moves: the displacement is round-off, and that is good enough. */
+TEST(test_rest)
+{
+    struct br_scene scene = stuck_scene("sin(3*t)", 1.01);
+    struct solved s = solve(&scene, 1e-10);
+    size_t count;
+    br_exact_events(s.exact, &count);
+    assert_int_equal(count, 1);
+    br_exact_at(s.exact, 1.9, s.state);
+    assert_near(s.state->friction_force, sin(5.7), 1e-9);
+    assert_near(br_exact_report(s.exact, BR_EXACT_BENDING).largest.displacement, 0, 1e-13);
+    release(&s);
+    br_scene_clear(&scene);
+}
+
+/* A beam with next to no stiffness goes on as it was thrown, but for a layer of 6 cm at a tip that
+ * friction stops within 1e-8 T to 1e-22 T: w = t x^2. */
+TEST(test_stopped_tip)
+{
+    static const double bounds[] = {1e5, 1e8, 1e10, 1e12, 1e18};
+    struct br_scene scene = {.length = 1, .duration = 1, .density = 1};
+    scene.bending = (struct br_bending){.modelled = true, .viscosity = 1e-5};
+    scene.bending.velocity = br_test_function("x^2");
+    scene.bending.velocity_slope = br_test_function("2*x");
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
+        scene.friction = (struct br_friction){BR_TRESCA, bounds[i], 0};
+        struct solved s = solve(&scene, 1e-8);
+        br_exact_at(s.exact, 1, s.state);
+        for (double x = 0.25; x < 0.6; x += 0.25)
+            assert_near(value_of(&s, w, x), x * x, 0.01 * x * x);
+        assert_near(s.state->tip[BR_EXACT_BENDING].displacement, 0, 1e-7);
+        release(&s);
     }
-    br_exact_state_free(state);
-    br_exact_free(exact);
+    br_scene_clear(&scene);
+}
+
+/* ---- stopping ---- */
+
+static bool count_down(void *self)
+{
+    int *left = self;
+    return (*left)-- <= 0;
+}
+
+TEST(test_stop)
+{
+    struct br_scene scene = br_test_bundled("example4");
+    for (int asked = 0; asked < 300; asked += 100) {
+        int left = asked;
+        const struct br_exact_options options = {.stop = count_down, .stop_self = &left};
+        struct br_exact *exact;
+        struct br_error err = {0};
+        assert_int_equal(br_exact_create(&exact, &scene, &options, &err), BR_INTERRUPTED);
+        assert_null(exact);
+        assert_non_null(strstr(err.message, "interrupted"));
+        assert_int_equal(left, -1); /* not asked again */
+    }
+    br_scene_clear(&scene);
 }

@@ -5,7 +5,7 @@
 
 #include "reference/exact/field.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/projection.h"
+#include "reference/exact/pieces.h"
 #include "tests/exact_scenes.h"
 
 enum { S = BR_STAGES };
@@ -46,25 +46,6 @@ TEST(test_legendre_tables)
         const double n = (double)k;
         assert_true(p[k] == sqrt(2 * n + 1));
         assert_true(k == 0 || br_legendre_coupling(k) == 0.5 / sqrt(4 * n * n - 1));
-    }
-}
-
-/* As many as there may be, against the longer way. */
-TEST(test_legendre_integrals)
-{
-    for (double x = 0; x <= 1; x += 1.0 / 64) {
-        double p[BR_MOST_INTEGRALS + 1], both[BR_MOST_INTEGRALS], q[BR_MOST_INTEGRALS];
-        br_legendre(BR_MOST_INTEGRALS + 1, x, p);
-        br_legendre_integral(BR_MOST_INTEGRALS, x, both, q);
-        for (size_t k = 0; k < BR_MOST_INTEGRALS; k++) {
-            double c[BR_MOST_INTEGRALS + 1] = {0}, sum = 0;
-            c[k] = 1;
-            br_legendre_integrate(BR_MOST_INTEGRALS, c);
-            for (size_t l = 0; l <= BR_MOST_INTEGRALS; l++)
-                sum += c[l] * p[l];
-            assert_near(both[k], p[k], 2e-14);
-            assert_near(q[k], sum, 2e-15);
-        }
     }
 }
 
@@ -123,64 +104,88 @@ TEST(test_radau_stability)
     }
 }
 
-static void modes_of(size_t count, double length, size_t degree, struct br_modes *modes,
-                     struct br_store *store)
+/* ---- a beam on one element, and on four, one of which is narrow ---- */
+
+enum { PIECES = 4 };
+static const double piece_end[] = {0, 0.75, 0.75 + 2.5e-8, 1.9, 2.5};
+static const size_t piece_terms[] = {12, 4, 12, 12};
+
+static struct br_pieces new_pieces(bool one, struct br_store *store)
 {
-    *modes = (struct br_modes){0};
-    br_pieces_init(&modes->pieces, length, 1, (const double[]){0, length}, &count, store);
-    assert_int_equal(br_modes_init(modes, degree, store, NULL), BR_OK);
+    struct br_pieces pieces;
+    if (one)
+        br_pieces_init(&pieces, 1, 1, (const double[]){0, 1}, (const size_t[]){30}, store);
+    else
+        br_pieces_init(&pieces, 2.5, PIECES, piece_end, piece_terms, store);
+    assert_false(store->failed);
+    return pieces;
 }
 
-/* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2. */
+/* Frequencies of rods and beams: s_i = 1 / ((i - 1/2) pi), and 1 / beta_i^2; and values at the tip
+ * of unit energy: sqrt(2) s_i sin(x / s_i), and 2 s_i for a cantilever. */
 TEST(test_modes)
 {
     const double beta[] = {1.875104068711961166445, 4.694091132974174576436,
-                           7.854757438237612564861, 10.99554073487546699067};
+                           7.854757438237612564861};
+    for (int one = 0; one < 2; one++) {
+        struct br_store store = {0};
+        struct br_modes rod = {.pieces = new_pieces(one, &store)}, beam = {.pieces = rod.pieces};
+        assert_int_equal(br_modes_init(&rod, 1, &store, NULL), BR_OK);
+        assert_int_equal(br_modes_init(&beam, 2, &store, NULL), BR_OK);
+        for (size_t i = 0; i < 3; i++) {
+            assert_near(rod.size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
+            assert_near(fabs(rod.tip[i]), sqrt(2) * rod.size[i], 1e-14);
+            assert_near(beam.size[i], 1 / (beta[i] * beta[i]), 1e-15);
+            assert_near(fabs(beam.tip[i]), 2 * beam.size[i], 1e-14);
+        }
+        br_store_clear(&store);
+    }
+}
+
+/* The integral from 0 in x / L of -1 on the pieces before `kink` and 1 on the others. */
+static void fill_kink(const struct br_pieces *pieces, size_t kink, double *series)
+{
+    memset(series, 0, 40 * sizeof *series);
+    for (size_t e = 0; e < PIECES; e++)
+        series[br_pieces_at(pieces, e, 0)] = (e < kink ? -1 : 1) * sqrt(br_pieces_width(pieces, e));
+    br_pieces_integrate(pieces, 0, series);
+}
+
+/* |x - a| - a, in x / L, over meshes whose elements the pieces' ends cut: its mean over each
+ * element, and its square over all. */
+TEST(test_projection_of_pieces)
+{
+    struct br_error err = {0};
+    static const size_t elements[] = {1, 3, 10, 97};
     struct br_store store = {0};
-    struct br_modes rod, beam;
-    modes_of(30, 1, 1, &rod, &store);
-    modes_of(30, 1, 2, &beam, &store);
+    const struct br_pieces pieces = new_pieces(false, &store);
+    double series[40];
+    fill_kink(&pieces, 3, series);
+    const double a = piece_end[3] / 2.5, b = 1 - a;
+    const double square = 2.5 * (a * a * a / 3 + (b * b * b - 3 * a * b * b + 3 * a * a * b) / 3);
     for (size_t i = 0; i < 4; i++) {
-        assert_near(rod.size[i], 1 / (((double)i + 0.5) * acos(-1)), 1e-15);
-        assert_near(beam.size[i], 1 / (beta[i] * beta[i]), 1e-15);
-        /* unit energy: sqrt(2) s_i sin(x / s_i), and 2 s_i for a cantilever */
-        assert_near(fabs(rod.tip[i]), sqrt(2) * rod.size[i], 1e-14);
-        assert_near(fabs(beam.tip[i]), 2 * beam.size[i], 1e-14);
+        const struct br_exact_mesh mesh = {elements[i], 2};
+        const double n = (double)mesh.elements;
+        struct br_piecewise *piecewise = NULL;
+        double c[3 * 97], rest = NAN, sum = 0;
+        MUST(br_piecewise_create(&piecewise, &pieces, 1, &mesh, &store, &err));
+        br_piecewise_apply(piecewise, series, c, &rest);
+        for (size_t j = 0; j < mesh.elements; j++) {
+            const double left = (double)j / n - a, right = ((double)j + 1) / n - a;
+            const double integral = (right * fabs(right) - left * fabs(left)) / 2 - a / n;
+            assert_near(c[3 * j], integral * sqrt(2.5 * n), 1e-14);
+        }
+        for (size_t k = 0; k < 3 * mesh.elements; k++)
+            sum += c[k] * c[k];
+        assert_near(sum + rest, square, 1e-14);
+        assert_true(rest > 1e-9); /* no parabola has a kink */
     }
     br_store_clear(&store);
 }
 
-/* Projections of a function that the modes can represent, (2 xi)^2. */
-static void check_projections(size_t m)
-{
-    struct br_store store = {0};
-    struct br_modes beam;
-    modes_of(m, 2, 2, &beam, &store);
-    struct formula square = {f_power, {1, 2}}, slope = {f_power, {2, 1}};
-    const struct br_function w = formula_function(&square), dw = formula_function(&slope);
-    const double expected[] = {4.0 / 3, 4 / sqrt(12), 4 / sqrt(180)};
-    double q[256], c[258];
-    assert_true(m <= sizeof q / sizeof *q);
-    assert_int_equal(br_modes_project_energy(&beam, &dw, 2, q, NULL), BR_OK);
-    br_modes_expand(&beam, 0, q, c);
-    for (size_t k = 0; k < m + 2; k++)
-        assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
-    assert_int_equal(br_modes_project(&beam, &w, q, NULL), BR_OK);
-    br_modes_expand(&beam, 0, q, c);
-    for (size_t k = 0; k < m + 2; k++)
-        assert_near(c[k], k < 3 ? expected[k] : 0, 1e-12);
-    br_store_clear(&store);
-}
-
-TEST(test_projections)
-{
-    check_projections(10);
-    check_projections(150);
-}
-
 /* ---- a beam of 2.5 m in three pieces, and x^2 on it ---- */
 
-enum { TERMS = 4, PIECES = 3, MOST = PIECES * (TERMS + 1) };
+enum { TERMS = 4, THREE = 3, MOST = THREE * (TERMS + 1) };
 static const double beam = 2.5;
 
 /* Its series, c; cut at a front or not, it is the same. */
@@ -191,14 +196,14 @@ static void project_square(struct br_pieces *pieces, size_t fronts, struct br_st
     struct br_interval front[] = {{1.1, 1.1}};
     const struct br_breaks breaks = {.at = front, .count = fronts};
     static const size_t terms[] = {TERMS, TERMS, TERMS};
-    struct formula square = {f_power, {1, 2}};
     struct br_error err;
     struct br_quadrature q;
-    br_pieces_init(pieces, beam, PIECES, end, terms, store);
+    br_pieces_init(pieces, beam, THREE, end, terms, store);
     br_quadrature_init(&q, pieces, 0, store);
     assert_false(store->failed);
-    const struct br_function f = formula_function(&square);
+    struct br_function f = br_test_function("x^2");
     assert_int_equal(br_quadrature_project(&q, &f, 0, &breaks, c, &err), BR_OK);
+    br_function_free(&f);
 }
 
 static double squares(size_t count, const double *c)
@@ -217,34 +222,11 @@ TEST(test_pieces)
         struct br_pieces pieces;
         double c[MOST];
         project_square(&pieces, fronts, &store, c);
-        assert_near(squares(PIECES * TERMS, c), pow(beam, 4) / 5, 1e-13);
+        assert_near(squares(THREE * TERMS, c), pow(beam, 4) / 5, 1e-13);
         assert_near(br_pieces_integral(&pieces, 0, c), beam * beam / 3, 1e-13);
         br_pieces_integrate(&pieces, 0, c);
         assert_near(squares(MOST, c), pow(beam, 4) / 63, 1e-13);
         assert_near(br_pieces_integral(&pieces, 1, c), beam * beam / 12, 1e-13);
         br_store_clear(&store);
     }
-}
-
-/* On elements that do not meet the pieces' ends, parabolas are x^2, and lines leave something out;
- * the squares of both add up to int x^4 dx = L^5 / 5. */
-TEST(test_projected_pieces)
-{
-    for (size_t degree = 1; degree <= 2; degree++)
-        for (size_t n = 1; n <= 20; n++) {
-            const struct br_exact_mesh mesh = {n, degree};
-            struct br_store store = {0};
-            struct br_pieces pieces;
-            struct br_piecewise *w;
-            struct br_error err;
-            double c[MOST], modes[20 * 3] = {0}, rest = NAN;
-            project_square(&pieces, 0, &store, c);
-            assert_int_equal(br_piecewise_create(&w, &pieces, 0, &mesh, &store, &err), BR_OK);
-            br_piecewise_apply(w, c, modes, &rest);
-            const double all = pow(beam, 5) / 5, h = beam / (double)n;
-            assert_near(squares(n * (degree + 1), modes) + rest, all, 1e-12);
-            /* of x^2 the second Legendre polynomial has h^2 / 6, its square h / 5 */
-            assert_near(rest, degree == 2 ? 0 : (double)n * pow(h, 5) / 180, 1e-12);
-            br_store_clear(&store);
-        }
 }

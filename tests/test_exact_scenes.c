@@ -1,40 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exact reference on the bundled scenes, above all the hard ones: its estimate is small
- * and honest, its events are those that the scene is about, and other units or a mirror
- * change nothing but the numbers' scale and sign. */
+/* The exact reference on the bundled scenes, above all the hard ones, and on a lively one: its
+ * estimate is small and honest, its events are those that the scene is about, energy is balanced,
+ * the tip obeys its laws, and other units change nothing but the
+ * numbers' scale. */
+#include <gsl/gsl_integration.h>
 #include <math.h>
 #include <string.h>
 
-#include "reference/exact/exact.h"
 #include "study/scene/rescale.h"
-#include "support.h"
+#include "tests/exact_scenes.h"
 
 static const char *const scenes[] = {"example1", "example2", "example3",  "example4", "impact",
-                                     "reversal", "chatter",  "vibration", "release"};
+                                     "reversal", "chatter",  "vibration", "release",  "lively"};
 enum { SCENES = sizeof scenes / sizeof *scenes, MORE = 5, TIMES = 97 };
 
-struct solved {
-    struct br_exact *exact;
-    struct br_exact_state *state;
-};
-
-static struct solved solve(const struct br_scene *scene, double tolerance)
+/* Impacts, sticks and slips both ways, with inertia and little damping. */
+static struct br_scene lively_scene(void)
 {
-    struct br_error err = {0};
-    struct solved s;
-    const struct br_exact_options options = {.tolerance = tolerance};
-    MUST(br_exact_create(&s.exact, scene, &options, &err));
-    MUST(br_exact_state_create(&s.state, s.exact, &err));
+    struct br_scene s = {.length = 1.2, .duration = 3, .density = 0.7};
+    s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.05};
+    s.axial.load = uniform(6, "sin(5*t)");
+    s.bending = (struct br_bending){.modelled = true, .stiffness = 1, .viscosity = 0.02};
+    s.bending.load = uniform(5, "sin(7*t)");
+    s.contact = (struct br_contact){true, 0.1, 20};
+    s.friction = (struct br_friction){BR_COULOMB, 10, 0};
     return s;
 }
 
-static void release(struct solved *s)
-{
-    br_exact_state_free(s->state);
-    br_exact_free(s->exact);
-}
-
-/* A bundled scene and its solution to 1e-10, which all tests share. */
+/* A scene and its solution to 1e-10, which all tests share. */
 struct bundled {
     const char *name;
     struct br_scene scene;
@@ -49,7 +42,9 @@ static struct bundled *find(const char *name)
         b++;
     assert_true(b < bundled + SCENES + MORE);
     if (!b->name)
-        *b = (struct bundled){.name = name, .scene = br_test_bundled(name)};
+        *b = (struct bundled){.name = name,
+                              .scene = strcmp(name, "lively") == 0 ? lively_scene()
+                                                                   : br_test_bundled(name)};
     if (!b->tight.exact)
         b->tight = solve(&b->scene, 1e-10);
     return b;
@@ -88,25 +83,44 @@ static double tip_distance(const struct solved *a, const struct solved *b, doubl
     return most;
 }
 
+/* The same events. */
+static void compare_events(const struct br_exact *a, const struct br_exact *b, double second)
+{
+    size_t count, other;
+    const struct br_exact_event *x = br_exact_events(a, &count), *y = br_exact_events(b, &other);
+    assert_int_equal(count, other);
+    for (size_t i = 0; i < count; i++) {
+        assert_near(y[i].time, second * x[i].time, y[i].error + second * 10 * x[i].error);
+        assert_int_equal(y[i].phase, x[i].phase);
+    }
+}
+
+/* Solutions that are asked to be worse must know how bad they are. */
+static void check_loose(const struct bundled *b, double tolerance)
+{
+    struct solved loose = solve(&b->scene, tolerance);
+    for (enum br_exact_field field = 0; field < BR_EXACT_FIELDS; field++) {
+        if (!is_modelled(&b->scene, field))
+            continue;
+        const struct br_exact_report r = br_exact_report(b->tight.exact, field);
+        const struct br_exact_report l = br_exact_report(loose.exact, field);
+        const double off = tip_distance(&b->tight, &loose, b->scene.duration, field);
+        AT_MOST(r.error.displacement, 1e-10 * r.largest.displacement);
+        AT_MOST(r.error.velocity, 1e-9 * r.largest.velocity);
+        AT_MOST(r.error.force, 1e-9 * r.largest.force);
+        AT_MOST(off, l.error.displacement + r.error.displacement + 1e-15);
+        AT_MOST(off, tolerance * l.largest.displacement + 1e-15);
+        AT_MOST(1e-7 * l.error.displacement, off + 1e-15);
+    }
+    compare_events(b->tight.exact, loose.exact, 1);
+    release(&loose);
+}
+
 TEST(test_estimates)
 {
     for (size_t i = 0; i < SCENES; i++) {
-        const struct bundled *b = find(scenes[i]);
-        const struct solved *tight = &b->tight;
-        struct solved loose = solve(&b->scene, 1e-6);
-        for (int f = 0; f < BR_EXACT_FIELDS; f++) {
-            const enum br_exact_field field = (enum br_exact_field)f;
-            if (!is_modelled(&b->scene, field))
-                continue;
-            const struct br_exact_report r = br_exact_report(tight->exact, field);
-            const struct br_exact_report l = br_exact_report(loose.exact, field);
-            AT_MOST(r.error.displacement, 1e-10 * r.largest.displacement);
-            AT_MOST(r.error.velocity, 1e-9 * r.largest.velocity);
-            AT_MOST(r.error.force, 1e-9 * r.largest.force);
-            AT_MOST(tip_distance(tight, &loose, b->scene.duration, field),
-                    l.error.displacement + r.error.displacement + 1e-15);
-        }
-        release(&loose);
+        check_loose(find(scenes[i]), 1e-6);
+        check_loose(find(scenes[i]), 1e-3);
     }
 }
 
@@ -144,135 +158,166 @@ TEST(test_events)
     }
 }
 
-/* ---- other units, and a mirror ---- */
+/* ---- energy ---- */
 
-/* The same with the other sign; borrows it. */
-static void negated_evaluate(void *self, size_t count, const double *x, double t, double *value)
+/* An integrand of time, and what it needs. */
+struct power {
+    const struct br_scene *scene;
+    const struct solved *solved;
+    struct br_exact_projection *rate[2], *strain[2]; /* of the velocity, on one element */
+};
+
+static struct br_exact_projection *project(const struct br_exact *exact, struct br_exact_part part)
 {
-    br_function_evaluate(self, count, x, t, value);
-    for (size_t i = 0; i < count; i++)
-        value[i] = -value[i];
+    struct br_exact_projection *projection = NULL;
+    const struct br_exact_mesh mesh = {.elements = 1, .degree = 0};
+    assert_int_equal(br_exact_projection_create(&projection, exact, &part, &mesh, NULL), BR_OK);
+    return projection;
 }
 
-static void *negated_clone(const void *self)
+/* Load's power less the dissipated one, of the beam and of friction. */
+static double net_power(double t, void *data)
 {
-    return (void *)(uintptr_t)self;
-}
-
-static void negated_free(void *self)
-{
-    (void)self;
-}
-
-static struct br_function negated(const struct br_function *f)
-{
-    static const struct br_function_ops ops = {
-        .evaluate = negated_evaluate, .clone = negated_clone, .free = negated_free};
-    struct br_function out = *f;
-    out.constant = -f->constant;
-    if (f->ops) {
-        out.ops = &ops;
-        out.self = (void *)(uintptr_t)f;
+    struct power *p = data;
+    const double viscosity[] = {p->scene->axial.viscosity, p->scene->bending.viscosity};
+    const struct br_load *load[] = {&p->scene->axial.load, &p->scene->bending.load};
+    br_exact_at(p->solved->exact, t, p->solved->state);
+    double sum =
+        -p->solved->state->friction_force * p->solved->state->tip[BR_EXACT_BENDING].velocity;
+    for (size_t i = 0; i < 2; i++) {
+        double mean, rest, factor;
+        br_exact_projection_apply(p->strain[i], p->solved->state, &mean, &rest);
+        sum -= viscosity[i] * (mean * mean + rest);
+        br_exact_projection_apply(p->rate[i], p->solved->state, &mean, &rest);
+        br_function_evaluate(&load[i]->term[0].time, 1, &t, t, &factor);
+        sum += factor * load[i]->term[0].space.constant * mean * sqrt(p->scene->length);
     }
-    return out;
+    return sum;
 }
 
-/* The scene with the beam upside down; its functions borrow from the old one's. */
-static struct br_scene mirrored(const struct br_scene *s)
+static double energy(const struct power *p)
 {
-    struct br_scene out = *s;
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++)
-        out.bending.load.term[i].time = negated(&s->bending.load.term[i].time);
-    out.bending.tip_force = negated(&s->bending.tip_force);
-    out.bending.tip_moment = negated(&s->bending.tip_moment);
-    out.bending.displacement = negated(&s->bending.displacement);
-    out.bending.displacement_slope = negated(&s->bending.displacement_slope);
-    out.bending.velocity = negated(&s->bending.velocity);
-    out.bending.velocity_slope = negated(&s->bending.velocity_slope);
-    return out;
-}
-
-/* Largest deviation of the other solution from the old one, relative to the largest value of each,
- * over displacements and forces of the tip. sign: of bending. */
-static double deviation(const struct solved *old, const struct solved *other, double duration,
-                        const struct br_units_change *u, double sign)
-{
-    const double force = u->kilogram * u->metre / (u->second * u->second);
-    double most[2][2] = {{0}}, off[2][2] = {{0}}, worst = 0;
-    for (int i = 0; i <= TIMES; i++) {
-        const double t = duration * i / TIMES;
-        const struct br_exact_state *x = old->state, *y = other->state;
-        br_exact_at(old->exact, t, old->state);
-        br_exact_at(other->exact, t * u->second, other->state);
-        const double a[2][2] = {{x->tip[0].displacement, x->contact_force},
-                                {sign * x->tip[1].displacement, sign * x->friction_force}};
-        const double b[2][2] = {{y->tip[0].displacement, y->contact_force},
-                                {y->tip[1].displacement, y->friction_force}};
-        for (int f = 0; f < 2; f++)
-            for (int v = 0; v < 2; v++) {
-                const double d = fabs(b[f][v] / (v ? force : u->metre) - a[f][v]);
-                off[f][v] = d <= off[f][v] ? off[f][v] : d;
-                most[f][v] = fmax(most[f][v], fabs(a[f][v]));
-            }
+    const struct br_scene *s = p->scene;
+    const double stiffness[] = {s->axial.stiffness, s->bending.stiffness};
+    const double in = fmax(p->solved->state->tip[BR_EXACT_AXIAL].displacement - s->contact.gap, 0);
+    double sum = s->contact.stiffness * in * in / 2;
+    for (unsigned i = 0; i < 2; i++) {
+        const enum br_exact_field field = (enum br_exact_field)i;
+        const struct br_exact_part strain = {field, false, i + 1}, rate = {field, true, 0};
+        sum += stiffness[i] / 2 * square_of(p->solved, strain);
+        sum += s->density / 2 * square_of(p->solved, rate);
     }
-    for (int f = 0; f < 2; f++)
-        for (int v = 0; v < 2; v++)
-            if (off[f][v] != 0 && !(off[f][v] / most[f][v] <= worst))
-                worst = off[f][v] / most[f][v];
-    return worst;
+    return sum;
 }
 
-/* The same events; where the beam is upside down, slips go the other way. */
-static void compare_events(const struct br_exact *a, const struct br_exact *b, double second,
-                           double sign)
+/* The integral over [0, T] of f, which is smooth between events. */
+static double integrate(const struct br_exact *exact, double end, double (*f)(double, void *),
+                        void *data)
 {
-    static const enum br_phase mirror[] = {BR_FREE,  BR_OPEN,      BR_CLOSED,
-                                           BR_STICK, BR_SLIP_DOWN, BR_SLIP_UP};
-    size_t count, other;
-    const struct br_exact_event *x = br_exact_events(a, &count), *y = br_exact_events(b, &other);
-    assert_int_equal(count, other);
+    gsl_integration_workspace *work = gsl_integration_workspace_alloc(500);
+    gsl_function function = {f, data};
+    size_t count;
+    const struct br_exact_event *event = br_exact_events(exact, &count);
+    double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        CLOSE(y[i].time, second * x[i].time, second * 10 * x[i].error);
-        assert_int_equal(y[i].phase, sign > 0 ? x[i].phase : mirror[x[i].phase]);
+        const double next = i + 1 < count ? event[i + 1].time : end;
+        double part = 0, error;
+        if (next > event[i].time)
+            gsl_integration_qag(&function, event[i].time, next, 1e-11, 1e-10, 500,
+                                GSL_INTEG_GAUSS31, work, &part, &error);
+        sum += part;
+    }
+    gsl_integration_workspace_free(work);
+    return sum;
+}
+
+TEST(test_energy)
+{
+    const struct bundled *b = find("lively");
+    const struct br_exact *exact = b->tight.exact;
+    struct power p = {.scene = &b->scene, .solved = &b->tight};
+    for (unsigned i = 0; i < 2; i++) {
+        const enum br_exact_field field = (enum br_exact_field)i;
+        p.rate[i] = project(exact, (struct br_exact_part){field, true, 0});
+        p.strain[i] = project(exact, (struct br_exact_part){field, true, i + 1});
+    }
+    size_t count;
+    const struct br_exact_event *event = br_exact_events(exact, &count);
+    assert_true(count >= 14);
+    for (size_t i = 0; i < count; i++) /* an open contact frees the tip */
+        assert_true(event[i].phase != BR_OPEN || event[i + 1].phase == BR_FREE);
+    const double work = integrate(exact, b->scene.duration, net_power, &p);
+    br_exact_at(exact, b->scene.duration, b->tight.state);
+    const double stored = energy(&p);
+    assert_true(stored > 0.1);
+    assert_near(work, stored, 1e-8 * stored);
+    for (size_t i = 0; i < 2; i++) {
+        br_exact_projection_free(p.rate[i]);
+        br_exact_projection_free(p.strain[i]);
     }
 }
 
-static void compare(const struct bundled *old, const struct br_scene *other,
-                    const struct br_units_change *u, double sign, double allowed)
-{
-    struct solved b = solve(other, 1e-10);
-    const double worst = deviation(&old->tight, &b, old->scene.duration, u, sign);
-    if (!(worst <= allowed))
-        fail_msg("%s in other units, or mirrored, is off by %g", old->name, worst);
-    compare_events(old->tight.exact, b.exact, u->second, sign);
-    release(&b);
-}
+/* ---- the laws ---- */
 
-static void check_units(const char *name, const struct br_units_change *u)
+/* (10) and (12), at many times. */
+static void check_laws(const struct bundled *b)
 {
-    struct br_error err = {0};
-    struct br_scene other;
-    const struct bundled *b = find(name);
-    MUST(br_rescale(&b->scene, u, &other, &err));
-    compare(b, &other, u, 1, 1e-8);
-    br_scene_clear(&other);
-}
-
-TEST(test_units)
-{
-    for (size_t i = 0; i < SCENES; i++) {
-        check_units(scenes[i], &(struct br_units_change){39.37, 1e3, 2.2046});
-        if (i % 2) /* a nanoworld */
-            check_units(scenes[i], &(struct br_units_change){3e-9, 7e-12, 1.1e-20});
+    const struct br_scene *scene = &b->scene;
+    const struct br_exact_state *state = b->tight.state;
+    const double largest = br_exact_report(b->tight.exact, BR_EXACT_BENDING).largest.force;
+    for (int n = 1; n <= 3000; n++) {
+        br_exact_at(b->tight.exact, scene->duration * n / 3000, b->tight.state);
+        const double in = fmax(state->tip[BR_EXACT_AXIAL].displacement - scene->contact.gap, 0);
+        const double bound = scene->friction.law == BR_TRESCA    ? scene->friction.coefficient
+                             : scene->friction.law == BR_COULOMB ? scene->friction.coefficient * in
+                                                                 : 0;
+        const double force = state->friction_force, v = state->tip[BR_EXACT_BENDING].velocity;
+        assert_near(state->friction_bound, bound, 1e-12 * bound);
+        if (scene->contact.modelled)
+            assert_near(state->contact_force, scene->contact.stiffness * in, 1e-9);
+        assert_near(fmax(fabs(force), bound), bound, 1e-9 * largest);
+        if (v != 0)
+            assert_near(force, v > 0 ? bound : -bound, 1e-9 * largest);
     }
 }
 
-TEST(test_mirror)
+TEST(test_laws)
 {
-    for (size_t i = 0; i < SCENES; i++) {
+    for (size_t i = 0; i < SCENES; i++)
+        check_laws(find(scenes[i]));
+}
+
+/* ---- other units ---- */
+
+/* In a world of nanometres nothing changes but the numbers' scale; other units: test_rescale. */
+TEST(test_small_units)
+{
+    static const struct br_units_change u = {3e-9, 7e-12, 1.1e-20};
+    const double newton = u.kilogram * u.metre / (u.second * u.second);
+    for (size_t i = 1; i < SCENES; i += 2) {
+        struct br_error err = {0};
+        struct br_scene other;
         const struct bundled *b = find(scenes[i]);
-        const struct br_scene other = mirrored(&b->scene);
-        compare(b, &other, &(struct br_units_change){1, 1, 1}, -1, 1e-11);
+        const struct br_exact_state *x = b->tight.state;
+        MUST(br_rescale(&b->scene, &u, &other, &err));
+        struct solved s = solve(&other, 1e-10);
+        for (int n = 0; n <= TIMES; n++) {
+            const double t = b->scene.duration * n / TIMES;
+            br_exact_at(b->tight.exact, t, b->tight.state);
+            br_exact_at(s.exact, t * u.second, s.state);
+            const double force[2][2] = {{x->contact_force, s.state->contact_force},
+                                        {x->friction_force, s.state->friction_force}};
+            for (int f = 0; f < 2; f++) {
+                const struct br_exact_size largest =
+                    br_exact_report(b->tight.exact, (enum br_exact_field)f).largest;
+                assert_near(s.state->tip[f].displacement / u.metre, x->tip[f].displacement,
+                            1e-8 * largest.displacement);
+                assert_near(force[f][1] / newton, force[f][0], 1e-8 * largest.force);
+            }
+        }
+        compare_events(b->tight.exact, s.exact, u.second);
+        release(&s);
+        br_scene_clear(&other);
     }
 }
 

@@ -490,17 +490,20 @@ static void count_step(const struct br_strip *strip, const struct br_strip_drive
                        const struct br_strip_ends *ends)
 {
     steps_counted++;
-    br_kernel_find("portable")->advance(strip, drive, ends);
+    br_kernel_find("portable")->loops[BR_AXIAL]->advance(strip, drive, ends);
 }
 
 /* The one that is asked for does the work. */
 TEST(test_heeded)
 {
     struct br_kernel counting = *br_kernel_find("portable");
+    struct br_loops loops = *counting.loops[BR_AXIAL];
     counting.name = "counting";
     counting.available = always;
-    counting.advance = count_step;
-    const struct br_scene scene = br_test_bare();
+    counting.loops[BR_AXIAL] = &loops;
+    loops.advance = count_step;
+    struct br_scene scene = br_test_bare();
+    scene.bending.modelled = false;
     struct br_method method = br_test_method("riccati", NULL, NULL);
     method.linear.kernel = &counting;
     struct br_march *march = br_test_march(&scene, 7, 4, &method);

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/elementary.h"
 #include "study/scene/expression.h"
+#include "study/scene/operations.h"
 #include "support.h"
 #include "tests/operation_oracle.h"
 
@@ -48,7 +48,7 @@ static double error_of(double found, real expected)
     return (double)(fabsl((real)found - expected) / unit);
 }
 
-/* As elementary.h has it. */
+/* As operations.h has it. */
 static double allowed(enum br_operation operation, const double a[3])
 {
     const bool exact = operation < BR_OP_SIN || (operation >= BR_OP_SQRT && operation != BR_OP_POW);
@@ -90,11 +90,11 @@ TEST(test_sets)
         for (int i = 0; i < COUNT; i++)
             a[k][i] = draw(&r);
     for (int o = FIRST; o <= LAST; o++) {
-        br_operation_apply(&br_elementary_portable, (enum br_operation)o, COUNT, argument, first);
+        br_elementary_portable.apply((enum br_operation)o, COUNT, argument, first);
         for (const struct br_elementary *const *set = br_elementary_all; *set; set++) {
             if (!(*set)->available())
                 continue;
-            br_operation_apply(*set, (enum br_operation)o, COUNT, argument, other);
+            (*set)->apply((enum br_operation)o, COUNT, argument, other);
             for (int i = 0; i < COUNT; i++)
                 if (memcmp(&first[i], &other[i], sizeof first[i]) != 0 &&
                     !(isnan(first[i]) && isnan(other[i])))

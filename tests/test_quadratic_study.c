@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Quadratic elements of the rod in studies: orders against solutions that are known and by
- * differences, what judges tell of them, and what is kept of a run. */
+/* Quadratic elements of the rod in studies: what judges tell of them, and what is kept of a run.
+ * Their orders are those that the scenes mms_quadratic and quadratic_rod are checked for. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,111 +15,6 @@ static struct br_method method_of(const char *contact)
     struct br_method method = br_test_method(NULL, contact, NULL);
     method.axial_degree = 2;
     return method;
-}
-
-/* ---- orders ---- */
-
-enum { MESHES = 4 };
-
-/* Axial errors of some meshes in a norm, each against the next one's mesh with the same steps. */
-static void differences(const char *name, const struct br_norm *norm, size_t steps,
-                        const size_t n[MESHES + 1], double error[MESHES])
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled(name);
-    for (size_t i = 0; i < MESHES; i++) {
-        struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n[i], 1, &steps);
-        s.norm = norm;
-        s.method = method_of("implicit");
-        s.reference_method = method_of("implicit");
-        s.reference = (struct br_resolution){n[i + 1], steps};
-        MUST(br_study_run(&s, 1, 2, NULL, &err));
-        error[i] = s.cell[0].error[BR_PART_AXIAL];
-        br_study_clear(&s);
-    }
-    br_scene_clear(&scene);
-}
-
-/* The last two of several slopes. */
-static void check_orders(const char *what, const char *norm, const double error[MESHES],
-                         double expected, double tolerance)
-{
-    for (int i = MESHES - 2; i < MESHES; i++) {
-        const double order = log2(error[i - 1] / error[i]);
-        print_message("# %-12s %-6s %.3e to %.3e: order %.3f\n", what, norm, error[i - 1], error[i],
-                      order);
-        CLOSE(order, expected, tolerance);
-    }
-}
-
-/* h^3 in L2, h^2 of the strain rate, and h^4 at the tip, where a Galerkin solution is better than
- * anywhere else. The velocity's L2 norm is that of a displacement over time: order 3, too. */
-TEST(test_orders_in_space)
-{
-    static const char *const scenes[] = {"mms_smooth", "mms_implicit", "initial_data", "example2"};
-    static const size_t n[MESHES + 1] = {8, 16, 32, 64, 128};
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
-        double error[MESHES];
-        differences(scenes[i], &br_norm_l2, 200, n, error);
-        check_orders(scenes[i], "l2", error, 3, 0.05);
-        differences(scenes[i], &br_norm_energy, 200, n, error);
-        check_orders(scenes[i], "energy", error, 2, 0.05);
-        differences(scenes[i], &br_norm_tip, 200, n, error);
-        if (error[MESHES - 1] > 1e-12) /* Example 2 is nearly a parabola */
-            check_orders(scenes[i], "tip", error, 4, 0.1);
-    }
-}
-
-/* Jointly, with k going as h^3, against the continuous problem: what converges is the right thing.
- */
-TEST(test_joint_orders)
-{
-    static const char *const scenes[] = {"mms_smooth", "mms_implicit", "mms_pressed"};
-    static const size_t n[] = {10, 20, 40}, steps[] = {100, 800, 6400};
-    for (size_t i = 0; i < sizeof scenes / sizeof *scenes && br_judge_find("mms"); i++) {
-        struct br_error err = {0};
-        struct br_scene scene = br_test_bundled(scenes[i]);
-        struct br_study s = br_test_study(&scene, br_judge_find("mms"), 3, n, 3, steps);
-        s.method = method_of("implicit");
-        s.path = true;
-        MUST(br_study_run(&s, 1, 2, NULL, &err));
-        for (int c = 1; c < 3; c++) {
-            const double a = s.cell[c - 1].error[BR_PART_AXIAL], b = s.cell[c].error[BR_PART_AXIAL];
-            print_message("# %-12s joint %.3e to %.3e: order %.3f\n", scenes[i], a, b, log2(a / b));
-            CLOSE(log2(a / b), 3, 0.2);
-        }
-        br_study_clear(&s);
-        br_scene_clear(&scene);
-    }
-}
-
-/* So fine in time that only space counts: the error against the solution is of order 3, also in
- * what the modes of an element cannot hold. */
-TEST(test_against_exact)
-{
-    static const size_t n[] = {4, 8}, steps = 25000;
-    if (br_test_quick())
-        skip();
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("initial_data");
-    double error[2][2]; /* of degree 1, 2 */
-    scene.duration = 0.1;
-    scene.bending.modelled = false;
-    scene.friction.law = BR_FRICTIONLESS;
-    for (int degree = 1; degree <= 2; degree++) {
-        struct br_study s = br_test_study(&scene, &br_judge_exact, 2, n, 1, &steps);
-        s.method = method_of("implicit");
-        s.method.axial_degree = degree;
-        MUST(br_study_run(&s, 1, 2, NULL, &err));
-        for (int i = 0; i < 2; i++)
-            error[degree - 1][i] = s.cell[i].error[BR_PART_AXIAL];
-        br_study_clear(&s);
-    }
-    print_message("# degree 1: %.3e, %.3e; degree 2: %.3e, %.3e\n", error[0][0], error[0][1],
-                  error[1][0], error[1][1]);
-    CLOSE(log2(error[0][0] / error[0][1]), 2, 0.1);
-    CLOSE(log2(error[1][0] / error[1][1]), 3, 0.15);
-    br_scene_clear(&scene);
 }
 
 /* ---- judges ---- */

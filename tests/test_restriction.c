@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/exact/combine.h"
-#include "reference/exact/projection.h"
+#include "reference/exact/legendre.h"
+#include "reference/exact/pieces.h"
 #include "tests/support.h"
 
 enum { MOST_LENGTH = 160, MOST_POINTS = 160, MOST_LOCAL = 20 };
@@ -47,6 +47,24 @@ static void gauss(size_t points, long double *x, long double *weight)
     }
 }
 
+/* A series on all of a beam, and the elements that it is projected on. */
+struct shape {
+    size_t length;
+    struct br_exact_mesh mesh;
+    double beam; /* m */
+};
+
+static struct br_piecewise *project(const struct shape *s, struct br_store *store)
+{
+    struct br_error err = {0};
+    struct br_piecewise *out = NULL;
+    struct br_pieces *pieces = br_store_take(store, 1, sizeof *pieces);
+    assert_non_null(pieces);
+    br_pieces_init(pieces, s->beam, 1, (const double[]){0, s->beam}, &s->length, store);
+    MUST(br_piecewise_create(&out, pieces, 0, &s->mesh, store, &err));
+    return out;
+}
+
 /* How far an application is from the definition. */
 struct deviation {
     long double norm;             /* of the series */
@@ -54,24 +72,24 @@ struct deviation {
     long double rest, rest_error; /* roots: what is right, the error */
 };
 
-static struct deviation deviation_of(const struct br_restriction_shape *s, const double *series,
-                                     const double *c, double rest)
+static struct deviation deviation_of(const struct shape *s, const double *series, const double *c,
+                                     double rest)
 {
     static long double x[MOST_POINTS], weight[MOST_POINTS], p[MOST_POINTS][MOST_LOCAL];
-    const size_t kept = s->degree + 1;
-    const size_t points = s->length < 30 || s->elements < 50 ? s->length + 2 : 40;
+    const size_t kept = s->mesh.degree + 1;
+    const size_t points = s->length < 30 || s->mesh.elements < 50 ? s->length + 2 : 40;
     struct deviation d = {0};
     long double all = 0;
     assert_true(points <= MOST_POINTS);
     gauss(points, x, weight);
     for (size_t i = 0; i < points; i++)
         legendre(MOST_LOCAL, x[i], p[i]);
-    const long double root_h = s->scale / sqrtl((long double)s->elements);
-    for (size_t e = 0; e < s->elements; e++) {
+    const long double root_h = sqrtl((long double)s->beam / (long double)s->mesh.elements);
+    for (size_t e = 0; e < s->mesh.elements; e++) {
         long double local[MOST_LOCAL] = {0}, value[MOST_POINTS], square = 0, left = 0;
         for (size_t i = 0; i < points; i++) {
             long double global[MOST_LENGTH];
-            legendre(s->length, ((long double)e + x[i]) / (long double)s->elements, global);
+            legendre(s->length, ((long double)e + x[i]) / (long double)s->mesh.elements, global);
             value[i] = 0;
             for (size_t k = 0; k < s->length; k++)
                 value[i] += root_h * series[k] * global[k];
@@ -99,18 +117,15 @@ static struct deviation deviation_of(const struct br_restriction_shape *s, const
     return d;
 }
 
-static void check(const struct br_restriction_shape *shape, const double *series)
+static void check(const struct shape *shape, const double *series)
 {
-    struct br_error err = {0};
-    struct br_restriction *r = NULL;
     struct br_store store = {0};
-    const size_t values = shape->elements * (shape->degree + 1);
+    const size_t values = shape->mesh.elements * (shape->mesh.degree + 1);
     double *c = calloc(values, sizeof *c), rest = NAN;
     assert_non_null(c);
     for (size_t i = 0; i < values; i++)
         c[i] = NAN;
-    MUST(br_restriction_create(&r, shape, &store, &err));
-    br_restriction_apply(r, series, c, &rest);
+    br_piecewise_apply(project(shape, &store), series, c, &rest);
     br_store_clear(&store);
     const struct deviation d = deviation_of(shape, series, c, rest);
     const double slack = br_test_slack();
@@ -128,7 +143,7 @@ static void fill(size_t length, double decay, double *series)
         series[k] = br_test_uniform(&random, -1, 1) * pow(decay, (double)k);
 }
 
-static void check_all(const struct br_restriction_shape *shape)
+static void check_all(const struct shape *shape)
 {
     double series[MOST_LENGTH];
     fill(shape->length, 1, series);
@@ -143,68 +158,48 @@ TEST(test_definition)
     const size_t count = br_test_quick() ? 3 : sizeof elements / sizeof *elements;
     for (size_t i = 0; i < count; i++)
         for (size_t degree = 0; degree <= 3; degree++)
-            check_all(&(struct br_restriction_shape){21, elements[i], degree, 1.5, 0, 1});
+            check_all(&(struct shape){21, {elements[i], degree}, 2.25});
 }
 
-/* Elements that do not fill groups: the last one overlaps. */
+/* Elements that do not fill groups; series of all lengths. */
 TEST(test_primes)
 {
-    check_all(&(struct br_restriction_shape){20, 3203, 3, 1, 0, 1});
-    check_all(&(struct br_restriction_shape){19, 997, 1, 1, 0, 1});
+    static const struct shape rows[] = {
+        {20, {3203, 3}, 1}, {19, {997, 1}, 1},  {1, {13, 3}, 1},  {2, {640, 1}, 1},
+        {3, {13, 3}, 1},    {5, {640, 1}, 1},   {60, {13, 3}, 1}, {60, {640, 1}, 1},
+        {150, {13, 3}, 1},  {150, {640, 1}, 1},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        check_all(&rows[i]);
 }
 
-TEST(test_lengths)
-{
-    static const size_t lengths[] = {1, 2, 3, 5, 60, 150};
-    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        check_all(&(struct br_restriction_shape){lengths[i], 13, 3, 1, 0, 1});
-        check_all(&(struct br_restriction_shape){lengths[i], 640, 1, 1, 0, 1});
-    }
-}
-
-/* A derivative has lost a degree for each order; a polynomial of the elements' degree leaves
- * nothing out, and the zero series nothing at all. */
+/* A polynomial of the elements' degree leaves nothing out, and the zero series nothing at all; of
+ * what is not finite, nothing is lost. */
 TEST(test_nothing_left)
 {
-    struct br_error err = {0};
+    enum { LENGTH = 25, ELEMENTS = 3200 };
+    static double c[ELEMENTS * 4];
     for (size_t degree = 0; degree <= 3; degree++) {
-        const struct br_restriction_shape shape = {25, 3200, degree, 1, 0, 1};
-        struct br_restriction *r = NULL;
+        const struct shape shape = {LENGTH, {ELEMENTS, degree}, 1};
         struct br_store store = {0};
-        double series[25] = {0}, rest = NAN;
-        double *c = calloc(3200 * (degree + 1), sizeof *c);
-        MUST(br_restriction_create(&r, &shape, &store, &err));
-        br_restriction_apply(r, series, c, &rest);
+        struct br_piecewise *r = project(&shape, &store);
+        double series[LENGTH] = {0}, rest = NAN;
+        br_piecewise_apply(r, series, c, &rest);
         assert_true(rest == 0);
-        for (size_t i = 0; i < 3200 * (degree + 1); i++)
+        for (size_t i = 0; i < ELEMENTS * (degree + 1); i++)
             assert_true(c[i] == 0);
         for (size_t k = 0; k <= degree; k++)
             series[k] = 1;
-        br_restriction_apply(r, series, c, &rest);
+        br_piecewise_apply(r, series, c, &rest);
         assert_true(rest == 0);
+        for (size_t k = 0; k < LENGTH; k++) {
+            double bad[LENGTH] = {1};
+            bad[k] = NAN;
+            br_piecewise_apply(r, bad, c, &rest);
+            assert_true(isnan(rest) && isnan(c[0]));
+        }
         br_store_clear(&store);
-        free(c);
     }
-}
-
-/* None is lost. */
-TEST(test_not_finite)
-{
-    struct br_error err = {0};
-    const struct br_restriction_shape shape = {20, 3200, 3, 1, 0, 1};
-    struct br_restriction *r = NULL;
-    struct br_store store = {0};
-    double *c = calloc(3200 * 4, sizeof *c);
-    MUST(br_restriction_create(&r, &shape, &store, &err));
-    for (size_t k = 0; k < 20; k++) {
-        double series[20] = {1}, rest = 0;
-        series[k] = NAN;
-        br_restriction_apply(r, series, c, &rest);
-        assert_true(isnan(rest));
-        assert_true(isnan(c[0]));
-    }
-    br_store_clear(&store);
-    free(c);
 }
 
 TEST(test_combiners)
@@ -225,11 +220,9 @@ TEST(test_combiners)
             }
             expected[j] = value;
         }
-        for (size_t i = 0; i < br_combiner_count; i++) {
-            if (!br_combiners[i].available())
-                continue;
+        for (size_t i = br_instruction_set_best(); br_combiners[i]; i++) {
             memset(sum, 0, sizeof sum);
-            br_combiners[i].combine(ROWS, COUNT, factor, width, table, sum);
+            br_combiners[i]->combine(ROWS, COUNT, factor, width, table, sum);
             assert_memory_equal(sum, expected, ROWS * width * sizeof *sum);
         }
     }
@@ -335,13 +328,11 @@ TEST(test_stages)
             r[i] = br_test_uniform(&random, -1, 1);
         br_stage_factor(&system, &radau);
         memcpy(portable, r, sizeof r);
-        br_combiners[br_combiner_count - 1].solve(&system, first, portable);
+        br_combiner_portable.solve(&system, first, portable);
         check_stages(&radau, &system, first, r, portable);
-        for (size_t i = 0; i < br_combiner_count; i++) {
-            if (!br_combiners[i].available())
-                continue;
+        for (size_t i = br_instruction_set_best(); br_combiners[i]; i++) {
             memcpy(y, r, sizeof r);
-            br_combiners[i].solve(&system, first, y);
+            br_combiners[i]->solve(&system, first, y);
             assert_memory_equal(y, portable, sizeof y);
         }
     }

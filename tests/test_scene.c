@@ -255,23 +255,6 @@ TEST(test_damping_ratio)
     br_scene_clear(&s);
 }
 
-/* A clone lives on without its source, and is another instance. */
-TEST(test_clone)
-{
-    struct br_error err = {0};
-    struct br_function f = br_test_function("x + 10*t"), copy;
-    MUST(br_function_clone(&f, &copy, &err));
-    assert_true(copy.self != f.self && copy.uses_x && copy.uses_t);
-    br_function_free(&f);
-    const double x[] = {1, 2, 3};
-    double value[3];
-    br_function_evaluate(&copy, 3, x, 0.5, value);
-    for (int i = 0; i < 3; i++)
-        CLOSE(value[i], x[i] + 5, 0);
-    br_function_free(&copy);
-    br_function_free(&copy);
-}
-
 /* Every number of a scene built by hand, as a NaN, an infinity and a negative one. */
 TEST(test_check)
 {

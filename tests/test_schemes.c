@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes: the order of every row of the registry on smooth scenes, what viscosity that is
- * stiff and what switches leave of it, and that an adaptive scheme keeps what its tolerance
- * promises. Errors are those of the same mesh, so that they are of time alone. */
+/* Time schemes: what switches leave of their orders, and that an adaptive scheme keeps what its
+ * tolerance promises. Errors are those of the same mesh, so that they are of time alone. The orders
+ * themselves are those that the bundled scenes are checked for, each scheme in one of them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "study/grid/sweep.h"
 #include "support.h"
 
-enum { N = 6, SIZE = 2 * (N + 1), LADDER = 6 };
+enum { N = 6, SIZE = 2 * (N + 1) };
 
 struct state {
     double value[2][SIZE]; /* by br_field_kind: displacement at the end, m */
@@ -45,102 +45,6 @@ static double size_of(enum br_field_kind kind, const struct state *a)
 {
     static const struct state zero;
     return distance(kind, a, &zero);
-}
-
-/* ---- orders ---- */
-
-/* Differences of each step against the next, which is half as long, from steps = coarsest on. */
-static void differences_of(const struct br_scene *scene, const struct br_time_scheme *scheme,
-                           enum br_field_kind kind, size_t coarsest, double difference[LADDER])
-{
-    const struct br_method method = method_of(scheme, 0);
-    struct state end[LADDER + 1];
-    for (size_t i = 0; i <= LADDER; i++)
-        run(scene, &method, coarsest << i, &end[i]);
-    for (size_t i = 0; i < LADDER; i++)
-        difference[i] = distance(kind, &end[i], &end[i + 1]);
-}
-
-static struct br_estimate order_of(const double *difference, size_t count)
-{
-    struct br_error err = {0};
-    struct br_order_point point[LADDER];
-    struct br_estimate order;
-    for (size_t i = 0; i < count; i++)
-        point[i] =
-            (struct br_order_point){1 / (double)(1 << i), 0.5 / (double)(1 << i), difference[i]};
-    MUST(br_order_fit(point, count, &order, &err));
-    return order;
-}
-
-/* Of errors that come and go: from the largest of the first half to the last. */
-static double mean_order(const double difference[LADDER])
-{
-    size_t from = 0;
-    for (size_t i = 1; i < LADDER / 2; i++)
-        from = difference[i] > difference[from] ? i : from;
-    return log2(difference[from] / difference[LADDER - 1]) / (double)(LADDER - 1 - from);
-}
-
-/* Both fields under a load that begins smoothly, without laws at the tip. */
-static struct br_scene smooth_scene(double density, double viscosity)
-{
-    struct br_scene scene = br_test_bare();
-    scene.duration = 2;
-    scene.density = density;
-    scene.axial.viscosity = scene.bending.viscosity = viscosity;
-    scene.axial.load = br_test_load("sin(2*t)^5");
-    scene.bending.load = br_test_load("3*sin(2*t)^5");
-    return scene;
-}
-
-static bool has_order(const struct br_time_scheme *scheme)
-{
-    return !scheme->adaptive;
-}
-
-/* The registry's order lies in the interval, which is narrow, or within a tenth of it. */
-static void check_order(const struct br_time_scheme *scheme, double density, double viscosity)
-{
-    struct br_scene scene = smooth_scene(density, viscosity);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        double difference[LADDER];
-        differences_of(&scene, scheme, (enum br_field_kind)kind, 20, difference);
-        const struct br_estimate order = order_of(difference + LADDER - 4, 4);
-        if (!(order.low - 0.1 <= scheme->order && scheme->order <= order.high + 0.1 &&
-              order.high - order.low <= 0.6))
-            fail_msg("%s, viscosity %g, field %d: order %.3f [%.3f, %.3f], expected %d",
-                     scheme->name, viscosity, kind, order.value, order.low, order.high,
-                     scheme->order);
-    }
-    br_scene_clear(&scene);
-}
-
-/* Viscosity from that of the paper's Example 1 in its units to one that leaves nothing else. */
-TEST(test_orders)
-{
-    for (size_t i = 0; br_time_schemes[i]; i++)
-        if (has_order(br_time_schemes[i])) {
-            check_order(br_time_schemes[i], 1, 1);
-            check_order(br_time_schemes[i], 1, 1e6);
-        }
-}
-
-/* A light beam that follows its load, its transients being over in c/a = 1e-3 s, as in the paper's
- * examples: with k far above that stages count by their own order, and the first errors are small
- * by chance. Seen are 1.3 to 2.9. */
-TEST(test_stiff_orders)
-{
-    for (size_t i = 0; br_time_schemes[i]; i++)
-        for (int kind = BR_AXIAL; kind <= BR_BENDING && has_order(br_time_schemes[i]); kind++) {
-            double difference[LADDER];
-            struct br_scene scene = smooth_scene(1e-4, 1e-3);
-            differences_of(&scene, br_time_schemes[i], (enum br_field_kind)kind, 20, difference);
-            const double order = mean_order(difference);
-            if (!(order >= fmin(br_time_schemes[i]->order, 1.3) - 0.1))
-                fail_msg("%s, field %d: order %.2f", br_time_schemes[i]->name, kind, order);
-            br_scene_clear(&scene);
-        }
 }
 
 /* ---- across switches ---- */
@@ -179,7 +83,7 @@ static void check_across(const struct br_time_scheme *scheme, size_t which)
 TEST(test_orders_across_switches)
 {
     for (size_t i = 0; br_time_schemes[i]; i++)
-        for (size_t s = 0; s < SWITCHING && has_order(br_time_schemes[i]); s++)
+        for (size_t s = 0; s < SWITCHING && !br_time_schemes[i]->adaptive; s++)
             check_across(br_time_schemes[i], s);
 }
 
@@ -232,7 +136,7 @@ TEST(test_fields_apart)
 {
     enum { STEPS = 150 };
     for (size_t i = 0; br_time_schemes[i]; i++)
-        for (int solver = 0; solver < 2 && has_order(br_time_schemes[i]); solver++) {
+        for (int solver = 0; solver < 2 && !br_time_schemes[i]->adaptive; solver++) {
             struct br_scene scene = br_test_bundled("chatter");
             struct br_method method = br_test_method(solver ? "plain" : NULL, "implicit", "exact");
             method.scheme = br_time_schemes[i];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact reference agrees with itself: contact and Coulomb scenes that are written in two ways
  * have the same tip, within the errors that are stated for both. The ways differ in what the
- * reference does: a load as a product or as a function of x and t, a place where nothing breaks,
- * other units, a load in pieces, a gap that is closed by a load or by the initial data.
+ * reference does: a load as a product or as a function of x and t, a place where nothing breaks, a
+ * load in pieces, a gap that is closed by a load or by the initial data.
  *
  * A scene's file in engineers' numbers is, to the last bit of each number, the file in a1, c1, a2,
  * c2, rho and c_V, m, s and kg. */
@@ -11,10 +11,11 @@
 
 #include "reference/exact/exact.h"
 #include "study/scene/file.h"
-#include "study/scene/rescale.h"
 #include "support.h"
 
 enum { TEXT = 200, TIMES = 23 };
+
+/* ---- scenes ---- */
 
 /* A load amplitude (1 + rise x) sin(rate t + phase) on each field, N/m. */
 struct drawn {
@@ -55,91 +56,57 @@ static struct br_load *load_of(struct br_scene *s, int kind)
     return kind ? &s->bending.load : &s->axial.load;
 }
 
-static void print_space(char *text, const struct drawn *d, int kind, double factor)
+/* The load is space(x) time(t). */
+static void print_factors(const struct drawn *d, int kind, char space[TEXT], char time[TEXT])
 {
-    snprintf(text, TEXT, "%.17g*(1 + %.17g*x)", factor * d->amplitude[kind], d->rise[kind]);
+    snprintf(space, TEXT, "%.17g*(1 + %.17g*x)", d->amplitude[kind], d->rise[kind]);
+    snprintf(time, TEXT, "sin(%.17g*t + %.17g)", d->rate[kind], d->phase[kind]);
 }
 
-static void print_time(char *text, const struct drawn *d, int kind)
+/* As products: parts of space, of the time before and after a place of it. */
+static void put_products(struct br_scene *s, const struct drawn *d, int kind, bool in_pieces)
 {
-    snprintf(text, TEXT, "sin(%.17g*t + %.17g)", d->rate[kind], d->phase[kind]);
-}
-
-/* Two factors. */
-static void as_product(struct br_scene *s, const struct drawn *d, int kind)
-{
-    char space[TEXT], time[TEXT];
-    print_space(space, d, kind, 1);
-    print_time(time, d, kind);
-    load_of(s, kind)->term[0] =
-        (struct br_product){.space = br_test_function(space), .time = br_test_function(time)};
-}
-
-/* The load as one function of x and t; format has the place for it once or several times. */
-static void as_function(struct br_scene *s, const struct drawn *d, int kind, const char *before,
-                        const char *after, bool twice)
-{
-    char space[TEXT], time[TEXT], all[6 * TEXT];
-    print_space(space, d, kind, 1);
-    print_time(time, d, kind);
-    snprintf(all, sizeof all, "%s%s*%s%s%s%s%s%s", before, space, time, after, twice ? space : "",
-             twice ? "*" : "", twice ? time : "", twice ? ")" : "");
-    *load_of(s, kind) = br_test_load(all);
+    static const char *const shape[] = {"0.375*%s", "0.625*%s", "0.625*%s"};
+    static const char *const history[] = {"%s", "(t < %2$.17g ? %1$s : 0)",
+                                          "(t < %2$.17g ? 0 : %1$s)"};
+    char space[TEXT], time[TEXT], text[2][2 * TEXT];
+    print_factors(d, kind, space, time);
+    for (int i = 0; i < (in_pieces ? 3 : 1); i++) {
+        snprintf(text[0], sizeof text[0], in_pieces ? shape[i] : "%s", space);
+        snprintf(text[1], sizeof text[1], history[i], time, 0.61 * s->duration);
+        load_of(s, kind)->term[i] = (struct br_product){.space = br_test_function(text[0]),
+                                                        .time = br_test_function(text[1])};
+    }
 }
 
 /* ---- the ways ---- */
 
-static void function_of_both(struct br_scene *s, const struct drawn *d, int kind)
-{
-    as_function(s, d, kind, "", "", false);
-}
-
-static void same_on_both_sides(struct br_scene *s, const struct drawn *d, int kind)
-{
-    char before[TEXT];
-    snprintf(before, sizeof before, "(t < %.17g ? ", 0.377 * s->duration);
-    as_function(s, d, kind, before, " : ", true);
-}
-
-static void nothing_at_a_place(struct br_scene *s, const struct drawn *d, int kind)
-{
-    char after[TEXT];
-    snprintf(after, sizeof after, " + 0*abs(x - %.17g)", 0.31 * s->length);
-    as_function(s, d, kind, "", after, false);
-}
-
-/* Three eighths and five, the second of them in two pieces of time. */
-static void in_pieces(struct br_scene *s, const struct drawn *d, int kind)
-{
-    char space[TEXT], time[TEXT], piece[2 * TEXT];
-    struct br_load *load = load_of(s, kind);
-    print_time(time, d, kind);
-    for (int i = 0; i < 3; i++) {
-        const char *const form[] = {"%s", "(t < %.17g ? %s : 0)", "(t < %.17g ? 0 : %s)"};
-        print_space(space, d, kind, i ? 0.625 : 0.375);
-        if (i == 0)
-            snprintf(piece, sizeof piece, "%s", time);
-        else
-            snprintf(piece, sizeof piece, i == 1 ? form[1] : form[2], 0.61 * s->duration, time);
-        load->term[i] =
-            (struct br_product){.space = br_test_function(space), .time = br_test_function(piece)};
-    }
-}
-
 static const struct way {
     const char *title;
-    void (*write)(struct br_scene *s, const struct drawn *d, int kind);
-    struct br_units_change units;
-    bool displaced; /* a strain s that a tip force holds, and a gap that is wider by s L */
+    const char *load; /* as one function: of space, time, a time and a place; NULL: as products */
+    bool in_pieces;   /* three eighths and five, the second of them in two pieces of time */
+    bool displaced;   /* a strain s that a tip force holds, and a gap that is wider by s L */
 } ways[] = {
-    {"a function of x and t", function_of_both, {1, 1, 1}, false},
-    {"the same before and after a time", same_on_both_sides, {1, 1, 1}, false},
-    {"nothing at a place", nothing_at_a_place, {1, 1, 1}, false},
-    {"three pieces", in_pieces, {1, 1, 1}, false},
-    {"other units", as_product, {1000, 60, 0.45359237}, false},
-    {"displaced at first", as_product, {1, 1, 1}, true},
+    {"a function of x and t", "%1$s*%2$s", false, false},
+    {"the same before and after a time", "(t < %3$.17g ? %1$s*%2$s : %1$s*%2$s)", false, false},
+    /* each number must be written, so that the next one has its place */
+    {"nothing at a place", "%1$s*%2$s + 0*%3$.17g*abs(x - %4$.17g)", false, false},
+    {"three pieces", NULL, true, false},
+    {"displaced at first", NULL, false, true},
 };
 enum { WAYS = sizeof ways / sizeof *ways };
+
+static void put_load(struct br_scene *s, const struct drawn *d, int kind, const struct way *w)
+{
+    char space[TEXT], time[TEXT], all[6 * TEXT];
+    if (!w->load) {
+        put_products(s, d, kind, w->in_pieces);
+        return;
+    }
+    print_factors(d, kind, space, time);
+    snprintf(all, sizeof all, w->load, space, time, 0.377 * s->duration, 0.31 * s->length);
+    *load_of(s, kind) = br_test_load(all);
+}
 
 static void displace(struct br_scene *s, const struct drawn *d)
 {
@@ -169,18 +136,18 @@ static bool solve(const struct br_scene *s, struct answer *a)
 }
 
 static void compare(const char *title, const struct answer *a, const struct answer *b,
-                    const struct br_scene *s, const struct way *w, double moved)
+                    const struct br_scene *s, double moved)
 {
     for (int i = 0; i <= TIMES; i++) {
         const double t = s->duration * i / TIMES;
         br_exact_at(a->exact, t, a->state);
-        br_exact_at(b->exact, t * w->units.second, b->state);
+        br_exact_at(b->exact, t, b->state);
         for (int f = 0; f < 2; f++) {
             const struct br_exact_report x = br_exact_report(a->exact, (enum br_exact_field)f),
                                          y = br_exact_report(b->exact, (enum br_exact_field)f);
-            const double off = a->state->tip[f].displacement + (f ? 0 : moved) -
-                               b->state->tip[f].displacement / w->units.metre;
-            const double allowed = x.error.displacement + y.error.displacement / w->units.metre +
+            const double off =
+                a->state->tip[f].displacement + (f ? 0 : moved) - b->state->tip[f].displacement;
+            const double allowed = x.error.displacement + y.error.displacement +
                                    1e-15 * (x.largest.displacement + fabs(moved));
             if (!(fabs(off) <= allowed))
                 fail_msg("%s, field %d, t = %g s: %g m apart, expected at most %g m", title, f, t,
@@ -189,25 +156,16 @@ static void compare(const char *title, const struct answer *a, const struct answ
     }
 }
 
-static void write_loads(struct br_scene *s, const struct drawn *d,
-                        void (*write)(struct br_scene *, const struct drawn *, int))
-{
-    for (int kind = 0; kind < 2; kind++)
-        write(s, d, kind);
-}
-
 static struct br_scene second_way(const struct br_scene *plain, const struct drawn *d,
                                   const struct way *w)
 {
-    struct br_error err = {0};
-    struct br_scene s = *plain, rescaled;
+    struct br_scene s = *plain;
     s.axial.load = s.bending.load = (struct br_load){0};
-    write_loads(&s, d, w->write);
+    for (int kind = 0; kind < 2; kind++)
+        put_load(&s, d, kind, w);
     if (w->displaced)
         displace(&s, d);
-    MUST(br_rescale(&s, &w->units, &rescaled, &err));
-    br_scene_clear(&s);
-    return rescaled;
+    return s;
 }
 
 TEST(test_pairs)
@@ -221,14 +179,15 @@ TEST(test_pairs)
         struct br_scene s = bare(&random, &d);
         if (w->displaced && s.contact.gap + d.tip * s.length < 0)
             d.tip = -d.tip;
-        write_loads(&s, &d, as_product);
+        for (int kind = 0; kind < 2; kind++)
+            put_products(&s, &d, kind, false);
         struct br_scene other = second_way(&s, &d, w);
         struct answer a, b;
         const bool both = solve(&s, &a) & solve(&other, &b);
         refused += !both;
         size_t events = 0;
         if (both) {
-            compare(w->title, &a, &b, &s, w, w->displaced ? d.tip * s.length : 0);
+            compare(w->title, &a, &b, &s, w->displaced ? d.tip * s.length : 0);
             br_exact_events(a.exact, &events);
         }
         closed += events > 2;

@@ -34,7 +34,8 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_scene_read_verify(br_test_scene_file(with(part)), scene, verify, err);
+    return br_scene_parse("scene.yaml", with(part), &(struct br_scene_asked){.verify = verify},
+                          scene, err);
 }
 
 TEST(test_whole)

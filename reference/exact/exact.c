@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "reference/exact/solution.h"
+#include "reference/exact/march.h"
 
 /* ---- two solutions ---- */
 
@@ -396,7 +396,7 @@ static void solution_free(struct br_exact_solution *s)
 static size_t count_modes(const struct search *s, size_t which, size_t modes)
 {
     size_t count = 0;
-    for (size_t e = 0; e + 1 < s->outline[which].end.count; e++)
+    for (size_t e = 0; e + 1 < s->outline[which].end[BR_X].count; e++)
         count += br_outline_terms(&s->outline[which], e, modes);
     return count;
 }
@@ -523,7 +523,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     if (!s->modes)
         return br_fail(err, BR_NOT_FINITE,
                        "no exact solution: the loads and initial data ask for %zu and %zu elements",
-                       s->outline[0].end.count, s->outline[1].end.count);
+                       s->outline[0].end[BR_X].count, s->outline[1].end[BR_X].count);
     for (; !status && s->modes && !(s->worst <= enough) && !is_stuck(s); s->round++) {
         status = next_round(s);
         s->modes = next_modes(s);

@@ -101,48 +101,30 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
         br_pieces_integrate(&modes->pieces, d, c);
 }
 
-/* A mode that is smaller than round-off carries no velocity. */
-enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
-                                double *q, struct br_error *err)
-{
-    const int rows = (int)br_modes_length(modes, 0);
-    double *c = br_allocate((size_t)rows, sizeof *c);
-    if (!c)
-        return br_no_memory(err, "a projection");
-    const enum br_status status = br_quadrature_project(&modes->quadrature, f, 0, NULL, c, err);
-    cblas_dgemv(CblasColMajor, CblasTrans, rows, (int)modes->count, 1, modes->shape, rows, c, 1, 0,
-                q, 1); /* q = Y' c */
-    for (size_t i = 0; i < modes->count; i++)
-        q[i] = modes->size[i] > DBL_EPSILON * modes->size[0] ? q[i] / modes->size[i] : 0;
-    free(c);
-    return status;
-}
-
-enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
-                                       double scale, double *q, struct br_error *err)
-{
-    const int m = (int)modes->count;
-    double *rate = br_allocate(modes->count, sizeof *rate);
-    if (!rate)
-        return br_no_memory(err, "a projection");
-    const enum br_status status = br_quadrature_project_slope(&modes->quadrature, f, rate, err);
-    cblas_dgemv(CblasColMajor, CblasTrans, m, m, scale, modes->curve, m, rate, 1, 0, q,
-                1); /* q = U' c */
-    free(rate);
-    return status;
-}
-
 /* ---- the field on its modes ---- */
 
+/* The displacement's energy projection, and the velocity's L2 projection. */
 static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
 {
+    const struct br_modes *modes = &f->modes;
     const struct br_exact_data *d = &f->data;
-    const double scale = f->modes.degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
+    const int m = (int)modes->count, rows = (int)br_modes_length(modes, 0);
+    const double scale = modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
+    double *c = f->load_series;
     enum br_status status = BR_OK;
-    if (!br_function_is_zero(d->slope))
-        status = br_modes_project_energy(&f->modes, d->slope, scale, f->displacement, err);
-    if (!status && !br_function_is_zero(d->velocity))
-        status = br_modes_project(&f->modes, d->velocity, f->velocity, err);
+    if (!br_function_is_zero(d->slope)) {
+        status = br_quadrature_project_slope(&modes->quadrature, d->slope, c, err);
+        cblas_dgemv(CblasColMajor, CblasTrans, m, m, scale, modes->curve, m, c, 1, 0,
+                    f->displacement, 1); /* U' c */
+    }
+    if (!status && !br_function_is_zero(d->velocity)) {
+        status = br_quadrature_project(&modes->quadrature, d->velocity, 0, NULL, c, err);
+        cblas_dgemv(CblasColMajor, CblasTrans, rows, m, 1, modes->shape, rows, c, 1, 0, f->velocity,
+                    1);                           /* Y' c */
+        for (size_t i = 0; i < modes->count; i++) /* one smaller than round-off carries none */
+            f->velocity[i] *=
+                modes->size[i] > DBL_EPSILON * modes->size[0] ? 1 / modes->size[i] : 0;
+    }
     br_function_evaluate(d->displacement, 1, &f->length, 0, &f->tip_displacement);
     br_function_evaluate(d->velocity, 1, &f->length, 0, &f->tip_velocity);
     return status;
@@ -177,7 +159,7 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
                                      const struct br_outline *outline, size_t modes,
                                      struct br_store *store, struct br_error *err)
 {
-    const size_t elements = outline->end.count - 1;
+    const size_t elements = outline->end[BR_X].count - 1;
     const double power = pow(scene->length, 1 - 2 * (double)outline->degree);
     struct br_oscillators *f = *out = br_store_take(store, 1, sizeof *f);
     size_t *terms = br_store_take(store, elements, sizeof *terms);
@@ -190,7 +172,7 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
     f->stiffness = f->data.stiffness * power;
     for (size_t e = 0; e < elements; e++)
         terms[e] = br_outline_terms(outline, e, modes);
-    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end.at, terms, store);
+    br_pieces_init(&f->modes.pieces, f->length, elements, outline->end[BR_X].at, terms, store);
     enum br_status status = br_modes_init(&f->modes, outline->degree, store, err);
     if (status)
         return status;

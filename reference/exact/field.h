@@ -45,15 +45,6 @@ size_t br_modes_length(const struct br_modes *modes, size_t order);
  * sum_i q_i mode_i in x / L, order <= degree. */
 void br_modes_expand(const struct br_modes *modes, size_t order, const double *q, double *c);
 
-/* q (out) = L2 projection of f(x, 0) on the modes. */
-enum br_status br_modes_project(const struct br_modes *modes, const struct br_function *f,
-                                double *q, struct br_error *err);
-
-/* q (out) = energy projection of the displacement whose derivative of order
- * degree - 1 with respect to x / L is scale * f(x, 0). */
-enum br_status br_modes_project_energy(const struct br_modes *modes, const struct br_function *f,
-                                       double scale, double *q, struct br_error *err);
-
 /* ---- the field ---- */
 
 struct br_oscillators {

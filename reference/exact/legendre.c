@@ -14,9 +14,9 @@ static double to_gsl(double xi)
     return fmin(fmax(2 * xi - 1, -1), 1);
 }
 
-/* Roots take longer than all else: those of low degrees are kept. */
+/* Roots and quotients take longer than all else: those of low degrees are kept. */
 enum { KEPT = 32 };
-static double norms[KEPT], couplings[KEPT];
+static double norms[KEPT], couplings[KEPT], inverses[KEPT];
 
 static double find_norm(size_t k)
 {
@@ -32,6 +32,7 @@ __attribute__((constructor)) static void keep_roots(void)
 {
     for (size_t k = 0; k < KEPT; k++) {
         norms[k] = find_norm(k);
+        inverses[k] = 1.0 / ((double)k + 1);
         couplings[k] = k ? find_coupling(k) : 0; /* nothing comes from below degree 0 */
     }
 }
@@ -68,9 +69,6 @@ double br_legendre_coupling(size_t k)
 
 void br_legendre_integral(size_t count, double xi, double *p, double *q)
 {
-    static const double inverse[BR_MOST_INTEGRALS] = {
-        1.0,     1.0 / 2,  1.0 / 3,  1.0 / 4,  1.0 / 5,  1.0 / 6,  1.0 / 7, 1.0 / 8,
-        1.0 / 9, 1.0 / 10, 1.0 / 11, 1.0 / 12, 1.0 / 13, 1.0 / 14, 1.0 / 15};
     assert(count <= BR_MOST_INTEGRALS);
     const double y = to_gsl(xi);
     double all[BR_MOST_INTEGRALS + 1], before = 0, here = 1;
@@ -79,7 +77,7 @@ void br_legendre_integral(size_t count, double xi, double *p, double *q)
         all[k] = norms[k] * here;
         if (k == count)
             break;
-        const double next = ((2 * n + 1) * y * here - n * before) * inverse[k];
+        const double next = ((2 * n + 1) * y * here - n * before) * inverses[k];
         before = here;
         here = next;
     }
@@ -152,4 +150,72 @@ void br_radau_fit(const struct br_radau *r, const double value[S], double out[S]
 {
     for (size_t k = 0; k < S; k++)
         out[k] = br_radau_sum(r->to_coefficients[k], value);
+}
+
+/* ---- the loops that take most of the time ---- */
+
+#define ROW(set) &br_combiner_##set,
+const struct br_combiner *const br_combiners[] = {BR_INSTRUCTION_SETS(ROW) NULL};
+
+void br_combine(size_t rows, size_t count, const double *factor, size_t width, const double *table,
+                double *out)
+{
+    br_combiners[br_instruction_set_best()]->combine(rows, count, factor, width, table, out);
+}
+
+void br_stage_solve(const struct br_stage_system *system, size_t first, double *x)
+{
+    br_combiners[br_instruction_set_best()]->solve(system, first, x);
+}
+
+/* Sum of a[i] b[i], or of its square: in LANES sums, so that their order is the same on every
+ * machine, and none waits for the one before. */
+static inline double sum_lanes(size_t count, const double *a, const double *b, bool square)
+{
+    enum { LANES = 8 };
+    const size_t whole = count / LANES * LANES;
+    double sum[LANES] = {0}, all = 0;
+    for (size_t i = 0; i < whole; i += LANES)
+        for (size_t l = 0; l < LANES; l++) {
+            const double part = a[i + l] * b[i + l];
+            sum[l] += square ? part * part : part;
+        }
+    for (size_t i = whole; i < count; i++)
+        sum[i - whole] += square ? a[i] * b[i] * (a[i] * b[i]) : a[i] * b[i];
+    for (size_t l = 0; l < LANES; l++)
+        all += sum[l];
+    return all;
+}
+
+double br_sum_products(size_t count, const double *a, const double *b)
+{
+    return sum_lanes(count, a, b, false);
+}
+
+double br_norm(size_t count, const double *weight, const double *x)
+{
+    return sqrt(weight ? sum_lanes(count, weight, x, true) : sum_lanes(count, x, x, false));
+}
+
+void br_stage_factor(struct br_stage_system *s, const struct br_radau *radau)
+{
+    s->first = radau->integral[0][0];
+    s->last = radau->integral[S - 1][S - 1];
+    for (size_t k = 1; k < S; k++)
+        s->coupling[k] = radau->integral[k][k - 1];
+    for (size_t k = 0; k < S; k++) {
+        const double diagonal = k == 0 ? s->first : k + 1 == S ? s->last : 0;
+        const double square = s->coupling[k] * s->coupling[k];
+        double *all_p = &s->pivot[k * s->width], *all_q = all_p + S * s->width;
+        for (size_t i = 0; i < s->width; i++) {
+            double p = diagonal, q = 1;
+            if (k > 0) { /* + coupling^2 over the pivot before */
+                p += square * (all_p[i - s->width] + s->b * all_q[i - s->width]);
+                q -= square * all_q[i - s->width];
+            }
+            const double norm = p * p + p * q * s->b + q * q * s->a[i];
+            all_p[i] = p / norm;
+            all_q[i] = q / norm;
+        }
+    }
 }

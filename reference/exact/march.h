@@ -95,14 +95,57 @@ struct br_law_state br_law_at(const struct br_law *law, double t, const struct b
 enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
                            double displacement, double velocity);
 
-/* tip->force (in: zero; out): series of the force over a step, from the velocity
- * tip->velocity that the tip has without it, and the velocity's response z (row
- * by row) to the force's coefficients. While the tip sticks, a second call with
- * the velocity that is left improves the force. Fails with BR_SINGULAR
- * or BR_NOT_FINITE. */
-enum br_status br_law_force(const struct br_law *law, const struct br_radau *radau,
-                            const double z[BR_STAGES][BR_STAGES], struct br_tip_step *tip,
-                            struct br_error *err);
+/* ---- one step (step.c) ---- */
+
+/* A field at one time. The tip's own values are carried along by increments,
+ * and set when an event fixes them: summed over modes they would lose what is
+ * small just after an event. */
+struct br_stepper {
+    const struct br_oscillators *field; /* borrowed */
+    const struct br_law *law;           /* borrowed */
+    struct br_radau radau;
+
+    double time;     /* s */
+    double from, to; /* s: the load is taken between these, where it does not jump */
+    double blur;     /* of the load: what the rounding of t does to it, relative */
+    enum br_phase phase;
+    double *q, *v;                         /* modes: m, m/s */
+    double tip_displacement, tip_velocity; /* less the gap, m, m/s */
+
+    struct br_tip_step tip; /* the last trial step */
+    double *series;         /* BR_STAGES x width of the modes: its velocity, m/s */
+    double free_size;       /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
+                               force cancels it, its round-off is what remains */
+
+    double work; /* of the trial steps, see br_effort; whoever reads it sets it to zero */
+
+    double length;                 /* s, of the step that the responses are for */
+    struct br_stage_system system; /* of this length, over stiffness h */
+    double *gain;      /* width: mean velocity in a step over a constant force, m/(N s) */
+    double tip_length; /* s, of the step that this is for: only phases that need it have it */
+    double tip_response[BR_STAGES][BR_STAGES]; /* velocity over force, m/(N s) */
+    double *load;                              /* BR_STAGES x width, at the stages, N */
+    double *rest;          /* the same size: series of what the state leaves of it, N */
+    double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double impulse;        /* m^(3/2)/s: velocity that the loads alone give in the step, in L2 */
+    double noise_response; /* the same of a load of 1 N of every shape */
+};
+
+/* s: in, with its field and law, all else zero; gap in m. Starts at t = 0. Fails with
+ * BR_NO_MEMORY. */
+enum br_status br_stepper_init(struct br_stepper *s, double gap, struct br_store *store,
+                               struct br_error *err);
+
+/* Sets tip and series to a step of length h from the current state, which stays.
+ * Fails with BR_NO_MEMORY, BR_SINGULAR or BR_NOT_FINITE. */
+enum br_status br_stepper_try(struct br_stepper *s, double h, struct br_error *err);
+
+/* Moves the state to the end of the last trial step, called `time`. */
+void br_stepper_accept(struct br_stepper *s, double time);
+
+/* Sets exactly what the end of the state's phase fixes: the tip's displacement
+ * where a contact opens or closes, its velocity where a slip ends. */
+void br_stepper_settle(struct br_stepper *s);
 
 /* ---- the march ---- */
 
@@ -124,5 +167,25 @@ struct br_march_options {
 enum br_status br_march(const struct br_oscillators *field, const struct br_law *law,
                         const struct br_march_options *options, struct br_store *store,
                         struct br_history **out, struct br_error *err);
+
+/* ---- a solution ---- */
+
+/* One march of each modelled field; the others are NULL. */
+struct br_exact_solution {
+    struct br_oscillators *field[BR_EXACT_FIELDS];
+    struct br_law law[BR_EXACT_FIELDS];
+    struct br_history *track[BR_EXACT_FIELDS];
+    struct br_store store; /* of the fields */
+};
+
+struct br_exact {
+    double duration; /* T, s */
+    struct br_exact_solution *solution;
+    struct br_exact_report report[BR_EXACT_FIELDS];
+    double noise[BR_EXACT_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
+                                      of the velocity is round-off */
+    size_t events;
+    struct br_exact_event *event;
+};
 
 #endif

@@ -14,13 +14,17 @@
 /* What a polynomial may miss, of the largest value in its cell or of the mean, if that is more. */
 #define BR_SIGHT_TOLERANCE 1e-11
 
+/* Of the polynomials on an element, and of those that the rules over a step integrate. */
+enum { BR_SIGHT_DEGREE = 15 };
+
 /* Numbers. */
 struct br_list {
     double *at; /* count; of a store */
     size_t count, room;
 };
-enum br_status br_list_add(struct br_list *list, double value, struct br_store *store,
-                           struct br_error *err);
+
+/* After a failure, which the store keeps, the value is missing. */
+void br_list_add(struct br_list *list, double value, struct br_store *store);
 
 /* Sorts, and keeps one of those that are the same. */
 void br_list_sort(struct br_list *list);
@@ -38,27 +42,20 @@ double br_sight_error(const struct br_function *f, enum br_variable along, struc
 /* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
 double br_sight_mean(const struct br_function *f, struct br_box box);
 
+/* A function and where it is needed: of a variable that it does not use, or of whose other values
+ * none matters, the box has one. */
 struct br_sight {
     const struct br_function *f;
-    size_t degree[2];       /* by br_variable: of the polynomials, up to 15 */
-    double mean;            /* of |f| over all that counts, see br_sight_mean */
-    double most_missed;     /* integral of |f| that a cell may hold unseen */
-    double least;           /* narrower cells are not looked into */
-    size_t most;            /* cells */
-    struct br_store *store; /* of the lists */
-    double missed;          /* out: integral that cells may hold unseen, in all */
+    struct br_box box;
+    double mean;   /* br_sight_mean of the box */
+    double missed; /* out: share of its integral that cells may hold unseen, in all */
 };
 
-/* Adds the ends of cells inside of the box along one variable, for a function of that variable
- * alone (at the other's low end). Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
+/* Adds the ends of cells inside of a part of the box along each of its variables. For a function
+ * of both, guards may move in the part. Fails with BR_NOT_FINITE: too many, BR_BAD_INPUT where the
  * function is not finite, or BR_NO_MEMORY. */
-enum br_status br_sight_along(struct br_sight *sight, enum br_variable along, struct br_box box,
-                              struct br_list *ends, struct br_error *err);
-
-/* The same along both variables at once, for a function that cannot be split, in whose box guards
- * may move. */
-enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list *ends[2],
-                             struct br_error *err);
+enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct br_list ends[2],
+                             struct br_store *store, struct br_error *err);
 
 /* ---- a field (outline.c) ---- */
 
@@ -76,13 +73,12 @@ struct br_exact_data br_exact_data_of(const struct br_scene *scene, size_t degre
 
 struct br_outline {
     size_t degree;         /* of the field: 1 axial, 2 bending */
-    struct br_list end;    /* of the elements, m: from 0 to L */
+    struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
+                              that no step may overlook, from 0 to T */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
-    struct br_list *cell;  /* cells: in each, ends of cells in time, s, that no step may overlook */
-    size_t cells;
-    bool fronts;   /* places where the load jumps move */
-    double missed; /* of the load's integral: what proofs could not exclude */
-    double proved; /* likewise, what polynomials were proved to be away from the data */
+    bool fronts;           /* places where the load jumps move */
+    double missed;         /* of the load's integral: what proofs could not exclude */
+    double proved;         /* likewise, what polynomials were proved to be away from the data */
     struct br_store store;
 };
 
@@ -98,7 +94,8 @@ size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes
 /* Whether the data change so fast within `width` of t that a cell is shorter than that. */
 bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
 
-/* The shortest cell that holds t, infinite for none. */
+/* The length of the cell that holds t, infinite where it is the only one; where two meet the later
+ * one. */
 double br_outline_cell(const struct br_outline *outline, double t);
 
 /* How long a step from t may be: not longer than any cell that it touches. */

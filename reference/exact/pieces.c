@@ -206,31 +206,29 @@ enum br_status br_quadrature_project(const struct br_quadrature *q, const struct
     return status;
 }
 
-/* On each element, less its value at the left end: f(b) p_k(1) - integral of f p_k'. */
+/* On each element, less its value at the left end: f(b) p_k(1) - integral of f p_k', where p_k' is
+ * the sum of 2 p_k(1) p_j(1) p_j over j = k - 1, k - 3, ... */
 enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
                                            const struct br_function *f, double *c,
                                            struct br_error *err)
 {
     const struct br_pieces *p = q->pieces;
-    const size_t most = br_pieces_at(p, p->count, 0);
-    double *work = br_allocate(2 * most, sizeof *work), *unused = work, *rate = work + most;
-    if (!work)
+    double *all = br_allocate(br_pieces_at(p, p->count, q->extra), sizeof *all);
+    if (!all)
         return br_no_memory(err, "a quadrature");
-    br_function_evaluate(f, q->count, q->x, 0, q->value);
-    for (size_t e = 0, start = 0; e < p->count; start += q->points[e++]) {
-        double end[2], *out = &c[br_pieces_at(p, e, 0)];
-        const double h = p->end[e + 1] - p->end[e], root = sqrt(br_pieces_width(p, e));
+    const enum br_status status = br_quadrature_project(q, f, 0, NULL, all, err);
+    for (size_t e = 0; e < p->count && !status; e++) {
+        const double root = sqrt(br_pieces_width(p, e)), *here = &all[br_pieces_at(p, e, q->extra)];
+        double end[2], sum[2], *out = &c[br_pieces_at(p, e, 0)];
         br_function_evaluate(f, 2, &p->end[e], 0, end);
-        br_legendre(p->terms[e], 1, out);
-        for (size_t k = 0; k < p->terms[e]; k++)
-            out[k] *= (end[1] - end[0]) / root;
-        for (size_t i = start; i < start + q->points[e]; i++) {
-            br_legendre_derivative(p->terms[e], (q->x[i] - p->end[e]) / h, unused, rate);
-            const double factor = q->weight[i] * (q->value[i] - end[0]) / root;
-            for (size_t k = 0; k < p->terms[e]; k++)
-                out[k] -= factor * rate[k];
+        sum[0] = -end[0];
+        sum[1] = 0;
+        for (size_t k = 0; k < p->terms[e]; k++) {
+            const double one = sqrt(2 * (double)k + 1); /* p_k(1) */
+            out[k] = one * (end[1] - end[0] - 2 * sum[(k + 1) % 2]) / root;
+            sum[k % 2] += one * here[k] / root;
         }
     }
-    free(work);
-    return BR_OK;
+    free(all);
+    return status;
 }

@@ -7,7 +7,8 @@
 #ifndef BR_REFERENCE_EXACT_PIECES_H
 #define BR_REFERENCE_EXACT_PIECES_H
 
-#include "reference/exact/combine.h"
+#include "reference/exact/exact.h"
+#include "reference/exact/legendre.h"
 #include "solver/proof.h"
 
 struct br_pieces {
@@ -71,5 +72,19 @@ enum br_status br_quadrature_project(const struct br_quadrature *q, const struct
 enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
                                            const struct br_function *f, double *c,
                                            struct br_error *err);
+
+/* ---- the L2 projection of a series on polynomials on equal elements (projection.c) ---- */
+
+struct br_piecewise;
+
+/* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
+ * BR_SINGULAR. */
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+                                   size_t extra, const struct br_exact_mesh *mesh,
+                                   struct br_store *store, struct br_error *err);
+
+/* c and rest as br_exact_projection_apply has them. For one thread at a time. */
+void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, double *c,
+                        double *rest);
 
 #endif

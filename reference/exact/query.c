@@ -6,10 +6,9 @@
 #include <pthread.h>
 #include <stdint.h>
 
-#include "reference/exact/combine.h"
 #include "reference/exact/legendre.h"
-#include "reference/exact/projection.h"
-#include "reference/exact/solution.h"
+#include "reference/exact/march.h"
+#include "reference/exact/pieces.h"
 
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
 {
@@ -130,16 +129,16 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
 
 /* ---- shared solutions ---- */
 
-/* A scene is known by its address, which is its own as long as somebody has the solution. */
-struct loan {
+/* A scene is known by its address, which is its own as long as somebody has the solution. Without
+ * users: none. What finds no room is not shared. */
+static struct loan {
     const struct br_scene *scene;
     struct br_exact_options options;
-    struct br_exact *exact;
+    const struct br_exact *exact;
     size_t users;
-    struct loan *next;
-};
+} loans[64];
+enum { MOST_LOANS = sizeof loans / sizeof *loans };
 
-static struct loan *loans;
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 static size_t most_modes(const struct br_exact_options *o)
@@ -159,63 +158,47 @@ static bool serves(const struct loan *loan, const struct br_scene *scene,
     const struct br_exact_options *l = &loan->options;
     const bool same = l->tolerance == o->tolerance && l->acceptable == o->acceptable &&
                       l->max_steps == o->max_steps;
-    return loan->scene == scene && same &&
+    return loan->users && loan->scene == scene && same &&
            (most_modes(l) == most_modes(o) ||
             (below(loan->exact, most_modes(l)) && below(loan->exact, most_modes(o))));
-}
-
-static const struct br_exact *find(const struct br_scene *scene, const struct br_exact_options *o)
-{
-    const struct br_exact *found = NULL;
-    pthread_mutex_lock(&lock);
-    for (struct loan *loan = loans; loan && !found; loan = loan->next)
-        if (serves(loan, scene, o)) {
-            loan->users++;
-            found = loan->exact;
-        }
-    pthread_mutex_unlock(&lock);
-    return found;
 }
 
 enum br_status br_exact_borrow(const struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err)
 {
-    *out = find(scene, options);
-    if (*out)
-        return BR_OK;
-    struct loan *loan = br_allocate(1, sizeof *loan);
-    if (!loan)
-        return br_no_memory(err, "the exact solution");
-    *loan = (struct loan){.scene = scene, .options = *options, .users = 1};
-    const enum br_status status = br_exact_create(&loan->exact, scene, options, err);
-    if (status) {
-        free(loan);
-        return status;
-    }
+    struct br_exact *made = NULL;
+    *out = NULL;
     pthread_mutex_lock(&lock);
-    loan->next = loans;
-    loans = loan;
+    for (struct loan *loan = loans; loan < loans + MOST_LOANS && !*out; loan++)
+        if (serves(loan, scene, options)) {
+            loan->users++;
+            *out = loan->exact;
+        }
     pthread_mutex_unlock(&lock);
-    *out = loan->exact;
+    const enum br_status status = *out ? BR_OK : br_exact_create(&made, scene, options, err);
+    if (!made)
+        return status;
+    *out = made;
+    pthread_mutex_lock(&lock);
+    size_t i = 0;
+    while (i < MOST_LOANS && loans[i].users)
+        i++;
+    if (i < MOST_LOANS)
+        loans[i] = (struct loan){scene, *options, made, 1};
+    pthread_mutex_unlock(&lock);
     return BR_OK;
 }
 
 void br_exact_give_back(const struct br_exact *exact)
 {
-    struct loan *last = NULL;
+    bool last = true;
     pthread_mutex_lock(&lock);
-    for (struct loan **at = &loans; exact && *at; at = &(*at)->next)
-        if ((*at)->exact == exact) {
-            if (--(*at)->users == 0) {
-                last = *at;
-                *at = last->next;
-            }
-            break;
-        }
+    for (size_t i = 0; i < MOST_LOANS; i++)
+        if (loans[i].users && loans[i].exact == exact)
+            last = --loans[i].users == 0;
     pthread_mutex_unlock(&lock);
     if (last)
-        br_exact_free(last->exact);
-    free(last);
+        br_exact_free((struct br_exact *)(uintptr_t)exact); /* nobody else has it */
 }
 
 /* ---- projections ---- */

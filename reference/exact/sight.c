@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A function of x and t that is no product. For cells along one variable the box is halved along
- * either, whichever helps more, until in each part a polynomial along the one stands for the
- * function, or a guard goes through it that never lets go. What counts as an end of a cell is where
- * smooth functions ask for more, not where a guard does: that moves, and quadratures are cut at
- * it. */
-#include "reference/exact/outline.h"
-
+/* A mesh for a function along one variable. Its box is halved until in each part a polynomial
+ * stands for the function; or, where it is not smooth, until little is left there.
+ *
+ * A function of x and t that is no product has guards that move. Its box is halved along either
+ * variable, whichever helps more, until in each part a polynomial along the one stands for it, or a
+ * guard goes through that never lets go. What counts as an end of a cell is where smooth functions
+ * ask for more, not where a guard does: that moves, and quadratures are cut at it. */
 #include <gsl/gsl_sort.h>
 #include <math.h>
 
+#include "reference/exact/outline.h"
+
 /* ---- lists ---- */
 
-enum br_status br_list_add(struct br_list *list, double value, struct br_store *store,
-                           struct br_error *err)
+void br_list_add(struct br_list *list, double value, struct br_store *store)
 {
     double *at = br_store_grow(store, list->at, list->count, &list->room, sizeof *at);
     if (!at)
-        return br_no_memory(err, "a mesh");
+        return;
     list->at = at;
     list->at[list->count++] = value;
-    return BR_OK;
 }
 
 void br_list_sort(struct br_list *list)
@@ -40,21 +40,27 @@ static double magnitude(struct br_interval v)
     return fmax(fabs(v.low), fabs(v.high));
 }
 
-static struct br_interval along(const struct br_box *box, enum br_variable v)
-{
-    return v == BR_X ? box->x : box->t;
-}
-
 static double width(struct br_interval i)
 {
     return i.high - i.low;
 }
 
+static struct br_interval along(struct br_box box, enum br_variable v)
+{
+    return *br_side(&box, v);
+}
+
 static void halve(struct br_box box, enum br_variable v, struct br_box half[2])
 {
-    const struct br_interval i = along(&box, v);
+    const struct br_interval i = along(box, v);
     half[0] = half[1] = box;
     br_side(&half[0], v)->high = br_side(&half[1], v)->low = i.low + width(i) / 2;
+}
+
+static double measure(struct br_box box)
+{
+    const double x = width(box.x), t = width(box.t);
+    return (x > 0 ? x : 1) * (t > 0 ? t : 1);
 }
 
 double br_sight_error(const struct br_function *f, enum br_variable v, struct br_box box,
@@ -64,7 +70,7 @@ double br_sight_error(const struct br_function *f, enum br_variable v, struct br
     if (!br_function_taylor(f, v, box, degree + 1, coefficient))
         return INFINITY;
     const double error =
-        2 * magnitude(coefficient[degree + 1]) * pow(width(along(&box, v)) / 4, (double)degree + 1);
+        2 * magnitude(coefficient[degree + 1]) * pow(width(along(box, v)) / 4, (double)degree + 1);
     return isnan(error) ? INFINITY : error;
 }
 
@@ -75,12 +81,6 @@ struct share {
     struct br_box box;
     double low, high; /* of the integral of |f| over it */
 };
-
-static double measure(struct br_box box)
-{
-    const double x = width(box.x), t = width(box.t);
-    return (x > 0 ? x : 1) * (t > 0 ? t : 1);
-}
 
 static struct share share_of(const struct br_function *f, struct br_box box)
 {
@@ -94,10 +94,8 @@ static struct share share_of(const struct br_function *f, struct br_box box)
 double br_sight_mean(const struct br_function *f, struct br_box whole)
 {
     enum { MOST = 400 };
-    struct share share[MOST];
-    size_t count = 1;
-    share[0] = share_of(f, whole);
-    for (;;) {
+    struct share share[MOST] = {share_of(f, whole)};
+    for (size_t count = 1;; count++) {
         double low = 0, high = 0;
         size_t worst = 0;
         for (size_t i = 0; i < count; i++) {
@@ -114,115 +112,41 @@ double br_sight_mean(const struct br_function *f, struct br_box whole)
         struct br_box half[2];
         halve(box, along_x ? BR_X : BR_T, half);
         share[worst] = share_of(f, half[0]);
-        share[count++] = share_of(f, half[1]);
+        share[count] = share_of(f, half[1]);
     }
 }
 
-/* ---- one variable ---- */
-
-struct cover {
-    struct br_sight *sight;
-    enum br_variable along;
-    struct br_list *ends;
-    struct br_box whole;
-    struct br_error *err;
-    double missed; /* the rest is for both variables */
-    size_t boxes;
-};
-
-static enum br_status survey(const struct cover *s, struct br_box box)
-{
-    struct br_sight *sight = s->sight;
-    const struct br_interval here = along(&box, s->along);
-    struct br_interval value = {0, 0};
-    const double middle = here.low + width(here) / 2;
-    const bool bounded = br_function_bound(sight->f, box, &value);
-    const double size = fmax(magnitude(value), sight->mean);
-    const double unseen = width(here) * (value.high - value.low);
-    const bool narrow = !(width(here) > sight->least && here.low < middle && middle < here.high);
-    if (narrow && !bounded)
-        return br_must_be_finite(sight->f, box, s->err);
-    if (!bounded || !(br_sight_error(sight->f, s->along, box, sight->degree[s->along]) <=
-                      BR_SIGHT_TOLERANCE * size)) {
-        if (!narrow && !(bounded && unseen <= sight->most_missed)) {
-            struct br_box half[2];
-            halve(box, s->along, half);
-            const enum br_status status = survey(s, half[0]);
-            return status ? status : survey(s, half[1]);
-        }
-        sight->missed += unseen;
-    }
-    if (s->ends->count >= sight->most)
-        return br_fail(s->err, BR_NOT_FINITE,
-                       "no exact solution: the data have details that are too fine near %s = %g %s",
-                       s->along == BR_X ? "x" : "t", middle, s->along == BR_X ? "m" : "s");
-    return here.high < along(&s->whole, s->along).high
-               ? br_list_add(s->ends, here.high, sight->store, s->err)
-               : BR_OK;
-}
-
-enum br_status br_sight_along(struct br_sight *sight, enum br_variable v, struct br_box box,
-                              struct br_list *ends, struct br_error *err)
-{
-    const struct cover s = {sight, v, ends, box, err, 0, 0};
-    return survey(&s, box);
-}
-
-/* ---- both variables ---- */
+/* ---- the mesh ---- */
 
 enum { MOST_BOXES = 40000, MOST_HALVINGS = 10 };
 
-/* A guard goes through the box, which is not halved any more: how much more than its values at
- * some places the function may take there. */
-static void give_up(struct cover *c, const struct br_box *box, struct br_interval value)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int j = 0; j <= 2; j++) {
-        double x[3], at[3];
-        for (int i = 0; i <= 2; i++)
-            x[i] = box->x.low + width(box->x) * i / 2;
-        br_function_evaluate(c->sight->f, 3, x, box->t.low + width(box->t) * j / 2, at);
-        for (int i = 0; i <= 2; i++) {
-            low = fmin(low, at[i]);
-            high = fmax(high, at[i]);
-        }
-    }
-    const double excess = fmax(low - value.low, 0) + fmax(value.high - high, 0);
-    c->missed += width(box->x) * width(box->t) * excess;
-}
+/* Of the polynomials by br_variable: on an element, and over a Radau step. */
+static const size_t degrees[] = {[BR_X] = BR_SIGHT_DEGREE, [BR_T] = 8};
 
-/* The ends of a cell; the box's own are none. */
-static enum br_status add_ends(struct cover *c, const struct br_box *box)
-{
-    const struct br_interval i = along(box, c->along), whole = along(&c->whole, c->along);
-    const double end[2] = {i.low, i.high};
-    enum br_status status = BR_OK;
-    for (size_t k = 0; k < 2 && !status; k++)
-        if (end[k] > whole.low && end[k] < whole.high)
-            status = br_list_add(c->ends, end[k], c->sight->store, c->err);
-    return status;
-}
+/* Of a function's integral, what a cell may hold unseen; and of the box, below which width cells
+ * are not looked into. */
+static const double little = 1e-13, least = 1e-15;
 
-static enum br_status cover(struct cover *c, struct br_box box);
+struct cover {
+    const struct br_sight *sight;
+    enum br_variable one, other; /* the mesh is along the one */
+    struct br_box whole;
+    struct br_list *ends;
+    struct br_store *store;
+    struct br_error *err;
+    size_t boxes;
+    double missed;
+};
 
-/* Covers both halves along v; ends: they are cells. */
-static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_variable v,
-                                   bool ends)
+/* The share of the whole that the box takes along a variable. */
+static double share_along(const struct cover *c, struct br_box box, enum br_variable v)
 {
-    struct br_box half[2];
-    enum br_status status = BR_OK;
-    halve(box, v, half);
-    for (size_t k = 0; k < 2 && !status; k++) {
-        status = ends ? add_ends(c, &half[k]) : BR_OK;
-        if (!status)
-            status = cover(c, half[k]);
-    }
-    return status;
+    return width(along(box, v)) / width(along(c->whole, v));
 }
 
 static double error_in(const struct cover *c, struct br_box box)
 {
-    return br_sight_error(c->sight->f, c->along, box, c->sight->degree[c->along]);
+    return br_sight_error(c->sight->f, c->one, box, degrees[c->one]);
 }
 
 /* The larger error of both halves. */
@@ -233,51 +157,118 @@ static double error_of_halves(const struct cover *c, struct br_box box, enum br_
     return fmax(error_in(c, half[0]), error_in(c, half[1]));
 }
 
-/* The share of the whole that the box takes along a variable. */
-static double share_along(const struct cover *c, const struct br_box *box, enum br_variable v)
+static enum br_status too_fine(const struct cover *c, struct br_box box)
 {
-    return width(along(box, v)) / width(along(&c->whole, v));
-}
-
-static enum br_status cover(struct cover *c, struct br_box box)
-{
-    const enum br_variable one = c->along, other = one == BR_X ? BR_T : BR_X;
-    struct br_interval value;
-    const bool bounded = br_function_bound(c->sight->f, box, &value);
-    const double size = bounded ? magnitude(value) : 0;
-    const double error = error_in(c, box), least = pow(0.5, MOST_HALVINGS);
-    if (++c->boxes > MOST_BOXES)
+    const struct br_interval here = along(box, c->one);
+    if (width(c->whole.x) > 0 && width(c->whole.t) > 0)
         return br_fail(c->err, BR_NOT_FINITE,
                        "no exact solution: a load of x and t has details that are too fine near "
                        "x = %g m, t = %g s",
                        box.x.low, box.t.low);
-    if (bounded && error <= BR_SIGHT_TOLERANCE * fmax(size, c->sight->mean))
-        return BR_OK;
-    if (isfinite(error)) {
-        const bool help = share_along(c, &box, other) > least &&
-                          error_of_halves(c, box, other) < error_of_halves(c, box, one);
-        return cover_halves(c, box, help ? other : one, !help);
-    }
-    const enum br_variable longer =
-        share_along(c, &box, BR_X) >= share_along(c, &box, BR_T) ? BR_X : BR_T;
-    if (share_along(c, &box, longer) > least)
-        return cover_halves(c, box, longer, false);
-    if (!bounded)
-        return br_must_be_finite(c->sight->f, box, c->err);
-    give_up(c, &box, value);
-    return BR_OK;
+    return br_fail(c->err, BR_NOT_FINITE,
+                   "no exact solution: the data have details that are too fine near %s = %g %s",
+                   c->one == BR_X ? "x" : "t", here.low + width(here) / 2,
+                   c->one == BR_X ? "m" : "s");
 }
 
-enum br_status br_sight_both(struct br_sight *sight, struct br_box box, struct br_list *ends[2],
-                             struct br_error *err)
+/* A guard goes through the box, which is not halved any more: how much more than its values at
+ * some places the function may take there. */
+static double excess(const struct cover *c, struct br_box box, struct br_interval value)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int j = 0; j <= 2; j++) {
+        double x[3], at[3];
+        for (int i = 0; i <= 2; i++)
+            x[i] = box.x.low + width(box.x) * i / 2;
+        br_function_evaluate(c->sight->f, 3, x, box.t.low + width(box.t) * j / 2, at);
+        for (int i = 0; i <= 2; i++) {
+            low = fmin(low, at[i]);
+            high = fmax(high, at[i]);
+        }
+    }
+    return fmax(low - value.low, 0) + fmax(value.high - high, 0);
+}
+
+static enum br_status cover(struct cover *c, struct br_box box);
+
+/* Covers both halves along v; cells: they are such, and their ends are added, but the whole's own.
+ */
+static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_variable v,
+                                   bool cells)
+{
+    const struct br_interval whole = along(c->whole, c->one);
+    struct br_box half[2];
+    enum br_status status = BR_OK;
+    halve(box, v, half);
+    for (size_t k = 0; k < 2 && !status; k++) {
+        const struct br_interval here = along(half[k], c->one);
+        if (cells && here.low > whole.low)
+            br_list_add(c->ends, here.low, c->store);
+        if (cells && here.high < whole.high)
+            br_list_add(c->ends, here.high, c->store);
+        status = cover(c, half[k]);
+    }
+    return status;
+}
+
+/* In a box in which no polynomial stands for the function: halves, unless it holds little, or is
+ * narrow, or holds a guard that moves and does not let go. The error is infinite where the function
+ * is not smooth. */
+static enum br_status divide(struct cover *c, struct br_box box, double error, bool bounded,
+                             struct br_interval value)
+{
+    const struct br_sight *s = c->sight;
+    const struct br_interval here = along(box, c->one);
+    const double middle = here.low + width(here) / 2, fine = pow(0.5, MOST_HALVINGS);
+    const bool narrow = !(width(here) > least * width(along(s->box, c->one)) && here.low < middle &&
+                          middle < here.high);
+    const bool moving = isinf(error) && width(along(c->whole, c->other)) > 0;
+    const enum br_variable longer =
+        share_along(c, box, BR_X) >= share_along(c, box, BR_T) ? BR_X : BR_T;
+    double unseen = measure(box) * width(value);
+    if (!narrow && !(bounded && unseen <= little * s->mean * measure(s->box))) {
+        if (moving && share_along(c, box, longer) > fine)
+            return cover_halves(c, box, longer, false);
+        const bool help = !moving && share_along(c, box, c->other) > fine &&
+                          error_of_halves(c, box, c->other) < error_of_halves(c, box, c->one);
+        if (!moving)
+            return cover_halves(c, box, help ? c->other : c->one, !help);
+        unseen = bounded ? measure(box) * excess(c, box, value) : 0;
+    }
+    c->missed += unseen;
+    return bounded ? BR_OK : br_must_be_finite(s->f, box, c->err);
+}
+
+static enum br_status cover(struct cover *c, struct br_box box)
+{
+    struct br_interval value = {0, 0};
+    const bool bounded = br_function_bound(c->sight->f, box, &value);
+    const double error = error_in(c, box);
+    if (++c->boxes > MOST_BOXES)
+        return too_fine(c, box);
+    return bounded && error <= BR_SIGHT_TOLERANCE * fmax(magnitude(value), c->sight->mean)
+               ? BR_OK
+               : divide(c, box, error, bounded, value);
+}
+
+enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct br_list ends[2],
+                             struct br_store *store, struct br_error *err)
 {
     enum br_status status = BR_OK;
     double missed = 0;
     for (enum br_variable v = BR_X; v <= BR_T && !status; v++) {
-        struct cover c = {.sight = sight, .along = v, .ends = ends[v], .whole = box, .err = err};
-        status = cover(&c, box);
+        struct cover c = {.sight = sight,
+                          .one = v,
+                          .other = v == BR_X ? BR_T : BR_X,
+                          .whole = part,
+                          .ends = &ends[v],
+                          .store = store,
+                          .err = err};
+        if (width(along(part, v)) > 0)
+            status = cover(&c, part);
         missed = fmax(missed, c.missed);
     }
-    sight->missed += missed;
-    return status;
+    if (missed > 0)
+        sight->missed += missed / (sight->mean * measure(sight->box));
+    return store->failed ? br_no_memory(err, "a mesh") : status;
 }

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/march.h"
 
-#include <lapacke.h>
 #include <math.h>
-#include <string.h>
 
 enum { S = BR_STAGES };
 
@@ -58,75 +56,6 @@ struct br_law_state br_law_at(const struct br_law *law, double t, const struct b
         break;
     }
     return (struct br_law_state){0, INFINITY, BR_FREE};
-}
-
-/* x = a \ x; a is destroyed */
-static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
-{
-    lapack_int pivot[S];
-    const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, 1, &a[0][0], S, pivot, x, 1);
-    if (info == LAPACK_TRANSPOSE_MEMORY_ERROR || info == LAPACK_WORK_MEMORY_ERROR)
-        return br_no_memory(err, "the tip's force");
-    if (info < 0) /* LAPACKE looks for NaN */
-        return br_fail(err, BR_NOT_FINITE, "the tip's force is not finite");
-    return info ? br_fail(err, BR_SINGULAR, "the tip's force is not determined") : BR_OK;
-}
-
-/* force = c_H (d + h X (velocity - Z force)), d the tip less the gap */
-static enum br_status close(const struct br_law *law, const struct br_radau *radau,
-                            const double z[S][S], struct br_tip_step *tip, struct br_error *err)
-{
-    const double rate = law->stiffness * tip->length;
-    double a[S][S] = {{0}};
-    for (size_t k = 0; k < S; k++) {
-        for (size_t l = 0; l < S; l++)
-            for (size_t j = 0; j < S; j++)
-                a[k][j] += rate * radau->integral[k][l] * z[l][j];
-        a[k][k] += 1;
-        tip->force[k] = rate * br_radau_sum(radau->integral[k], tip->velocity);
-    }
-    tip->force[0] += law->stiffness * tip->displacement;
-    return solve(a, tip->force, err);
-}
-
-/* force += Z \ velocity, so that nothing is left of it */
-static enum br_status stick(const double z[S][S], struct br_tip_step *tip, struct br_error *err)
-{
-    double a[S][S], change[S];
-    memcpy(a, z, sizeof a);
-    memcpy(change, tip->velocity, sizeof change);
-    const enum br_status status = solve(a, change, err);
-    for (size_t k = 0; k < S; k++)
-        tip->force[k] += change[k];
-    return status;
-}
-
-static void slip(const struct br_law *law, const struct br_radau *radau, struct br_tip_step *tip)
-{
-    const double sign = tip->phase == BR_SLIP_UP ? 1 : -1;
-    double bound[S];
-    for (size_t j = 0; j < S; j++)
-        bound[j] = sign * br_law_bound(law, tip->start + radau->node[j] * tip->length);
-    br_radau_fit(radau, bound, tip->force);
-}
-
-enum br_status br_law_force(const struct br_law *law, const struct br_radau *radau,
-                            const double z[S][S], struct br_tip_step *tip, struct br_error *err)
-{
-    switch (tip->phase) {
-    case BR_CLOSED:
-        return close(law, radau, z, tip, err);
-    case BR_STICK:
-        return stick(z, tip, err);
-    case BR_SLIP_UP:
-    case BR_SLIP_DOWN:
-        slip(law, radau, tip);
-        break;
-    case BR_FREE:
-    case BR_OPEN:
-        break;
-    }
-    return BR_OK;
 }
 
 /* ---- the history ---- */

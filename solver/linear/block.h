@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of the tables of the flexibility form, 2 by 2 in long double, for plain.c and
+/* Blocks of the tables of the flexibility form, 2 by 2 in long double, for recursion.c and
  * riccati/tables.c. Of a rod the first entry alone is not 0. */
 #ifndef BR_SOLVER_BLOCK_H
 #define BR_SOLVER_BLOCK_H
@@ -7,10 +7,10 @@
 #include <math.h>
 #include <stdbool.h>
 
-typedef long double real;
+typedef long double wide;
 
 struct block {
-    real e[2][2];
+    wide e[2][2];
 };
 
 static const struct block identity = {{{1, 0}, {0, 1}}};
@@ -51,14 +51,14 @@ static inline struct block transpose(struct block a)
     return (struct block){{{a.e[0][0], a.e[1][0]}, {a.e[0][1], a.e[1][1]}}};
 }
 
-static inline real determinant(struct block a)
+static inline wide determinant(struct block a)
 {
     return a.e[0][0] * a.e[1][1] - a.e[0][1] * a.e[1][0];
 }
 
 static inline struct block inverse_of(struct block a)
 {
-    const real det = determinant(a);
+    const wide det = determinant(a);
     return (struct block){
         {{a.e[1][1] / det, -a.e[0][1] / det}, {-a.e[1][0] / det, a.e[0][0] / det}}};
 }
@@ -66,7 +66,7 @@ static inline struct block inverse_of(struct block a)
 /* Of a symmetric one. */
 static inline bool is_positive_definite(struct block a)
 {
-    const real det = determinant(a);
+    const wide det = determinant(a);
     return a.e[0][0] > 0 && det > 0 && isfinite(det);
 }
 

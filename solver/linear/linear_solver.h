@@ -142,6 +142,9 @@ struct br_linear_solver {
 extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack, br_cholmod,
     br_banded;
 
+/* The functions of `plain`, for both fields, and both degrees of the axial one. */
+extern const struct br_field_solver br_plain_form;
+
 /* The registry, in the order of help texts; NULL-terminated. The first is the default. */
 extern const struct br_linear_solver *const br_linear_solvers[];
 

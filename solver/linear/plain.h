@@ -26,13 +26,88 @@
  * e_tip, so that
  *     delta*_tip = -sum_i zeta_i's_i      and      z_tip = sum_i zeta_i'S zeta_i:
  * the tip's free velocity is known when the backward sweep ends, the laws find
- * r, and the forward sweep already carries it. */
+ * r, and the forward sweep already carries it.
+ *
+ * recursion.c is that once for all elements, for numbers of the type `real`: compiled as double for
+ * the solver (plain.c), and with BR_LONG as long double for the exact discrete solution
+ * (reference/discrete_field.c), where the names begin with br_long. The state y has d numbers, the
+ * control kappa m.
+ *
+ *     rod             d = 1, m = 1    y = u             kappa = the elongation h u_x
+ *     quadratic rod   d = 1, m = 2    y = u             kappa = the elongation, and the bubble
+ *     beam            d = 2, m = 2    y = (w, h w_x)    kappa = the coefficients of h^2 w_xx
+ *
+ * A bubble (field.h) does not reach the nodes, but it has mass and bears load: with f its load,
+ *     s_i = R g_i - (0 f)' + G'p_{i+1},    p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i.
+ */
 #ifndef BR_SOLVER_PLAIN_H
 #define BR_SOLVER_PLAIN_H
 
-#include "solver/linear/linear_solver.h"
+#include "solver/field.h"
 
-/* For both fields, and both degrees of the axial one. */
-extern const struct br_field_solver br_plain_form;
+#ifdef BR_LONG
+typedef long double real;
+#define br_recursion_take br_long_recursion_take
+#define br_recursion_fill br_long_recursion_fill
+#define br_recursion_predict br_long_recursion_predict
+#define br_recursion_finish br_long_recursion_finish
+#define br_recursion_tip br_long_recursion_tip
+#define br_recursion_set br_long_recursion_set
+#define br_recursion_get br_long_recursion_get
+#else
+typedef double real;
+#endif
+
+/* A field and its tables. */
+struct br_recursion {
+    size_t n; /* elements */
+    int d, m;
+    real h, density, stiffness, viscosity, k; /* as in struct br_field */
+    real alpha, r[2];                         /* a / (c + ka); R, diagonal */
+    real compliance;                          /* z_tip */
+    real *gain;                               /* n times, each by rows: A, K, S^-1, zeta */
+    real *drive;                              /* m n, workspace: S^-1 s, m/s */
+};
+
+/* What drives a step, as struct br_drive has it. */
+struct br_recursion_load {
+    const real *vector; /* NULL: none */
+    real factor, tip[2];
+};
+
+/* Numbers of a state: of each element the controls of the displacement, m, and of the velocity,
+ * m/s, which do not know the step; then the tip's own, its displacement (but see br_recursion_tip)
+ * and its velocity with a stride of m. */
+static inline size_t br_recursion_size(const struct br_recursion *s)
+{
+    return 2 * (size_t)s->m * (s->n + 1);
+}
+
+/* Where a state has the tip's velocity. */
+static inline size_t br_recursion_tip_rate(const struct br_recursion *s)
+{
+    return br_recursion_size(s) - (size_t)s->m;
+}
+
+/* Takes room for tables; where there is none the store has failed. */
+void br_recursion_take(struct br_recursion *s, struct br_store *store);
+
+/* All tables, from n to k; who: for a message. Fails with BR_SINGULAR. */
+enum br_status br_recursion_fill(struct br_recursion *s, const char *who, struct br_error *err);
+
+/* Backward sweep: the tip's velocity without a force of the laws. Forward sweep: the state after
+ * the step, and its tip's velocity; the force, N, resists the tip. */
+real br_recursion_predict(struct br_recursion *s, const real *state,
+                          const struct br_recursion_load *by);
+real br_recursion_finish(struct br_recursion *s, real *state, real force);
+
+/* The tip's displacement, m: of a beam the sum over its elements. */
+real br_recursion_tip(const struct br_recursion *s, const real *state);
+
+/* Displacement and velocity by nodes, laid out as in field.h; get: either may be NULL. */
+void br_recursion_set(const struct br_recursion *s, const real *displacement, const real *velocity,
+                      real *state);
+void br_recursion_get(const struct br_recursion *s, const real *state, real *displacement,
+                      real *velocity);
 
 #endif

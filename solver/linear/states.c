@@ -10,7 +10,7 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
 {
     states->size = size;
     for (size_t i = 0; i < count; i++) {
-        double *fresh = br_allocate_aligned(size, sizeof *fresh);
+        double *fresh = br_store_take(&states->store, size, sizeof *fresh);
         if (!fresh)
             return br_no_memory(err, "the states of a time scheme");
         states->of[states->count++] = fresh;
@@ -20,8 +20,7 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
 
 void br_states_clear(struct br_states *states)
 {
-    for (size_t i = 0; i < states->count; i++)
-        free(states->of[i]);
+    br_store_clear(&states->store);
     *states = (struct br_states){0};
 }
 
@@ -61,6 +60,13 @@ void br_add_states(double *to, size_t size, size_t count, double *const *from, c
         for (size_t i = 0; i < width; i++)
             to[first + i] = sum[i];
     }
+}
+
+void br_free_states(void *self)
+{
+    if (self)
+        br_states_clear(self);
+    free(self);
 }
 
 enum br_status br_keep_states(void *self, size_t count, struct br_error *err)

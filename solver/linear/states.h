@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States of a field as rows of numbers, for schemes that keep several (scheme.h). */
+/* States of a field as rows of numbers, for schemes that keep several (scheme.h), and the memory of
+ * the solver that has them. */
 #ifndef BR_SOLVER_STATES_H
 #define BR_SOLVER_STATES_H
 
@@ -9,7 +10,8 @@ enum { BR_MOST_STATES = 16 };
 
 struct br_states {
     size_t size, count;         /* numbers of a state; states */
-    double *of[BR_MOST_STATES]; /* owned, aligned; the first is the one that marches */
+    double *of[BR_MOST_STATES]; /* the first is the one that marches */
+    struct br_store store;      /* of the states, and of what else the solver takes from it */
 };
 
 /* `count` more states of `size` numbers, all zero. Fails with BR_NO_MEMORY; clear it even then. */
@@ -22,8 +24,9 @@ void br_states_clear(struct br_states *states);
 void br_add_states(double *to, size_t size, size_t count, double *const *from,
                    const double *weight);
 
-/* keep, exchange and combine of a br_field_solver (linear_solver.h) whose record begins with its
- * states. */
+/* free, keep, exchange and combine of a br_field_solver (linear_solver.h) whose record begins with
+ * its states, and has no memory but their store. */
+void br_free_states(void *self);
 enum br_status br_keep_states(void *self, size_t count, struct br_error *err);
 void br_exchange_states(void *self, size_t a, size_t b);
 void br_combine_states(void *self, size_t into, size_t count, const double *weight);

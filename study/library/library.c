@@ -13,30 +13,6 @@ const char *beamrate_version(void)
     return BEAMRATE_VERSION;
 }
 
-/* ---- a scene for one call ---- */
-
-enum br_status br_library_scene(const struct beamrate_scene *scene, struct br_scene *own,
-                                struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    struct br_function *f;
-    *own = scene->scene;
-    for (size_t i = 0; (f = br_scene_function(own, i)); i++) {
-        const struct br_function theirs = *f;
-        *f = (struct br_function){0};
-        if (!status)
-            status = br_function_clone(&theirs, f, err);
-    }
-    return status;
-}
-
-void br_library_scene_release(struct br_scene *own)
-{
-    struct br_function *f;
-    for (size_t i = 0; (f = br_scene_function(own, i)); i++)
-        br_function_free(f);
-}
-
 /* ---- around a call ---- */
 
 /* GSL has one error handler for all threads, and the usual one ends the process. So the first call
@@ -46,15 +22,22 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t visitors;
 static gsl_error_handler_t *their_handler;
 
-void br_visit_begin(struct br_visit *visit)
+enum br_status br_visit_begin(struct br_visit *visit, const struct beamrate_scene *scene)
 {
+    *visit = (struct br_visit){.scene = scene ? scene->scene : (struct br_scene){0}};
     pthread_mutex_lock(&lock);
     if (visitors++ == 0)
         their_handler = gsl_set_error_handler_off();
     pthread_mutex_unlock(&lock);
     visit->locale = uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0)); /* always there, static */
-    visit->err.status = BR_OK;
-    visit->err.message[0] = '\0';
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(&visit->scene, i)); i++) {
+        const struct br_function theirs = *f;
+        *f = (struct br_function){0};
+        if (!visit->err.status)
+            br_function_clone(&theirs, f, &visit->err);
+    }
+    return visit->err.status;
 }
 
 static const enum beamrate_status statuses[] = {
@@ -72,6 +55,9 @@ static const enum beamrate_status statuses[] = {
 enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
                                   struct beamrate_error *err)
 {
+    struct br_function *f;
+    for (size_t i = 0; (f = br_scene_function(&visit->scene, i)); i++)
+        br_function_free(f);
     uselocale(visit->locale);
     pthread_mutex_lock(&lock);
     if (--visitors == 0)
@@ -86,21 +72,12 @@ enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
 
 /* ---- what callers give ---- */
 
-static size_t find_field(const char *key)
-{
-    char name[BR_METHOD_VALUE];
-    size_t i = 0;
-    while (i < BR_METHOD_FIELDS && strcmp(key, br_method_field_key(&br_method_fields[i], name)))
-        i++;
-    return i;
-}
-
 static enum br_status refuse_key(const char *key, struct br_error *err)
 {
-    char keys[400] = "", name[BR_METHOD_VALUE];
+    char keys[400] = "";
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         br_append(keys, sizeof keys, "%s%s", i ? ", " : "",
-                  br_method_field_key(&br_method_fields[i], name));
+                  br_method_field_key(&br_method_fields[i]));
     return br_fail(err, BR_BAD_INPUT, "method: found '%.200s', expected one of: %s", key, keys);
 }
 
@@ -111,7 +88,9 @@ enum br_status br_library_method(const char *const *list, struct br_method *meth
     const struct br_method *const methods[] = {method};
     *method = br_method_default();
     for (const char *const *at = list; at && *at; at += 2) {
-        const size_t i = find_field(at[0]);
+        size_t i = 0;
+        while (i < BR_METHOD_FIELDS && strcmp(at[0], br_method_field_key(&br_method_fields[i])))
+            i++;
         if (i == BR_METHOD_FIELDS)
             return refuse_key(at[0], err);
         if (text[i] || !at[1])

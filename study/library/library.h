@@ -18,39 +18,37 @@ struct beamrate_scene {
     struct br_verify verify;
 };
 
-/* A copy of a scene for one call: a function's instance is for one thread at a time
- * (solver/function.h), and what predicts, proves or solves exactly evaluates the scene's own. *own
- * (out) has functions of its own and borrows the texts. Fails with BR_NO_MEMORY; release it even
- * then. */
-enum br_status br_library_scene(const struct beamrate_scene *scene, struct br_scene *own,
-                                struct br_error *err);
-void br_library_scene_release(struct br_scene *own);
-
 /* ---- around a call ---- */
 
 /* From the beginning of a call to its end GSL returns its errors, and numbers are read and written
  * as in the locale "C". */
 struct br_visit {
-    locale_t locale;     /* of the thread before */
-    struct br_error err; /* what the call fails with */
+    locale_t locale;       /* of the thread before */
+    struct br_error err;   /* what the call fails with */
+    struct br_scene scene; /* a copy: a function's instance is for one thread at a time
+                              (solver/function.h), and what predicts, proves or solves exactly
+                              evaluates the scene's own; its texts are borrowed */
 };
-void br_visit_begin(struct br_visit *visit);
+
+/* scene: what is copied; NULL: nothing. Fails with BR_NO_MEMORY; end it even then. */
+enum br_status br_visit_begin(struct br_visit *visit, const struct beamrate_scene *scene);
 
 /* Returns the status as the caller knows it, and fills *err (out; may be NULL). */
 enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
                                   struct beamrate_error *err);
 
-/* The body of a call that makes a handle (out): `fill`, which may use *handle and &visit.err,
- * makes it of zeros, and what it fails with, the call does. */
-#define BR_MAKE_HANDLE(handle, release, fill)                                              \
-    struct br_visit visit;                                                                 \
-    br_visit_begin(&visit);                                                                \
-    *(handle) = br_allocate(1, sizeof **(handle));                                         \
-    const enum br_status made = *(handle) ? (fill) : br_no_memory(&visit.err, "a handle"); \
-    if (made) {                                                                            \
-        release(*(handle));                                                                \
-        *(handle) = NULL;                                                                  \
-    }                                                                                      \
+/* The body of a call that makes a handle (out): `fill`, which may use *handle, visit.scene, the
+ * copy of `scene`, and &visit.err, makes it of zeros, and what it fails with, the call does. */
+#define BR_MAKE_HANDLE(handle, release, scene, fill)                      \
+    struct br_visit visit;                                                \
+    enum br_status made = br_visit_begin(&visit, scene);                  \
+    *(handle) = made ? NULL : br_allocate(1, sizeof **(handle));          \
+    if (!made)                                                            \
+        made = *(handle) ? (fill) : br_no_memory(&visit.err, "a handle"); \
+    if (made) {                                                           \
+        release(*(handle));                                               \
+        *(handle) = NULL;                                                 \
+    }                                                                     \
     return br_visit_end(&visit, made, err)
 
 /* ---- what callers give ---- */

@@ -22,14 +22,15 @@ static enum br_status read_scene(struct beamrate_scene *s, const char *path, con
                                  struct br_error *err)
 {
     s->path = strdup(path);
-    return s->path ? br_scene_read_verify_text(s->path, text, &s->scene, &s->verify, err)
+    return s->path ? br_scene_parse(s->path, text, &(struct br_scene_asked){.verify = &s->verify},
+                                    &s->scene, err)
                    : br_no_memory(err, "the scene");
 }
 
 enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const char *name,
                                           const char *text, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, read_scene(*scene, name, text, &visit.err));
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, read_scene(*scene, name, text, &visit.err));
 }
 
 /* "-" is a file like any other: a library leaves standard input alone. */
@@ -48,7 +49,7 @@ static enum br_status open_scene(struct beamrate_scene *s, const char *name, str
 enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
                                          struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, open_scene(*scene, name, &visit.err));
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, open_scene(*scene, name, &visit.err));
 }
 
 void beamrate_scene_free(struct beamrate_scene *scene)
@@ -122,16 +123,14 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
                                       struct beamrate_error *err)
 {
     struct br_visit visit;
-    br_visit_begin(&visit);
-    struct br_scene own;
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
     struct br_prediction prediction = {0};
     memset(forecast, 0, sizeof *forecast);
-    enum br_status status = br_library_scene(scene, &own, &visit.err);
+    enum br_status status = br_visit_begin(&visit, scene);
     if (!status)
-        status = plan_march(&own, n, steps, list, &method, &planned, &visit.err);
+        status = plan_march(&visit.scene, n, steps, list, &method, &planned, &visit.err);
     planned.prediction = &prediction;
     if (!status)
         status = br_look_ahead(&planned, &warnings, &visit.err);
@@ -139,7 +138,6 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
         copy_prediction(&prediction, forecast);
         copy_warnings(&warnings, forecast);
     }
-    br_library_scene_release(&own);
     return br_visit_end(&visit, status, err);
 }
 
@@ -170,7 +168,7 @@ enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            size_t steps, const char *const *method,
                                            struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(march, beamrate_march_free,
+    BR_MAKE_HANDLE(march, beamrate_march_free, NULL,
                    create_march(*march, &scene->scene, n, steps, method, &visit.err));
 }
 
@@ -200,7 +198,7 @@ enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t co
                                          struct beamrate_error *err)
 {
     struct br_visit visit;
-    br_visit_begin(&visit);
+    br_visit_begin(&visit, NULL);
     return br_visit_end(&visit, take_steps(march, count, &visit.err), err);
 }
 

@@ -128,23 +128,13 @@ static enum br_status march_and_fit(struct beamrate_study *s, const struct br_sc
     return status;
 }
 
-static enum br_status run_study(struct beamrate_study *s, const struct beamrate_scene *scene,
-                                const struct beamrate_study_request *q, struct br_error *err)
-{
-    struct br_scene own;
-    enum br_status status = br_library_scene(scene, &own, err);
-    if (!status)
-        status = march_and_fit(s, &own, q, err);
-    br_library_scene_release(&own);
-    return status;
-}
-
 enum beamrate_status beamrate_study_run(struct beamrate_study **study,
                                         const struct beamrate_scene *scene,
                                         const struct beamrate_study_request *request,
                                         struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(study, beamrate_study_free, run_study(*study, scene, request, &visit.err));
+    BR_MAKE_HANDLE(study, beamrate_study_free, scene,
+                   march_and_fit(*study, &visit.scene, request, &visit.err));
 }
 
 void beamrate_study_free(struct beamrate_study *study)
@@ -202,22 +192,19 @@ struct beamrate_check {
     struct br_check check;
 };
 
+/* own: the scene for this call */
 static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
-                                  int threads, const struct beamrate_observer *observer,
-                                  struct br_error *err)
+                                  const struct br_scene *own, int threads,
+                                  const struct beamrate_observer *observer, struct br_error *err)
 {
-    struct br_scene own;
     struct br_library_watch watch;
-    enum br_status status = br_library_scene(scene, &own, err);
-    if (!status)
-        status = check_threads(threads, err);
+    if (check_threads(threads, err))
+        return err->status;
     *check = (struct br_check){
-        .path = scene->path, .name = own.name, .scene = &own, .verify = &scene->verify};
+        .path = scene->path, .name = own->name, .scene = own, .verify = &scene->verify};
     br_library_watch_begin(&watch, observer);
-    if (!status)
-        status = br_check_run(check, 1, threads, &watch.ours, err);
+    const enum br_status status = br_check_run(check, 1, threads, &watch.ours, err);
     br_library_watch_end(&watch);
-    br_library_scene_release(&own);
     const struct br_error *failure = &check->failure;
     return status || !failure->status ? status
                                       : br_fail(err, failure->status, "%s", failure->message);
@@ -228,8 +215,9 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_observer *observer,
                                         struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, beamrate_check_free,
-                   check_scene(&(*check)->check, scene, threads, observer, &visit.err));
+    BR_MAKE_HANDLE(
+        check, beamrate_check_free, scene,
+        check_scene(&(*check)->check, scene, &visit.scene, threads, observer, &visit.err));
 }
 
 void beamrate_check_free(struct beamrate_check *check)
@@ -308,7 +296,7 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(orders, beamrate_orders_free, find_orders(*orders, numbers, &visit.err));
+    BR_MAKE_HANDLE(orders, beamrate_orders_free, NULL, find_orders(*orders, numbers, &visit.err));
 }
 
 void beamrate_orders_free(struct beamrate_orders *orders)
@@ -387,6 +375,6 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, beamrate_check_free,
+    BR_MAKE_HANDLE(check, beamrate_check_free, NULL,
                    check_orders(&(*check)->check, orders, expectation, count, &visit.err));
 }

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The values of a tree over a box, and its Taylor coefficients there (series.c), and its guards. */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#include "study/scene/elementary.h"
 
 typedef struct br_interval iv;
 
@@ -49,77 +47,49 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
 
 /* ---- bounds ---- */
 
-/* A node over a box: its range, its value at the box's centre, its derivatives over the box, and
- * how far its evaluation may be from the truth. Where a derivative jumps: all it may be between. */
+/* A node over a box: its range, its value at the box's centre, and its derivatives over the box by
+ * x and by t; where these jump, all they may be between. And how far its evaluation may be from the
+ * truth, which grows from node to node as a derivative does. */
+enum { ERROR = 2, DIRECTIONS };
 struct form {
-    iv range, centre, slope[2];
-    double error;
+    iv range, centre, slope[DIRECTIONS];
 };
 
 _Static_assert(sizeof(struct form) <= BR_TREE_WORK * sizeof(iv), "the workspace of a node");
 
-/* The derivative of the operation by its argument `which`, at all of its arguments. */
-static iv partial_of(enum br_operation o, const iv *range, unsigned which)
+/* The derivative in a direction, by the first Taylor coefficient. */
+static iv slope_of(enum br_operation o, const struct form *const argument[3], int direction)
 {
     iv series[3][2], out[2];
+    bool constant = true;
     for (unsigned k = 0; k < 3; k++) {
-        series[k][0] = range[k];
-        series[k][1] = br_point(k == which);
+        series[k][0] = argument[k]->range;
+        series[k][1] = argument[k]->slope[direction];
+        constant &= k >= br_operation_arguments(o) || br_is_zero(series[k][1]);
     }
+    if (constant)
+        return br_point(0);
+    if (o == BR_OP_ABS && br_has_zero(series[0][0]))
+        return br_interval_multiply((iv){-1, 1}, series[0][1]);
+    if ((o == BR_OP_MIN || o == BR_OP_MAX) &&
+        br_has_zero(br_interval_subtract(series[0][0], series[1][0])))
+        return br_interval_hull(series[0][1], series[1][1]);
     br_series_apply(o, 1, (const iv *const[]){series[0], series[1], series[2]}, out);
     return out[1];
 }
 
-/* Slopes and error of what min and max choose from are between those of both. */
-static void mix(const struct form *a, const struct form *b, struct form *f)
-{
-    for (int v = 0; v < 2; v++)
-        f->slope[v] = br_interval_hull(a->slope[v], b->slope[v]);
-    f->error = a->error >= b->error ? a->error : b->error;
-}
-
-static bool is_constant_form(const struct form *f)
-{
-    return f->error == 0 && f->slope[0].low == 0 && f->slope[0].high == 0 && f->slope[1].low == 0 &&
-           f->slope[1].high == 0;
-}
-
 static void differentiate(enum br_operation o, const struct form *const argument[3], struct form *f)
 {
-    iv range[3];
-    for (unsigned k = 0; k < 3; k++)
-        range[k] = argument[k]->range;
-    if ((o == BR_OP_MIN || o == BR_OP_MAX) && br_has_zero(br_interval_subtract(range[0], range[1])))
-        return mix(argument[0], argument[1], f);
-    f->slope[0] = f->slope[1] = br_point(0);
-    f->error = 0;
-    const bool kinked = o == BR_OP_ABS && br_has_zero(range[0]);
-    for (unsigned k = 0; k < br_operation_arguments(o); k++) {
-        if (is_constant_form(argument[k]))
-            continue;
-        const iv p = kinked ? (iv){-1, 1} : partial_of(o, range, k);
-        for (int v = 0; v < 2; v++)
-            f->slope[v] =
-                br_interval_add(f->slope[v], br_interval_multiply(p, argument[k]->slope[v]));
-        f->error += argument[k]->error == 0 ? 0 : br_magnitude(p) * argument[k]->error;
-    }
-    const bool exact = o == BR_OP_NEGATE || o == BR_OP_ABS || o == BR_OP_MIN || o == BR_OP_MAX;
-    if (!exact) /* 2.5 units, and that these sums are rounded, too */
-        f->error = f->error * (1 + 8 * DBL_EPSILON) + 3 * DBL_EPSILON * br_magnitude(f->range) +
-                   8 * 0x1p-1074;
-}
-
-static void choose_form(const struct form *const argument[3], struct form *f)
-{
-    const iv condition = argument[0]->range;
-    if (br_is_none(condition) || (br_has_zero(condition) && !br_is_point(condition))) {
-        f->slope[0] = f->slope[1] = br_no_interval;
-        f->error = INFINITY;
+    const bool exact = o == BR_OP_NEGATE || o == BR_OP_ABS || o == BR_OP_MIN || o == BR_OP_MAX ||
+                       o == BR_OP_CHOOSE;
+    for (int direction = 0; direction < DIRECTIONS; direction++)
+        f->slope[direction] = slope_of(o, argument, direction);
+    if (exact)
         return;
-    }
-    const struct form *taken = argument[br_has_zero(condition) ? 2 : 1];
-    memcpy(f->slope, taken->slope, sizeof f->slope);
-    f->error = taken->error;
+    /* 2.5 units, and that these sums are rounded, too */
+    const double error = br_magnitude(f->slope[ERROR]) * (1 + 8 * DBL_EPSILON) +
+                         3 * DBL_EPSILON * br_magnitude(f->range) + 8 * 0x1p-1074;
+    f->slope[ERROR] = (iv){-error, error};
 }
 
 /* Cuts the range with centre + slopes * (box - middle) +- error. */
@@ -128,7 +98,7 @@ static void cut(struct br_box box, struct br_box middle, struct form *f)
     const iv along_x = br_interval_multiply(f->slope[0], br_interval_subtract(box.x, middle.x));
     const iv along_t = br_interval_multiply(f->slope[1], br_interval_subtract(box.t, middle.t));
     const iv mean = br_interval_add(br_interval_add(f->centre, along_x),
-                                    br_interval_add(along_t, (iv){-f->error, f->error}));
+                                    br_interval_add(along_t, f->slope[ERROR]));
     if (!br_is_finite(mean) || mean.low > f->range.high || mean.high < f->range.low)
         return;
     f->range = (iv){fmax(f->range.low, mean.low), fmin(f->range.high, mean.high)};
@@ -158,10 +128,7 @@ static void bound_node(const struct br_node *n, const struct form *forms, bool w
     if (!wide)
         return;
     f->centre = br_interval_apply(n->operation, centre, are_equal(n));
-    if (n->operation == BR_OP_CHOOSE)
-        choose_form(argument, f);
-    else
-        differentiate(n->operation, argument, f);
+    differentiate(n->operation, argument, f);
     if (br_is_finite(f->range) && !br_is_point(f->range))
         cut(box, middle, f);
 }
@@ -200,7 +167,7 @@ unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *n, unsi
 {
     const enum br_operation o = n->operation;
     const unsigned a = n->argument[k];
-    const bool compares = o >= BR_OP_MIN && o <= BR_OP_NOT_EQUAL;
+    const bool compares = o >= BR_OP_MIN && o <= BR_OP_EQUAL;
     const bool itself =
         o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
         (!is_truth(tree->node[a].operation) &&

@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/elementary.h"
-#include "study/scene/enclosure.h"
 #include "study/scene/expression.h"
+#include "study/scene/operations.h"
 
 /* ---- trees ---- */
 
@@ -84,6 +83,43 @@ unsigned br_tree_number(struct br_tree_builder *b, double number)
     return b->status ? BR_NO_NODE : find_or_append(b, &node);
 }
 
+static bool is(const struct br_tree_builder *b, unsigned i, double number)
+{
+    return b->tree.node[i].operation == BR_OP_NUMBER && b->tree.node[i].number == number;
+}
+
+/* What an operation is where an argument is 0 or 1 or the like; BR_NO_NODE: it remains. */
+static unsigned simplify(struct br_tree_builder *b, enum br_operation operation, unsigned a,
+                         unsigned c)
+{
+    switch (operation) {
+    case BR_OP_NEGATE:
+        return is(b, a, 0)                                 ? a
+               : b->tree.node[a].operation == BR_OP_NEGATE ? b->tree.node[a].argument[0]
+                                                           : BR_NO_NODE;
+    case BR_OP_ADD:
+        if (b->tree.node[c].operation == BR_OP_NEGATE)
+            return br_tree_node(b, BR_OP_SUBTRACT, a, b->tree.node[c].argument[0], 0);
+        return is(b, a, 0) ? c : is(b, c, 0) ? a : BR_NO_NODE;
+    case BR_OP_SUBTRACT:
+        return is(b, c, 0) ? a : is(b, a, 0) ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0) : BR_NO_NODE;
+    case BR_OP_MULTIPLY:
+        if (is(b, a, 0) || is(b, c, 1))
+            return a;
+        if (is(b, c, 0) || is(b, a, 1))
+            return c;
+        return is(b, a, -1)   ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0)
+               : is(b, c, -1) ? br_tree_node(b, BR_OP_NEGATE, a, 0, 0)
+                              : BR_NO_NODE;
+    case BR_OP_DIVIDE:
+        return is(b, a, 0) || is(b, c, 1) ? a : BR_NO_NODE;
+    case BR_OP_POW:
+        return is(b, c, 0) ? br_tree_number(b, 1) : is(b, c, 1) ? a : BR_NO_NODE;
+    default:
+        return BR_NO_NODE;
+    }
+}
+
 unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, unsigned first,
                       unsigned second, unsigned third)
 {
@@ -102,9 +138,17 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
         numbers += a->operation == BR_OP_NUMBER;
         number[i] = a->number;
     }
+    if (b->simplifies && (operation == BR_OP_ADD || operation == BR_OP_MULTIPLY) &&
+        first > second) { /* so that a b and b a are one */
+        node.argument[0] = second;
+        node.argument[1] = first;
+    }
+    const unsigned shorter = b->simplifies ? simplify(b, operation, first, second) : BR_NO_NODE;
+    if (shorter != BR_NO_NODE || b->status)
+        return shorter;
     if (numbers && numbers == operations[operation].arguments)
         return br_tree_number(b, br_operation_value(operation, number[0], number[1], number[2]));
-    return b->status ? BR_NO_NODE : find_or_append(b, &node);
+    return find_or_append(b, &node);
 }
 
 unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, unsigned root)
@@ -140,117 +184,39 @@ unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *fro
     return out;
 }
 
-enum br_status br_tree_finish(struct br_tree_builder *b, unsigned root, struct br_tree *tree,
-                              struct br_error *err)
+static enum br_status refuse(enum br_status status, struct br_error *err)
 {
-    struct br_tree_builder out = {0};
-    if (!b->status)
-        br_tree_graft(&out, &b->tree, root);
-    const enum br_status status = b->status ? b->status : out.status;
-    br_tree_clear(&b->tree);
-    *b = (struct br_tree_builder){0};
-    if (status)
-        br_tree_clear(&out.tree);
-    *tree = out.tree;
     return status == BR_NO_MEMORY ? br_no_memory(err, "an expression")
            : status ? br_fail(err, status, "it has more than %d operations", BR_TREE_MOST_NODES)
                     : BR_OK;
+}
+
+enum br_status br_tree_part(const struct br_tree *from, unsigned root, struct br_tree *part,
+                            struct br_error *err)
+{
+    struct br_tree_builder b = {0};
+    br_tree_graft(&b, from, root);
+    if (b.status)
+        br_tree_clear(&b.tree);
+    *part = b.tree;
+    return refuse(b.status, err);
+}
+
+enum br_status br_tree_finish(struct br_tree_builder *b, unsigned root, struct br_tree *tree,
+                              struct br_error *err)
+{
+    *tree = (struct br_tree){0};
+    const enum br_status status =
+        b->status ? refuse(b->status, err) : br_tree_part(&b->tree, root, tree, err);
+    br_tree_clear(&b->tree);
+    *b = (struct br_tree_builder){0};
+    return status;
 }
 
 /* ---- operations on arrays ---- */
 
 #define ROW(set) &br_elementary_##set,
 const struct br_elementary *const br_elementary_all[] = {BR_INSTRUCTION_SETS(ROW) NULL};
-
-/* ---- powers ---- */
-
-static bool is_small_power(double b)
-{
-    return b == 1 || b == 2 || b == 3 || b == 4 || b == -1;
-}
-
-static double small_power(double a, double b)
-{
-    if (b == -1)
-        return 1 / a;
-    return b == 1 ? a : b == 2 ? a * a : b == 3 ? a * a * a : (a * a) * (a * a);
-}
-
-static void power(const struct br_elementary *set, size_t count, const double *a, const double *b,
-                  double *out)
-{
-    bool small = true; /* all of them */
-    for (size_t i = 0; i < count && small; i++)
-        small = is_small_power(b[i]);
-    if (!small)
-        set->apply(BR_OP_POW, count, a, b, out);
-    for (size_t i = 0; i < count; i++)
-        if (is_small_power(b[i]))
-            out[i] = small_power(a[i], b[i]);
-}
-
-/* ---- where SLEEF gives up before the doubles do ---- */
-
-static void mend(enum br_operation operation, size_t count, const double *a, double *out)
-{
-    const bool grows = operation == BR_OP_SINH || operation == BR_OP_COSH;
-    for (size_t i = 0; i < count; i++) {
-        if (fabs(a[i]) <= (grows ? 709 : 1e150))
-            continue;
-        out[i] = operation == BR_OP_SINH    ? sinh(a[i])
-                 : operation == BR_OP_COSH  ? cosh(a[i])
-                 : operation == BR_OP_ASINH ? asinh(a[i])
-                                            : acosh(a[i]);
-    }
-}
-
-/* ---- all operations ---- */
-
-#define LOOP(operation, value)             \
-    case operation:                        \
-        for (size_t i = 0; i < count; i++) \
-            out[i] = (value);              \
-        break;
-
-/* A truth of two numbers. */
-#define TRUTH(operation, truth) LOOP(operation, isunordered(a[i], b[i]) ? NAN : (double)(truth))
-
-void br_operation_apply(const struct br_elementary *set, enum br_operation operation, size_t count,
-                        const double *const argument[3], double *out)
-{
-    const double *const a = argument[0], *const b = argument[1], *const c = argument[2];
-    switch (operation) {
-        LOOP(BR_OP_NEGATE, -a[i])
-        LOOP(BR_OP_NOT, isnan(a[i]) ? NAN : (double)(a[i] == 0))
-        LOOP(BR_OP_SQRT, sqrt(a[i]))
-        LOOP(BR_OP_ABS, fabs(a[i]))
-        LOOP(BR_OP_SIGN, a[i] > 0 ? 1 : a[i] < 0 ? -1 : a[i])
-        LOOP(BR_OP_STEP, a[i] >= 0 ? 1 : a[i] < 0 ? 0 : NAN)
-        LOOP(BR_OP_ADD, a[i] + b[i])
-        LOOP(BR_OP_SUBTRACT, a[i] - b[i])
-        LOOP(BR_OP_MULTIPLY, a[i] * b[i])
-        LOOP(BR_OP_DIVIDE, a[i] / b[i])
-        LOOP(BR_OP_MIN, isnan(a[i]) || a[i] < b[i] ? a[i] : b[i])
-        LOOP(BR_OP_MAX, isnan(a[i]) || a[i] > b[i] ? a[i] : b[i])
-        TRUTH(BR_OP_LESS, a[i] < b[i])
-        TRUTH(BR_OP_LESS_EQUAL, a[i] <= b[i])
-        TRUTH(BR_OP_GREATER, a[i] > b[i])
-        TRUTH(BR_OP_GREATER_EQUAL, a[i] >= b[i])
-        TRUTH(BR_OP_EQUAL, a[i] == b[i])
-        TRUTH(BR_OP_NOT_EQUAL, a[i] != b[i])
-        TRUTH(BR_OP_AND, a[i] != 0 && b[i] != 0)
-        TRUTH(BR_OP_OR, a[i] != 0 || b[i] != 0)
-        LOOP(BR_OP_CHOOSE, isnan(a[i]) ? NAN : a[i] != 0 ? b[i] : c[i])
-    case BR_OP_POW:
-        power(set, count, a, b, out);
-        break;
-    default:
-        set->apply(operation, count, a, b, out);
-        if (operation == BR_OP_SINH || operation == BR_OP_COSH || operation == BR_OP_ASINH ||
-            operation == BR_OP_ACOSH)
-            mend(operation, count, a, out);
-    }
-}
 
 double br_operation_value(enum br_operation operation, double a, double b, double c)
 {
@@ -264,7 +230,7 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
     const struct br_elementary *set = br_elementary_all[br_instruction_set_best()];
     const double *const argument[3] = {value[0], value[1], value[2]};
     const int rounding = br_round_to_nearest();
-    br_operation_apply(set, operation, set->width, argument, value[3]);
+    set->apply(operation, set->width, argument, value[3]);
     br_round_as_before(rounding);
     return value[3][0];
 }
@@ -275,14 +241,23 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
  * call. */
 enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
 
-struct expression {
+/* A tree of which something is proved. */
+struct enclosed {
     struct br_tree tree;
+    struct br_interval *work; /* of a guard that of the whole */
+};
+
+struct guard {
+    struct enclosed of;
+    struct br_function f;
+};
+
+struct expression {
+    struct enclosed of; /* first: it stands for the expression where something is proved */
     const struct br_elementary *set;
-    double **array; /* of each node: CHUNK values, in a slot of `room` */
-    double *room;
-    struct br_function *guard; /* guards: without arrays or guards, in `work`; clone to keep */
+    double *room; /* CHUNK values of each node */
+    struct guard *guard;
     size_t guards;
-    struct br_interval *work, *own_work; /* for proofs; of a guard that of the whole */
 };
 
 static void expression_free(void *self)
@@ -291,43 +266,12 @@ static void expression_free(void *self)
     if (!e)
         return;
     for (size_t i = 0; i < e->guards; i++)
-        br_function_free(&e->guard[i]);
-    br_tree_clear(&e->tree);
+        br_tree_clear(&e->guard[i].of.tree);
+    br_tree_clear(&e->of.tree);
+    free(e->of.work);
     free(e->guard);
-    free(e->own_work);
-    free(e->array);
     free(e->room);
     free(e);
-}
-
-/* last[i]: the last node that needs node i; those that do not use x are kept for the whole call. */
-static void find_last_uses(const struct br_tree *tree, size_t *last)
-{
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        last[i] = n->uses_x ? i : tree->count;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] < i)
-                last[n->argument[k]] = i;
-    }
-}
-
-/* Gives each node a slot; one whose node is needed no more is given again. slot, spare, last: out
- * and workspace, tree->count each. Returns how many slots there are. */
-static size_t give_slots(const struct br_tree *tree, size_t *slot, size_t *spare, size_t *last)
-{
-    size_t slots = 0, spares = 0;
-    find_last_uses(tree, last);
-    for (size_t i = 0; i < tree->count; i++) {
-        const struct br_node *n = &tree->node[i];
-        slot[i] = n->uses_x && spares ? spare[--spares] : slots++;
-        for (unsigned k = 0; k < br_operation_arguments(n->operation); k++)
-            if (last[n->argument[k]] == i) {
-                spare[spares++] = slot[n->argument[k]];
-                last[n->argument[k]] = tree->count; /* once, where it is both arguments */
-            }
-    }
-    return slots;
 }
 
 static void fill(double *array, size_t count, double value)
@@ -336,33 +280,9 @@ static void fill(double *array, size_t count, double value)
         array[i] = value;
 }
 
-static bool make_arrays(struct expression *e)
+static double *values_of(const struct expression *e, size_t node)
 {
-    const size_t count = e->tree.count;
-    size_t *slot = br_allocate(3 * count, sizeof *slot);
-    e->array = br_allocate(count, sizeof *e->array);
-    const size_t slots = slot ? give_slots(&e->tree, slot, slot + count, slot + 2 * count) : 0;
-    e->room = slots ? br_allocate_aligned(slots * CHUNK, sizeof *e->room) : NULL;
-    const bool done = e->array && e->room;
-    for (size_t i = 0; i < count && done; i++) {
-        e->array[i] = e->room + slot[i] * CHUNK;
-        if (e->tree.node[i].operation == BR_OP_NUMBER)
-            fill(e->array[i], CHUNK, e->tree.node[i].number);
-    }
-    free(slot);
-    return done;
-}
-
-/* Takes the tree over, even where it fails. */
-static struct expression *wrap(struct br_tree *tree)
-{
-    struct expression *e = br_allocate(1, sizeof *e);
-    if (e)
-        e->tree = *tree;
-    else
-        br_tree_clear(tree);
-    *tree = (struct br_tree){0};
-    return e;
+    return e->room + node * CHUNK;
 }
 
 static const struct br_function_ops guard_ops;
@@ -371,55 +291,53 @@ static const struct br_function_ops guard_ops;
 static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
-    struct br_tree tree;
-    const unsigned root = br_tree_guard(&e->tree, n, k, &b);
+    struct guard *g = &e->guard[e->guards];
+    const unsigned root = br_tree_guard(&e->of.tree, n, k, &b);
     if (root == BR_NO_NODE && !b.status)
         return true;
-    if (br_tree_finish(&b, root, &tree, NULL))
+    if (br_tree_finish(&b, root, &g->of.tree, NULL))
         return false;
-    const struct br_node *last = &tree.node[tree.count - 1];
-    struct br_function *f = &e->guard[e->guards];
-    *f = (struct br_function){.ops = &guard_ops, .uses_x = last->uses_x, .uses_t = last->uses_t};
-    struct expression *guard = f->self = wrap(&tree);
-    if (!guard)
-        return false;
-    guard->work = e->work;
+    const struct br_node *last = &g->of.tree.node[g->of.tree.count - 1];
+    g->of.work = e->of.work;
+    g->f = (struct br_function){
+        .ops = &guard_ops, .self = &g->of, .uses_x = last->uses_x, .uses_t = last->uses_t};
     e->guards++;
     return true;
-}
-
-static bool add_guards(struct expression *e)
-{
-    const size_t count = e->tree.count;
-    e->work = e->own_work = br_allocate(count + 1, BR_TREE_WORK * sizeof *e->work);
-    e->guard = br_allocate(3 * count, sizeof *e->guard);
-    bool done = e->work && e->guard;
-    for (const struct br_node *n = e->tree.node; n < e->tree.node + count; n++)
-        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
-            done = add_guard(e, n, k);
-    return done;
 }
 
 /* Takes the tree over, even where it fails. */
 static struct expression *create(struct br_tree *tree)
 {
-    struct expression *e = wrap(tree);
-    if (e && make_arrays(e) && add_guards(e)) {
-        e->set = br_elementary_all[br_instruction_set_best()];
-        return e;
+    const struct br_tree own = *tree;
+    struct expression *e = br_allocate(1, sizeof *e);
+    if (!e)
+        br_tree_clear(tree);
+    *tree = (struct br_tree){0};
+    if (!e)
+        return NULL;
+    e->of = (struct enclosed){own, br_allocate(own.count + 1, BR_TREE_WORK * sizeof *e->of.work)};
+    e->set = br_elementary_all[br_instruction_set_best()];
+    e->room = br_allocate_aligned(own.count * CHUNK, sizeof *e->room);
+    e->guard = br_allocate(3 * own.count, sizeof *e->guard);
+    bool done = e->of.work && e->room && e->guard;
+    for (size_t i = 0; i < own.count && done; i++) {
+        const struct br_node *n = &own.node[i];
+        if (n->operation == BR_OP_NUMBER)
+            fill(values_of(e, i), CHUNK, n->number);
+        for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
+            done = add_guard(e, n, k);
     }
+    if (done)
+        return e;
     expression_free(e);
     return NULL;
 }
 
 static void *expression_clone(const void *self)
 {
-    const struct br_tree *from = &((const struct expression *)self)->tree;
-    struct br_tree copy = {br_allocate(from->count, sizeof *copy.node), from->count};
-    if (!copy.node)
-        return NULL;
-    memcpy(copy.node, from->node, from->count * sizeof *copy.node);
-    return create(&copy);
+    const struct br_tree *from = &((const struct expression *)self)->of.tree;
+    struct br_tree copy;
+    return br_tree_part(from, (unsigned)from->count - 1, &copy, NULL) ? NULL : create(&copy);
 }
 
 static size_t round_up(size_t count, size_t width)
@@ -429,24 +347,25 @@ static size_t round_up(size_t count, size_t width)
 
 static void apply(const struct expression *e, size_t i, size_t count)
 {
-    const struct br_node *n = &e->tree.node[i];
-    const double *const argument[] = {e->array[n->argument[0]], e->array[n->argument[1]],
-                                      e->array[n->argument[2]]};
-    br_operation_apply(e->set, n->operation, count, argument, e->array[i]);
+    const struct br_node *n = &e->of.tree.node[i];
+    const double *const argument[] = {values_of(e, n->argument[0]), values_of(e, n->argument[1]),
+                                      values_of(e, n->argument[2])};
+    e->set->apply(n->operation, count, argument, values_of(e, i));
 }
 
 /* What does not use x, in as many values as will be wanted at a time. */
 static void evaluate_once(const struct expression *e, double t, size_t count)
 {
-    for (size_t i = 0; i < e->tree.count; i++) {
-        const struct br_node *n = &e->tree.node[i];
+    for (size_t i = 0; i < e->of.tree.count; i++) {
+        const struct br_node *n = &e->of.tree.node[i];
+        double *value = values_of(e, i);
         if (n->uses_x || n->operation == BR_OP_NUMBER)
             continue;
         if (n->operation == BR_OP_T)
-            e->array[i][0] = t;
+            value[0] = t;
         else
             apply(e, i, e->set->width);
-        fill(e->array[i], count, e->array[i][0]);
+        fill(value, count, value[0]);
     }
 }
 
@@ -454,11 +373,11 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
 static void evaluate_places(const struct expression *e, size_t count, const double *x)
 {
     const size_t full = round_up(count, e->set->width);
-    for (size_t i = 0; i < e->tree.count; i++) {
-        const struct br_node *n = &e->tree.node[i];
+    for (size_t i = 0; i < e->of.tree.count; i++) {
+        const struct br_node *n = &e->of.tree.node[i];
         if (n->operation == BR_OP_X) {
-            memcpy(e->array[i], x, count * sizeof *x);
-            fill(e->array[i] + count, full - count, x[count - 1]);
+            memcpy(values_of(e, i), x, count * sizeof *x);
+            fill(values_of(e, i) + count, full - count, x[count - 1]);
         } else if (n->uses_x) {
             apply(e, i, full);
         }
@@ -468,7 +387,7 @@ static void evaluate_places(const struct expression *e, size_t count, const doub
 static void expression_evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
     const struct expression *e = self;
-    const double *root = e->array[e->tree.count - 1];
+    const double *root = values_of(e, e->of.tree.count - 1);
     const int rounding = br_round_to_nearest();
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
@@ -484,27 +403,27 @@ static enum br_status expression_derive(const void *self, const struct br_deriva
 {
     struct br_tree tree;
     const enum br_status status =
-        br_tree_derivation(&((const struct expression *)self)->tree, what, &tree, err);
+        br_tree_derivation(&((const struct expression *)self)->of.tree, what, &tree, err);
     return status ? status : br_tree_function(&tree, out, err);
 }
 
 static bool expression_bound(const void *self, struct br_box box, struct br_interval *value)
 {
-    const struct expression *e = self;
+    const struct enclosed *e = self;
     return br_tree_bound(&e->tree, e->work, box, value);
 }
 
 static bool expression_taylor(const void *self, enum br_variable along, struct br_box box,
                               size_t order, struct br_interval *coefficient)
 {
-    const struct expression *e = self;
+    const struct enclosed *e = self;
     return br_tree_taylor(&e->tree, e->work, along, box, order, coefficient);
 }
 
 static const struct br_function *expression_guard(const void *self, size_t i)
 {
     const struct expression *e = self;
-    return i < e->guards ? &e->guard[i] : NULL;
+    return i < e->guards ? &e->guard[i].f : NULL;
 }
 
 static const struct br_function_ops expression_ops = {
@@ -517,20 +436,8 @@ static const struct br_function_ops expression_ops = {
     .derive = expression_derive,
 };
 
-/* The middle of what is proved of each point. */
-static void guard_evaluate(void *self, size_t count, const double *x, double t, double *value)
-{
-    for (size_t i = 0; i < count; i++) {
-        struct br_interval at;
-        const struct br_box point = {br_point(x[i]), br_point(t)};
-        value[i] = expression_bound(self, point, &at) ? at.low + (at.high - at.low) / 2 : NAN;
-    }
-}
-
+/* Nobody evaluates a guard. */
 static const struct br_function_ops guard_ops = {
-    .evaluate = guard_evaluate,
-    .clone = expression_clone,
-    .free = expression_free,
     .bound = expression_bound,
     .taylor = expression_taylor,
 };
@@ -555,5 +462,5 @@ enum br_status br_tree_function(struct br_tree *tree, struct br_function *f, str
 
 const struct br_tree *br_tree_of(const struct br_function *f)
 {
-    return f->ops == &expression_ops ? &((const struct expression *)f->self)->tree : NULL;
+    return f->ops == &expression_ops ? &((const struct expression *)f->self)->of.tree : NULL;
 }

@@ -239,6 +239,8 @@ struct binary {
     const char *word;
     enum br_operation operation;
     int level;
+    bool swapped; /* a > b is b < a */
+    bool negated;
 };
 
 enum { COMPARISON = 3 };
@@ -247,12 +249,12 @@ enum { COMPARISON = 3 };
 static const struct binary *next_operator(struct parser *p)
 {
     static const struct binary known[] = {
-        {"||", BR_OP_OR, 1},         {"&&", BR_OP_AND, 2},
-        {"<=", BR_OP_LESS_EQUAL, 3}, {">=", BR_OP_GREATER_EQUAL, 3},
-        {"==", BR_OP_EQUAL, 3},      {"!=", BR_OP_NOT_EQUAL, 3},
-        {"<", BR_OP_LESS, 3},        {">", BR_OP_GREATER, 3},
-        {"+", BR_OP_ADD, 4},         {"-", BR_OP_SUBTRACT, 4},
-        {"*", BR_OP_MULTIPLY, 5},    {"/", BR_OP_DIVIDE, 5},
+        {"||", BR_OP_OR, 1, false, false},         {"&&", BR_OP_AND, 2, false, false},
+        {"<=", BR_OP_LESS_EQUAL, 3, false, false}, {">=", BR_OP_LESS_EQUAL, 3, true, false},
+        {"==", BR_OP_EQUAL, 3, false, false},      {"!=", BR_OP_EQUAL, 3, false, true},
+        {"<", BR_OP_LESS, 3, false, false},        {">", BR_OP_LESS, 3, true, false},
+        {"+", BR_OP_ADD, 4, false, false},         {"-", BR_OP_SUBTRACT, 4, false, false},
+        {"*", BR_OP_MULTIPLY, 5, false, false},    {"/", BR_OP_DIVIDE, 5, false, false},
     };
     skip_blanks(p);
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
@@ -271,7 +273,10 @@ static unsigned chain(struct parser *p, int least)
             return refuse(p, "found a second comparison, expected && between two, or brackets");
         before = o->level;
         p->at += strlen(o->word);
-        left = node(p, o->operation, left, chain(p, o->level + 1), 0);
+        const unsigned right = chain(p, o->level + 1);
+        left = node(p, o->operation, o->swapped ? right : left, o->swapped ? left : right, 0);
+        if (o->negated)
+            left = node(p, BR_OP_NOT, left, 0, 0);
     }
     return left;
 }

@@ -8,51 +8,49 @@
 #include "solver/scene.h"
 
 /* X(name, arguments, word): the operations. The word is how a person writes a function, or what
- * stands between both arguments. `not`, `and`, `or` and the comparisons are 1 or 0; `pow` is a^b;
- * `choose` is a != 0 ? b : c; `step` is 0 below zero and 1 from zero on. Where an argument is no
- * number, a condition's, too, neither is the value (but of x^0). */
-#define BR_OPERATION_LIST(X)  \
-    X(NUMBER, 0, "")          \
-    X(X, 0, "x")              \
-    X(T, 0, "t")              \
-    X(NEGATE, 1, "-")         \
-    X(NOT, 1, "!")            \
-    X(SIN, 1, "sin")          \
-    X(COS, 1, "cos")          \
-    X(TAN, 1, "tan")          \
-    X(ASIN, 1, "asin")        \
-    X(ACOS, 1, "acos")        \
-    X(ATAN, 1, "atan")        \
-    X(SINH, 1, "sinh")        \
-    X(COSH, 1, "cosh")        \
-    X(TANH, 1, "tanh")        \
-    X(ASINH, 1, "asinh")      \
-    X(ACOSH, 1, "acosh")      \
-    X(ATANH, 1, "atanh")      \
-    X(EXP, 1, "exp")          \
-    X(EXPM1, 1, "expm1")      \
-    X(LOG, 1, "log")          \
-    X(LOG2, 1, "log2")        \
-    X(LOG10, 1, "log10")      \
-    X(SQRT, 1, "sqrt")        \
-    X(ABS, 1, "abs")          \
-    X(SIGN, 1, "sign")        \
-    X(STEP, 1, "step")        \
-    X(ADD, 2, "+")            \
-    X(SUBTRACT, 2, "-")       \
-    X(MULTIPLY, 2, "*")       \
-    X(DIVIDE, 2, "/")         \
-    X(POW, 2, "^")            \
-    X(MIN, 2, "min")          \
-    X(MAX, 2, "max")          \
-    X(LESS, 2, "<")           \
-    X(LESS_EQUAL, 2, "<=")    \
-    X(GREATER, 2, ">")        \
-    X(GREATER_EQUAL, 2, ">=") \
-    X(EQUAL, 2, "==")         \
-    X(NOT_EQUAL, 2, "!=")     \
-    X(AND, 2, "&&")           \
-    X(OR, 2, "||")            \
+ * stands between both arguments; a > b is b < a, and a != b is !(a == b). `not`, `and`, `or` and
+ * the comparisons are 1 or 0; `pow` is a^b; `choose` is a != 0 ? b : c; `step` is 0 below zero and
+ * 1 from zero on. Where an argument is no number, a condition's, too, neither is the value (but of
+ * x^0). */
+#define BR_OPERATION_LIST(X) \
+    X(NUMBER, 0, "")         \
+    X(X, 0, "x")             \
+    X(T, 0, "t")             \
+    X(NEGATE, 1, "-")        \
+    X(NOT, 1, "!")           \
+    X(SIN, 1, "sin")         \
+    X(COS, 1, "cos")         \
+    X(TAN, 1, "tan")         \
+    X(ASIN, 1, "asin")       \
+    X(ACOS, 1, "acos")       \
+    X(ATAN, 1, "atan")       \
+    X(SINH, 1, "sinh")       \
+    X(COSH, 1, "cosh")       \
+    X(TANH, 1, "tanh")       \
+    X(ASINH, 1, "asinh")     \
+    X(ACOSH, 1, "acosh")     \
+    X(ATANH, 1, "atanh")     \
+    X(EXP, 1, "exp")         \
+    X(EXPM1, 1, "expm1")     \
+    X(LOG, 1, "log")         \
+    X(LOG2, 1, "log2")       \
+    X(LOG10, 1, "log10")     \
+    X(SQRT, 1, "sqrt")       \
+    X(ABS, 1, "abs")         \
+    X(SIGN, 1, "sign")       \
+    X(STEP, 1, "step")       \
+    X(ADD, 2, "+")           \
+    X(SUBTRACT, 2, "-")      \
+    X(MULTIPLY, 2, "*")      \
+    X(DIVIDE, 2, "/")        \
+    X(POW, 2, "^")           \
+    X(MIN, 2, "min")         \
+    X(MAX, 2, "max")         \
+    X(LESS, 2, "<")          \
+    X(LESS_EQUAL, 2, "<=")   \
+    X(EQUAL, 2, "==")        \
+    X(AND, 2, "&&")          \
+    X(OR, 2, "||")           \
     X(CHOOSE, 3, "?:")
 
 enum br_operation {
@@ -95,6 +93,7 @@ struct br_tree_builder {
     struct br_tree tree;
     size_t room;
     enum br_status status; /* BR_NO_MEMORY, or BR_BAD_INPUT: too many nodes */
+    bool simplifies;       /* new nodes: a + 0 is a, a * 1 is a, and a * 0 is 0, whatever a is */
 };
 
 /* A node, found or appended: its place. An operation on numbers is a number. Arguments that the
@@ -110,8 +109,12 @@ unsigned br_tree_graft(struct br_tree_builder *builder, const struct br_tree *fr
 unsigned br_tree_substitute(struct br_tree_builder *builder, const struct br_tree *from,
                             unsigned root, unsigned x, unsigned t);
 
-/* What `root` uses, as a tree. Clears the builder in any case. Fails with BR_NO_MEMORY or
- * BR_BAD_INPUT (too many nodes); *tree is then empty. */
+/* What `root` uses, as a tree. Fails with BR_NO_MEMORY or BR_BAD_INPUT (too many nodes); *part is
+ * then empty. */
+enum br_status br_tree_part(const struct br_tree *from, unsigned root, struct br_tree *part,
+                            struct br_error *err);
+
+/* The same of a builder, which it clears in any case. */
 enum br_status br_tree_finish(struct br_tree_builder *builder, unsigned root, struct br_tree *tree,
                               struct br_error *err);
 

@@ -179,17 +179,6 @@ static size_t line_of(const struct br_scene_reader *r, const struct br_scene_key
     return r->given->row[key - br_scene_keys].line;
 }
 
-static bool *part_flag(struct br_scene *scene, const char *section)
-{
-    if (strcmp(section, "axial") == 0)
-        return &scene->axial.modelled;
-    if (strcmp(section, "bending") == 0)
-        return &scene->bending.modelled;
-    if (strcmp(section, "contact") == 0)
-        return &scene->contact.modelled;
-    return NULL; /* friction is modelled by its law */
-}
-
 /* The text that is to stand there instead comes from a node of its own. */
 static enum br_status read_key(const struct br_scene_reader *r, const struct br_scene_key *key,
                                const yaml_node_t *at, const yaml_node_t *value)
@@ -197,8 +186,11 @@ static enum br_status read_key(const struct br_scene_reader *r, const struct br_
     const size_t row = (size_t)(key - br_scene_keys);
     yaml_node_t varied = *value;
     r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(at), .origin = row};
-    if (key->kind == BR_KEY_SECTION)
+    if (key->kind == BR_KEY_SECTION) {
+        if (key->offset)
+            *(bool *)((char *)r->scene + key->offset) = true;
         return read_section(r, key->name, value);
+    }
     if (key->kind == BR_KEY_VERIFY)
         return BR_OK; /* when the scene is whole */
     if (key != r->varied)
@@ -254,9 +246,6 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), *section ? section : "scene",
                                "expected a mapping of keys to values");
-    bool *modelled = part_flag(r->scene, section);
-    if (modelled)
-        *modelled = true;
     enum br_status status = BR_OK;
     for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
          p < node->data.mapping.pairs.top && !status; p++)
@@ -369,11 +358,6 @@ static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parse
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
 }
 
-enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
-{
-    return br_scene_read_verify(path, scene, NULL, err);
-}
-
 /* What the loader does not see. Deep nests take it a time that grows with the square of the depth;
  * a second document would be read by nobody; and a zero byte, which YAML can write as \0 in quotes,
  * would end a text early. */
@@ -440,12 +424,10 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
     return status;
 }
 
-/* What a scene's file is read into; verify: NULL where nobody asks for it. */
+/* What a scene's file is read into, and what is asked of it. */
 struct target {
     struct br_scene *scene;
-    struct br_verify *verify;
-    const struct br_scene_key *varied;
-    const char *text;
+    const struct br_scene_asked *asked;
 };
 
 static enum br_status take_scene(const struct br_scene_reader *reader, void *self)
@@ -455,49 +437,35 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     struct br_scene_reader r = *reader;
     r.scene = to->scene;
     r.given = &given;
-    r.varied = to->varied;
-    r.text = to->text;
-    return read_document(&r, to->verify);
+    r.varied = to->asked->varied;
+    r.text = to->asked->value;
+    return read_document(&r, to->asked->verify);
 }
 
-static enum br_status parse(const char *path, const char *text, struct target to,
-                            struct br_error *err)
+enum br_status br_scene_parse(const char *name, const char *text,
+                              const struct br_scene_asked *asked, struct br_scene *scene,
+                              struct br_error *err)
 {
-    *to.scene = (struct br_scene){0};
-    if (to.verify)
-        *to.verify = (struct br_verify){0};
-    return br_yaml_read(path, text, take_scene, &to, err);
+    struct target to = {scene, asked};
+    *scene = (struct br_scene){0};
+    if (asked->verify)
+        *asked->verify = (struct br_verify){0};
+    return br_yaml_read(name, text, take_scene, &to, err);
 }
 
-enum br_status br_scene_read_text(const char *path, const char *text, struct br_scene *scene,
+enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err)
 {
-    return parse(path, text, (struct target){.scene = scene}, err);
+    return br_scene_parse(name, text, &(struct br_scene_asked){0}, scene, err);
 }
 
-enum br_status br_scene_read_with(const char *path, const char *text,
-                                  const struct br_scene_key *key, const char *value,
-                                  struct br_scene *scene, struct br_error *err)
-{
-    return parse(path, text, (struct target){scene, NULL, key, value}, err);
-}
-
-enum br_status br_scene_read_verify_text(const char *path, const char *text, struct br_scene *scene,
-                                         struct br_verify *verify, struct br_error *err)
-{
-    return parse(path, text, (struct target){scene, verify, NULL, NULL}, err);
-}
-
-enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
-                                    struct br_verify *verify, struct br_error *err)
+enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br_error *err)
 {
     char *text;
     *scene = (struct br_scene){0};
-    if (verify)
-        *verify = (struct br_verify){0};
     enum br_status status = br_scene_load(path, &text, err);
     if (!status)
-        status = br_scene_read_verify_text(path, text, scene, verify, err);
+        status = br_scene_read_text(path, text, scene, err);
     free(text);
     return status;
 }

@@ -15,18 +15,16 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err);
 
-/* The same as if the key, whose section must be there, had the value `value`. */
-enum br_status br_scene_read_with(const char *name, const char *text,
-                                  const struct br_scene_key *key, const char *value,
-                                  struct br_scene *scene, struct br_error *err);
-
-/* The same from a file with what is expected of the scene: its `verify` part, or else the default.
- * The caller clears both. */
-enum br_status br_scene_read_verify(const char *path, struct br_scene *scene,
-                                    struct br_verify *verify, struct br_error *err);
-
-enum br_status br_scene_read_verify_text(const char *name, const char *text, struct br_scene *scene,
-                                         struct br_verify *verify, struct br_error *err);
+/* What else is asked of a text; zeros: nothing. */
+struct br_scene_asked {
+    struct br_verify *verify; /* out: what is expected of the scene: its `verify` part, or else the
+                                 default; to be cleared, even after a failure */
+    const struct br_scene_key *varied; /* a key, whose section must be there, that is to have ... */
+    const char *value;                 /* this value */
+};
+enum br_status br_scene_parse(const char *name, const char *text,
+                              const struct br_scene_asked *asked, struct br_scene *scene,
+                              struct br_error *err);
 
 enum { BR_LONGEST_SCENE = 1 << 20 }; /* bytes */
 

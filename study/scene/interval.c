@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,31 +10,6 @@ typedef struct br_interval iv;
 
 const iv br_no_interval = {NAN, NAN};
 static const iv all_signs = {-1, 1}, either = {0, 1};
-
-bool br_is_none(iv a)
-{
-    return isnan(a.low) || isnan(a.high);
-}
-
-bool br_is_finite(iv a)
-{
-    return isfinite(a.low) && isfinite(a.high);
-}
-
-bool br_is_point(iv a)
-{
-    return a.low == a.high;
-}
-
-bool br_has_zero(iv a)
-{
-    return a.low <= 0 && a.high >= 0;
-}
-
-double br_magnitude(iv a)
-{
-    return fmax(fabs(a.low), fabs(a.high));
-}
 
 /* ---- rounding outward ---- */
 
@@ -106,47 +81,51 @@ iv br_interval_subtract(iv a, iv b)
     return br_interval_add(a, negate(b));
 }
 
-/* Of a times or by b at the four corners. Their values: in, rounded. */
-static iv hull_of_corners(const double value[4], const bool exact[4])
+/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
+ */
+enum { NEIGHBOURS = 4 };
+
+/* a * b, a / b or a ^ b of a pair of ends, and by how many neighbours it may be off. */
+static inline int at_corner(enum br_operation o, double a, double b, double *value)
+{
+    if (o == BR_OP_MULTIPLY) {
+        *value = a * b;
+        return !is_product(*value, a, b);
+    }
+    if (o == BR_OP_DIVIDE) {
+        *value = a / b;
+        return !(a == 0 || (fabs(a) > 1e-290 && *value != 0 && is_product(a, *value, b)));
+    }
+    *value = pow(a, b);
+    return a == 0 || a == 1 || b == 0 || b == 1 ? 0 : NEIGHBOURS;
+}
+
+/* Of an operation whose values lie between those of the four pairs of ends. */
+static inline iv hull_of_corners(enum br_operation o, iv a, iv b)
 {
     iv out = {INFINITY, -INFINITY};
     for (int i = 0; i < 4; i++) {
-        out.low = fmin(out.low, exact[i] ? value[i] : lower(value[i], 1));
-        out.high = fmax(out.high, exact[i] ? value[i] : upper(value[i], 1));
+        double value;
+        const int off = at_corner(o, i < 2 ? a.low : a.high, i % 2 ? b.high : b.low, &value);
+        out.low = fmin(out.low, off ? lower(value, off) : value);
+        out.high = fmax(out.high, off ? upper(value, off) : value);
     }
     return out;
 }
 
 iv br_interval_multiply(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    double value[4];
-    bool exact[4];
     if (br_is_none(a) || br_is_none(b) || (br_has_zero(a) && !br_is_finite(b)) ||
         (br_has_zero(b) && !br_is_finite(a)))
         return br_no_interval;
-    for (int i = 0; i < 4; i++) {
-        value[i] = first[i] * second[i];
-        exact[i] = is_product(value[i], first[i], second[i]);
-    }
-    return hull_of_corners(value, exact);
+    return hull_of_corners(BR_OP_MULTIPLY, a, b);
 }
 
 iv br_interval_divide(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    double value[4];
-    bool exact[4];
     if (br_is_none(a) || br_is_none(b) || br_has_zero(b) || !(br_is_finite(a) || br_is_finite(b)))
         return br_no_interval;
-    for (int i = 0; i < 4; i++) {
-        value[i] = first[i] / second[i];
-        exact[i] = first[i] == 0 || (fabs(first[i]) > 1e-290 && value[i] != 0 &&
-                                     is_product(first[i], value[i], second[i]));
-    }
-    return hull_of_corners(value, exact);
+    return hull_of_corners(BR_OP_DIVIDE, a, b);
 }
 
 iv br_interval_square(iv a)
@@ -168,11 +147,31 @@ iv br_interval_hull(iv a, iv b)
 
 /* ---- elementary functions ---- */
 
-/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
- */
-enum { NEIGHBOURS = 4 };
+/* Functions that rise, or fall, where they are defined. */
+static const struct monotone {
+    double (*f)(double);
+    double from, to; /* where it is defined, but for the ends of an open interval */
+    bool open, falls;
+    double exact_at; /* there it is 0 or 1 exactly */
+    double least, most;
+} monotone[] = {
+#define EVERYWHERE -INFINITY, INFINITY
+    [BR_OP_ASIN] = {asin, -1, 1, false, false, 0, EVERYWHERE},
+    [BR_OP_ACOS] = {acos, -1, 1, false, true, 1, EVERYWHERE},
+    [BR_OP_ATAN] = {atan, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_SINH] = {sinh, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_COSH] = {cosh, EVERYWHERE, false, false, 0, 1 - DBL_EPSILON, INFINITY}, /* of |a| */
+    [BR_OP_TANH] = {tanh, EVERYWHERE, false, false, 0, -1, 1},
+    [BR_OP_ASINH] = {asinh, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_ACOSH] = {acosh, 1, INFINITY, false, false, 1, EVERYWHERE},
+    [BR_OP_ATANH] = {atanh, -1, 1, true, false, 0, EVERYWHERE},
+    [BR_OP_EXP] = {exp, EVERYWHERE, false, false, 0, EVERYWHERE},
+    [BR_OP_EXPM1] = {expm1, EVERYWHERE, false, false, 0, -1, INFINITY},
+    [BR_OP_LOG] = {log, 0, INFINITY, true, false, 1, EVERYWHERE},
+    [BR_OP_LOG2] = {log2, 0, INFINITY, true, false, 1, EVERYWHERE},
+    [BR_OP_LOG10] = {log10, 0, INFINITY, true, false, 1, EVERYWHERE},
+};
 
-/* f is exact where its argument is 0 (all that are asked for are 0 or 1 there), or `exact_at`. */
 static iv increasing(double (*f)(double), iv a, double exact_at)
 {
     const double low = f(a.low), high = f(a.high);
@@ -185,9 +184,15 @@ static iv clip(iv a, double low, double high)
     return (iv){fmax(a.low, low), fmin(a.high, high)};
 }
 
-static iv within(double (*f)(double), iv a, bool inside, double exact_at)
+/* An infinite end of the domain is none of its own: the function has a limit or grows there. */
+static iv value_of(const struct monotone *m, iv a)
 {
-    return inside ? increasing(f, a, exact_at) : br_no_interval;
+    const bool left = m->open && isfinite(m->from) ? a.low > m->from : a.low >= m->from;
+    const bool right = m->open && isfinite(m->to) ? a.high < m->to : a.high <= m->to;
+    if (!left || !right)
+        return br_no_interval;
+    const iv ends = m->falls ? (iv){a.high, a.low} : a;
+    return clip(increasing(m->f, ends, m->exact_at), m->least, m->most);
 }
 
 /* Whether phase + k period may be in a, for an integer k. */
@@ -228,16 +233,7 @@ static iv absolute(iv a)
 
 static iv positive_power(iv a, iv b)
 {
-    const double first[] = {a.low, a.low, a.high, a.high},
-                 second[] = {b.low, b.high, b.low, b.high};
-    iv out = {INFINITY, 0};
-    for (int i = 0; i < 4; i++) {
-        const double value = pow(first[i], second[i]);
-        const bool exact = first[i] == 0 || first[i] == 1 || second[i] == 0 || second[i] == 1;
-        out.low = fmin(out.low, exact ? value : lower(value, NEIGHBOURS));
-        out.high = fmax(out.high, exact ? value : upper(value, NEIGHBOURS));
-    }
-    return out;
+    return hull_of_corners(BR_OP_POW, a, b);
 }
 
 static iv whole_power(iv a, double n)
@@ -272,25 +268,6 @@ static iv truth(bool certain, bool impossible)
     return certain ? br_point(1) : impossible ? br_point(0) : either;
 }
 
-static iv compare(enum br_operation o, iv a, iv b, bool same)
-{
-    switch (o) {
-    case BR_OP_GREATER:
-        return compare(BR_OP_LESS, b, a, same);
-    case BR_OP_GREATER_EQUAL:
-        return compare(BR_OP_LESS_EQUAL, b, a, same);
-    case BR_OP_LESS:
-        return truth(a.high < b.low && !same, a.low >= b.high || same);
-    case BR_OP_LESS_EQUAL:
-        return truth(a.high <= b.low || same, a.low > b.high && !same);
-    default: {
-        const bool apart = (a.high < b.low || a.low > b.high) && !same,
-                   equal = (br_is_point(a) && br_is_point(b) && a.low == b.low) || same;
-        return o == BR_OP_EQUAL ? truth(equal, apart) : truth(apart, equal);
-    }
-    }
-}
-
 static iv choose(iv condition, iv yes, iv no)
 {
     if (br_is_none(condition))
@@ -300,54 +277,19 @@ static iv choose(iv condition, iv yes, iv no)
 
 /* ---- all ---- */
 
-static bool is_zero(iv a)
-{
-    return a.low == 0 && a.high == 0;
-}
-
 static iv unary(enum br_operation o, iv a)
 {
     switch (o) {
     case BR_OP_NEGATE:
         return negate(a);
     case BR_OP_NOT:
-        return truth(is_zero(a), !br_has_zero(a));
+        return truth(br_is_zero(a), !br_has_zero(a));
     case BR_OP_SIN:
         return wave(sin, a, M_PI / 2);
     case BR_OP_COS:
         return wave(cos, a, 0);
     case BR_OP_TAN:
         return tangent(a);
-    case BR_OP_ASIN:
-        return within(asin, a, a.low >= -1 && a.high <= 1, 0);
-    case BR_OP_ACOS:
-        return a.low >= -1 && a.high <= 1 ? (iv){a.high == 1 ? 0 : lower(acos(a.high), NEIGHBOURS),
-                                                 upper(acos(a.low), NEIGHBOURS)}
-                                          : br_no_interval;
-    case BR_OP_ATAN:
-        return increasing(atan, a, 0);
-    case BR_OP_SINH:
-        return increasing(sinh, a, 0);
-    case BR_OP_COSH:
-        return clip(increasing(cosh, absolute(a), 0), 1 - DBL_EPSILON, INFINITY);
-    case BR_OP_TANH:
-        return clip(increasing(tanh, a, 0), -1, 1);
-    case BR_OP_ASINH:
-        return increasing(asinh, a, 0);
-    case BR_OP_ACOSH:
-        return within(acosh, a, a.low >= 1, 1);
-    case BR_OP_ATANH:
-        return within(atanh, a, a.low > -1 && a.high < 1, 0);
-    case BR_OP_EXP:
-        return increasing(exp, a, 0);
-    case BR_OP_EXPM1:
-        return clip(increasing(expm1, a, 0), -1, INFINITY);
-    case BR_OP_LOG:
-        return within(log, a, a.low > 0, 1);
-    case BR_OP_LOG2:
-        return within(log2, a, a.low > 0, 1);
-    case BR_OP_LOG10:
-        return within(log10, a, a.low > 0, 1);
     case BR_OP_SQRT:
         return a.low >= 0 ? (iv){lower(sqrt(a.low), 1), upper(sqrt(a.high), a.high != 0)}
                           : br_no_interval;
@@ -355,8 +297,10 @@ static iv unary(enum br_operation o, iv a)
         return absolute(a);
     case BR_OP_SIGN:
         return (iv){a.low > 0 ? 1 : a.low < 0 ? -1 : 0, a.high > 0 ? 1 : a.high < 0 ? -1 : 0};
+    case BR_OP_STEP:
+        return truth(a.low >= 0, a.high < 0);
     default:
-        return truth(a.low >= 0, a.high < 0); /* step */
+        return value_of(&monotone[o], o == BR_OP_COSH ? absolute(a) : a);
     }
 }
 
@@ -377,12 +321,17 @@ static iv binary(enum br_operation o, iv a, iv b, bool same)
         return (iv){fmin(a.low, b.low), fmin(a.high, b.high)};
     case BR_OP_MAX:
         return (iv){fmax(a.low, b.low), fmax(a.high, b.high)};
+    case BR_OP_LESS:
+        return truth(a.high < b.low && !same, a.low >= b.high || same);
+    case BR_OP_LESS_EQUAL:
+        return truth(a.high <= b.low || same, a.low > b.high && !same);
+    case BR_OP_EQUAL:
+        return truth((br_is_point(a) && br_is_point(b) && a.low == b.low) || same,
+                     a.high < b.low || a.low > b.high);
     case BR_OP_AND:
-        return truth(!br_has_zero(a) && !br_has_zero(b), is_zero(a) || is_zero(b));
-    case BR_OP_OR:
-        return truth(!br_has_zero(a) || !br_has_zero(b), is_zero(a) && is_zero(b));
-    default:
-        return compare(o, a, b, same);
+        return truth(!br_has_zero(a) && !br_has_zero(b), br_is_zero(a) || br_is_zero(b));
+    default: /* or */
+        return truth(!br_has_zero(a) || !br_has_zero(b), br_is_zero(a) && br_is_zero(b));
     }
 }
 

@@ -41,12 +41,17 @@ NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
 NUMBER(friction_iterations, iteration.most, size_t)
 
-static const char *degree_name(size_t row)
-{
-    static const char *const names[] = {"1", "2", NULL};
-    return names[row];
-}
-static const struct br_words degrees = {degree_name, NULL, NULL};
+/* Words that are no rows: their place in the list is the value. */
+#define LIST(list, ...)                                           \
+    static const char *const list##_list[] = {__VA_ARGS__, NULL}; \
+    static const char *list##_name(size_t row)                    \
+    {                                                             \
+        return list##_list[row];                                  \
+    }                                                             \
+    static const struct br_words list##_words = {list##_name, NULL, NULL};
+LIST(degree, "1", "2")
+LIST(scaling, "none", "sum", "max")
+enum { BY_SUMS = 1 }; /* the row */
 
 static double get_degree(const struct br_method *m)
 {
@@ -58,25 +63,17 @@ static void set_degree(struct br_method *m, double row)
     m->axial_degree = (int)row + 1;
 }
 
-static const char *scaling_name(size_t row)
-{
-    static const char *const names[] = {"none", "sum", "max", NULL};
-    return names[row];
-}
-static const struct br_words scalings = {scaling_name, NULL, NULL};
-enum { BY_SUMS = 1 }; /* the row */
-
 static double get_scaling(const struct br_method *m)
 {
     size_t row = 0;
-    while (scaling_name(row) && strcmp(scaling_name(row), m->linear.scaling) != 0)
+    while (scaling_list[row] && strcmp(scaling_list[row], m->linear.scaling) != 0)
         row++;
     return (double)row;
 }
 
 static void set_scaling(struct br_method *m, double row)
 {
-    m->linear.scaling = scaling_name((size_t)row);
+    m->linear.scaling = scaling_list[(size_t)row];
 }
 
 static const char *kernel_name(size_t row)
@@ -105,32 +102,7 @@ static void set_kernel(struct br_method *m, double row)
     m->linear.kernel = br_kernels[(size_t)row];
 }
 
-/* ---- who uses what, and what a scene models ---- */
-
-static bool heeds_tolerance(const struct br_method *m)
-{
-    return m->scheme->adaptive;
-}
-
-static bool heeds_kernel(const struct br_method *m)
-{
-    return br_linear_solver_heeds(m->solver, "--kernel");
-}
-
-static bool heeds_scaling(const struct br_method *m)
-{
-    return br_linear_solver_heeds(m->solver, "--scaling");
-}
-
-static bool heeds_refinement(const struct br_method *m)
-{
-    return br_linear_solver_heeds(m->solver, "--refinement");
-}
-
-static bool heeds_iteration(const struct br_method *m)
-{
-    return m->friction->iterates;
-}
+/* ---- what a scene models ---- */
 
 static double parameter_below(const struct br_method *m)
 {
@@ -154,178 +126,82 @@ static bool has_friction(const struct br_scene *scene)
 
 /* ---- the table ---- */
 
-static const struct br_method_word degree_words[] = {{"p1", 0}, {"p2", 1}, {NULL, 0}};
-static const struct br_method_word scaling_words[] = {{"scaled", BY_SUMS}, {NULL, 0}};
-static const struct br_method_word refinement_words[] = {{"refined", 2}, {NULL, 0}};
+static const struct br_method_word degree_names[] = {{"p1", 0}, {"p2", 1}, {NULL, 0}};
+static const struct br_method_word scaling_names[] = {{"scaled", BY_SUMS}, {NULL, 0}};
+static const struct br_method_word refinement_names[] = {{"refined", 2}, {NULL, 0}};
 
-#define ITERATION .by = BR_METHOD_FRICTION, .heeds = heeds_iteration, .in = has_friction
+#define VALUE(name) .get = get_##name, .set = set_##name
 
 const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
     [BR_METHOD_SCHEME] =
-        {.name = "scheme",
-         .title = "time scheme",
-         .argument = "NAME",
-         .help = "time scheme",
+        {"scheme", "time scheme", "NAME", "time scheme", VALUE(scheme),
          .more =
              "A march is refused where vibration of too little damping would grow (bdf3), and where forces, displacements or velocities go beyond 1e150 in SI units or are lost to underflow. adaptive chooses its steps and finds the times of switching.",
-         .words = &scheme_words,
-         .get = get_scheme,
-         .set = set_scheme,
-         .by = BR_METHOD_SCHEME,
-         .before = "scheme "},
-    [BR_METHOD_TOLERANCE] = {.name = "tolerance",
-                             .title = "tolerance",
-                             .argument = "X",
-                             .help = "error a step of an adaptive scheme, relative to the largest "
-                                     "strain",
-                             .more = "Above 1e-14 and below 1.",
-                             .range = {1e-14, 1, false},
-                             .get = get_tolerance,
-                             .set = set_tolerance,
-                             .by = BR_METHOD_SCHEME,
-                             .heeds = heeds_tolerance,
-                             .before = " to "},
+         .words = &scheme_words, .by = BR_METHOD_SCHEME, .before = "scheme "},
+    [BR_METHOD_TOLERANCE] = {"tolerance", "tolerance", "X",
+                             "error a step of an adaptive scheme, relative to the largest strain",
+                             VALUE(tolerance), .more = "Above 1e-14 and below 1.",
+                             .range = {1e-14, 1, false}, .by = BR_METHOD_SCHEME, .before = " to "},
     [BR_METHOD_DEGREE] =
-        {.name = "axial-degree",
-         .title = "axial elements",
-         .argument = "COUNT",
-         .help = "degree of the axial elements: 1 or 2",
+        {"axial-degree", "axial elements", "COUNT", "degree of the axial elements: 1 or 2",
+         VALUE(degree), .key = "axial_degree",
          .more =
              "2: quadratic, of order 3 in space and 4 at the tip; solvers riccati and plain. A reference run has the same.",
-         .words = &degrees,
-         .get = get_degree,
-         .set = set_degree,
-         .by = BR_METHOD_DEGREE,
-         .in = has_axial_field,
-         .before = ", axial elements of degree ",
-         .quiet = true,
-         .word = degree_words,
+         .words = &degree_words, .by = BR_METHOD_DEGREE, .in = has_axial_field,
+         .before = ", axial elements of degree ", .quiet = true, .word = degree_names,
          .words_title = "axial elements"},
-    [BR_METHOD_SOLVER] = {.name = "solver",
-                          .title = "solver",
-                          .argument = "NAME",
-                          .help = "linear solver",
-                          .words = &solver_words,
-                          .get = get_solver,
-                          .set = set_solver,
-                          .by = BR_METHOD_SOLVER,
-                          .before = ", solver "},
-    [BR_METHOD_KERNEL] = {.name = "kernel",
-                          .title = "kernel",
-                          .argument = "NAME",
-                          .help = "instruction set of the solver riccati",
+    [BR_METHOD_SOLVER] = {"solver", "solver", "NAME", "linear solver", VALUE(solver),
+                          .words = &solver_words, .by = BR_METHOD_SOLVER, .before = ", solver "},
+    [BR_METHOD_KERNEL] = {"kernel", "kernel", "NAME", "instruction set of the solver riccati",
+                          VALUE(kernel),
                           .more = "The results record it; those of two kernels agree to round-off.",
-                          .standard = "the best",
-                          .words = &kernels,
-                          .get = get_kernel,
-                          .set = set_kernel,
-                          .by = BR_METHOD_SOLVER,
-                          .heeds = heeds_kernel,
-                          .before = " on ",
-                          .unsaid = true},
-    [BR_METHOD_SCALING] = {.name = "scaling",
-                           .title = "scaling",
-                           .argument = "NAME",
-                           .help = "umfpack's row scaling: none, sum or max",
-                           .words = &scalings,
-                           .get = get_scaling,
-                           .set = set_scaling,
-                           .by = BR_METHOD_SOLVER,
-                           .heeds = heeds_scaling,
-                           .before = ", scaling ",
-                           .quiet = true,
-                           .word = scaling_words,
+                          .standard = "the best", .words = &kernels, .by = BR_METHOD_SOLVER,
+                          .before = " on ", .unsaid = true},
+    [BR_METHOD_SCALING] = {"scaling", "scaling", "NAME", "umfpack's row scaling: none, sum or max",
+                           VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
+                           .before = ", scaling ", .quiet = true, .word = scaling_names,
                            .words_title = "rows scaled by their sums"},
     [BR_METHOD_REFINEMENT] =
-        {.name = "refinement",
-         .title = "refinement",
-         .argument = "COUNT",
-         .help = "refinement steps a solve of assembled solvers, at most",
+        {"refinement", "refinement", "COUNT",
+         "refinement steps a solve of assembled solvers, at most", VALUE(refinement),
          .more =
              "That of umfpack is its own and repairs residuals; that of the other two repairs the error itself.",
-         .range = {0, 100, true},
-         .get = get_refinement,
-         .set = set_refinement,
-         .by = BR_METHOD_SOLVER,
-         .heeds = heeds_refinement,
-         .before = ", refinement steps ",
-         .quiet = true,
-         .word = refinement_words,
-         .words_title = "two refinement steps a solve"},
-    [BR_METHOD_CONTACT] = {.name = "contact",
-                           .title = "contact",
-                           .argument = "NAME",
-                           .help = "where contact takes its force",
+         .range = {0, 100, true}, .by = BR_METHOD_SOLVER, .before = ", refinement steps ",
+         .quiet = true, .word = refinement_names, .words_title = "two refinement steps a solve"},
+    [BR_METHOD_CONTACT] = {"contact", "contact", "NAME", "where contact takes its force",
+                           VALUE(contact),
                            .more = "lagged, the paper's, is for the scheme euler alone.",
                            .standard = "the first that goes with the scheme",
-                           .words = &contact_words,
-                           .get = get_contact,
-                           .set = set_contact,
-                           .by = BR_METHOD_CONTACT,
-                           .in = has_contact,
+                           .words = &contact_words, .by = BR_METHOD_CONTACT, .in = has_contact,
                            .before = ", contact "},
-    [BR_METHOD_FRICTION] = {.name = "friction",
-                            .title = "friction rule",
-                            .argument = "NAME",
-                            .help = "friction law, or its iteration",
-                            .words = &friction_words,
-                            .get = get_friction,
-                            .set = set_friction,
-                            .by = BR_METHOD_FRICTION,
-                            .in = has_friction,
-                            .before = ", friction "},
+    [BR_METHOD_FRICTION] = {"friction", "friction rule", "NAME", "friction law, or its iteration",
+                            VALUE(friction), .words = &friction_words, .by = BR_METHOD_FRICTION,
+                            .in = has_friction, .before = ", friction "},
     [BR_METHOD_FRICTION_PARAMETER] =
-        {.name = "friction-parameter",
-         .title = "friction parameter",
-         .argument = "X",
-         .help = "of a friction rule that iterates, over the one that "
-                 "converges fastest",
+        {"friction-parameter", "friction parameter", "X",
+         "of a friction rule that iterates, over the one that converges fastest",
+         VALUE(friction_parameter), .key = "friction_parameter",
          .more =
              "Over 1/z, z being the tip's compliance; penalty-duality converges for all above 0, uzawa below 2.",
-         .range = {0, INFINITY, false},
-         .below = parameter_below,
-         .get = get_friction_parameter,
-         .set = set_friction_parameter,
-         ITERATION,
-         .before = " (parameter ",
-         .group = "iteration",
-         .member = "parameter"},
-    [BR_METHOD_FRICTION_TOLERANCE] = {.name = "friction-tolerance",
-                                      .title = "friction tolerance",
-                                      .argument = "X",
-                                      .help = "of such a rule, relative to the friction bound",
-                                      .range = {1e-14, 1, false},
-                                      .get = get_friction_tolerance,
-                                      .set = set_friction_tolerance,
-                                      ITERATION,
-                                      .before = ", to ",
-                                      .group = "iteration",
+         .range = {0, INFINITY, false}, .below = parameter_below, .by = BR_METHOD_FRICTION,
+         .in = has_friction, .before = " (parameter ", .group = "iteration", .member = "parameter"},
+    [BR_METHOD_FRICTION_TOLERANCE] = {"friction-tolerance", "friction tolerance", "X",
+                                      "of such a rule, relative to the friction bound",
+                                      VALUE(friction_tolerance), .key = "friction_tolerance",
+                                      .range = {1e-14, 1, false}, .by = BR_METHOD_FRICTION,
+                                      .in = has_friction, .before = ", to ", .group = "iteration",
                                       .member = "tolerance"},
-    [BR_METHOD_FRICTION_ITERATIONS] = {.name = "friction-iterations",
-                                       .title = "friction iterations",
-                                       .argument = "COUNT",
-                                       .help = "of such a rule, a step at most",
+    [BR_METHOD_FRICTION_ITERATIONS] = {"friction-iterations", "friction iterations", "COUNT",
+                                       "of such a rule, a step at most", VALUE(friction_iterations),
+                                       .key = "friction_iterations",
                                        .more = "A march that needs more fails.",
-                                       .range = {1, 1e9, true},
-                                       .get = get_friction_iterations,
-                                       .set = set_friction_iterations,
-                                       ITERATION,
-                                       .before = ", at most ",
-                                       .after = " iterations)",
-                                       .group = "iteration",
+                                       .range = {1, 1e9, true}, .by = BR_METHOD_FRICTION,
+                                       .in = has_friction, .before = ", at most ",
+                                       .after = " iterations)", .group = "iteration",
                                        .member = "most"},
 };
 
 /* ---- one field ---- */
-
-const char *br_method_field_key(const struct br_method_field *f, char key[BR_METHOD_VALUE])
-{
-    snprintf(key, BR_METHOD_VALUE, "%s", f->name);
-    for (char *c = key; *c; c++)
-        if (*c == '-')
-            *c = '_';
-    return key;
-}
 
 const char *br_method_field_text(const struct br_method_field *f, const struct br_method *m,
                                  char text[BR_METHOD_VALUE])
@@ -339,9 +215,19 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
     return br_shortest(value, text, BR_METHOD_VALUE);
 }
 
+bool br_method_field_depends(const struct br_method_field *f)
+{
+    return f != &br_method_fields[f->by];
+}
+
 bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m)
 {
-    return !f->heeds || f->heeds(m);
+    char option[BR_METHOD_VALUE];
+    snprintf(option, sizeof option, "--%s", f->name);
+    return !br_method_field_depends(f)   ? true
+           : f->by == BR_METHOD_SCHEME   ? m->scheme->adaptive
+           : f->by == BR_METHOD_FRICTION ? m->friction->iterates
+                                         : br_linear_solver_heeds(m->solver, option);
 }
 
 bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m)
@@ -384,7 +270,7 @@ static const char *name_of(const struct br_method_field *f, enum br_method_style
                            char name[BR_METHOD_VALUE])
 {
     if (style == BR_METHOD_IN_SCENE)
-        return br_method_field_key(f, name);
+        return br_method_field_key(f);
     snprintf(name, BR_METHOD_VALUE, "--%s", f->name);
     return name;
 }
@@ -414,7 +300,7 @@ static const char *example(const struct br_method_field *f, enum br_method_style
     text[0] = '\0';
     for (size_t row = 0; !*text && by->words->name(row); row++) {
         by->set(&m, (double)row);
-        if (f->heeds(&m))
+        if (br_method_field_heeded(f, &m))
             snprintf(text, 2 * BR_METHOD_VALUE, ", as %s%s %s does", name_of(by, style, name),
                      style == BR_METHOD_IN_SCENE ? ":" : "", by->words->name(row));
     }
@@ -426,8 +312,8 @@ static enum br_status refuse(const struct br_method_field *f, enum br_method_sty
                              struct br_error *err)
 {
     const struct br_method_field *by = &br_method_fields[f->by];
-    char name[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
-    name_of(f, style, name);
+    char field[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
+    const char *name = name_of(f, style, field);
     if (count == 1)
         return br_fail(err, BR_BAD_INPUT, "%s: %s %s does not heed it%s", name, by->title,
                        br_method_field_text(by, method[0], value), example(f, style, text));
@@ -485,21 +371,20 @@ static const char *taken_at(const struct br_meshes *on, const struct br_method *
 const char *br_method_taken(const struct br_meshes *on, const struct br_method *m,
                             char text[BR_METHOD_TEXT])
 {
-    char word[2 * BR_METHOD_VALUE], before[2 * BR_METHOD_VALUE] = "";
-    bool differ = false;
-    snprintf(text, BR_METHOD_TEXT, "%s", on->count ? taken_at(on, m, on->n[0], word) : "none");
-    for (size_t i = 1; i < on->count; i++)
-        differ |= strcmp(taken_at(on, m, on->n[i], word), text) != 0;
-    if (!differ)
-        return text;
+    char word[2 * BR_METHOD_VALUE], before[2 * BR_METHOD_VALUE] = "none";
+    size_t groups = 0;
     text[0] = '\0';
     for (size_t i = 0; i < on->count; i++) {
-        if (strcmp(taken_at(on, m, on->n[i], word), before) != 0)
+        const bool other = strcmp(taken_at(on, m, on->n[i], word), before) != 0 || i == 0;
+        if (other)
             br_append(text, BR_METHOD_TEXT, "%s%s at n = %zu", i ? "; " : "", word, on->n[i]);
         else
             br_append(text, BR_METHOD_TEXT, ", %zu", on->n[i]);
+        groups += other;
         strcpy(before, word);
     }
+    if (groups <= 1)
+        snprintf(text, BR_METHOD_TEXT, "%s", before);
     return text;
 }
 
@@ -524,7 +409,7 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
         const struct br_method_field *f = &br_method_fields[i];
         const bool modelled = !f->in || f->in(scene);
         if (!br_method_field_heeded(f, &used) || (f->quiet && (!modelled || is_default(f, m))) ||
-            (f->heeds && !modelled))
+            (br_method_field_depends(f) && !modelled))
             continue;
         br_append(text, BR_METHOD_TEXT, "%s%s%s", f->before,
                   modelled ? br_method_field_text(f, m, value) : "none", f->after ? f->after : "");

@@ -30,18 +30,18 @@ struct br_method_word {
 };
 
 struct br_method_field {
-    const char *name;             /* of the option; a key of scenes and JSON has _ for - */
-    const char *title;            /* in a sentence: "time scheme" */
-    const char *argument, *help;  /* of the option, for the help */
+    const char *name;                         /* of the option */
+    const char *title;                        /* in a sentence: "time scheme" */
+    const char *argument, *help;              /* of the option, for the help */
+    double (*get)(const struct br_method *m); /* a number, or a row of the words */
+    void (*set)(struct br_method *m, double value);
+    const char *key;              /* of scenes and JSON; NULL: the name */
     const char *more;             /* sentences for the manual; or NULL */
     const char *standard;         /* the default in words; NULL: br_method_default's value */
     const struct br_words *words; /* the values are its rows; NULL: numbers of the range */
     struct br_number_range range;
     double (*below)(const struct br_method *m); /* an upper end of the method's own; or NULL */
-    double (*get)(const struct br_method *m);   /* a number, or a row of the words */
-    void (*set)(struct br_method *m, double value);
     enum br_method_key by; /* the field whose value decides whether this one is used */
-    bool (*heeds)(const struct br_method *m); /* whether the method uses it; NULL: always */
     bool (*in)(const struct br_scene *scene); /* whether the scene models it; NULL: always */
     const char *before, *after;               /* what stands around the value in a sentence */
     bool quiet;                               /* not said where it is the default */
@@ -58,13 +58,18 @@ enum br_method_style { BR_METHOD_OPTION, BR_METHOD_IN_SCENE };
 
 enum { BR_METHOD_VALUE = 64, BR_METHOD_TEXT = 512 };
 
-/* The field's name as a key: axial_degree. Returns key (out). */
-const char *br_method_field_key(const struct br_method_field *f, char key[BR_METHOD_VALUE]);
+/* The field's name as a key: axial_degree. */
+static inline const char *br_method_field_key(const struct br_method_field *f)
+{
+    return f->key ? f->key : f->name;
+}
 
 /* The value, to its last bit; returns text (out). */
 const char *br_method_field_text(const struct br_method_field *f, const struct br_method *m,
                                  char text[BR_METHOD_VALUE]);
 
+/* Whether another field's value decides whether it is used; whether it is. */
+bool br_method_field_depends(const struct br_method_field *f);
 bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m);
 
 /* Whether a report gives its value: the method uses it, or it is the default and has no effect. */

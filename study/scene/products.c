@@ -163,10 +163,8 @@ static struct sum split(struct work *w, unsigned i)
 static enum br_status function_of(struct work *w, unsigned root, struct br_function *f,
                                   struct br_error *err)
 {
-    struct br_tree_builder part = {0};
     struct br_tree tree;
-    const unsigned place = br_tree_graft(&part, &w->builder.tree, root);
-    const enum br_status status = br_tree_finish(&part, place, &tree, err);
+    const enum br_status status = br_tree_part(&w->builder.tree, root, &tree, err);
     return status ? status : br_tree_function(&tree, f, err);
 }
 

@@ -34,9 +34,10 @@ const struct br_scene_key br_scene_keys[] = {
      "rectangle WIDTH x HEIGHT, circle DIAMETER or tube DIAMETER x WALL, instead of area and "
      "inertia",
      "rectangle 20 mm x 5 mm"},
-    {"", "axial", BR_KEY_SECTION, BR_OPTIONAL, 0, "", 0, "the rod, u", ""},
-    {"", "bending", BR_KEY_SECTION, BR_OPTIONAL, 0, "", 0, "the beam, w", ""},
-    {"", "contact", BR_KEY_SECTION, BR_OPTIONAL, 0, "", 0, "normal compliance (10)", ""},
+    {"", "axial", BR_KEY_SECTION, BR_OPTIONAL, 0, "", AT(axial.modelled), "the rod, u", ""},
+    {"", "bending", BR_KEY_SECTION, BR_OPTIONAL, 0, "", AT(bending.modelled), "the beam, w", ""},
+    {"", "contact", BR_KEY_SECTION, BR_OPTIONAL, 0, "", AT(contact.modelled),
+     "normal compliance (10)", ""},
     {"", "friction", BR_KEY_SECTION, BR_OPTIONAL, 0, "", 0, "friction at the tip (12)", ""},
     {"", "verify", BR_KEY_VERIFY, BR_OPTIONAL, 0, "", 0, "what 'beamrate check' expects", ""},
 

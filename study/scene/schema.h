@@ -36,7 +36,7 @@ struct br_scene_key {
     enum br_need need;
     enum br_friction_law law; /* the law it belongs to; BR_FRICTIONLESS: any */
     const char *unit;         /* "" for none; one of those of its dimension */
-    size_t offset;            /* into struct br_scene */
+    size_t offset;            /* into struct br_scene; of a section: whether it is modelled */
     const char *help;         /* what is expected */
     const char *example;      /* a value, for templates; the required ones make a scene together */
 };

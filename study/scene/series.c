@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Taylor coefficients of operations, by the recurrences of Moore: series of order + 1 intervals. */
-#include "study/scene/enclosure.h"
+#include "study/scene/operations.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "study/scene/elementary.h"
 
 typedef struct br_interval iv;
 
@@ -24,12 +22,25 @@ static iv scale(double factor, iv a)
     return br_interval_multiply(br_point(factor), a);
 }
 
+struct rule;
+
 /* What the series of one operation are made of. Its own first coefficient is known, which a
  * recurrence may put another one in the place of; the others are none. */
 struct recurrence {
     size_t order;
     const iv *a, *b;
     iv *out;
+    const struct rule *by; /* of the operation; NULL: needs none */
+};
+
+/* How an operation's series are found. */
+struct rule {
+    void (*series)(const struct recurrence *r);
+    double sign;
+    double constant, slope; /* of an inverse function; slope: of a logarithm its unit */
+    enum { ITSELF, SQUARE, SLOPE } next; /* of a flow: what its second series is made of */
+    bool root;                           /* of an inverse function */
+    enum br_operation partner;           /* whose value a second series begins with */
 };
 
 /* sum of a_j b_(k-j), j = from .. to */
@@ -76,7 +87,7 @@ static void product_series(size_t order, const iv *a, const iv *b, iv *out)
 }
 
 /* b q = a */
-static void quotient_series(const struct recurrence *r)
+static void quotient(const struct recurrence *r)
 {
     for (size_t k = 1; k <= r->order; k++) {
         const iv known = convolve(r->b, r->out, k, 1, k);
@@ -84,44 +95,48 @@ static void quotient_series(const struct recurrence *r)
     }
 }
 
-/* s s = a */
-static void root_series(size_t order, const iv *a, iv *s)
+static void product(const struct recurrence *r)
 {
-    for (size_t k = 1; k <= order; k++)
-        s[k] = br_interval_divide(br_interval_subtract(a[k], convolve(s, s, k, 1, k - 1)),
-                                  scale(2, s[0]));
+    product_series(r->order, r->a, r->b, r->out);
 }
 
-/* y' = a' y */
-static void exponential_series(const struct recurrence *r)
+/* y' = sign a' v, and v is y' own: y (exp), 1 + slope y^2 (tan and tanh), or of v' = slope a' y
+ * (sin and cos, sinh and cosh) */
+static void flow(const struct recurrence *r)
 {
-    for (size_t k = 1; k <= r->order; k++)
-        r->out[k] = convolve_slope(r->a, r->out, k, k);
-}
-
-/* y' = a' v, v = 1 + sign y^2: tan and tanh */
-static void tangent_series(const struct recurrence *r, double sign)
-{
-    iv v[BR_TREE_WORK] = {add(br_point(1), scale(sign, square_at(r->out, 0)))};
+    const struct rule *by = r->by;
+    iv v[BR_TREE_WORK] = {by->next == SQUARE
+                              ? add(br_point(1), scale(by->slope, square_at(r->out, 0)))
+                              : br_interval_apply(by->partner, r->a, false)};
     for (size_t k = 1; k <= r->order; k++) {
-        r->out[k] = convolve_slope(r->a, v, k, k);
-        v[k] = scale(sign, square_at(r->out, k));
+        r->out[k] = scale(by->sign, convolve_slope(r->a, v, k, k));
+        v[k] = by->next == ITSELF   ? r->out[k]
+               : by->next == SQUARE ? scale(by->slope, square_at(r->out, k))
+                                    : scale(by->slope, convolve_slope(r->a, r->out, k, k));
     }
 }
 
-/* y' = a' z, z' = sign a' y: sin and cos, sinh and cosh. The partner's first is apply's, too. */
-static void pair_series(const struct recurrence *r, enum br_operation partner, double y_sign,
-                        double z_sign)
+/* k a_0 p_k = sum of (n j - (k - j)) a_j p_(k-j) */
+static void real_power_series(const struct recurrence *r, double n)
 {
-    iv z[BR_TREE_WORK] = {br_interval_apply(partner, r->a, false)};
     for (size_t k = 1; k <= r->order; k++) {
-        r->out[k] = scale(y_sign, convolve_slope(r->a, z, k, k));
-        z[k] = scale(z_sign, convolve_slope(r->a, r->out, k, k));
+        iv sum = {0, 0};
+        for (size_t j = 1; j <= k; j++) {
+            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
+                                                   br_point((double)(k - j)));
+            sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
+        }
+        r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
     }
+}
+
+static void root(const struct recurrence *r)
+{
+    real_power_series(r, 0.5);
 }
 
 /* w y' = sign a' */
-static void integral_series(const struct recurrence *r, const iv *w, double sign)
+static void integral(const struct recurrence *r, const iv *w, double sign)
 {
     for (size_t k = 1; k <= r->order; k++) {
         const iv known = convolve_slope(r->out, w, k, k - 1);
@@ -129,19 +144,28 @@ static void integral_series(const struct recurrence *r, const iv *w, double sign
     }
 }
 
-/* w = constant + sign a^2 or its root: for the inverse functions */
-static void inverse_series(const struct recurrence *r, double constant, double sign, bool root,
-                           double slope)
+/* w y' = slope a', w = constant + sign a^2 or its root */
+static void inverse(const struct recurrence *r)
 {
     iv square[BR_TREE_WORK], w[BR_TREE_WORK];
     square_series(r->order, r->a, square);
     for (size_t k = 0; k <= r->order; k++)
-        square[k] = scale(sign, square[k]);
-    square[0] = add(br_point(constant), square[0]);
-    w[0] = root ? br_interval_apply(BR_OP_SQRT, square, false) : square[0];
-    if (root)
-        root_series(r->order, square, w);
-    integral_series(r, root ? w : square, slope);
+        square[k] = scale(r->by->sign, square[k]);
+    square[0] = add(br_point(r->by->constant), square[0]);
+    if (r->by->root) {
+        w[0] = br_interval_apply(BR_OP_SQRT, square, false);
+        root(&(struct recurrence){r->order, square, NULL, w, NULL});
+    }
+    integral(r, r->by->root ? w : square, r->by->slope);
+}
+
+/* log a over log slope */
+static void logarithm(const struct recurrence *r)
+{
+    const iv base = br_point(r->by->slope);
+    integral(r, r->a, 1);
+    for (size_t k = 1; k <= r->order && r->by->slope != 0; k++)
+        r->out[k] = br_interval_divide(r->out[k], br_interval_apply(BR_OP_LOG, &base, false));
 }
 
 /* a^n, n = 2, 3 ...: by squares, so that a may be 0 */
@@ -163,24 +187,10 @@ static void whole_power_series(size_t order, const iv *a, double n, iv *out)
     }
 }
 
-/* k a_0 p_k = sum of (n j - (k - j)) a_j p_(k-j) */
-static void real_power_series(const struct recurrence *r, double n)
-{
-    for (size_t k = 1; k <= r->order; k++) {
-        iv sum = {0, 0};
-        for (size_t j = 1; j <= k; j++) {
-            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
-                                                   br_point((double)(k - j)));
-            sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
-        }
-        r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
-    }
-}
-
 static bool is_constant(size_t order, const iv *a)
 {
     for (size_t k = 1; k <= order; k++)
-        if (a[k].low != 0 || a[k].high != 0)
+        if (!br_is_zero(a[k]))
             return false;
     return br_is_point(a[0]);
 }
@@ -188,14 +198,14 @@ static bool is_constant(size_t order, const iv *a)
 /* exp(b log a) */
 static void power_of_both(const struct recurrence *r)
 {
-    iv logarithm[BR_TREE_WORK] = {br_interval_apply(BR_OP_LOG, r->a, false)},
-       exponent[BR_TREE_WORK];
-    integral_series(&(struct recurrence){r->order, r->a, NULL, logarithm}, r->a, 1);
-    product_series(r->order, r->b, logarithm, exponent);
-    exponential_series(&(struct recurrence){r->order, exponent, NULL, r->out});
+    iv log_a[BR_TREE_WORK] = {br_interval_apply(BR_OP_LOG, r->a, false)}, exponent[BR_TREE_WORK];
+    integral(&(struct recurrence){r->order, r->a, NULL, log_a, NULL}, r->a, 1);
+    product_series(r->order, r->b, log_a, exponent);
+    for (size_t k = 1; k <= r->order; k++)
+        r->out[k] = convolve_slope(exponent, r->out, k, k);
 }
 
-static void power_series(const struct recurrence *r)
+static void power(const struct recurrence *r)
 {
     const double n = r->b[0].low;
     if (!is_constant(r->order, r->b))
@@ -208,116 +218,81 @@ static void power_series(const struct recurrence *r)
         real_power_series(r, n);
 }
 
-static void copy_series(size_t order, const iv *a, double sign, iv *out)
+static void copy(const struct recurrence *r, const iv *a, double sign)
 {
-    for (size_t k = 0; k <= order; k++)
-        out[k] = scale(sign, a[k]);
+    for (size_t k = 0; k <= r->order; k++)
+        r->out[k] = scale(sign, a[k]);
 }
 
-/* Of what compares: constant where that is decided, else none. */
-static void decided_series(const struct recurrence *r)
+/* a + sign b; a - a is 0 */
+static void sum(const struct recurrence *r)
+{
+    for (size_t k = 1; k <= r->order; k++)
+        r->out[k] = r->by->sign > 0 ? add(r->a[k], r->b[k])
+                    : r->a == r->b  ? br_point(0)
+                                    : br_interval_subtract(r->a[k], r->b[k]);
+}
+
+static void negative(const struct recurrence *r)
+{
+    copy(r, r->a, -1);
+}
+
+static void absolute(const struct recurrence *r)
+{
+    if (r->a[0].low >= 0 || r->a[0].high <= 0)
+        copy(r, r->a, r->a[0].low >= 0 ? 1 : -1);
+}
+
+/* The one of both that is less (sign 1) or larger (sign -1), where that is decided. */
+static void extreme(const struct recurrence *r)
+{
+    const iv difference = scale(r->by->sign, br_interval_subtract(r->a[0], r->b[0]));
+    if (difference.high <= 0 || difference.low >= 0)
+        copy(r, difference.high <= 0 ? r->a : r->b, 1);
+}
+
+/* Of what is constant between jumps: none where it may jump. */
+static void decided(const struct recurrence *r)
 {
     if (br_is_point(r->out[0]))
         memset(r->out + 1, 0, r->order * sizeof *r->out);
 }
 
-/* The one of both that is less (sign 1) or larger (sign -1), where that is decided. */
-static void extreme_series(const struct recurrence *r, double sign)
-{
-    const iv difference = scale(sign, br_interval_subtract(r->a[0], r->b[0]));
-    if (difference.high <= 0 || difference.low >= 0)
-        copy_series(r->order, difference.high <= 0 ? r->a : r->b, 1, r->out);
-}
-
-/* log a over log unit */
-static void logarithm_series(const struct recurrence *r, double unit)
-{
-    const iv base = br_point(unit);
-    integral_series(r, r->a, 1);
-    for (size_t k = 1; k <= r->order; k++)
-        r->out[k] = br_interval_divide(r->out[k], br_interval_apply(BR_OP_LOG, &base, false));
-}
-
-static void unary_series(enum br_operation o, const struct recurrence *r)
-{
-    switch (o) {
-    case BR_OP_NEGATE:
-        return copy_series(r->order, r->a, -1, r->out);
-    case BR_OP_SIN:
-        return pair_series(r, BR_OP_COS, 1, -1);
-    case BR_OP_COS:
-        return pair_series(r, BR_OP_SIN, -1, 1);
-    case BR_OP_TAN:
-        return tangent_series(r, 1);
-    case BR_OP_ASIN:
-        return inverse_series(r, 1, -1, true, 1);
-    case BR_OP_ACOS:
-        return inverse_series(r, 1, -1, true, -1);
-    case BR_OP_ATAN:
-        return inverse_series(r, 1, 1, false, 1);
-    case BR_OP_SINH:
-        return pair_series(r, BR_OP_COSH, 1, 1);
-    case BR_OP_COSH:
-        return pair_series(r, BR_OP_SINH, 1, 1);
-    case BR_OP_TANH:
-        return tangent_series(r, -1);
-    case BR_OP_ASINH:
-        return inverse_series(r, 1, 1, true, 1);
-    case BR_OP_ACOSH:
-        return inverse_series(r, -1, 1, true, 1);
-    case BR_OP_ATANH:
-        return inverse_series(r, 1, -1, false, 1);
-    case BR_OP_EXP:
-        return exponential_series(r);
-    case BR_OP_EXPM1: /* exp but for its first coefficient */
-        r->out[0] = br_interval_apply(BR_OP_EXP, r->a, false);
-        return exponential_series(r);
-    case BR_OP_LOG:
-        return integral_series(r, r->a, 1);
-    case BR_OP_LOG2:
-        return logarithm_series(r, 2);
-    case BR_OP_LOG10:
-        return logarithm_series(r, 10);
-    case BR_OP_SQRT:
-        return root_series(r->order, r->a, r->out);
-    case BR_OP_ABS:
-        if (r->a[0].low >= 0 || r->a[0].high <= 0)
-            copy_series(r->order, r->a, r->a[0].low >= 0 ? 1 : -1, r->out);
-        return;
-    default:
-        return decided_series(r);
-    }
-}
-
-static void binary_series(enum br_operation o, const struct recurrence *r)
-{
-    switch (o) {
-    case BR_OP_ADD:
-        for (size_t k = 1; k <= r->order; k++)
-            r->out[k] = add(r->a[k], r->b[k]);
-        break;
-    case BR_OP_SUBTRACT:
-        for (size_t k = 1; k <= r->order; k++)
-            r->out[k] = r->a == r->b ? br_point(0) : br_interval_subtract(r->a[k], r->b[k]);
-        break;
-    case BR_OP_MULTIPLY:
-        return product_series(r->order, r->a, r->b, r->out);
-    case BR_OP_DIVIDE:
-        return quotient_series(r);
-    case BR_OP_POW:
-        return power_series(r);
-    case BR_OP_MIN:
-        return extreme_series(r, 1);
-    case BR_OP_MAX:
-        return extreme_series(r, -1);
-    default:
-        return decided_series(r);
-    }
-}
+/* Those that are not here are decided, or chosen. */
+static const struct rule rules[BR_OP_CHOOSE + 1] = {
+    [BR_OP_NEGATE] = {negative},
+    [BR_OP_SIN] = {flow, .sign = 1, .next = SLOPE, .slope = -1, .partner = BR_OP_COS},
+    [BR_OP_COS] = {flow, .sign = -1, .next = SLOPE, .slope = 1, .partner = BR_OP_SIN},
+    [BR_OP_TAN] = {flow, .sign = 1, .next = SQUARE, .slope = 1},
+    [BR_OP_ASIN] = {inverse, .constant = 1, .sign = -1, .root = true, .slope = 1},
+    [BR_OP_ACOS] = {inverse, .constant = 1, .sign = -1, .root = true, .slope = -1},
+    [BR_OP_ATAN] = {inverse, .constant = 1, .sign = 1, .slope = 1},
+    [BR_OP_SINH] = {flow, .sign = 1, .next = SLOPE, .slope = 1, .partner = BR_OP_COSH},
+    [BR_OP_COSH] = {flow, .sign = 1, .next = SLOPE, .slope = 1, .partner = BR_OP_SINH},
+    [BR_OP_TANH] = {flow, .sign = 1, .next = SQUARE, .slope = -1},
+    [BR_OP_ASINH] = {inverse, .constant = 1, .sign = 1, .root = true, .slope = 1},
+    [BR_OP_ACOSH] = {inverse, .constant = -1, .sign = 1, .root = true, .slope = 1},
+    [BR_OP_ATANH] = {inverse, .constant = 1, .sign = -1, .slope = 1},
+    [BR_OP_EXP] = {flow, .sign = 1, .partner = BR_OP_EXP},
+    [BR_OP_EXPM1] = {flow, .sign = 1, .partner = BR_OP_EXP},
+    [BR_OP_LOG] = {logarithm},
+    [BR_OP_LOG2] = {logarithm, .slope = 2},
+    [BR_OP_LOG10] = {logarithm, .slope = 10},
+    [BR_OP_SQRT] = {root},
+    [BR_OP_ABS] = {absolute},
+    [BR_OP_ADD] = {sum, .sign = 1},
+    [BR_OP_SUBTRACT] = {sum, .sign = -1},
+    [BR_OP_MULTIPLY] = {product},
+    [BR_OP_DIVIDE] = {quotient},
+    [BR_OP_POW] = {power},
+    [BR_OP_MIN] = {extreme, .sign = 1},
+    [BR_OP_MAX] = {extreme, .sign = -1},
+};
 
 void br_series_apply(enum br_operation o, size_t order, const iv *const argument[3], iv *out)
 {
-    const struct recurrence r = {order, argument[0], argument[1], out};
+    const struct recurrence r = {order, argument[0], argument[1], out, &rules[o]};
     const iv first[3] = {argument[0][0], argument[1][0], argument[2][0]};
     const iv value = br_interval_apply(o, first, argument[0] == argument[1]);
     out[0] = value;
@@ -325,9 +300,9 @@ void br_series_apply(enum br_operation o, size_t order, const iv *const argument
         out[k] = br_no_interval;
     if (o == BR_OP_CHOOSE) {
         if (!br_has_zero(first[0]) || br_is_point(first[0])) /* none is neither */
-            copy_series(order, argument[br_has_zero(first[0]) ? 2 : 1], 1, out);
+            copy(&r, argument[br_has_zero(first[0]) ? 2 : 1], 1);
     } else if (!br_is_none(value)) {
-        (br_operation_arguments(o) == 1 ? unary_series : binary_series)(o, &r);
+        (r.by->series ? r.by->series : decided)(&r);
     }
     out[0] = value;
 }

@@ -41,12 +41,14 @@ static const struct known {
 };
 enum { UNITS = sizeof units / sizeof *units };
 
-/* The micro sign and the Greek letter look alike. */
+/* The first is none: "min" are minutes, and no milli-inches. The micro sign and the Greek letter
+ * look alike. */
 static const struct prefix {
     const char *word;
     int ten;
-} prefixes[] = {{"n", -9}, {"u", -6}, {"\u00b5", -6}, {"\u03bc", -6}, {"m", -3}, {"c", -2},
-                {"d", -1}, {"h", 2},  {"k", 3},       {"M", 6},       {"G", 9},  {"T", 12}};
+} prefixes[] = {{"", 0},   {"n", -9}, {"u", -6}, {"\u00b5", -6}, {"\u03bc", -6},
+                {"m", -3}, {"c", -2}, {"d", -1}, {"h", 2},       {"k", 3},
+                {"M", 6},  {"G", 9},  {"T", 12}};
 enum { PREFIXES = sizeof prefixes / sizeof *prefixes };
 
 static const struct {
@@ -97,25 +99,16 @@ const char *br_unit_words(char text[BR_UNIT_WORDS])
 
 /* ---- reading ---- */
 
-static bool is(const char *word, const char *text, size_t length)
-{
-    return strlen(word) == length && memcmp(word, text, length) == 0;
-}
-
-/* A word with its prefix: "min" are minutes, and no milli-inches. */
+/* A word with its prefix. */
 static bool find(const char *text, size_t length, struct br_unit *unit)
 {
-    for (const struct known *k = units; k < units + UNITS; k++)
-        if (is(k->word, text, length)) {
-            *unit = k->unit;
-            return true;
-        }
     for (const struct prefix *p = prefixes; p < prefixes + PREFIXES; p++) {
         const size_t head = strlen(p->word);
         if (length <= head || memcmp(p->word, text, head) != 0)
             continue;
         for (const struct known *k = units; k < units + UNITS; k++)
-            if (k->takes_prefix && is(k->word, text + head, length - head)) {
+            if ((k->takes_prefix || !head) && strlen(k->word) == length - head &&
+                memcmp(k->word, text + head, length - head) == 0) {
                 *unit = k->unit;
                 unit->ten += p->ten;
                 return true;

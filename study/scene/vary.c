@@ -201,7 +201,8 @@ enum br_status br_varied_scene(const struct br_varied *v, size_t i, const char *
 {
     char value[100];
     snprintf(value, sizeof value, "%.17g %s", v->value[i], v->unit);
-    return br_scene_read_with(path, text, v->key, value, scene, err);
+    const struct br_scene_asked asked = {.varied = v->key, .value = value};
+    return br_scene_parse(path, text, &asked, scene, err);
 }
 
 /* ---- what is found ---- */

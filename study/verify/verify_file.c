@@ -27,11 +27,10 @@ static const char *expected_study(struct block *b)
 {
     char *const text = b->keys;
     size_t used = (size_t)snprintf(text, sizeof b->keys, "n, k, ");
-    char key[BR_METHOD_VALUE];
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         if (!br_method_fields[i].unsaid)
             used += (size_t)snprintf(text + used, sizeof b->keys - used, "%s, ",
-                                     br_method_field_key(&br_method_fields[i], key));
+                                     br_method_field_key(&br_method_fields[i]));
     snprintf(text + used, sizeof b->keys - used,
              "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
     return text;
@@ -190,8 +189,7 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
 
 static bool is_key(const struct br_method_field *f, const char *key)
 {
-    char name[BR_METHOD_VALUE];
-    return !f->unsaid && strcmp(br_method_field_key(f, name), key) == 0;
+    return !f->unsaid && strcmp(br_method_field_key(f), key) == 0;
 }
 
 static enum br_status read_key(struct block *b, const yaml_node_t *name, const yaml_node_t *value)
@@ -225,12 +223,11 @@ static enum br_status read_method(struct block *b)
     struct br_method *m = &b->study->method;
     const struct br_method *const methods[] = {m};
     struct br_error inner = {0};
-    char key[BR_METHOD_VALUE];
     *m = br_method_default();
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         if (b->text[i] && br_method_field_read(&br_method_fields[i], b->text[i], m, &inner))
-            return br_scene_pass_on(b->r, b->line[i],
-                                    br_method_field_key(&br_method_fields[i], key), &inner);
+            return br_scene_pass_on(b->r, b->line[i], br_method_field_key(&br_method_fields[i]),
+                                    &inner);
     enum br_status status = br_method_read(b->text, BR_METHOD_IN_SCENE, m, &inner);
     if (!status)
         status = br_method_check_heeded(b->text, BR_METHOD_IN_SCENE, methods, 1, &inner);

@@ -321,16 +321,13 @@ static enum br_status factorise(struct assembled *s, struct br_error *err)
 
 static enum br_status allocate(struct assembled *s, struct br_error *err)
 {
-    const size_t nodal = s->nodal;
-    s->matrix.value = br_allocate(s->matrix.order * (s->matrix.band + 1), sizeof(double));
-    s->free_velocity = br_allocate(5 * nodal, sizeof *s->free_velocity);
-    if (!s->matrix.value || !s->free_velocity)
-        return br_no_memory(err, "the stiffness form");
-    s->tip_response = s->free_velocity + nodal;
-    s->rhs = s->tip_response + nodal;
-    s->residual = s->rhs + nodal;
-    s->correction = s->residual + nodal;
-    return br_states_add(&s->states, 2 * nodal, 1, err);
+    double **const nodal[] = {&s->free_velocity, &s->tip_response, &s->rhs, &s->residual,
+                              &s->correction};
+    struct br_store *store = &s->states.store;
+    s->matrix.value = br_store_take(store, s->matrix.order * (s->matrix.band + 1), sizeof(double));
+    for (size_t i = 0; i < sizeof nodal / sizeof *nodal; i++)
+        *nodal[i] = br_store_take(store, s->nodal, sizeof(double));
+    return br_states_add(&s->states, 2 * s->nodal, 1, err);
 }
 
 static enum br_status assembled_create(const struct br_linear_solver *row,
@@ -367,13 +364,9 @@ static enum br_status assembled_create(const struct br_linear_solver *row,
 static void assembled_free(void *self)
 {
     struct assembled *s = self;
-    if (!s)
-        return;
-    s->factoriser->free(s->factor);
-    free(s->matrix.value);
-    br_states_clear(&s->states);
-    free(s->free_velocity);
-    free(s);
+    if (s)
+        s->factoriser->free(s->factor);
+    br_free_states(s);
 }
 
 static enum br_status assembled_set_step(void *self, double k, struct br_error *err)

@@ -14,6 +14,7 @@ struct banded {
     lapack_int order, band;
     double *value; /* U of A = U'U in that order, in the place of A's upper band */
     double *work;  /* workspace for the solve: order */
+    struct br_store store;
 };
 
 static enum br_status banded_create(const struct br_band *a,
@@ -27,18 +28,16 @@ static enum br_status banded_create(const struct br_band *a,
         return br_no_memory(err, "the banded factor");
     b->order = (lapack_int)a->order;
     b->band = (lapack_int)a->band;
-    b->value = br_allocate(a->order * (a->band + 1), sizeof *b->value);
-    b->work = br_allocate(a->order, sizeof *b->work);
-    return b->value && b->work ? BR_OK : br_no_memory(err, "the banded factor");
+    b->value = br_store_take(&b->store, a->order * (a->band + 1), sizeof *b->value);
+    b->work = br_store_take(&b->store, a->order, sizeof *b->work);
+    return b->store.failed ? br_no_memory(err, "the banded factor") : BR_OK;
 }
 
 static void banded_free(void *factor)
 {
     struct banded *b = factor;
-    if (!b)
-        return;
-    free(b->value);
-    free(b->work);
+    if (b)
+        br_store_clear(&b->store);
     free(b);
 }
 

@@ -2,8 +2,8 @@
 /* The loops of the fast solver: BR_LANES equal spans of the beam side by side, one in each lane of
  * the vectors. A span is cut into pieces, which are worked on while they are in the nearest cache.
  * All arrays go from the left end to the right one and hold BR_LANES values for each entry, tables
- * one for all lanes. d is the number of unknowns a node: 1 axial, 2 bending. The mathematics is in
- * pieces.h. */
+ * one for all lanes. d is the number of unknowns a node: 1 axial, 2 bending; it is a constant of
+ * the loops. The mathematics is in pieces.h. */
 #ifndef BR_SOLVER_KERNEL_H
 #define BR_SOLVER_KERNEL_H
 
@@ -40,7 +40,6 @@ enum {
 };
 
 struct br_strip {
-    int d;
     size_t pieces, length; /* of a span; elements of a piece */
     double *gain;          /* per element of a piece K, S^-1, A: 3 d^2 */
     double *weight;        /* per element what g adds to z and q: 2 d^2 */
@@ -67,10 +66,7 @@ struct br_strip_ends {
     double *displacement; /* out: the same, axial only */
 };
 
-struct br_kernel {
-    const char *name;        /* the instruction set */
-    bool (*available)(void); /* on this machine */
-
+struct br_loops {
     /* What state and load of all pieces add to the spans' left costates, q, and right increments,
      * z (out, d each). */
     void (*gather)(const struct br_strip *strip, double factor, double *q, double *z);
@@ -109,8 +105,11 @@ struct br_kernel {
     void (*expand)(const struct br_strip *strip, bool rate, const double *left, double *nodal);
 };
 
-#define BR_KERNEL_OF(set) extern const struct br_kernel br_kernel_##set;
-BR_INSTRUCTION_SETS(BR_KERNEL_OF)
+struct br_kernel {
+    const char *name;                /* the instruction set */
+    bool (*available)(void);         /* on this machine */
+    const struct br_loops *loops[2]; /* by br_field_kind */
+};
 
 /* NULL-terminated, the fastest first; the last runs anywhere. */
 extern const struct br_kernel *const br_kernels[];

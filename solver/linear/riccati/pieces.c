@@ -1,111 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flexibility form, fast: how the beam is cut, where everything lies, the way from and to nodal
+/* The flexibility form, fast: where everything lies, the way from and to nodal
  * values, and a step; see pieces.h. */
 #include <fenv.h>
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "solver/instruction_set.h"
-#include "solver/linear/plain.h"
 #include "solver/linear/riccati/pieces.h"
 
-/* ---- the cut ---- */
+/* ---- where everything lies ---- */
 
-enum {
-    MOST_LENGTH = 32, /* elements of a piece: two of them fit the first level of the cache */
-    JOIN_COST = 2,    /* of a piece in its span, in element loops */
-    SPAN_COST = 16,   /* of all spans */
-};
-
-struct cut {
-    size_t pieces, length, odd;
-};
-
-/* Element loops of a step. Elements of the odd rest have all vectors to themselves. */
-static double cost_of(const struct cut *cut)
+static double *take(struct br_pieces *s, size_t doubles)
 {
-    return (double)(cut->pieces * (cut->length + JOIN_COST) + cut->odd) +
-           (cut->pieces ? SPAN_COST : 0);
-}
-
-static struct cut choose_cut(size_t n)
-{
-    struct cut best = {.odd = n};
-    for (size_t length = 1; length <= MOST_LENGTH && length * BR_LANES <= n; length++) {
-        struct cut cut = {.pieces = n / (length * BR_LANES), .length = length};
-        cut.odd = n - cut.pieces * length * BR_LANES;
-        if (cost_of(&cut) < cost_of(&best))
-            best = cut;
-    }
-    return best;
-}
-
-/* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all spans, of the odd
- * rest and of its elements; and what a pass over the states adds to each. */
-struct cost {
-    double step, loop, rest, odd;
-};
-
-/* A beam that is all odd rest has nothing to join. */
-static double price(const struct cost *of, const struct cut *cut)
-{
-    const double joins = cut->pieces ? of->step : 0, rest = cut->odd ? of->rest : 0;
-    return joins + of->loop * (double)(cut->pieces * cut->length) + rest +
-           of->odd * (double)cut->odd;
-}
-
-/* See linear_solver.h. */
-static double pieces_cost(const struct br_linear_solver *row, const struct br_field *field,
-                          double sums)
-{
-    (void)row;
-    if (br_field_is_quadratic(field))
-        return br_plain.cost(&br_plain, field, sums);
-    static const struct cost axial = {260, 6.5, 55, 2.75}, axial_sum = {70, 1.6, 8, 3.1};
-    static const struct cost bending = {450, 22, 115, 10.9}, bending_sum = {55, 7, 14, 6.5};
-    static const double march = 140; /* of a step that has an odd rest alone */
-    const struct cut cut = choose_cut(field->n);
-    const bool rod = field->kind == BR_AXIAL;
-    return (cut.pieces ? 0 : march) + price(rod ? &axial : &bending, &cut) +
-           sums * price(rod ? &axial_sum : &bending_sum, &cut);
-}
-
-static double *take(double *arena, size_t *used, size_t doubles)
-{
-    double *p = arena ? arena + *used : NULL;
-    *used += (doubles + BR_LANES - 1) / BR_LANES * BR_LANES;
-    return p;
-}
-
-/* Lays out all arrays, or with no arena counts their doubles. */
-static size_t lay_out(struct br_pieces *s, double *arena)
-{
-    const size_t d = (size_t)s->d, entry = d * BR_LANES;
-    size_t used = 0, longest = 0;
-    for (int i = 0; i < s->strands; i++) {
-        struct br_strand *t = &s->strand[i];
-        struct br_strip *strip = &t->strip;
-        strip->d = s->d;
-        longest = strip->length > longest ? strip->length : longest;
-        strip->end = take(arena, &used, strip->pieces * BR_ENDS * entry);
-        strip->join = take(arena, &used, strip->pieces * BR_JOINS * d * d);
-        strip->span_join = take(arena, &used, BR_SPAN_JOINS * d * entry);
-        strip->weight = take(arena, &used, strip->length * 2 * d * d);
-        double **const ends[] = {
-            &t->q,          &t->z,         &t->force_right,   &t->force_left,
-            &t->ends.right, &t->ends.left, &t->ends.velocity, &t->ends.displacement};
-        for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
-            *ends[e] = take(arena, &used, entry);
-    }
-    double *gain = take(arena, &used, longest * 3 * d * d);
-    double *scratch = take(arena, &used, longest * entry);
-    for (int i = 0; i < s->strands && arena; i++) { /* gains go by the distance to the right end */
-        struct br_strip *strip = &s->strand[i].strip;
-        strip->gain = gain + (longest - strip->length) * 3 * d * d;
-        strip->scratch = scratch;
-    }
-    return used;
+    return br_store_take(&s->states.store, doubles, sizeof(double));
 }
 
 /* Elements of a span. */
@@ -143,10 +50,27 @@ static void point_at_first(struct br_pieces *s)
     s->tip = at;
 }
 
-/* Cuts the beam and allocates all arrays. */
+/* Arrays of a strand. */
+static void lay_out(struct br_pieces *s, struct br_strand *t)
+{
+    const size_t d = (size_t)s->d, entry = d * BR_LANES;
+    struct br_strip *strip = &t->strip;
+    double **const ends[] = {
+        &t->q,          &t->z,         &t->force_right,   &t->force_left,
+        &t->ends.right, &t->ends.left, &t->ends.velocity, &t->ends.displacement};
+    strip->end = take(s, strip->pieces * BR_ENDS * entry);
+    strip->join = take(s, strip->pieces * BR_JOINS * d * d);
+    strip->span_join = take(s, BR_SPAN_JOINS * d * entry);
+    strip->weight = take(s, strip->length * 2 * d * d);
+    for (size_t e = 0; e < sizeof ends / sizeof *ends; e++)
+        *ends[e] = take(s, entry);
+}
+
+/* Cuts the beam and takes all arrays. */
 static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
 {
-    const struct cut cut = choose_cut(s->field.n);
+    const struct br_cut cut = br_choose_cut(s->field.n);
+    const size_t d = (size_t)s->d, longest = cut.odd > cut.length ? cut.odd : cut.length;
     if (cut.odd)
         s->strand[s->strands++] =
             (struct br_strand){.strip = {.lanes = 1, .pieces = 1, .length = cut.odd}};
@@ -154,14 +78,19 @@ static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
         s->strand[s->strands++] = (struct br_strand){
             .first = cut.odd,
             .strip = {.lanes = BR_LANES, .pieces = cut.pieces, .length = cut.length}};
-    s->arena = br_allocate_aligned(lay_out(s, NULL), sizeof(double));
-    if (!s->arena)
-        return br_no_memory(err, "a solver");
-    lay_out(s, s->arena);
+    double *gain = take(s, longest * 3 * d * d), *scratch = take(s, longest * d * BR_LANES);
+    for (int i = 0; i < s->strands; i++)
+        lay_out(s, &s->strand[i]);
     const enum br_status status = br_states_add(&s->states, all_strands(s) + TIP_NUMBERS, 1, err);
-    if (!status)
-        point_at_first(s);
-    return status;
+    if (status)
+        return status;
+    for (int i = 0; i < s->strands; i++) { /* gains go by the distance to the right end */
+        struct br_strip *strip = &s->strand[i].strip;
+        strip->gain = gain + (longest - strip->length) * 3 * d * d;
+        strip->scratch = scratch;
+    }
+    point_at_first(s);
+    return BR_OK;
 }
 
 /* kappa_w of an element, kappa_v after it. */
@@ -197,9 +126,9 @@ static void get_nodes(const struct br_pieces *s, bool rate, double *nodal)
     for (int i = 0; i < s->strands; i++) {
         const struct br_strand *t = &s->strand[i];
         if (!rate || !s->advanced)
-            s->kernel->carry(&t->strip, rate, across);
+            s->loops->carry(&t->strip, rate, across);
         find_left_ends(s, t, rate && s->advanced ? t->ends.velocity : across, y, left);
-        s->kernel->expand(&t->strip, rate, left, nodal + (t->first + 1) * d);
+        s->loops->expand(&t->strip, rate, left, nodal + (t->first + 1) * d);
     }
 }
 
@@ -232,7 +161,7 @@ static double find_tip_displacement(const struct br_pieces *s)
     _Alignas(64) double across[2 * BR_LANES];
     double y[2] = {0}, left[2 * BR_LANES];
     for (int i = 0; i < s->strands; i++) {
-        s->kernel->carry(&s->strand[i].strip, false, across);
+        s->loops->carry(&s->strand[i].strip, false, across);
         find_left_ends(s, &s->strand[i], across, y, left);
     }
     return y[0];
@@ -264,7 +193,7 @@ static void pieces_set(void *self, const double *displacement, const double *vel
                 put_strain(s->d, displacement + node, to);
                 put_strain(s->d, velocity + node, to + s->d * BR_LANES);
             }
-        s->kernel->blend(&t->strip, 0, NULL, NULL);
+        s->loops->blend(&t->strip, 0, NULL, NULL);
     }
     s->tip[TIP_BIAS] = 0;
     s->stale_ends = s->advanced = false;
@@ -302,7 +231,7 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
     const size_t d = (size_t)s->d;
     const bool even = !vector || is_uniform(s, vector);
     if (!even && !s->loads) {
-        s->loads = br_allocate_aligned(all_strands(s) / 2, sizeof *s->loads);
+        s->loads = take(s, all_strands(s) / 2);
         if (!s->loads)
             return br_no_memory(err, "the load of a solver");
     }
@@ -318,7 +247,7 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
             spread(s, t, vector);
             next += span_length(t) * d * BR_LANES;
         }
-        s->kernel->charge(&t->strip, s->drive.uniform);
+        s->loops->charge(&t->strip, s->drive.uniform);
     }
     return BR_OK;
 }
@@ -328,29 +257,18 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
 /* Round-off of the tip's increment is small beside the velocity that it leads to. */
 static const double most_bias = 1e-8;
 
-static void pieces_free(void *self)
-{
-    struct br_pieces *s = self;
-    if (!s)
-        return;
-    free(s->arena);
-    free(s->loads);
-    br_states_clear(&s->states);
-    free(s);
-}
-
 /* The increments and costates at the ends of all spans, for the tip's costate h; the tip's
  * increment goes into y (out). */
 static void join(struct br_pieces *s, double *h, double *y)
 {
     for (int i = s->strands; i-- > 0;) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_left(&t->strip, t->q, t->z, h, t->ends.right);
+        s->loops->join_left(&t->strip, t->q, t->z, h, t->ends.right);
     }
     y[0] = y[1] = 0;
     for (int i = 0; i < s->strands; i++) {
         struct br_strand *t = &s->strand[i];
-        s->kernel->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
+        s->loops->join_right(&t->strip, t->z, y, t->ends.left, t->ends.right);
     }
 }
 
@@ -386,10 +304,11 @@ static enum br_status pieces_create(const struct br_linear_solver *row,
     if (!s)
         return br_no_memory(err, "a solver");
     s->field = *field;
-    s->kernel = options->kernel ? options->kernel : br_kernel_best();
-    if (!s->kernel->available())
+    const struct br_kernel *kernel = options->kernel ? options->kernel : br_kernel_best();
+    if (!kernel->available())
         return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
-                       s->kernel->name);
+                       kernel->name);
+    s->loops = kernel->loops[field->kind];
     s->d = field->kind == BR_AXIAL ? 1 : 2;
     const enum br_status status = lay_out_all(s, err);
     return status ? status : prepare(s, err);
@@ -410,11 +329,11 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
         return status;
     s->stale_load = false;
     for (int i = 0; i < s->strands && s->stale_ends; i++)
-        s->kernel->blend(&s->strand[i].strip, 0, NULL, NULL);
+        s->loops->blend(&s->strand[i].strip, 0, NULL, NULL);
     s->stale_ends = false;
     s->drive.factor = drive->factor;
     for (int i = 0; i < s->strands; i++)
-        s->kernel->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
+        s->loops->gather(&s->strand[i].strip, drive->factor, s->strand[i].q, s->strand[i].z);
     double costate[2] = {0};
     for (int c = 0; c < s->d; c++)
         costate[c] = -(drive->factor * s->tip_load[c] + drive->tip[c] / s->r);
@@ -453,7 +372,7 @@ static double pieces_finish(void *self, double force)
             t->ends.right[j] += force * t->force_right[j];
             t->ends.left[j] += force * t->force_left[j];
         }
-        s->kernel->advance(&t->strip, &s->drive, &t->ends);
+        s->loops->advance(&t->strip, &s->drive, &t->ends);
     }
     s->advanced = true;
     look_at_tip(s, s->tip[TIP_VELOCITY] + s->tip_increment[0] + force * s->force_increment[0]);
@@ -520,7 +439,7 @@ static void pieces_combine(void *self, size_t into, size_t count, const double *
         const struct br_strip *strip = &s->strand[i].strip;
         const size_t size = strand_size(s, &s->strand[i]);
         if (blends)
-            s->kernel->blend(strip, picked, (const double *const *)of, by);
+            s->loops->blend(strip, picked, (const double *const *)of, by);
         else
             (strip->lanes == 1 ? add_one_lane : br_add_states)(to, size, picked, of, by);
         to += size;
@@ -535,12 +454,12 @@ static void pieces_combine(void *self, size_t into, size_t count, const double *
 }
 
 /* The same of numbers whose squares are no doubles. */
-static void add_squares(const struct br_strip *strip, size_t numbers, const double *state,
-                        long double sum[2])
+static void add_squares(const struct br_pieces *s, const struct br_strip *strip, size_t numbers,
+                        const double *state, long double sum[2])
 {
     for (size_t i = 0; i < numbers; i++)
         if (i % BR_LANES < strip->lanes) {
-            const size_t rate = i / ((size_t)strip->d * BR_LANES) % 2;
+            const size_t rate = i / ((size_t)s->d * BR_LANES) % 2;
             sum[rate] += (long double)state[i] * state[i];
         }
 }
@@ -553,7 +472,7 @@ static void sum_squares(const struct br_pieces *s, size_t state, double sum[2])
     feholdexcept(&environment);
     sum[0] = sum[1] = 0;
     for (int i = 0; i < s->strands; i++) {
-        s->kernel->square(&s->strand[i].strip, at, sum);
+        s->loops->square(&s->strand[i].strip, at, sum);
         at += strand_size(s, &s->strand[i]);
     }
     fesetenv(&environment);
@@ -572,7 +491,7 @@ static void pieces_size(void *self, size_t state, double size[2])
     const bool told = isgreater(fmin(sum[0], sum[1]), least) && isless(fmax(sum[0], sum[1]), most);
     for (int i = 0; i < s->strands && !told; i++) {
         const size_t numbers = strand_size(s, &s->strand[i]);
-        add_squares(&s->strand[i].strip, numbers, at, wide);
+        add_squares(s, &s->strand[i].strip, numbers, at, wide);
         at += numbers;
     }
     const long double h = s->field.h, unit = s->d == 1 ? h : h * h * h;
@@ -580,9 +499,9 @@ static void pieces_size(void *self, size_t state, double size[2])
         size[rate] = (double)sqrtl((told ? sum[rate] : wide[rate]) / unit);
 }
 
-static const struct br_field_solver pieces = {
+const struct br_field_solver br_pieces = {
     .create = pieces_create,
-    .free = pieces_free,
+    .free = br_free_states,
     .tip_compliance = pieces_compliance,
     .set = pieces_set,
     .get = pieces_get,
@@ -595,44 +514,4 @@ static const struct br_field_solver pieces = {
     .exchange = pieces_exchange,
     .combine = pieces_combine,
     .size = pieces_size,
-};
-
-/* ---- the row ---- */
-
-/* Where a wave does not cross an element in a step, the step is the mass's alone, whose condition
- * in strains is n for a rod and n^2 for a beam: no more than that is lost. Measured for n = 40 to
- * 3200 and rho / (c k) up to 1e25. */
-static double most_excess(const struct br_field *f)
-{
-    const double n = (double)f->n;
-    return f->kind == BR_AXIAL ? 1e4 + 64 * n : 1e5 + 4 * n * n;
-}
-
-/* The strain g is larger than the increment that it leads to by br_field_inertia, in the lowest
- * mode of free vibration. The joins add the round-off of their sums: where inertia rules, pieces
- * that are free at one end answer by far more than what is left when they are joined. Short beams
- * are one piece. */
-static double riccati_round_off(const struct br_linear_solver *row, const struct br_field *field,
-                                const struct br_linear_options *options)
-{
-    (void)row;
-    (void)options;
-    const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
-    const double excess = fmin(br_field_inertia(field), most_excess(field));
-    return DBL_EPSILON * (8 * ((double)field->n + 1024) + joined * excess);
-}
-
-const struct br_linear_solver br_riccati = {
-    .name = "riccati",
-    .title = "flexibility form: Riccati recursions on pieces of the beam, side by side in vectors",
-    .citation =
-        "discrete linear-quadratic problem in substructures, see solver/linear/riccati/pieces.h",
-    .options = "--kernel",
-    .axial = &pieces,
-    .axial_quadratic = &br_plain_form,
-    .bending = &pieces,
-    .round_off = riccati_round_off,
-    .bytes = {40, 62, 140},
-    .state_bytes = {28, 44, 32},
-    .cost = pieces_cost,
 };

@@ -27,13 +27,12 @@ enum { BR_MOST_STRANDS = 2 };
 struct br_pieces {
     struct br_states states; /* the strips have the first */
     struct br_field field;
-    const struct br_kernel *kernel;
+    const struct br_loops *loops;
     int d;                                    /* unknowns a node: 1 or 2 */
     double r;                                 /* R, see tables.c */
     struct br_strand strand[BR_MOST_STRANDS]; /* from the clamped end: the odd rest, and the equal
                                                  spans; what the cut has of them */
     int strands;
-    double *arena; /* all arrays but the loads */
     double *loads; /* of the strips, where they differ from node to node; NULL so far */
     struct br_strip_drive drive;
     double tip_load[2]; /* of the last node over R, for a factor of 1 */
@@ -44,6 +43,15 @@ struct br_pieces {
     bool stale_ends; /* the ends' q and z are those of another step or state */
     bool advanced;   /* the strands' ends have the velocities across the spans */
 };
+
+/* How a beam is cut: pieces of a length in each span, and the odd rest, in elements. */
+struct br_cut {
+    size_t pieces, length, odd;
+};
+struct br_cut br_choose_cut(size_t n);
+
+/* The functions of the solver, for linear elements. */
+extern const struct br_field_solver br_pieces;
 
 /* Fills all tables and joins for the field's step. Fails with BR_SINGULAR or BR_NO_MEMORY. */
 enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err);

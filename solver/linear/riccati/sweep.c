@@ -1,60 +1,46 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loops of a strip: a step of its pieces, their joins, and the way to the nodes. Compiled once
- * for each instruction set, BR_SET (instruction_set.h), and contracted. Two vectors side by side
- * hide the latency of the recursions. */
+ * for each instruction set, BR_SET (instruction_set.h), and each number of unknowns a node, BR_D,
+ * and contracted. Two vectors side by side hide the latency of the recursions. */
 #include "solver/linear/riccati/kernel.h"
 #include "solver/vectors.h"
 
 /* ---- the lanes of a strip in vectors ---- */
 
-enum { VECTORS = 2, GO = VECTORS * WIDTH };
+enum { d = BR_D, VECTORS = 2, GO = VECTORS * WIDTH };
 
 /* The entries of G that are not 0 or 1; see tables.c. */
 static const double half = 0.5, lever = 0.28867513459481288225;
 
-INLINE void load_all(int d, const double *from, vec *to)
+INLINE void load_all(const double *from, vec *to)
 {
     for (int i = 0; i < d; i++)
         to[i] = load(from + i * BR_LANES);
 }
 
-INLINE void store_all(int d, const vec *from, double *to)
+INLINE void store_all(const vec *from, double *to)
 {
     for (int i = 0; i < d; i++)
         store(from[i], to + i * BR_LANES);
 }
 
-/* sum += a x, sum -= a x, and so with a'; d by d */
-INLINE void add(int d, const double *a, const vec *x, vec *sum)
+/* sum += sign a x, and so with a'; d by d */
+INLINE void add(int sign, const double *a, const vec *x, vec *sum)
 {
     for (int i = 0; i < d; i++)
         for (int j = 0; j < d; j++)
-            sum[i] += a[i * d + j] * x[j];
+            sum[i] += a[i * d + j] * (sign * x[j]);
 }
 
-INLINE void subtract(int d, const double *a, const vec *x, vec *sum)
-{
-    for (int i = 0; i < d; i++)
-        for (int j = 0; j < d; j++)
-            sum[i] -= a[i * d + j] * x[j];
-}
-
-INLINE void add_transposed(int d, const double *a, const vec *x, vec *sum)
+INLINE void add_transposed(int sign, const double *a, const vec *x, vec *sum)
 {
     for (int i = 0; i < d; i++)
         for (int j = d; j-- > 0;)
-            sum[i] += a[j * d + i] * x[j];
-}
-
-INLINE void subtract_transposed(int d, const double *a, const vec *x, vec *sum)
-{
-    for (int i = 0; i < d; i++)
-        for (int j = d; j-- > 0;)
-            sum[i] -= a[j * d + i] * x[j];
+            sum[i] += a[j * d + i] * (sign * x[j]);
 }
 
 /* y = T y + G kappa */
-INLINE void pass_on(int d, const vec *kappa, vec *y)
+INLINE void pass_on(const vec *kappa, vec *y)
 {
     if (d == 1) {
         y[0] += kappa[0];
@@ -70,7 +56,7 @@ struct piece {
     const double *load;
 };
 
-INLINE struct piece piece_at(int d, const struct br_strip *s, size_t j, size_t lane)
+INLINE struct piece piece_at(const struct br_strip *s, size_t j, size_t lane)
 {
     const size_t entry = (size_t)d * BR_LANES;
     return (struct piece){
@@ -80,7 +66,7 @@ INLINE struct piece piece_at(int d, const struct br_strip *s, size_t j, size_t l
     };
 }
 
-INLINE const double *join_of(int d, const struct br_strip *s, size_t j)
+INLINE const double *join_of(const struct br_strip *s, size_t j)
 {
     return s->join + j * (size_t)(BR_JOINS * d * d);
 }
@@ -88,8 +74,7 @@ INLINE const double *join_of(int d, const struct br_strip *s, size_t j)
 /* ---- an element ---- */
 
 /* s = g + G'p,    p = A'p - K'g - F, for -F */
-INLINE void element_left(int d, const double *gain, const vec *g, const vec *minus_f, vec *p,
-                         vec *s)
+INLINE void element_left(const double *gain, const vec *g, const vec *minus_f, vec *p, vec *s)
 {
     vec next[2];
     s[0] = d == 1 ? g[0] + p[0] : (g[0] + p[1]) + half * p[0];
@@ -97,24 +82,24 @@ INLINE void element_left(int d, const double *gain, const vec *g, const vec *min
         s[1] = g[1] - lever * p[0];
     for (int i = 0; i < d; i++)
         next[i] = minus_f[i];
-    subtract_transposed(d, gain, g, next);
-    add_transposed(d, gain + 2 * d * d, p, next);
+    add_transposed(-1, gain, g, next);
+    add_transposed(1, gain + 2 * d * d, p, next);
     for (int i = 0; i < d; i++)
         p[i] = next[i];
 }
 
 /* kappa = -(K y + S^-1 s), and y goes on */
-INLINE void element_right(int d, const double *gain, const vec *s, vec *y, vec *kappa)
+INLINE void element_right(const double *gain, const vec *s, vec *y, vec *kappa)
 {
     for (int i = 0; i < d; i++)
         kappa[i] = (vec){0};
-    subtract(d, gain + d * d, s, kappa);
-    subtract(d, gain, y, kappa);
-    pass_on(d, kappa, y);
+    add(-1, gain + d * d, s, kappa);
+    add(-1, gain, y, kappa);
+    pass_on(kappa, y);
 }
 
 /* The state after the step. */
-INLINE void element_state(int d, double k, const vec *kappa, vec *w, vec *v)
+INLINE void element_state(double k, const vec *kappa, vec *w, vec *v)
 {
     for (int i = 0; i < d; i++) {
         v[i] += kappa[i];
@@ -123,7 +108,7 @@ INLINE void element_state(int d, double k, const vec *kappa, vec *w, vec *v)
 }
 
 /* g = alpha w + v */
-INLINE void strain(int d, double alpha, const vec *w, const vec *v, vec *g)
+INLINE void strain(double alpha, const vec *w, const vec *v, vec *g)
 {
     for (int i = 0; i < d; i++)
         g[i] = alpha * w[i] + v[i];
@@ -132,8 +117,8 @@ INLINE void strain(int d, double alpha, const vec *w, const vec *v, vec *g)
 /* ---- a piece ---- */
 
 /* Costates p to the left, s into the scratch; minus_f: the load that is the same everywhere. */
-INLINE void piece_left(int d, int vectors, bool loaded, const struct br_strip *s,
-                       const struct piece *at, const vec *minus_f, double factor, vec p[VECTORS][2])
+INLINE void piece_left(int vectors, bool loaded, const struct br_strip *s, const struct piece *at,
+                       const vec *minus_f, double factor, vec p[VECTORS][2])
 {
     const size_t entry = (size_t)d * BR_LANES;
     for (size_t e = s->length; e-- > 0;)
@@ -141,18 +126,18 @@ INLINE void piece_left(int d, int vectors, bool loaded, const struct br_strip *s
         for (int v = 0; v < vectors; v++) {
             const double *state = at->state + e * 2 * entry + v * WIDTH;
             vec w[2], rate[2], g[2], sum[2], f[2];
-            load_all(d, state, w);
-            load_all(d, state + entry, rate);
-            strain(d, s->alpha, w, rate, g);
+            load_all(state, w);
+            load_all(state + entry, rate);
+            strain(s->alpha, w, rate, g);
             for (int i = 0; i < d; i++)
                 f[i] = minus_f[i];
             if (loaded) {
-                load_all(d, at->load + e * entry + v * WIDTH, f);
+                load_all(at->load + e * entry + v * WIDTH, f);
                 for (int i = 0; i < d; i++)
                     f[i] *= -factor;
             }
-            element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p[v], sum);
-            store_all(d, sum, s->scratch + e * entry + v * WIDTH);
+            element_left(s->gain + e * (size_t)(3 * d * d), g, f, p[v], sum);
+            store_all(sum, s->scratch + e * entry + v * WIDTH);
         }
 }
 
@@ -163,7 +148,7 @@ struct along {
 
 /* Increments y to the right, the new state, and what it adds to z and q. The lines of the piece
  * that comes next are asked for meanwhile. */
-INLINE void piece_right(int d, int vectors, const struct br_strip *s, const struct piece *at,
+INLINE void piece_right(int vectors, const struct br_strip *s, const struct piece *at,
                         struct along *go)
 {
     const size_t entry = (size_t)d * BR_LANES;
@@ -180,63 +165,62 @@ INLINE void piece_right(int d, int vectors, const struct br_strip *s, const stru
             const double *weight = s->weight + e * (size_t)(2 * d * d);
             double *state = at->state + e * 2 * entry + v * WIDTH;
             vec w[2], rate[2], g[2], sum[2], kappa[2];
-            load_all(d, s->scratch + e * entry + v * WIDTH, sum);
-            load_all(d, state, w);
-            load_all(d, state + entry, rate);
+            load_all(s->scratch + e * entry + v * WIDTH, sum);
+            load_all(state, w);
+            load_all(state + entry, rate);
             for (int i = 0; i < 2 * d; i++)
                 __builtin_prefetch(next + v * WIDTH + i * BR_LANES);
-            element_right(d, gain, sum, go[v].y, kappa);
-            element_state(d, s->k, kappa, w, rate);
-            store_all(d, w, state);
-            store_all(d, rate, state + entry);
-            pass_on(d, rate, go[v].velocity);
+            element_right(gain, sum, go[v].y, kappa);
+            element_state(s->k, kappa, w, rate);
+            store_all(w, state);
+            store_all(rate, state + entry);
+            pass_on(rate, go[v].velocity);
             if (d == 1)
                 go[v].displacement += w[0];
-            strain(d, s->alpha, w, rate, g);
-            add(d, weight, g, z[v]);
-            add(d, weight + d * d, g, q[v]);
+            strain(s->alpha, w, rate, g);
+            add(1, weight, g, z[v]);
+            add(1, weight + d * d, g, q[v]);
         }
     }
     for (int v = 0; v < vectors; v++) {
-        store_all(d, z[v], at->end + BR_END_Z * entry + v * WIDTH);
-        store_all(d, q[v], at->end + BR_END_Q * entry + v * WIDTH);
+        store_all(z[v], at->end + BR_END_Z * entry + v * WIDTH);
+        store_all(q[v], at->end + BR_END_Q * entry + v * WIDTH);
     }
 }
 
 /* ---- spans ---- */
 
 /* The increment at a piece's right end, and the costate there. */
-INLINE void cross(int d, const double *join, const double *end, const vec *right, vec *y,
-                  vec *costate)
+INLINE void cross(const double *join, const double *end, const vec *right, vec *y, vec *costate)
 {
     const int entry = d * BR_LANES;
     vec h[2], drift[2], next[2], yield[2];
-    load_all(d, end + BR_END_H * entry, h);
-    load_all(d, end + BR_END_DRIFT * entry, drift);
-    add(d, join + BR_JOIN_REACH * d * d, right, h);
+    load_all(end + BR_END_H * entry, h);
+    load_all(end + BR_END_DRIFT * entry, drift);
+    add(1, join + BR_JOIN_REACH * d * d, right, h);
     for (int i = 0; i < d; i++)
         next[i] = yield[i] = (vec){0};
-    add(d, join + BR_JOIN_YIELD * d * d, h, yield);
-    add(d, join + BR_JOIN_GAIN * d * d, drift, next);
+    add(1, join + BR_JOIN_YIELD * d * d, h, yield);
+    add(1, join + BR_JOIN_GAIN * d * d, drift, next);
     for (int i = 0; i < d; i++)
         next[i] -= yield[i];
-    add(d, join + BR_JOIN_PASS * d * d, y, next);
-    add(d, join + BR_JOIN_COSTATE * d * d, next, h);
+    add(1, join + BR_JOIN_PASS * d * d, y, next);
+    add(1, join + BR_JOIN_COSTATE * d * d, next, h);
     for (int i = 0; i < d; i++) {
         y[i] = next[i];
         costate[i] = h[i];
     }
 }
 
-INLINE void start(int d, size_t lane, const double *left, struct along *go)
+INLINE void start(size_t lane, const double *left, struct along *go)
 {
-    load_all(d, left + lane, go->y);
+    load_all(left + lane, go->y);
     for (int i = 0; i < d; i++)
         go->velocity[i] = (vec){0};
     go->displacement = (vec){0};
 }
 
-INLINE void advance_of(int d, int vectors, bool loaded, const struct br_strip *strip,
+INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
                        const struct br_strip_drive *drive, const struct br_strip_ends *ends)
 {
     const struct br_strip s = *strip; /* nothing aliases it */
@@ -248,34 +232,48 @@ INLINE void advance_of(int d, int vectors, bool loaded, const struct br_strip *s
         struct along go[VECTORS];
         vec y[VECTORS][2], right[VECTORS][2];
         for (int v = 0; v < vectors; v++) {
-            start(d, lane + (size_t)(v * WIDTH), ends->left, &go[v]);
-            load_all(d, ends->right + lane + v * WIDTH, right[v]);
+            start(lane + (size_t)(v * WIDTH), ends->left, &go[v]);
+            load_all(ends->right + lane + v * WIDTH, right[v]);
             for (int i = 0; i < d; i++)
                 y[v][i] = go[v].y[i];
         }
         for (size_t j = 0; j < s.pieces; j++) {
-            const struct piece at = piece_at(d, &s, j, lane);
+            const struct piece at = piece_at(&s, j, lane);
             vec p[VECTORS][2];
             for (int i = 0; i < BR_ENDS * d; i++)
                 __builtin_prefetch(at.end + (BR_ENDS * d + i) * BR_LANES);
             for (int v = 0; v < vectors; v++) {
                 for (int i = 0; i < d; i++)
                     go[v].y[i] = y[v][i]; /* as the joins have it */
-                cross(d, join_of(d, &s, j), at.end + v * WIDTH, right[v], y[v], p[v]);
+                cross(join_of(&s, j), at.end + v * WIDTH, right[v], y[v], p[v]);
             }
-            piece_left(d, vectors, loaded, &s, &at, minus_f, factor, p);
-            piece_right(d, vectors, &s, &at, go);
+            piece_left(vectors, loaded, &s, &at, minus_f, factor, p);
+            piece_right(vectors, &s, &at, go);
         }
         for (int v = 0; v < vectors; v++) {
-            store_all(d, go[v].velocity, ends->velocity + lane + v * WIDTH);
+            store_all(go[v].velocity, ends->velocity + lane + v * WIDTH);
             if (d == 1)
                 store(go[v].displacement, ends->displacement + lane + v * WIDTH);
         }
     }
 }
 
+/* The odd rest, one lane, has no use for a second vector. */
+static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
+                    const struct br_strip_ends *ends)
+{
+    if (s->lanes == 1 && s->load)
+        advance_by(1, true, s, drive, ends);
+    else if (s->lanes == 1)
+        advance_by(1, false, s, drive, ends);
+    else if (s->load)
+        advance_by(VECTORS, true, s, drive, ends);
+    else
+        advance_by(VECTORS, false, s, drive, ends);
+}
+
 /* z and q of a state that no step has led to: the sum of others, or with none its own. */
-INLINE void blend_piece(int d, const struct br_strip *s, const struct piece *at, size_t count,
+INLINE void blend_piece(const struct br_strip *s, const struct piece *at, size_t count,
                         const double *const *from, const double *weight)
 {
     const size_t entry = (size_t)d * BR_LANES;
@@ -292,32 +290,32 @@ INLINE void blend_piece(int d, const struct br_strip *s, const struct piece *at,
                 rate[i] += weight[j] * load(from[j] + place + entry + i * BR_LANES);
             }
         if (count > 0) {
-            store_all(d, w, state);
-            store_all(d, rate, state + entry);
+            store_all(w, state);
+            store_all(rate, state + entry);
         } else {
-            load_all(d, state, w);
-            load_all(d, state + entry, rate);
+            load_all(state, w);
+            load_all(state + entry, rate);
         }
-        strain(d, s->alpha, w, rate, g);
-        add(d, weights, g, z);
-        add(d, weights + d * d, g, q);
+        strain(s->alpha, w, rate, g);
+        add(1, weights, g, z);
+        add(1, weights + d * d, g, q);
     }
-    store_all(d, z, at->end + BR_END_Z * entry);
-    store_all(d, q, at->end + BR_END_Q * entry);
+    store_all(z, at->end + BR_END_Z * entry);
+    store_all(q, at->end + BR_END_Q * entry);
 }
 
-INLINE void blend_of(int d, const struct br_strip *strip, size_t count, const double *const *from,
-                     const double *weight)
+static void blend(const struct br_strip *strip, size_t count, const double *const *from,
+                  const double *weight)
 {
     const struct br_strip s = *strip; /* nothing aliases it */
     for (size_t j = 0; j < s.pieces; j++)
         for (size_t lane = 0; lane < s.lanes; lane += WIDTH) {
-            const struct piece at = piece_at(d, &s, j, lane);
-            blend_piece(d, &s, &at, count, from, weight);
+            const struct piece at = piece_at(&s, j, lane);
+            blend_piece(&s, &at, count, from, weight);
         }
 }
 
-INLINE void square_of(int d, const struct br_strip *s, const double *state, double total[2])
+static void square(const struct br_strip *s, const double *state, double total[2])
 {
     const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
     _Alignas(64) double sum[2][BR_LANES] = {{0}};
@@ -339,34 +337,41 @@ INLINE void square_of(int d, const struct br_strip *s, const double *state, doub
 }
 
 /* The recursions with no state. */
-INLINE void charge_of(int d, const struct br_strip *s, const double *uniform, size_t j, size_t lane)
+INLINE void charge_piece(const struct br_strip *s, const double *uniform, size_t j, size_t lane)
 {
     const size_t entry = (size_t)d * BR_LANES;
-    const struct piece at = piece_at(d, s, j, lane);
+    const struct piece at = piece_at(s, j, lane);
     const vec g[2] = {{0}};
     vec p[2] = {{0}}, y[2] = {{0}}, sum[2], kappa[2], f[2];
     for (int i = 0; i < d; i++)
         f[i] = -uniform[i] - (vec){0};
     for (size_t e = s->length; e-- > 0;) {
         if (at.load)
-            load_all(d, at.load + e * entry, f);
+            load_all(at.load + e * entry, f);
         for (int i = 0; i < d && at.load; i++)
             f[i] = -f[i];
-        element_left(d, s->gain + e * (size_t)(3 * d * d), g, f, p, sum);
-        store_all(d, sum, s->scratch + e * entry);
+        element_left(s->gain + e * (size_t)(3 * d * d), g, f, p, sum);
+        store_all(sum, s->scratch + e * entry);
     }
     for (size_t e = 0; e < s->length; e++) {
-        load_all(d, s->scratch + e * entry, sum);
-        element_right(d, s->gain + e * (size_t)(3 * d * d), sum, y, kappa);
+        load_all(s->scratch + e * entry, sum);
+        element_right(s->gain + e * (size_t)(3 * d * d), sum, y, kappa);
     }
-    store_all(d, p, at.end + BR_END_LOAD_Q * entry);
-    store_all(d, y, at.end + BR_END_LOAD_Z * entry);
+    store_all(p, at.end + BR_END_LOAD_Q * entry);
+    store_all(y, at.end + BR_END_LOAD_Z * entry);
+}
+
+static void charge(const struct br_strip *s, const double uniform[2])
+{
+    for (size_t j = 0; j < s->pieces; j++)
+        for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
+            charge_piece(s, uniform, j, lane);
 }
 
 /* ---- joins ---- */
 
 /* z or q of a piece with its load's */
-INLINE void load_end(int d, const double *end, int which, double factor, vec *value)
+INLINE void load_end(const double *end, int which, double factor, vec *value)
 {
     const int entry = d * BR_LANES;
     for (int i = 0; i < d; i++)
@@ -375,42 +380,43 @@ INLINE void load_end(int d, const double *end, int which, double factor, vec *va
 }
 
 /* One piece further to the left: h goes through its join, and the span's z gathers. */
-INLINE void gather_piece(int d, const double *join, double *end, double factor, vec *h, vec *sum)
+INLINE void gather_piece(const double *join, double *end, double factor, vec *h, vec *sum)
 {
     const int entry = d * BR_LANES;
     vec next[2], drift[2];
-    load_end(d, end, BR_END_Q, factor, next);
-    load_end(d, end, BR_END_Z, factor, drift);
-    store_all(d, h, end + BR_END_H * entry);
-    store_all(d, drift, end + BR_END_DRIFT * entry);
-    add(d, join + BR_JOIN_LEAD * d * d, drift, sum);
-    add(d, join + BR_JOIN_LAG * d * d, h, sum);
-    add(d, join + BR_JOIN_TRANSFER * d * d, drift, next);
-    add_transposed(d, join + BR_JOIN_PASS * d * d, h, next);
+    load_end(end, BR_END_Q, factor, next);
+    load_end(end, BR_END_Z, factor, drift);
+    store_all(h, end + BR_END_H * entry);
+    store_all(drift, end + BR_END_DRIFT * entry);
+    add(1, join + BR_JOIN_LEAD * d * d, drift, sum);
+    add(1, join + BR_JOIN_LAG * d * d, h, sum);
+    add(1, join + BR_JOIN_TRANSFER * d * d, drift, next);
+    add_transposed(1, join + BR_JOIN_PASS * d * d, h, next);
     for (int i = 0; i < d; i++)
         h[i] = next[i];
 }
 
 /* A span ends free. */
-INLINE void gather_of(int d, const struct br_strip *s, double factor, size_t lane, double *q,
-                      double *z)
+static void gather(const struct br_strip *s, double factor, double *q, double *z)
 {
-    vec h[VECTORS][2] = {{{0}}}, sum[VECTORS][2] = {{{0}}};
-    for (size_t j = s->pieces; j-- > 0;) {
-        double *end = piece_at(d, s, j, lane).end;
-        for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
-            __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
-        for (int v = 0; v < VECTORS; v++)
-            gather_piece(d, join_of(d, s, j), end + v * WIDTH, factor, h[v], sum[v]);
-    }
-    for (int v = 0; v < VECTORS; v++) {
-        store_all(d, h[v], q + lane + v * WIDTH);
-        store_all(d, sum[v], z + lane + v * WIDTH);
+    for (size_t lane = 0; lane < s->lanes; lane += GO) {
+        vec h[VECTORS][2] = {{{0}}}, sum[VECTORS][2] = {{{0}}};
+        for (size_t j = s->pieces; j-- > 0;) {
+            double *end = piece_at(s, j, lane).end;
+            for (int i = 0; i < BR_ENDS * d; i++) /* of a piece further on */
+                __builtin_prefetch(end - (8 * BR_ENDS * d - i) * BR_LANES);
+            for (int v = 0; v < VECTORS; v++)
+                gather_piece(join_of(s, j), end + v * WIDTH, factor, h[v], sum[v]);
+        }
+        for (int v = 0; v < VECTORS; v++) {
+            store_all(h[v], q + lane + v * WIDTH);
+            store_all(sum[v], z + lane + v * WIDTH);
+        }
     }
 }
 
 /* Lane by lane, but all that does not wait for the neighbour at once. */
-INLINE void add_lanewise(int d, const struct br_strip *s, int which, const double *x, double *sum)
+INLINE void add_lanewise(const struct br_strip *s, int which, const double *x, double *sum)
 {
     const double *a = s->span_join + which * d * d * BR_LANES;
     for (int lane = 0; lane < BR_LANES; lane += WIDTH)
@@ -422,13 +428,13 @@ INLINE void add_lanewise(int d, const struct br_strip *s, int which, const doubl
         }
 }
 
-INLINE void join_left_of(size_t d, const struct br_strip *s, const double *q, const double *z,
-                         double *h, double *right)
+static void join_left(const struct br_strip *s, const double *q, const double *z, double *h,
+                      double *right)
 {
     const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
     _Alignas(64) double own[2 * BR_LANES];
     memcpy(own, q, d * BR_LANES * sizeof *own);
-    add_lanewise((int)d, s, BR_JOIN_TRANSFER, z, own);
+    add_lanewise(s, BR_JOIN_TRANSFER, z, own);
     for (size_t lane = s->lanes; lane-- > 0;) {
         double next[2];
         for (size_t i = 0; i < d; i++) {
@@ -442,15 +448,15 @@ INLINE void join_left_of(size_t d, const struct br_strip *s, const double *q, co
     }
 }
 
-INLINE void join_right_of(size_t d, const struct br_strip *s, const double *z, double *y,
-                          double *left, double *right)
+static void join_right(const struct br_strip *s, const double *z, double *y, double *left,
+                       double *right)
 {
     const double *pass = s->span_join + BR_JOIN_PASS * d * d * BR_LANES;
     _Alignas(64) double own[2 * BR_LANES] = {0}, away[2 * BR_LANES];
     for (size_t i = 0; i < d * BR_LANES; i++)
         away[i] = -right[i];
-    add_lanewise((int)d, s, BR_JOIN_GAIN, z, own);
-    add_lanewise((int)d, s, BR_JOIN_YIELD, away, own);
+    add_lanewise(s, BR_JOIN_GAIN, z, own);
+    add_lanewise(s, BR_JOIN_YIELD, away, own);
     for (size_t lane = 0; lane < s->lanes; lane++) {
         double next[2];
         for (size_t i = 0; i < d; i++) {
@@ -463,136 +469,66 @@ INLINE void join_right_of(size_t d, const struct br_strip *s, const double *z, d
         for (size_t i = 0; i < d; i++)
             y[i] = next[i];
     }
-    add_lanewise((int)d, s, BR_JOIN_COSTATE, own, right);
+    add_lanewise(s, BR_JOIN_COSTATE, own, right);
 }
 
 /* ---- to the nodes ---- */
 
 /* kappa_w or kappa_v, carried from the left ends of the spans. */
-INLINE void carry_of(int d, const struct br_strip *s, bool rate, size_t lane, double *across)
+static void carry(const struct br_strip *s, bool rate, double *across)
 {
-    const size_t entry = (size_t)d * BR_LANES;
-    const double *state = s->state + lane + (rate ? entry : 0);
-    vec y[VECTORS][2] = {{{0}}};
-    for (size_t e = 0; e < s->pieces * s->length; e++)
-        for (int v = 0; v < VECTORS; v++) {
-            vec kappa[2];
-            load_all(d, state + e * 2 * entry + v * WIDTH, kappa);
-            pass_on(d, kappa, y[v]);
-        }
-    for (int v = 0; v < VECTORS; v++)
-        store_all(d, y[v], across + lane + v * WIDTH);
+    for (size_t lane = 0; lane < s->lanes; lane += GO) {
+        const size_t entry = (size_t)d * BR_LANES;
+        const double *state = s->state + lane + (rate ? entry : 0);
+        vec y[VECTORS][2] = {{{0}}};
+        for (size_t e = 0; e < s->pieces * s->length; e++)
+            for (int v = 0; v < VECTORS; v++) {
+                vec kappa[2];
+                load_all(state + e * 2 * entry + v * WIDTH, kappa);
+                pass_on(kappa, y[v]);
+            }
+        for (int v = 0; v < VECTORS; v++)
+            store_all(y[v], across + lane + v * WIDTH);
+    }
 }
 
 /* Block after block of WIDTH values of each lane: rows of lanes become lanes of rows. */
-INLINE void expand_of(int d, const struct br_strip *s, bool rate, size_t lane, const double *left,
-                      double *nodal)
+static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
 {
-    const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
-    const size_t together = (size_t)(WIDTH / d); /* elements of a block */
-    const double *state = s->state + lane + (rate ? entry : 0);
-    vec y[VECTORS][2], row[VECTORS][WIDTH];
-    for (int v = 0; v < VECTORS; v++)
-        load_all(d, left + lane + v * WIDTH, y[v]);
-    for (size_t e = 0; e < length; e += together) {
-        const size_t live = length - e < together ? length - e : together;
-        for (size_t i = 0; i < together; i++)
+    for (size_t lane = 0; lane < s->lanes; lane += GO) {
+        const size_t entry = (size_t)d * BR_LANES, length = s->pieces * s->length;
+        const size_t together = (size_t)(WIDTH / d); /* elements of a block */
+        const double *state = s->state + lane + (rate ? entry : 0);
+        vec y[VECTORS][2], row[VECTORS][WIDTH];
+        for (int v = 0; v < VECTORS; v++)
+            load_all(left + lane + v * WIDTH, y[v]);
+        for (size_t e = 0; e < length; e += together) {
+            const size_t live = length - e < together ? length - e : together;
+            for (size_t i = 0; i < together; i++)
+                for (int v = 0; v < VECTORS; v++) {
+                    vec kappa[2] = {{0}};
+                    if (i < live)
+                        load_all(state + (e + i) * 2 * entry + v * WIDTH, kappa);
+                    pass_on(kappa, y[v]);
+                    for (int c = 0; c < d; c++)
+                        row[v][i * (size_t)d + (size_t)c] = y[v][c];
+                }
             for (int v = 0; v < VECTORS; v++) {
-                vec kappa[2] = {{0}};
-                if (i < live)
-                    load_all(d, state + (e + i) * 2 * entry + v * WIDTH, kappa);
-                pass_on(d, kappa, y[v]);
-                for (int c = 0; c < d; c++)
-                    row[v][i * (size_t)d + (size_t)c] = y[v][c];
-            }
-        for (int v = 0; v < VECTORS; v++) {
-            transpose(row[v]);
-            const size_t first = lane + (size_t)(v * WIDTH);
-            for (size_t l = 0; l < WIDTH && first + l < s->lanes; l++) {
-                double *to = nodal + ((first + l) * length + e) * (size_t)d;
-                if (live == together)
-                    store(row[v][l], to);
-                else
-                    memcpy(to, &row[v][l], live * (size_t)d * sizeof *to);
+                transpose(row[v]);
+                const size_t first = lane + (size_t)(v * WIDTH);
+                for (size_t l = 0; l < WIDTH && first + l < s->lanes; l++) {
+                    double *to = nodal + ((first + l) * length + e) * (size_t)d;
+                    if (live == together)
+                        store(row[v][l], to);
+                    else
+                        memcpy(to, &row[v][l], live * (size_t)d * sizeof *to);
+                }
             }
         }
     }
 }
 
-/* ---- the kernel: d becomes a constant ---- */
-
-#define WITH_D(s, loops, ...) ((s)->d == 1 ? loops(1, __VA_ARGS__) : loops(2, __VA_ARGS__))
-
-/* The odd rest, one lane, has no use for a second vector. */
-INLINE void advance_lanes(int d, bool loaded, const struct br_strip *s,
-                          const struct br_strip_drive *drive, const struct br_strip_ends *ends)
-{
-    if (s->lanes == 1)
-        advance_of(d, 1, loaded, s, drive, ends);
-    else
-        advance_of(d, VECTORS, loaded, s, drive, ends);
-}
-
-static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
-                    const struct br_strip_ends *ends)
-{
-    if (s->load)
-        WITH_D(s, advance_lanes, true, s, drive, ends);
-    else
-        WITH_D(s, advance_lanes, false, s, drive, ends);
-}
-
-static void charge(const struct br_strip *s, const double uniform[2])
-{
-    for (size_t j = 0; j < s->pieces; j++)
-        for (size_t lane = 0; lane < s->lanes; lane += WIDTH)
-            WITH_D(s, charge_of, s, uniform, j, lane);
-}
-
-static void blend(const struct br_strip *s, size_t count, const double *const *from,
-                  const double *weight)
-{
-    WITH_D(s, blend_of, s, count, from, weight);
-}
-
-static void square(const struct br_strip *s, const double *state, double sum[2])
-{
-    WITH_D(s, square_of, s, state, sum);
-}
-
-static void gather(const struct br_strip *s, double factor, double *q, double *z)
-{
-    for (size_t lane = 0; lane < s->lanes; lane += GO)
-        WITH_D(s, gather_of, s, factor, lane, q, z);
-}
-
-static void join_left(const struct br_strip *s, const double *q, const double *z, double *h,
-                      double *right)
-{
-    WITH_D(s, join_left_of, s, q, z, h, right);
-}
-
-static void join_right(const struct br_strip *s, const double *z, double *y, double *left,
-                       double *right)
-{
-    WITH_D(s, join_right_of, s, z, y, left, right);
-}
-
-static void carry(const struct br_strip *s, bool rate, double *across)
-{
-    for (size_t lane = 0; lane < s->lanes; lane += GO)
-        WITH_D(s, carry_of, s, rate, lane, across);
-}
-
-static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
-{
-    for (size_t lane = 0; lane < s->lanes; lane += GO)
-        WITH_D(s, expand_of, s, rate, lane, left, nodal);
-}
-
-const struct br_kernel BR_JOIN(br_kernel_, BR_SET) = {
-    .name = BR_QUOTE(BR_SET),
-    .available = BR_JOIN(br_has_, BR_SET),
+const struct br_loops BR_JOIN(br_loops_, BR_JOIN(BR_SET, BR_JOIN(_, BR_D))) = {
     .gather = gather,
     .join_left = join_left,
     .join_right = join_right,

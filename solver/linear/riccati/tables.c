@@ -14,11 +14,11 @@ struct lq {
     int d;                      /* unknowns a node */
     struct block t, g;          /* y_{i+1} = T y_i + G kappa_i */
     struct block maa, mab, mbb; /* rho h / k times the element's mass, over R */
-    real r, alpha;              /* R: (c + k a) / h, bending: / h^3; a / (c + k a) */
+    wide r, alpha;              /* R: (c + k a) / h, bending: / h^3; a / (c + k a) */
 };
 
 /* The block of the element's mass that begins at a node (0: left, 1: right) by rows and columns. */
-static struct block mass_of(int d, real mass, int row, int column)
+static struct block mass_of(int d, wide mass, int row, int column)
 {
     struct block m = {{{0}}};
     if (d == 1)
@@ -36,9 +36,9 @@ static struct lq lq_of_field(const struct br_field *field)
                               g = {{{0.5L, -BR_PIECES_ROOT3 / 6}, {1, 0}}};
     const bool rod = field->kind == BR_AXIAL;
     const int d = rod ? 1 : 2;
-    const real h = field->h, stiff = (real)field->viscosity + (real)field->k * field->stiffness;
-    const real r = rod ? stiff / h : stiff / (h * h * h);
-    const real mass = (real)field->density * h / field->k / r;
+    const wide h = field->h, stiff = (wide)field->viscosity + (wide)field->k * field->stiffness;
+    const wide r = rod ? stiff / h : stiff / (h * h * h);
+    const wide mass = (wide)field->density * h / field->k / r;
     return (struct lq){
         .d = d,
         .t = rod ? one : t,
