@@ -90,7 +90,7 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
                                   &q->path, err) ||
                         copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err) ||
                         (path && br_text_load(standard ? "/dev/stdin" : path, BR_LONGEST_TABLE,
-                                          "table", &q->table, err)) ||
+                                              "table", &q->table, err)) ||
                         read_options(o, q, err);
     return failed ? err->status : BR_OK;
 }
@@ -128,12 +128,10 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     if (study ? read_study(word, o, &r->study, err) : read_beside(word, o, q, err))
         return err->status;
     const char *expect = br_option_text(o, BR_OPT_EXPECT);
-    q->jobs = r->session.threads;
-    q->kept = br_option_text(o, BR_OPT_KEEP);
-    q->anew = !br_option_given(o, BR_OPT_RESUME);
-    return expect ? br_expectations_read("--expect", expect, 0, &q->expectation, &q->expectations,
-                                         err)
-                  : BR_OK;
+    struct br_error inner = {0};
+    if (!expect || !br_expectations_read(expect, 0, &q->expectation, &q->expectations, &inner))
+        return BR_OK;
+    return br_fail(err, inner.status, "--expect: %s", inner.message);
 }
 
 /* What can be refused is refused before a program is run. */

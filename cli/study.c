@@ -463,8 +463,8 @@ static void take_point(const struct run *r, struct br_variation *found, size_t i
     value[ERROR] = finest->error[BR_PART_TOTAL];
     value[RELATIVE] = value[ERROR] / s->reference_scale;
     value[OWN] = report->fits[BR_PART_TOTAL].reference_error;
-    take_order(&value[P], fit, &fit->p);
-    take_order(&value[Q], fit, &fit->q);
+    take_order(&value[P], fit, &fit->order[BR_AXIS_SPACE]);
+    take_order(&value[Q], fit, &fit->order[BR_AXIS_TIME]);
     value[MISFIT] = fit->misfit;
     value[POINTS] = (double)fit->points;
     if (finest->flag[BR_PART_TOTAL])

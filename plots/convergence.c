@@ -1,31 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report's errors over h at fixed k, and over k at fixed n. The study's lists are ascending. */
 #include <math.h>
+#include <string.h>
 
 #include "plots/pictures.h"
 #include "study/fit/report.h"
-#include "study/scene/quote.h"
+#include "study/scene/words.h"
 
-enum axis { OVER_H, OVER_K };
-
-static enum axis other(enum axis axis)
-{
-    return axis == OVER_H ? OVER_K : OVER_H;
-}
-
-/* The study's list along an axis: n over h, steps over k; *count of them. */
-static const size_t *list_of(const struct br_report *r, enum axis axis, size_t *count)
+/* The study's entry of an axis: n over h, steps over k. */
+static size_t entry_of(const struct br_report *r, int axis, size_t i)
 {
     const struct br_study *study = br_report_fitted(r);
-    *count = axis == OVER_H ? study->n_count : study->k_count;
-    return axis == OVER_H ? study->n : study->steps;
+    return axis == BR_AXIS_SPACE ? study->n[i] : study->steps[i];
+}
+
+static size_t count_of(const struct br_report *r, int axis)
+{
+    return br_axis_count(br_report_fitted(r), axis);
 }
 
 /* h or k, m or s. */
-static double value_of(const struct br_report *r, enum axis axis, size_t entry)
+static double size_of(const struct br_report *r, int axis, size_t i)
 {
-    const struct br_scene *scene = br_report_fitted(r)->scene;
-    return axis == OVER_H ? br_mesh_size(scene, entry) : br_time_step(scene, entry);
+    const struct br_study *s = br_report_fitted(r);
+    return axis == BR_AXIS_SPACE ? br_mesh_size(s->scene, s->n[i])
+                                 : br_time_step(s->scene, s->steps[i]);
 }
 
 /* What is drawn of a cell; NaN: a gap. */
@@ -48,25 +47,21 @@ static double misfit_of(const struct br_report *r, size_t cell, enum br_part par
 {
     const struct br_study *s = br_report_fitted(r);
     const struct br_resolution at = s->cell[cell].at;
-    return -1 + error_of(r, cell, part) /
-                    br_joint_model(&r->fits[part].joint, br_mesh_size(s->scene, at.n),
-                                   br_time_step(s->scene, at.steps), br_reference_mesh(s),
-                                   br_reference_step(s));
+    const double size[] = {br_mesh_size(s->scene, at.n), br_time_step(s->scene, at.steps)};
+    const double ref[] = {br_reference_mesh(s), br_reference_step(s)};
+    return -1 + error_of(r, cell, part) / br_joint_model(&r->fits[part].joint, size, ref);
 }
 
-/* The points of a series along an axis, at the place `fixed` of the other axis' list. */
-static void add_points(const struct br_report *r, enum axis axis, size_t fixed, of_cell *value,
+/* The points of a series along an axis, at a place of the other one. */
+static void add_points(const struct br_report *r, int axis, size_t at, of_cell *value,
                        enum br_part part, struct br_series *series)
 {
     const struct br_study *study = br_report_fitted(r);
-    size_t count;
-    const size_t *list = list_of(r, axis, &count);
-    for (size_t i = 0; i < count; i++) {
-        const size_t cell =
-            axis == OVER_H ? i * study->k_count + fixed : fixed * study->k_count + i;
+    for (size_t i = 0; i < count_of(r, axis); i++) {
+        const size_t cell = br_axis_cell(study, axis, i, at);
         const enum br_flag flag = study->cell[cell].flag[part];
         const bool flagged = flag != BR_FLAG_NONE && value != printed_of;
-        br_point_add(series, value_of(r, axis, list[i]), value(r, cell, part),
+        br_point_add(series, size_of(r, axis, i), value(r, cell, part),
                      flagged ? br_flag_name(flag) : NULL);
     }
 }
@@ -82,42 +77,37 @@ static size_t hue_of(size_t i, size_t count)
     return 0;
 }
 
-/* "k = 0.01 s" or "n = 100": the curve over an axis at an entry of the other axis' list. */
-static const char *name_curve(const struct br_report *r, enum axis axis, size_t entry,
-                              char name[40])
+/* "k = 0.01 s" or "n = 100": the curve over an axis at a place of the other one. */
+static const char *name_curve(const struct br_report *r, int axis, size_t at, char name[40])
 {
-    if (axis == OVER_H)
-        snprintf(name, 40, "k = %.3g s", value_of(r, OVER_K, entry));
+    if (axis == BR_AXIS_SPACE)
+        snprintf(name, 40, "k = %.3g s", size_of(r, BR_AXIS_TIME, at));
     else
-        snprintf(name, 40, "n = %zu", entry);
+        snprintf(name, 40, "n = %zu", entry_of(r, BR_AXIS_SPACE, at));
     return name;
 }
 
-/* Curves along an axis, one for each entry of the other axis' list. */
-static void add_curves(const struct br_report *r, enum axis axis, of_cell *value,
-                       struct br_figure *f)
+/* Curves along an axis, one for each place of the other one. */
+static void add_curves(const struct br_report *r, int axis, of_cell *value, struct br_figure *f)
 {
-    size_t count;
-    const size_t *list = list_of(r, other(axis), &count);
+    const size_t count = count_of(r, 1 - axis);
     char name[40];
     for (size_t i = 0; i < count; i++)
         add_points(r, axis, i, value, BR_PART_TOTAL,
                    br_series_add(f, hue_of(i, count) ? BR_PEN_CURVE : BR_PEN_OTHERS, "%s",
-                                 name_curve(r, axis, list[i], name)));
+                                 name_curve(r, axis, i, name)));
 }
 
-static struct br_panel *add_panel(const struct br_report *r, enum axis axis, struct br_figure *f)
+static struct br_panel *add_panel(const struct br_report *r, int axis, struct br_figure *f)
 {
     const struct br_norm *norm = br_report_fitted(r)->norm;
-    struct br_panel *p =
-        br_panel_add(f, axis == OVER_H ? "mesh size h (m)" : "time step k (s)", "");
-    size_t count;
-    const size_t *list = list_of(r, axis, &count);
+    const bool space = axis == BR_AXIS_SPACE;
+    struct br_panel *p = br_panel_add(f, space ? "mesh size h (m)" : "time step k (s)", "");
     p->log_x = p->log_y = true;
     BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
-    BR_SAY(p->top_label, axis == OVER_H ? "elements n" : "steps N");
-    for (size_t i = 0; i < count; i++)
-        br_point_add(&p->top, value_of(r, axis, list[i]), (double)list[i], NULL);
+    BR_SAY(p->top_label, space ? "elements n" : "steps N");
+    for (size_t i = 0; i < count_of(r, axis); i++)
+        br_point_add(&p->top, size_of(r, axis, i), (double)entry_of(r, axis, i), NULL);
     return p;
 }
 
@@ -126,18 +116,17 @@ static void say_fit(const struct br_report *r, enum br_part part, char text[256]
 {
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const bool described = fit->converged && br_joint_describes(fit);
-    const struct br_estimate *order[] = {&fit->p, &fit->q};
     const char *before = "";
-    size_t used = (size_t)snprintf(text, 256, "Joint fit (95 %%), %s: %s", br_part_names[part],
-                                   !fit->converged ? "none could be made"
-                                   : described     ? "order"
-                                                   : "does not describe these errors");
-    for (int i = 0; i < 2 && described; i++) {
+    br_append(strcpy(text, ""), 256, "Joint fit (95 %%), %s: %s", br_part_names[part],
+              !fit->converged ? "none could be made"
+              : described     ? "order"
+                              : "does not describe these errors");
+    for (int axis = 0; axis < BR_AXES && described; axis++) {
         char number[64];
-        if (!br_order_determined(order[i]))
+        if (!br_order_determined(&fit->order[axis]))
             continue;
-        used += (size_t)snprintf(text + used, 256 - used, "%s %s in %s", before,
-                                 br_order_text(order[i], number, sizeof number), i ? "k" : "h");
+        br_append(text, 256, "%s %s in %s", before,
+                  br_order_text(&fit->order[axis], number, sizeof number), br_axis_letters[axis]);
         before = ",";
     }
 }
@@ -165,8 +154,8 @@ static void fill_h(const struct br_report *r, struct br_figure *f)
            !bending ? ""
            : energy ? ", 2 bending, Hermite"
                     : ", 4 bending, Hermite");
-    add_panel(r, OVER_H, f);
-    add_curves(r, OVER_H, error_of, f);
+    add_panel(r, BR_AXIS_SPACE, f);
+    add_curves(r, BR_AXIS_SPACE, error_of, f);
     br_slopes_add(f, orders, order);
 }
 
@@ -175,15 +164,15 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
 {
     const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
     say_fit(r, BR_PART_TOTAL, f->note[0]);
-    add_panel(r, OVER_K, f);
-    add_curves(r, OVER_K, error_of, f);
+    add_panel(r, BR_AXIS_TIME, f);
+    add_curves(r, BR_AXIS_TIME, error_of, f);
     br_slopes_add(f, 1, (const double[]){1});
     if (!fit->converged || !br_joint_describes(fit))
         return;
-    struct br_panel *p = add_panel(r, OVER_K, f);
+    struct br_panel *p = add_panel(r, BR_AXIS_TIME, f);
     p->log_y = false;
     BR_SAY(p->y_label, "error / joint fit - 1");
-    add_curves(r, OVER_K, misfit_of, f);
+    add_curves(r, BR_AXIS_TIME, misfit_of, f);
 }
 
 static bool has_parts(const struct br_report *r)
@@ -192,28 +181,25 @@ static bool has_parts(const struct br_report *r)
     return always(r) && scene->axial.modelled && scene->bending.modelled;
 }
 
-/* At the finest entry of the other axis. */
-static void add_parts(const struct br_report *r, enum axis axis, struct br_figure *f)
+/* The parts along an axis, at the finest place of the other one. */
+static void add_parts(const struct br_report *r, int axis, struct br_figure *f)
 {
-    size_t count;
-    list_of(r, other(axis), &count);
     for (enum br_part part = BR_PART_TOTAL; part < BR_PARTS; part++)
-        add_points(r, axis, count - 1, error_of, part,
+        add_points(r, axis, count_of(r, 1 - axis) - 1, error_of, part,
                    br_series_add(f, BR_PEN_CURVE, "%s", br_part_names[part]));
 }
 
 static void fill_parts(const struct br_report *r, struct br_figure *f)
 {
-    const struct br_study *study = br_report_fitted(r);
     say_fit(r, BR_PART_AXIAL, f->note[0]);
     say_fit(r, BR_PART_BENDING, f->note[1]);
-    BR_SAY(add_panel(r, OVER_H, f)->x_label, "mesh size h (m), at k = %.4g s",
-           value_of(r, OVER_K, study->steps[study->k_count - 1]));
-    add_parts(r, OVER_H, f);
+    BR_SAY(add_panel(r, BR_AXIS_SPACE, f)->x_label, "mesh size h (m), at k = %.4g s",
+           size_of(r, BR_AXIS_TIME, count_of(r, BR_AXIS_TIME) - 1));
+    add_parts(r, BR_AXIS_SPACE, f);
     br_slopes_add(f, 3, (const double[]){1, 2, 4});
-    BR_SAY(add_panel(r, OVER_K, f)->x_label, "time step k (s), at n = %zu",
-           study->n[study->n_count - 1]);
-    add_parts(r, OVER_K, f);
+    BR_SAY(add_panel(r, BR_AXIS_TIME, f)->x_label, "time step k (s), at n = %zu",
+           entry_of(r, BR_AXIS_SPACE, count_of(r, BR_AXIS_SPACE) - 1));
+    add_parts(r, BR_AXIS_TIME, f);
     br_slopes_add(f, 1, (const double[]){1});
 }
 
@@ -223,10 +209,9 @@ static bool has_printed(const struct br_report *r)
 }
 
 /* The hue tells whose error it is, the mark which curve. */
-static void add_both(const struct br_report *r, enum axis axis, struct br_figure *f)
+static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 {
-    size_t count;
-    list_of(r, other(axis), &count);
+    const size_t count = count_of(r, 1 - axis);
     add_panel(r, axis, f);
     for (size_t i = 0; i < 2 * count; i++) {
         const size_t hue = hue_of(i / 2, count);
@@ -237,27 +222,27 @@ static void add_both(const struct br_report *r, enum axis axis, struct br_figure
     }
 }
 
-/* Which entry of the other axis' list a mark is in a panel; "": none. */
-static void say_mark(const struct br_report *r, enum axis axis, size_t hue, char name[40])
+/* Which place of the other axis a mark is in a panel; "": none. */
+static const char *say_mark(const struct br_report *r, int axis, size_t hue, char name[40])
 {
-    size_t count;
-    const size_t *list = list_of(r, other(axis), &count);
+    const size_t count = count_of(r, 1 - axis);
     name[0] = '\0';
     for (size_t i = 0; i < count; i++)
         if (hue_of(i, count) == hue)
-            name_curve(r, axis, list[i], name);
+            name_curve(r, axis, i, name);
+    return name;
 }
 
 /* With a key of the marks: over k they are meshes, over h time steps. */
 static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
     f->one_y = true;
-    add_both(r, OVER_K, f);
-    add_both(r, OVER_H, f);
+    add_both(r, BR_AXIS_TIME, f);
+    add_both(r, BR_AXIS_SPACE, f);
     for (size_t hue = 1; hue <= BR_HUES; hue++) {
-        char mesh[40], step[40];
-        say_mark(r, OVER_K, hue, mesh);
-        say_mark(r, OVER_H, hue, step);
+        char texts[BR_AXES][40];
+        const char *mesh = say_mark(r, BR_AXIS_TIME, hue, texts[0]);
+        const char *step = say_mark(r, BR_AXIS_SPACE, hue, texts[1]);
         if (*mesh || *step)
             br_series_add(f, BR_PEN_SIGNS, "%s%s%s%s%s", *mesh ? "left " : "", mesh,
                           *mesh && *step ? ", " : "", *step ? "right " : "", step)

@@ -76,9 +76,8 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         /* As the joint fit has it, where that describes the errors: along a line the other axis
          * bends it. */
         const struct br_joint_fit *joint = &o->of[i].joint;
-        const double order = round(!br_joint_describes(joint) ? finest->observed.order.value
-                                   : axis == BR_AXIS_SPACE    ? joint->p.value
-                                                              : joint->q.value);
+        const double order = round(br_joint_describes(joint) ? joint->order[axis].value
+                                                             : finest->observed.order.value);
         size_t at = 0; /* ascending */
         while (at < slopes && slope[at] < order)
             at++;

@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "tables/markup.h"
@@ -93,16 +94,18 @@ static const char *without_signs_of_zero(char *text)
     return text;
 }
 
-static const char *formatted(struct br_document *d, const char *format, va_list arguments)
+const char *br_format(struct br_document *d, const char *format, ...)
 {
-    va_list again;
-    va_copy(again, arguments);
-    const int length = vsnprintf(NULL, 0, format, again);
-    va_end(again);
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
     char *text = length < 0 ? NULL : take(d, (size_t)length + 1);
     if (!text)
         return NULL;
+    va_start(arguments, format);
     vsnprintf(text, (size_t)length + 1, format, arguments);
+    va_end(arguments);
     return note_length(d, without_signs_of_zero(text));
 }
 
@@ -156,12 +159,8 @@ static void put_paragraph(struct br_document *d, enum br_block_kind kind, const 
     d->open = &block->text;
 }
 
-void br_put_answer(struct br_document *d, const char *format, ...)
+void br_put_answer_text(struct br_document *d, const char *text)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    const char *text = formatted(d, format, arguments);
-    va_end(arguments);
     d->open = &d->answer[d->answers];
     if (text && d->answers < BR_MOST_ANSWERS)
         d->answer[d->answers++] = text;
@@ -174,30 +173,17 @@ void br_put_section(struct br_document *d, const char *title)
     put_paragraph(d, BR_BLOCK_SECTION, copied(d, title));
 }
 
-void br_put_note(struct br_document *d, const char *format, ...)
+void br_put_note_text(struct br_document *d, const char *text)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    put_paragraph(d, BR_BLOCK_NOTE, formatted(d, format, arguments));
-    va_end(arguments);
+    put_paragraph(d, BR_BLOCK_NOTE, text);
 }
 
-void br_put_more(struct br_document *d, const char *format, ...)
+void br_put_more_text(struct br_document *d, const char *more)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    const char *more = formatted(d, format, arguments);
-    va_end(arguments);
     if (!d->open)
         refuse(d, "there is no text before", more);
-    const size_t begun = d->failure.status ? 0 : strlen(*d->open);
-    char *text = d->failure.status ? NULL : take(d, begun + strlen(more) + 1);
-    if (!text)
-        return;
-    strcpy(text, *d->open);
-    strcpy(text + begun, more);
-    *d->open = text;
-    note_length(d, text);
+    else if (more)
+        *d->open = br_format(d, "%s%s", *d->open, more);
 }
 
 /* Whether printf may be called with it and one double. */
@@ -265,22 +251,11 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
     put_what(d, BR_BLOCK_FACT, &column, value);
 }
 
-void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count)
+void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
+                    const char *unit, const char *key)
 {
-    for (size_t i = 0; i < count; i++)
-        BR_FACT(d, fact[i].value, .key = fact[i].key, .heading = fact[i].heading,
-                .unit = fact[i].unit);
-}
-
-void br_put_fact_as(struct br_document *d, struct br_value value, const char *heading,
-                    const char *unit, const char *key, ...)
-{
-    va_list arguments;
-    va_start(arguments, key);
-    const char *name = formatted(d, key, arguments);
-    va_end(arguments);
-    if (name)
-        BR_FACT(d, value, .key = name, .heading = heading, .unit = unit);
+    if (key)
+        BR_FACT(d, value, .key = key, .heading = heading, .unit = unit);
 }
 
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)
@@ -428,12 +403,8 @@ void br_put_blank(struct br_document *d, bool blank)
     d->blank = blank;
 }
 
-void br_put_shown(struct br_document *d, const char *format, ...)
+void br_put_shown_text(struct br_document *d, const char *text)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    const char *text = formatted(d, format, arguments);
-    va_end(arguments);
     if (!d->last)
         refuse(d, "there is no value that is shown as", text);
     if (d->failure.status || (d->blank && d->last->value.kind == BR_NOTHING))
@@ -473,12 +444,8 @@ void br_put_verdict(struct br_document *d, const struct br_document_verdict *ver
     d->verdict[d->verdicts++] = v;
 }
 
-void br_put_verdict_detail(struct br_document *d, const char *format, ...)
+void br_put_verdict_detail_text(struct br_document *d, const char *text)
 {
-    va_list arguments;
-    va_start(arguments, format);
-    const char *text = formatted(d, format, arguments);
-    va_end(arguments);
     if (!d->verdicts)
         refuse(d, "there is no verdict before", text);
     if (d->failure.status)
@@ -499,20 +466,25 @@ void br_put_picture(struct br_document *d, const char *stem, const char *caption
     block->text = caption_copy;
 }
 
+const struct br_provenance_text br_provenance_texts[] = {
+    {"version", offsetof(struct br_provenance, version)},
+    {"commit", offsetof(struct br_provenance, commit)},
+    {"compiler", offsetof(struct br_provenance, compiler)},
+    {"flags", offsetof(struct br_provenance, flags)},
+    {"command_line", offsetof(struct br_provenance, command_line)},
+    {"machine", offsetof(struct br_provenance, machine)},
+    {"date", offsetof(struct br_provenance, date)},
+    {"scene_path", offsetof(struct br_provenance, scene_path)},
+    {"scene_text", offsetof(struct br_provenance, scene_text)},
+    {NULL, 0},
+};
+
 void br_put_provenance(struct br_document *d, const struct br_provenance *p)
 {
-    d->provenance = (struct br_provenance){
-        .version = copied(d, p->version),
-        .commit = copied(d, p->commit),
-        .compiler = copied(d, p->compiler),
-        .flags = copied(d, p->flags),
-        .command_line = copied(d, p->command_line),
-        .machine = copied(d, p->machine),
-        .date = copied(d, p->date),
-        .threads = p->threads,
-        .scene_path = copied(d, p->scene_path),
-        .scene_text = copied(d, p->scene_text),
-    };
+    d->provenance.threads = p->threads;
+    for (const struct br_provenance_text *t = br_provenance_texts; t->key; t++)
+        *(const char **)((char *)&d->provenance + t->at) =
+            copied(d, *(const char *const *)((const char *)p + t->at));
 }
 
 /* ---- printing ---- */

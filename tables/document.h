@@ -176,6 +176,12 @@ struct br_provenance {
     const char *scene_text; /* the scene's file, whole */
 };
 
+/* Its texts, by name; ends with NULL. */
+extern const struct br_provenance_text {
+    const char *key;
+    size_t at; /* bytes */
+} br_provenance_texts[];
+
 enum { BR_MOST_ANSWERS = 10 };
 
 /* Begins as zeros; formats read it, builders only put. */
@@ -210,21 +216,25 @@ void br_document_begin(struct br_document *d, const char *name, const char *form
 /* Releases all; accepts zeros. */
 void br_document_clear(struct br_document *d);
 
+/* A text that the document keeps; what rounds to zero in it has no sign. NULL after a failure. */
+__attribute__((format(printf, 2, 3))) const char *br_format(struct br_document *d,
+                                                            const char *format, ...);
+
 /* A short sentence of what was found; the verdict comes first. Reports begin with them, a terminal
  * shows them last. The eleventh becomes a note. */
-__attribute__((format(printf, 2, 3))) void br_put_answer(struct br_document *d, const char *format,
-                                                         ...);
+#define br_put_answer(d, ...) br_put_answer_text((d), br_format((d), __VA_ARGS__))
+void br_put_answer_text(struct br_document *d, const char *text); /* of br_format, as all these */
 
 /* A title over what follows. */
 void br_put_section(struct br_document *d, const char *title);
 
 /* A paragraph; files have it, a terminal does not. */
-__attribute__((format(printf, 2, 3))) void br_put_note(struct br_document *d, const char *format,
-                                                       ...);
+#define br_put_note(d, ...) br_put_note_text((d), br_format((d), __VA_ARGS__))
+void br_put_note_text(struct br_document *d, const char *text);
 
 /* Goes on with the answer, note or command that was put last. */
-__attribute__((format(printf, 2, 3))) void br_put_more(struct br_document *d, const char *format,
-                                                       ...);
+#define br_put_more(d, ...) br_put_more_text((d), br_format((d), __VA_ARGS__))
+void br_put_more_text(struct br_document *d, const char *text);
 
 /* One value: "label: value unit" for people, "key": value at the top of the JSON; a key with dots
  * (tip.displacement) is an object in an object. `what` is as a column: with BR_FOR_PROGRAMS,
@@ -232,20 +242,12 @@ __attribute__((format(printf, 2, 3))) void br_put_more(struct br_document *d, co
 void br_put_fact(struct br_document *d, const struct br_column *what, struct br_value value);
 #define BR_FACT(d, value, ...) br_put_fact((d), &(struct br_column){__VA_ARGS__}, (value))
 
-/* Several, a row each. */
-struct br_fact {
-    const char *key, *heading, *unit;
-    struct br_value value;
-};
-void br_put_facts(struct br_document *d, const struct br_fact *fact, size_t count);
-#define BR_FACTS(d, facts) br_put_facts((d), (facts), sizeof(facts) / sizeof *(facts))
-
 /* A fact whose key is formatted; for programs alone where there is no heading. unit: NULL, none. */
-__attribute__((format(printf, 5, 6))) void br_put_fact_as(struct br_document *d,
-                                                          struct br_value value,
-                                                          const char *heading, const char *unit,
-                                                          const char *key, ...);
+#define br_put_fact_as(d, value, heading, unit, ...) \
+    br_put_fact_of((d), (value), (heading), (unit), br_format((d), __VA_ARGS__))
 #define br_hide_fact(d, value, unit, ...) br_put_fact_as((d), (value), NULL, (unit), __VA_ARGS__)
+void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
+                    const char *unit, const char *key);
 
 /* A command line, or several lines, to be copied; a fact of JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
@@ -282,14 +284,14 @@ void br_put_blank(struct br_document *d, bool blank);
 
 /* What people see instead of the value that was put last ("refused", "tol 1e-05"); an adornment
  * behind it ("R"). Programs do not see either: give them a column. */
-__attribute__((format(printf, 2, 3))) void br_put_shown(struct br_document *d, const char *format,
-                                                        ...);
+#define br_put_shown(d, ...) br_put_shown_text((d), br_format((d), __VA_ARGS__))
+void br_put_shown_text(struct br_document *d, const char *text);
 void br_put_mark(struct br_document *d, const char *mark);
 
 /* A verdict, and lines that explain it. */
 void br_put_verdict(struct br_document *d, const struct br_document_verdict *verdict);
-__attribute__((format(printf, 2, 3))) void br_put_verdict_detail(struct br_document *d,
-                                                                 const char *format, ...);
+#define br_put_verdict_detail(d, ...) br_put_verdict_detail_text((d), br_format((d), __VA_ARGS__))
+void br_put_verdict_detail_text(struct br_document *d, const char *text);
 
 /* A picture that stands beside the report: STEM.svg, STEM.png. */
 void br_put_picture(struct br_document *d, const char *stem, const char *caption);

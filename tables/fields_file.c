@@ -65,6 +65,41 @@ void br_field_values(const struct br_march *march, double *values, double *work)
         blank(2, 4, nodes, values);
 }
 
+/* ---- the history ---- */
+
+void br_history_csv_head(FILE *out)
+{
+    fprintf(out, "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n");
+}
+
+void br_history_csv_row(FILE *out, const struct br_history_row *row)
+{
+    const double values[] = {
+        row->time,
+        row->displacement[BR_AXIAL],
+        row->displacement[BR_BENDING],
+        row->velocity[BR_AXIAL],
+        row->velocity[BR_BENDING],
+        row->contact_force,
+        row->friction_force,
+        row->friction_bound,
+    };
+    fprintf(out, "%zu", row->step);
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (isfinite(values[i]))
+            fprintf(out, ",%.17g", values[i]);
+        else
+            fputc(',', out);
+    fputc('\n', out);
+}
+
+void br_history_csv_stopped(FILE *out, const char *message)
+{
+    fprintf(out, "# stopped: ");
+    br_quote(out, &br_for_text, message);
+    fputc('\n', out);
+}
+
 /* ---- CSV: one line a node and time: t, x and the variables, in SI units ---- */
 
 struct br_fields_file {
@@ -118,11 +153,8 @@ static enum br_status close_csv(struct br_fields_file *f, const char *stopped, s
     if (!f)
         return BR_OK;
     bool failed = false;
-    if (f->out && stopped) {
-        fprintf(f->out, "# stopped: ");
-        br_quote(f->out, &br_for_text, stopped);
-        fputc('\n', f->out);
-    }
+    if (f->out && stopped)
+        br_history_csv_stopped(f->out, stopped);
     if (f->out) {
         failed = fflush(f->out) != 0 || ferror(f->out) || fsync(fileno(f->out)) != 0;
         failed = fclose(f->out) != 0 || failed;

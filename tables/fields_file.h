@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The fields at the output times in a file: HDF5 where the build has it, CSV otherwise. One const
- * record a format; they are written look by look, so that no more than one is in memory. */
+/* The tip's history as CSV, and the fields at the output times in a file: HDF5 where the build has
+ * it, CSV otherwise. One const record a format; they are written look by look, so that no more than
+ * one is in memory. */
 #ifndef BR_TABLES_FIELDS_FILE_H
 #define BR_TABLES_FIELDS_FILE_H
 
@@ -51,10 +52,12 @@ size_t br_field_variable_count(int axial_degree);
  * NaN at the clamped one. work: workspace, 4 (n + 1) values. */
 void br_field_values(const struct br_march *march, double *values, double *work);
 
-/* Writes FILE.xdmf beside FILE.h5, the looks of it: XDMF 2 (xdmf.org), for ParaView and VisIt. The
- * nodes are a line along x; each variable is a number at the nodes, and `displacement` is the
- * vector (u, w, 0), to warp the line by. time: of the looks, s. Fails with BR_IO. */
-enum br_status br_fields_write_xdmf(const char *hdf5_path, const double *time, size_t looks,
-                                    size_t nodes, size_t variables, struct br_error *err);
+/* The tip's history: a head, one line a row, SI units; a number that is not there is an empty
+ * field (RFC 4180). */
+void br_history_csv_head(FILE *out);
+void br_history_csv_row(FILE *out, const struct br_history_row *row);
+
+/* The last line of a march that did not reach T: a comment, "# stopped: ...". */
+void br_history_csv_stopped(FILE *out, const char *message);
 
 #endif

@@ -90,30 +90,31 @@ static enum br_status fail(const struct br_fields_file *f, const char *what, str
 
 /* ---- attributes ---- */
 
-static bool text_attribute(hid_t where, const char *name, const char *text)
+static bool put_attribute(hid_t where, const char *name, hid_t type, hid_t type_here,
+                          const void *value)
 {
-    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    bool good = H5Tset_size(type, strlen(text) + 1) >= 0 && H5Tset_cset(type, H5T_CSET_UTF8) >= 0;
-    const hid_t attribute =
-        good ? H5Acreate2(where, name, type, space, H5P_DEFAULT, H5P_DEFAULT) : H5I_INVALID_HID;
-    good = attribute >= 0 && H5Awrite(attribute, type, text) >= 0;
+    const hid_t space = H5Screate(H5S_SCALAR);
+    const hid_t attribute = H5Acreate2(where, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool good = attribute >= 0 && H5Awrite(attribute, type_here, value) >= 0;
     if (attribute >= 0)
         H5Aclose(attribute);
     H5Sclose(space);
+    return good;
+}
+
+static bool text_attribute(hid_t where, const char *name, const char *text)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    const bool good = H5Tset_size(type, strlen(text) + 1) >= 0 &&
+                      H5Tset_cset(type, H5T_CSET_UTF8) >= 0 &&
+                      put_attribute(where, name, type, type, text);
     H5Tclose(type);
     return good;
 }
 
 static bool number_attribute(hid_t where, const char *name, double value)
 {
-    const hid_t space = H5Screate(H5S_SCALAR);
-    const hid_t attribute =
-        H5Acreate2(where, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool good = attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
-    if (attribute >= 0)
-        H5Aclose(attribute);
-    H5Sclose(space);
-    return good;
+    return put_attribute(where, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
 /* An attribute is at most 64 kB: a longer text is a data set of its name. */
@@ -208,6 +209,76 @@ static bool describe(const struct br_fields_file *f, const struct br_fields_requ
            text_anyhow(f->file, "scene", p->scene_text);
 }
 
+/* ---- XDMF 2 (xdmf.org), by which ParaView and VisIt read the file ---- */
+
+/* The nodes are a line along x; each variable is a number at the nodes, and `displacement` is the
+ * vector (u, w, 0), to warp the line by. */
+
+/* A file that describes; the numbers stay in HDF5. */
+struct description {
+    FILE *out;
+    const char *heavy; /* the file of numbers, in the same folder */
+    size_t looks, nodes;
+};
+
+/* The values of a variable at one time: a row of its data set. */
+static void print_row(const struct description *d, const char *variable, size_t look)
+{
+    fprintf(d->out,
+            "<DataItem ItemType=\"HyperSlab\" Dimensions=\"1 1 %zu\">"
+            "<DataItem Dimensions=\"3 2\" Format=\"XML\">%zu 0 1 1 1 %zu</DataItem>"
+            "<DataItem Dimensions=\"%zu %zu\" NumberType=\"Float\" Precision=\"8\" "
+            "Format=\"HDF\">%s:/%s</DataItem></DataItem>",
+            d->nodes, look, d->nodes, d->looks, d->nodes, d->heavy, variable);
+}
+
+static void print_look(const struct description *d, size_t look, double time, size_t variables)
+{
+    fprintf(d->out,
+            "<Grid Name=\"beam\"><Time Value=\"%.17g\"/>\n"
+            "<Topology TopologyType=\"3DRectMesh\" Dimensions=\"1 1 %zu\"/>\n"
+            "<Geometry GeometryType=\"VXVYVZ\">"
+            "<DataItem Dimensions=\"%zu\" NumberType=\"Float\" Precision=\"8\" "
+            "Format=\"HDF\">%s:/x</DataItem>"
+            "<DataItem Dimensions=\"1\" Format=\"XML\">0</DataItem>"
+            "<DataItem Dimensions=\"1\" Format=\"XML\">0</DataItem></Geometry>\n",
+            time, d->nodes, d->nodes, d->heavy);
+    fprintf(d->out,
+            "<Attribute Name=\"displacement\" AttributeType=\"Vector\" Center=\"Node\">"
+            "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" "
+            "Dimensions=\"1 1 %zu 3\">",
+            d->nodes);
+    print_row(d, "u", look);
+    print_row(d, "w", look);
+    fputs("</DataItem></Attribute>\n", d->out);
+    for (size_t v = 0; v < variables; v++) {
+        const char *name = br_field_variables[v].name;
+        fprintf(d->out, "<Attribute Name=\"%s\" AttributeType=\"Scalar\" Center=\"Node\">", name);
+        print_row(d, name, look);
+        fputs("</Attribute>\n", d->out);
+    }
+    fputs("</Grid>\n", d->out);
+}
+
+static enum br_status write_xdmf(const struct br_fields_file *f, struct br_error *err)
+{
+    char path[2048];
+    const char *slash = strrchr(f->path, '/');
+    const char *heavy = slash ? slash + 1 : f->path;
+    snprintf(path, sizeof path, "%.*s.xdmf", (int)(strlen(f->path) - strlen(".h5")), f->path);
+    const struct description d = {fopen(path, "w"), heavy, f->looks, f->nodes};
+    if (!d.out)
+        return br_fail(err, BR_IO, "%s: %s", path, strerror(errno));
+    fputs("<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
+          "<Grid Name=\"looks\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
+          d.out);
+    for (size_t look = 0; look < d.looks; look++)
+        print_look(&d, look, f->time[look], f->variables);
+    fputs("</Grid></Domain></Xdmf>\n", d.out);
+    const bool failed = ferror(d.out);
+    return fclose(d.out) || failed ? br_fail(err, BR_IO, "%s could not be written", path) : BR_OK;
+}
+
 /* ---- the format ---- */
 
 static enum br_status create_file(struct br_fields_file *f, const struct br_fields_request *q,
@@ -290,7 +361,7 @@ static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
         good = H5Fclose(f->file) >= 0 && good;
     enum br_status status = guard_end(&guard, good ? BR_OK : fail(f, "the file whole", err));
     if (!status && f->looks > 0)
-        status = br_fields_write_xdmf(f->path, f->time, f->looks, f->nodes, f->variables, err);
+        status = write_xdmf(f, err);
     free(f->time);
     free(f->work);
     free(f);

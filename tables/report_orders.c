@@ -12,7 +12,6 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
 }
 
 static const char *const limit_methods[] = {
-    [BR_LIMIT_TWO_GRIDS] = "GCI of two grids",
     [BR_LIMIT_GCI] = "GCI, Celik et al. 2008",
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };
@@ -43,11 +42,10 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
-        if (joint && of->joint.kind == (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE))
+        if (joint && !br_joint_has(of->joint.kind, axis))
             br_put_more(d, "%sno error in %s is seen", separator(first), br_axis_letters[axis]);
         else if (joint)
-            say_order(d, axis == BR_AXIS_SPACE ? &of->joint.p : &of->joint.q, (enum br_axis)axis,
-                      "", first);
+            say_order(d, &of->joint.order[axis], (enum br_axis)axis, "", first);
         else if (line)
             say_order(d, &line->observed.order, (enum br_axis)axis, line->at, first);
     }
@@ -156,7 +154,9 @@ static void put_cheapest_of(struct br_document *d, const struct br_orders *o, si
     for (size_t i = 0; i < numbers->rows; i++)
         most = fmax(most, numbers->row[i].number[quantity]);
     double error = pow(10, floor(log10(most)));
-    for (int digit = 0; digit < 17 && (run = br_orders_cheapest(o, quantity, error)); digit++) {
+    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: there is no digit to ask for */
+        if (!(run = br_orders_cheapest(o, quantity, error)))
+            break;
         br_put_row(d);
         BR_PUT(d, br_text(numbers->quantity[quantity].name), .key = "quantity");
         BR_PUT(d, br_number(error), .key = "wanted", .heading = "error at most", .format = "%.0e");
@@ -174,6 +174,14 @@ static void put_cheapest(struct br_document *d, const struct br_orders *o)
     for (size_t i = 0; i < o->count; i++)
         if (!o->numbers->quantity[o->of[i].quantity].is_value)
             put_cheapest_of(d, o, o->of[i].quantity);
+}
+
+/* An order, and for programs its ends. */
+static void put_order(struct br_document *d, const struct br_estimate *order)
+{
+    BR_PUT_CELLS(d, br_number(order->value));
+    br_put_shown(d, "%s", br_order_text(order, (char[64]){0}, 64));
+    BR_PUT_CELLS(d, br_number(order->low), br_number(order->high));
 }
 
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
@@ -222,18 +230,15 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "used"},
         {.key = "note", .flags = BR_FILES_ONLY | BR_WRAP},
     };
-    char text[64];
     BR_TABLE(d, "orders", "Orders along lines", BR_MAIN, orders_columns);
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
             const struct br_case *c = &line->observed;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
-                       br_text(br_axis_letters[line->axis]), br_text(line->at),
-                       br_number(c->order.value));
-            br_put_shown(d, "%s", br_order_text(&c->order, text, sizeof text));
-            BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_count(c->points),
-                         br_count(c->used), br_text(c->note));
+                       br_text(br_axis_letters[line->axis]), br_text(line->at));
+            put_order(d, &c->order);
+            BR_PUT_CELLS(d, br_count(c->points), br_count(c->used), br_text(c->note));
         }
 
     static const struct br_column joint_columns[] = {
@@ -254,12 +259,11 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         const struct br_joint_fit *f = &o->of[i].joint;
         if (!f->converged)
             continue;
-        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_number(f->p.value));
-        br_put_shown(d, "%s", br_order_text(&f->p, text, sizeof text));
-        BR_PUT_CELLS(d, br_number(f->p.low), br_number(f->p.high), br_number(f->q.value));
-        br_put_shown(d, "%s", br_order_text(&f->q, text, sizeof text));
-        BR_PUT_CELLS(d, br_number(f->q.low), br_number(f->q.high), br_number(f->c_h.value),
-                     br_number(f->c_k.value), br_count(f->points), br_number(f->misfit));
+        BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name));
+        for (int axis = 0; axis < BR_AXES; axis++)
+            put_order(d, &f->order[axis]);
+        BR_PUT_CELLS(d, br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value),
+                     br_count(f->points), br_number(f->misfit));
     }
 
     /* What values tend to. The grid convergence index is that of the three finest rows, relative as

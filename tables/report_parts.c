@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "study/fit/fit.h"
+
 /* text (out): where it is a text. */
 static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
                                 char text[BR_METHOD_VALUE])
@@ -78,4 +80,17 @@ const char *br_trial_text(const struct br_scene *scene, const struct br_trial *t
         snprintf(text, BR_TRIAL_TEXT, "%s, n = %zu, k = %.6g s", t->named->name, t->at.n,
                  step_of(scene, t));
     return text;
+}
+
+void br_put_estimate(struct br_document *d, const struct br_column *column,
+                     const struct br_estimate *e, const char *shown)
+{
+    char low[32], high[32];
+    snprintf(low, sizeof low, "%s_low", column->key);
+    snprintf(high, sizeof high, "%s_high", column->key);
+    br_put_cell(d, column, br_number(e->value));
+    if (shown && isfinite(e->value))
+        br_put_shown(d, "%s", shown);
+    br_hide(d, low, column->unit, br_number(e->low));
+    br_hide(d, high, column->unit, br_number(e->high));
 }

@@ -23,6 +23,21 @@ enum { BR_TRIAL_TEXT = 160 };
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
                           char text[BR_TRIAL_TEXT]);
 
+/* An estimate, and its interval in columns of their own. shown: to people; NULL: the number. */
+void br_put_estimate(struct br_document *d, const struct br_column *column,
+                     const struct br_estimate *estimate, const char *shown);
+#define BR_PUT_ESTIMATE(d, e, shown, ...) \
+    br_put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
+
+/* ---- of a study (report_study.c, report_grids.c) ---- */
+
+/* A scene of one field has the total alone. */
+bool br_part_is_shown(const struct br_report *report, enum br_part part);
+void br_put_grids(struct br_document *d, const struct br_report *report);
+void br_put_slopes(struct br_document *d, const struct br_report *report);
+/* Nothing where nothing is printed. */
+void br_put_triangles(struct br_document *d, const struct br_report *report);
+
 /* What is said of a failure; nothing of none. */
 static inline struct br_value br_failure_text(const struct br_error *failure)
 {

@@ -195,24 +195,21 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     }
 
     const struct br_plan_parts parts = br_plan_chosen_parts(p);
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(scene->name)},
-        {"goal_error", NULL, NULL, br_number(p->goal.error)},
-        {"goal_seconds", NULL, NULL, br_number(p->goal.seconds)},
-        {"norm", NULL, NULL, br_text(p->request.norm->name)},
-        {"end", NULL, NULL, br_text(br_plan_end_names[p->end])},
-        {"own_error", NULL, NULL, br_number(p->own)},
-        {"rounds", NULL, NULL, br_count(p->rounds)},
-        {"first", NULL, NULL, br_if(p->first < p->count, br_count(p->first))},
-        {"chosen", NULL, NULL, br_if(p->chosen < p->count, br_count(p->chosen))},
-        {"marched_seconds", NULL, NULL, br_number(br_plan_spent(p))},
-        {"wall_seconds", NULL, NULL, br_number(p->wall_seconds)},
-        {"space_error", NULL, NULL, br_number(parts.error[BR_PLAN_X])},
-        {"time_error", NULL, NULL, br_number(parts.error[BR_PLAN_Y])},
-        {"space_order", NULL, NULL, br_number(parts.order[BR_PLAN_X])},
-        {"time_order", NULL, NULL, br_number(parts.order[BR_PLAN_Y])},
-    };
-    BR_FACTS(d, facts);
+    br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
+    br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
+    br_hide_fact(d, br_text(p->request.norm->name), NULL, "norm");
+    br_hide_fact(d, br_text(br_plan_end_names[p->end]), NULL, "end");
+    br_hide_fact(d, br_number(p->own), NULL, "own_error");
+    br_hide_fact(d, br_count(p->rounds), NULL, "rounds");
+    br_hide_fact(d, br_if(p->first < p->count, br_count(p->first)), NULL, "first");
+    br_hide_fact(d, br_if(p->chosen < p->count, br_count(p->chosen)), NULL, "chosen");
+    br_hide_fact(d, br_number(br_plan_spent(p)), NULL, "marched_seconds");
+    br_hide_fact(d, br_number(p->wall_seconds), NULL, "wall_seconds");
+    br_hide_fact(d, br_number(parts.error[BR_PLAN_X]), NULL, "space_error");
+    br_hide_fact(d, br_number(parts.error[BR_PLAN_Y]), NULL, "time_error");
+    br_hide_fact(d, br_number(parts.order[BR_PLAN_X]), NULL, "space_order");
+    br_hide_fact(d, br_number(parts.order[BR_PLAN_Y]), NULL, "time_order");
 
     br_put_section(d, "What is measured");
     if (isfinite(parts.error[BR_PLAN_X]))

@@ -6,7 +6,6 @@
 #include "study/foresee/prediction.h"
 #include "study/run/run.h"
 #include "study/scene/method_fields.h"
-#include "study/scene/quote.h"
 #include "tables/report_parts.h"
 
 enum { VALUE = 80 };
@@ -345,14 +344,6 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_work *w = &r->work;
     const double imbalance = br_energy_imbalance(&r->energy_start, &r->energy_now, w);
-    const struct br_fact facts[] = {
-        {"energies.lost_to_scheme_by_contact", "  and by its contact", "J",
-         br_if(r->marched.contact.modelled, br_number(w->scheme_contact))},
-        {"energies.imbalance", "missing in the balance, of the terms' sum", NULL,
-         br_number(imbalance)},
-        {"energies.largest_imbalance_of_a_step", "  in one step at most", NULL,
-         br_number(r->energy_worst)},
-    };
     const double added[] = {br_energy_added(w, BR_AXIAL), br_energy_added(w, BR_BENDING)};
     const double put_in[] = {br_energy_put_in(&r->energy_start, w, BR_AXIAL),
                              br_energy_put_in(&r->energy_start, w, BR_BENDING)};
@@ -361,7 +352,12 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
     put_two(d, r, w->loads, "work of the loads", "J", "energies.work_of_loads");
     put_two(d, r, w->viscous, "lost to viscosity", "J", "energies.lost_to_viscosity");
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
-    BR_FACTS(d, facts);
+    br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(w->scheme_contact)),
+                   "  and by its contact", "J", "energies.lost_to_scheme_by_contact");
+    br_put_fact_as(d, br_number(imbalance), "missing in the balance, of the terms' sum", NULL,
+                   "energies.imbalance");
+    br_put_fact_as(d, br_number(r->energy_worst), "  in one step at most", NULL,
+                   "energies.largest_imbalance_of_a_step");
     put_two(d, r, added, NULL, "J", "energies.added_by_scheme.in_all");
     put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
     put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
@@ -455,12 +451,10 @@ static void put_cost(struct br_document *d, const struct br_run_report *r)
         BR_PUT(d, br_number(100 * r->cost.seconds[part] / all), .key = "share", .unit = "%",
                .format = "%.1f");
     }
-    const struct br_fact facts[] = {
-        {"cost.ns_per_step", "sum of the parts of a step", "ns", br_number(1e9 * all / steps)},
-        {"cost.ns_per_reading", "a reading of the clock, which is taken off", "ns",
-         br_number(1e9 * r->cost.lap_seconds)},
-    };
-    BR_FACTS(d, facts);
+    br_put_fact_as(d, br_number(1e9 * all / steps), "sum of the parts of a step", "ns",
+                   "cost.ns_per_step");
+    br_put_fact_as(d, br_number(1e9 * r->cost.lap_seconds),
+                   "a reading of the clock, which is taken off", "ns", "cost.ns_per_reading");
 }
 
 void br_report_run(const struct br_run_findings *f, struct br_document *d)
@@ -471,19 +465,16 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     put_answers(d, f);
 
     char method[BR_METHOD_TEXT];
-    const struct br_fact march_facts[] = {
-        {"scene.name", NULL, NULL, br_text(scene->name)},
-        {"scene.title", NULL, NULL, br_text(scene->title)},
-        {"scene.remark", "remark", NULL, br_text(scene->remark)},
-        {"scene.length", NULL, "m", br_number(scene->length)},
-        {"scene.duration", NULL, "s", br_number(scene->duration)},
-        {"n", "elements", NULL, br_count(r->n)},
-        {"h", "element size h", "m", br_number(r->h)},
-        {"steps", "steps", NULL, br_count(r->steps)},
-        {"k", "time step k", "s", br_number(r->k)},
-    };
     br_put_section(d, "The march");
-    BR_FACTS(d, march_facts);
+    br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_text(scene->title), NULL, "scene.title");
+    br_put_fact_as(d, br_text(scene->remark), "remark", NULL, "scene.remark");
+    br_hide_fact(d, br_number(scene->length), "m", "scene.length");
+    br_hide_fact(d, br_number(scene->duration), "s", "scene.duration");
+    br_put_fact_as(d, br_count(r->n), "elements", NULL, "n");
+    br_put_fact_as(d, br_number(r->h), "element size h", "m", "h");
+    br_put_fact_as(d, br_count(r->steps), "steps", NULL, "steps");
+    br_put_fact_as(d, br_number(r->k), "time step k", "s", "k");
     const struct br_meshes on = {&r->marched, &r->n, 1};
     BR_FACT(d, br_text(br_method_text(&on, &r->method, method)), .key = "words",
             .heading = "method", .flags = BR_FOR_PEOPLE);
@@ -560,58 +551,21 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     const char *of_march = r->checked  ? "  of the march, the check included"
                            : r->summed ? "  of the march, the energies included"
                                        : "  of the march";
-    const struct br_fact facts[] = {
-        {"seconds.wall", "time", "s", br_number(f->wall_seconds)},
-        {"seconds.set_up", "  of setting up", "s", br_number(r->end.set_up_seconds)},
-        {"seconds.march", of_march, "s", br_number(march)},
-        {"seconds.per_step", "  a step", "s", br_number(a_step)},
-        {"seconds.per_element_step", "  an element-step", "s", br_number(a_step / (double)r->n)},
-        {"work.steps", "steps of the scheme", NULL, br_count(c->steps)},
-        {"work.steps_taken_back", r->method.scheme->adaptive ? "  taken back" : NULL, NULL,
-         br_count(c->rejected)},
-        {"work.solves_a_field", "solves a field", NULL, br_count(c->stages)},
-        {"work.changes_of_the_step", c->set_ups ? "changes of the step" : NULL, NULL,
-         br_count(c->set_ups)},
-        {"work.friction_iterations", iterates ? "friction iterations" : NULL, NULL,
-         br_count(c->iterations)},
-    };
     br_put_section(d, "Time and work");
-    BR_FACTS(d, facts);
+    br_put_fact_as(d, br_number(f->wall_seconds), "time", "s", "seconds.wall");
+    br_put_fact_as(d, br_number(r->end.set_up_seconds), "  of setting up", "s", "seconds.set_up");
+    br_put_fact_as(d, br_number(march), of_march, "s", "seconds.march");
+    br_put_fact_as(d, br_number(a_step), "  a step", "s", "seconds.per_step");
+    br_put_fact_as(d, br_number(a_step / (double)r->n), "  an element-step", "s",
+                   "seconds.per_element_step");
+    br_put_fact_as(d, br_count(c->steps), "steps of the scheme", NULL, "work.steps");
+    br_put_fact_as(d, br_count(c->rejected), r->method.scheme->adaptive ? "  taken back" : NULL,
+                   NULL, "work.steps_taken_back");
+    br_put_fact_as(d, br_count(c->stages), "solves a field", NULL, "work.solves_a_field");
+    br_put_fact_as(d, br_count(c->set_ups), c->set_ups ? "changes of the step" : NULL, NULL,
+                   "work.changes_of_the_step");
+    br_put_fact_as(d, br_count(c->iterations), iterates ? "friction iterations" : NULL, NULL,
+                   "work.friction_iterations");
 
     br_put_provenance(d, f->provenance);
-}
-
-/* ---- the history ---- */
-
-void br_history_csv_head(FILE *out)
-{
-    fprintf(out, "step,t,u,w,u_t,w_t,contact_force,friction_force,friction_bound\n");
-}
-
-void br_history_csv_row(FILE *out, const struct br_history_row *row)
-{
-    const double values[] = {
-        row->time,
-        row->displacement[BR_AXIAL],
-        row->displacement[BR_BENDING],
-        row->velocity[BR_AXIAL],
-        row->velocity[BR_BENDING],
-        row->contact_force,
-        row->friction_force,
-        row->friction_bound,
-    };
-    fprintf(out, "%zu", row->step);
-    for (size_t i = 0; i < sizeof values / sizeof *values; i++)
-        if (isfinite(values[i]))
-            fprintf(out, ",%.17g", values[i]);
-        else
-            fputc(',', out);
-    fputc('\n', out);
-}
-
-void br_history_csv_stopped(FILE *out, const char *message)
-{
-    fprintf(out, "# stopped: ");
-    br_quote(out, &br_for_text, message);
-    fputc('\n', out);
 }

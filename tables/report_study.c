@@ -6,13 +6,6 @@
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"
 
-/* A scene of one field has the total alone. */
-static bool is_shown(const struct br_report *r, enum br_part part)
-{
-    const struct br_scene *s = r->study->scene;
-    return part == BR_PART_TOTAL || (s->axial.modelled && s->bending.modelled);
-}
-
 static double step_of(const struct br_study *s, const struct br_cell *c)
 {
     return br_time_step(s->scene, c->at.steps);
@@ -28,8 +21,6 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 }
 
 /* ---- the answer ---- */
-
-static const char *const directions[BR_DIRECTIONS] = {"h", "k"};
 
 /* Says how well a reference is known. own: its own error; NaN: not known. */
 static void say_own_error(struct br_document *d, const struct br_study *s, double own)
@@ -141,11 +132,11 @@ static void put_answers(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = br_report_fitted(r);
     char text[64];
-    for (int i = 0; i < BR_DIRECTIONS; i++) {
+    for (int i = 0; i < BR_AXES; i++) {
         const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
         if (!seen->asked)
             continue;
-        br_put_answer(d, "Order in %s: ", directions[i]);
+        br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
         if (isfinite(seen->order.value))
             br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
                         seen->theory, seen->remark, seen->by);
@@ -193,219 +184,99 @@ static void put_answers(struct br_document *d, const struct br_report *r)
     answer_printed(d, r);
 }
 
-/* ---- grids, for people: a row a mesh, a column a time step ---- */
-
-struct grid {
-    const char *key;
-    const struct br_study *study;
-    enum br_part part;
-    const struct br_fits *fits; /* whose slopes stand beside the errors; NULL: none do */
-    double (*value)(const struct br_report *r, size_t cell); /* NULL: the study's errors */
-    const char *format;
-    unsigned flags;
-};
-
-/* A slope that is not above zero is no order. */
-static const char *slope_text(const struct br_estimate *slope, char text[64])
-{
-    return slope->value <= 0 || slope->low <= 0 ? "no order" : br_order_text(slope, text, 64);
-}
-
-static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
-                     const char *title)
-{
-    static const char *const marks[] = {"", "R", "F", "X", "U"};
-    const struct br_study *s = g->study;
-    char buffer[64];
-    br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);
-    for (size_t i = 0; i < s->n_count; i++) {
-        br_put_row(d);
-        BR_PUT(d, br_count(s->n[i]), .key = "n");
-        for (size_t j = 0; j < s->k_count; j++) {
-            const struct br_cell *c = br_study_cell(s, i, j);
-            const double value = g->value ? g->value(r, i * s->k_count + j) : c->error[g->part];
-            char key[32];
-            snprintf(key, sizeof key, "steps%zu", s->steps[j]);
-            snprintf(buffer, sizeof buffer, "k = %g", br_time_step(s->scene, s->steps[j]));
-            BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
-            br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
-        }
-        if (g->fits)
-            BR_PUT(d, br_text(slope_text(&g->fits->by_n[i].order, buffer)), .key = "slope",
-                   .heading = "slope in k [95 %]");
-    }
-    if (!g->fits)
-        return;
-    BR_PUT_ROW(d, br_nothing());
-    br_put_shown(d, "slope in h");
-    br_put_rule(d);
-    for (size_t j = 0; j < s->k_count; j++) {
-        const struct br_estimate *slope = &g->fits->by_k[j].order;
-        BR_PUT_CELLS(d, br_number(slope->value));
-        if (slope->value <= 0 || slope->low <= 0)
-            br_put_shown(d, "%s", slope_text(slope, buffer));
-        else if (isfinite(slope->value))
-            br_put_shown(d, "%.2f", slope->value);
-    }
-}
-
-static double printed_of(const struct br_report *r, size_t cell)
-{
-    return r->printed[cell];
-}
-
-static void put_error_grid(struct br_document *d, const struct br_report *r,
-                           const struct br_study *s, enum br_part part)
-{
-    static const char *const names[] = {"Total", "Axial", "Bending"};
-    const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
-    char title[200];
-    const struct grid g = {
-        .key = fitted ? br_part_names[part] : s->judge->name,
-        .study = s,
-        .part = part,
-        .fits = fitted && r->rates ? &r->fits[part] : NULL,
-        .format = "%.3e",
-        .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
-    };
-    snprintf(title, sizeof title, "%s %s%s, %s", names[part],
-             none ? "difference" : "error against ", none ? "" : s->judge->name, s->norm->unit);
-    put_grid(d, r, &g, title);
-}
-
-static void put_grids(struct br_document *d, const struct br_report *r)
-{
-    const struct grid printed = {"printed", r->study, .value = printed_of, .format = "%.3e",
-                                 .flags = BR_FILES_ONLY};
-    const struct grid ratio = {"ratio", r->study, .value = br_report_ratio, .format = "%.3f"};
-    char title[64];
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        if (is_shown(r, part))
-            put_error_grid(d, r, br_report_fitted(r), part);
-    if (r->exact)
-        put_error_grid(d, r, r->study, BR_PART_TOTAL);
-    if (!r->printed)
-        return;
-    put_grid(d, r, &printed, "Printed error, m^(3/2)");
-    snprintf(title, sizeof title, "Ours (against %s) over printed", r->study->judge->name);
-    put_grid(d, r, &ratio, title);
-}
-
 /* ---- lists ---- */
 
-/* The order that a cell and its coarser neighbour show, which has the coarser mesh or the longer
- * step before this one; not finite where there is none. */
-static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part,
-                               bool over_h)
+/* The order that a cell and its coarser neighbour along an axis show; not finite where there is
+ * none.
+ */
+static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part, int axis)
 {
-    const size_t i = cell / s->k_count, j = cell % s->k_count;
-    if (over_h ? i == 0 : j == 0)
+    const size_t stride = axis == BR_AXIS_SPACE ? s->k_count : 1;
+    if (axis == BR_AXIS_SPACE ? cell < stride : cell % s->k_count == 0)
         return br_nothing();
-    const double coarse = br_study_cell(s, i - over_h, j - !over_h)->error[part];
-    const size_t from = over_h ? s->n[i - 1] : s->steps[j - 1], to = over_h ? s->n[i] : s->steps[j];
-    return br_number(log(coarse / s->cell[cell].error[part]) / log((double)to / (double)from));
+    const struct br_cell *fine = &s->cell[cell], *coarse = fine - stride;
+    const double ratio = axis == BR_AXIS_SPACE ? (double)fine->at.n / (double)coarse->at.n
+                                               : (double)fine->at.steps / (double)coarse->at.steps;
+    return br_number(log(coarse->error[part] / fine->error[part]) / log(ratio));
 }
 
 static void put_cell(struct br_document *d, const struct br_report *r, const struct br_study *s,
                      enum br_part part, size_t cell)
 {
     const struct br_cell *c = &s->cell[cell];
+    const char *unit = r->study->norm->unit;
     const bool printed = s == r->study && part == BR_PART_TOTAL && r->printed;
     const bool marched = c->failure.status == BR_OK;
-    BR_PUT_ROW(
-        d, br_text(s->judge->name), br_text(br_part_names[part]), br_count(c->at.n),
-        br_number(br_mesh_size(s->scene, c->at.n)), br_count(c->at.steps), br_number(step_of(s, c)),
-        br_number(c->error[part]), br_number(relative_of(s, c, part)),
-        br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), rate_to(s, cell, part, true),
-        rate_to(s, cell, part, false), br_number(printed ? r->printed[cell] : NAN),
-        br_number(printed ? br_report_ratio(r, cell) : NAN), br_number(c->worst_time[part]),
-        br_if(marched && s->scene->axial.modelled, br_number(c->tip[BR_AXIAL])),
-        br_if(marched && s->scene->bending.modelled, br_number(c->tip[BR_BENDING])),
-        br_number(c->seconds), br_failure_text(&c->failure));
+    br_put_row(d);
+    BR_PUT(d, br_text(s->judge->name), .key = "reference");
+    BR_PUT(d, br_text(br_part_names[part]), .key = "part");
+    BR_PUT(d, br_count(c->at.n), .key = "n");
+    BR_PUT(d, br_number(br_mesh_size(s->scene, c->at.n)), .key = "h", .unit = "m");
+    BR_PUT(d, br_count(c->at.steps), .key = "steps");
+    BR_PUT(d, br_number(step_of(s, c)), .key = "k", .unit = "s");
+    BR_PUT(d, br_number(c->error[part]), .key = "error", .unit = unit);
+    BR_PUT(d, br_number(relative_of(s, c, part)), .key = "relative");
+    BR_PUT(d, br_text(c->flag[part] ? br_flag_name(c->flag[part]) : NULL), .key = "flag");
+    BR_PUT(d, rate_to(s, cell, part, BR_AXIS_SPACE), .key = "rate_h");
+    BR_PUT(d, rate_to(s, cell, part, BR_AXIS_TIME), .key = "rate_k");
+    BR_PUT(d, br_number(printed ? r->printed[cell] : NAN), .key = "printed", .unit = unit);
+    BR_PUT(d, br_number(printed ? br_report_ratio(r, cell) : NAN), .key = "ratio");
+    BR_PUT(d, br_number(c->worst_time[part]), .key = "worst_time", .unit = "s");
+    BR_PUT(d, br_if(marched && s->scene->axial.modelled, br_number(c->tip[BR_AXIAL])),
+           .key = "tip_axial", .unit = "m");
+    BR_PUT(d, br_if(marched && s->scene->bending.modelled, br_number(c->tip[BR_BENDING])),
+           .key = "tip_bending", .unit = "m");
+    BR_PUT(d, br_number(c->seconds), .key = "seconds", .unit = "s");
+    BR_PUT(d, br_failure_text(&c->failure), .key = "failure");
 }
 
 static void put_cells(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *const studies[] = {r->study, r->exact};
-    const char *unit = r->study->norm->unit;
-    const struct br_column columns[] = {
-        {.key = "reference"},
-        {.key = "part"},
-        {.key = "n"},
-        {.key = "h", .unit = "m"},
-        {.key = "steps"},
-        {.key = "k", .unit = "s"},
-        {.key = "error", .unit = unit},
-        {.key = "relative"},
-        {.key = "flag"},
-        {.key = "rate_h"},
-        {.key = "rate_k"},
-        {.key = "printed", .unit = unit},
-        {.key = "ratio"},
-        {.key = "worst_time", .unit = "s"},
-        {.key = "tip_axial", .unit = "m"},
-        {.key = "tip_bending", .unit = "m"},
-        {.key = "seconds", .unit = "s"},
-        {.key = "failure"},
-    };
-    BR_TABLE(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN, columns);
+    br_put_table(d, "cells", "Every cell, part and reference", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t i = 0; i < 2 && studies[i]; i++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
-            for (size_t c = 0; is_shown(r, part) && c < r->study->n_count * r->study->k_count; c++)
+            for (size_t c = 0; br_part_is_shown(r, part) && c < br_study_cells(r->study); c++)
                 put_cell(d, r, studies[i], part, c);
 }
 
 /* ---- slopes, fits and tips ---- */
 
-/* An estimate, and its interval in columns of their own. shown: to people; NULL: the number. */
-static void put_estimate(struct br_document *d, const struct br_column *column,
-                         const struct br_estimate *e, const char *shown)
-{
-    char low[32], high[32];
-    snprintf(low, sizeof low, "%s_low", column->key);
-    snprintf(high, sizeof high, "%s_high", column->key);
-    br_put_cell(d, column, br_number(e->value));
-    if (shown && isfinite(e->value))
-        br_put_shown(d, "%s", shown);
-    br_hide(d, low, column->unit, br_number(e->low));
-    br_hide(d, high, column->unit, br_number(e->high));
-}
-#define PUT_ESTIMATE(d, e, shown, ...) \
-    put_estimate((d), &(struct br_column){__VA_ARGS__}, (e), (shown))
-
 /* Numbers of a fit that does not describe the errors are not claimed. */
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
+    static const char *const orders[] = {"p", "q"}, *const headings[] = {"p [95 %]", "q [95 %]"},
+                             *const constants[] = {"C_h", "C_k"};
     bool told = r->rates;
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        told |= is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
+        told |=
+            br_part_is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
                  told ? 0 : BR_FILES_ONLY);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         const struct br_joint_fit *j = &r->fits[part].joint;
         const bool claims = br_joint_describes(j);
-        const char *constant = claims ? NULL : "-";
-        char p[64] = "not claimed", q[64] = "not claimed", both[64] = "-";
-        if (!is_shown(r, part))
+        char text[64];
+        if (!br_part_is_shown(r, part))
             continue;
-        if (claims && br_order_determined(&j->p))
-            br_order_text(&j->p, p, sizeof p);
-        if (claims && br_order_determined(&j->q))
-            br_order_text(&j->q, q, sizeof q);
-        if (claims)
-            snprintf(both, sizeof both, "%.3f [%.3f, %.3f]", j->r.value, j->r.low, j->r.high);
         br_put_row(d);
         BR_PUT(d, br_text(br_part_names[part]), .key = "part");
         BR_PUT(d, br_text(kinds[j->kind]), .key = "model", .heading = "error in",
                .flags = BR_FILES_ONLY);
         if (!j->converged)
             br_put_shown(d, "none");
-        PUT_ESTIMATE(d, &j->p, p, .key = "p", .heading = "p [95 %]");
-        PUT_ESTIMATE(d, &j->c_h, constant, .key = "C_h", .format = "%.3g");
-        PUT_ESTIMATE(d, &j->q, q, .key = "q", .heading = "q [95 %]");
-        PUT_ESTIMATE(d, &j->c_k, constant, .key = "C_k", .format = "%.3g");
-        PUT_ESTIMATE(d, &j->r, both, .key = "r", .heading = "r [95 %]");
+        for (int a = 0; a < BR_AXES; a++) {
+            const bool sure = claims && br_order_determined(&j->order[a]);
+            BR_PUT_ESTIMATE(d, &j->order[a],
+                            sure ? br_order_text(&j->order[a], text, sizeof text) : "not claimed",
+                            .key = orders[a], .heading = headings[a]);
+            BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
+                            .format = "%.3g");
+        }
+        snprintf(text, sizeof text, claims ? "%.3f [%.3f, %.3f]" : "-", j->r.value, j->r.low,
+                 j->r.high);
+        BR_PUT_ESTIMATE(d, &j->r, text, .key = "r", .heading = "r [95 %]");
         BR_PUT(d, br_number(j->misfit), .key = "misfit", .format = "%.2g");
         BR_PUT(d, br_number(j->worst), .key = "worst", .format = "%.2g", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_number(j->r_squared), .key = "r_squared", .heading = "R^2", .format = "%.6f",
@@ -418,38 +289,6 @@ static void put_fits(struct br_document *d, const struct br_report *r)
         br_hide(d, "reference_error", r->study->norm->unit,
                 br_number(r->fits[part].reference_error));
     }
-}
-
-/* ---- the printed table against itself ---- */
-
-static void put_triangles(struct br_document *d, const struct br_report *r)
-{
-    static const struct br_column columns[] = {
-        {.key = "a_n", .heading = "n"},
-        {.key = "a_k", .heading = "k", .unit = "s"},
-        {.key = "b_n", .heading = "and n"},
-        {.key = "b_k", .heading = "k", .unit = "s"},
-        {.key = "printed_a", .heading = "printed", .format = "%.3e"},
-        {.key = "printed_b", .heading = "and", .format = "%.3e"},
-        {.key = "least", .heading = "need at least", .format = "%.2e"},
-        {.key = "most", .heading = "at most", .format = "%.2e"},
-        {.key = "distance", .heading = "are apart", .format = "%.2e"},
-        {.key = "contradiction"},
-    };
-    if (!r->printed)
-        return;
-    BR_TABLE(d, "triangles", "Pairs of printed cells (triangle inequality), m^(3/2)", BR_FILES_ONLY,
-             columns);
-    for (size_t i = 0; i < r->triangles; i++) {
-        const struct br_triangle *t = &r->triangle[i];
-        BR_PUT_ROW(d, br_count(t->a.n), br_number(br_time_step(r->study->scene, t->a.steps)),
-                   br_count(t->b.n), br_number(br_time_step(r->study->scene, t->b.steps)),
-                   br_number(t->printed_a), br_number(t->printed_b), br_number(t->least),
-                   br_number(t->most), br_number(t->distance), br_truth(t->contradiction));
-    }
-    br_put_note(d, "Whatever the reference, two printed errors need solutions that are at least "
-                   "their difference and at most their sum apart. The scheme's own solutions are "
-                   "as far apart as the column before the last one says.");
 }
 
 /* ---- notes and facts ---- */
@@ -527,21 +366,18 @@ static void put_facts(struct br_document *d, const struct br_report *r)
 {
     const struct br_study *s = r->study, *fitted = br_report_fitted(r);
     const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(s->scene->name)},
-        {"norm.name", NULL, NULL, br_text(s->norm->name)},
-        {"norm.unit", NULL, NULL, br_text(s->norm->unit)},
-        {"norm.title", NULL, NULL, br_text(s->norm->title)},
-    };
-    BR_FACTS(d, facts);
+    br_hide_fact(d, br_text(s->scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_text(s->norm->name), NULL, "norm.name");
+    br_hide_fact(d, br_text(s->norm->unit), NULL, "norm.unit");
+    br_hide_fact(d, br_text(s->norm->title), NULL, "norm.title");
     br_put_method_facts(d, "method", &s->method, &(struct br_meshes){s->scene, s->n, s->n_count});
     put_reference(d, "reference", s);
     if (r->exact)
         put_reference(d, "exact_reference", r->exact);
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (int i = 0; i < BR_DIRECTIONS; i++) {
+        for (int i = 0; i < BR_AXES; i++) {
             const struct br_seen_order *seen = &r->seen[part][i];
-            const char *name = br_part_names[part], *in = directions[i];
+            const char *name = br_part_names[part], *in = br_axis_letters[i];
             if (!seen->asked)
                 continue;
             br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
@@ -572,13 +408,13 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     char text[64];
     br_put_table(d, "seen", "Orders, and the error of the finest cell", BR_FOR_PEOPLE);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        for (int i = 0; is_shown(r, part) && i < BR_DIRECTIONS; i++) {
+        for (int i = 0; br_part_is_shown(r, part) && i < BR_AXES; i++) {
             const struct br_seen_order *seen = &r->seen[part][i];
             if (!seen->asked)
                 continue;
             br_put_row(d);
             BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-            BR_PUT(d, br_text(i == BR_OVER_H ? "order in h" : "order in k"), .heading = "what");
+            BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "seen [95 %]");
             BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
@@ -601,7 +437,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
         br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(fitted, finest));
     }
 
-    put_grids(d, r);
+    br_put_grids(d, r);
     put_fits(d, r);
 
     const bool judged = fitted->judge != &br_judge_none;
@@ -619,33 +455,15 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             continue;
         br_put_row(d);
         BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
-        PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
+        BR_PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
         BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
                .unit = "m", .format = "%.10g");
         BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
                .key = "reference_is", .heading = "it is");
     }
 
-    put_triangles(d, r);
-
-    const struct br_study *s = r->study;
-    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 r->rates ? BR_LONG : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (size_t i = 0; is_shown(r, part) && i < s->n_count + s->k_count; i++) {
-            const bool row = i < s->n_count;
-            const size_t j = row ? i : i - s->n_count;
-            const struct br_slope *slope = row ? &r->fits[part].by_n[j] : &r->fits[part].by_k[j];
-            br_put_row(d);
-            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
-            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
-            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
-                   .key = "k", .unit = "s");
-            PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
-                         .heading = "slope [95 %]");
-            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
-        }
+    br_put_triangles(d, r);
+    br_put_slopes(d, r);
 
     put_cells(d, r);
     put_notes(d, r);

@@ -230,17 +230,14 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
 
     put_trials(d, t, false);
 
-    const struct br_fact facts[] = {
-        {"scene.name", NULL, NULL, br_text(t->request.scene->name)},
-        {"norm", NULL, NULL, br_text(t->request.norm->name)},
-        {"unit", NULL, NULL, br_text(t->request.norm->unit)},
-        {"judge", NULL, NULL, br_text(br_trials_judge(&t->request)->name)},
-        {"repeats", NULL, NULL, br_count(t->request.repeats)},
-        {"repeat_seconds", NULL, NULL, br_number(t->request.repeat_seconds)},
-        {"time_limit", NULL, NULL, br_number(t->request.time_limit)},
-        {"wall_seconds", NULL, NULL, br_number(t->wall_seconds)},
-    };
-    BR_FACTS(d, facts);
+    br_hide_fact(d, br_text(t->request.scene->name), NULL, "scene.name");
+    br_hide_fact(d, br_text(t->request.norm->name), NULL, "norm");
+    br_hide_fact(d, br_text(t->request.norm->unit), NULL, "unit");
+    br_hide_fact(d, br_text(br_trials_judge(&t->request)->name), NULL, "judge");
+    br_hide_fact(d, br_count(t->request.repeats), NULL, "repeats");
+    br_hide_fact(d, br_number(t->request.repeat_seconds), NULL, "repeat_seconds");
+    br_hide_fact(d, br_number(t->request.time_limit), NULL, "time_limit");
+    br_hide_fact(d, br_number(t->wall_seconds), NULL, "wall_seconds");
 
     br_put_section(d, "What is measured");
     note_judge(d, t);

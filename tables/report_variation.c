@@ -74,9 +74,8 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
         BR_PUT(d, br_text(s->remark[i]), .key = "remark", .flags = BR_WRAP);
         BR_PUT(d, br_failure_text(&s->failure[i]), .key = "failure", .flags = BR_WRAP);
     }
-    const struct br_fact facts[] = {{"varied.key", "varied", NULL, br_text(v->name)},
-                                    {"varied.unit", NULL, NULL, br_text(v->unit)},
-                                    {"varied.logarithmic", NULL, NULL, br_truth(v->logarithmic)},
-                                    {"varied.help", "which is", NULL, br_text(v->key->help)}};
-    BR_FACTS(d, facts);
+    br_put_fact_as(d, br_text(v->name), "varied", NULL, "varied.key");
+    br_hide_fact(d, br_text(v->unit), NULL, "varied.unit");
+    br_hide_fact(d, br_truth(v->logarithmic), NULL, "varied.logarithmic");
+    br_put_fact_as(d, br_text(v->key->help), "which is", NULL, "varied.help");
 }

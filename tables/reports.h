@@ -15,7 +15,6 @@ struct br_extreme_map;
 struct br_finding;
 struct br_floors;
 struct br_foreseen;
-struct br_history_row;
 struct br_old_check;
 struct br_orders;
 struct br_plan;
@@ -56,14 +55,6 @@ struct br_run_findings {
 /* What happened at the tip and how far off that is, then all that was found. In JSON what is not
  * known or not modelled is null. */
 void br_report_run(const struct br_run_findings *findings, struct br_document *d);
-
-/* The tip's history: a head, one line a row, SI units; a number that is not there is an empty
- * field (RFC 4180). */
-void br_history_csv_head(FILE *out);
-void br_history_csv_row(FILE *out, const struct br_history_row *row);
-
-/* The last line of a march that did not reach T: a comment, "# stopped: ...". */
-void br_history_csv_stopped(FILE *out, const char *message);
 
 /* ---- dry runs ---- */
 

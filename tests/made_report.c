@@ -60,22 +60,20 @@ static struct br_estimate interval(double value, double half)
 
 static void fill_fits(struct br_fits *f, int part)
 {
-    f->by_n = br_allocate(BR_MADE_N, sizeof *f->by_n);
-    f->by_k = br_allocate(BR_MADE_K, sizeof *f->by_k);
-    assert_true(f->by_n && f->by_k);
+    f->slope[1] = br_allocate(BR_MADE_N, sizeof *f->slope[1]);
+    f->slope[0] = br_allocate(BR_MADE_K, sizeof *f->slope[0]);
+    assert_true(f->slope[1] && f->slope[0]);
     for (int i = 0; i < BR_MADE_N; i++)
-        f->by_n[i] = (struct br_slope){interval(1 + 0.1 * i + part, 0.05 + 0.01 * i), 4};
+        f->slope[1][i] = (struct br_slope){interval(1 + 0.1 * i + part, 0.05 + 0.01 * i), 4};
     for (int j = 0; j < BR_MADE_K; j++)
-        f->by_k[j] = (struct br_slope){interval(2.05 + 0.1 * j + part, 0.15 + 0.01 * j), 3};
-    f->by_n[1] = (struct br_slope){{1.44, NAN, NAN}, 2}; /* no interval */
-    f->by_k[2] = (struct br_slope){{NAN, NAN, NAN}, 1};  /* nothing */
-    f->by_k[3].order = interval(2.3456 + part, 0.0001);  /* a narrow one */
+        f->slope[0][j] = (struct br_slope){interval(2.05 + 0.1 * j + part, 0.15 + 0.01 * j), 3};
+    f->slope[1][1] = (struct br_slope){{1.44, NAN, NAN}, 2}; /* no interval */
+    f->slope[0][2] = (struct br_slope){{NAN, NAN, NAN}, 1};  /* nothing */
+    f->slope[0][3].order = interval(2.3456 + part, 0.0001);  /* a narrow one */
     f->joint = (struct br_joint_fit){
         .kind = (enum br_joint_kind)part,
-        .c_h = interval(0.0716, 0.001),
-        .p = interval(2.03, 0.02),
-        .c_k = interval(0.0845, 0.001),
-        .q = interval(1.013, 0.004),
+        .c = {interval(0.0716, 0.001), interval(0.0845, 0.001)},
+        .order = {interval(2.03, 0.02), interval(1.013, 0.004)},
         .r = interval(-0.987, 0.003),
         .misfit = 0.002,
         .worst = 0.004,
@@ -86,9 +84,9 @@ static void fill_fits(struct br_fits *f, int part)
     };
     const struct br_estimate none = {NAN, NAN, NAN};
     if (f->joint.kind == BR_JOINT_TIME)
-        f->joint.c_h = f->joint.p = f->joint.r = none;
+        f->joint.c[0] = f->joint.order[0] = f->joint.r = none;
     if (f->joint.kind == BR_JOINT_SPACE)
-        f->joint.c_k = f->joint.q = f->joint.r = none;
+        f->joint.c[1] = f->joint.order[1] = f->joint.r = none;
     f->reference_error = 3.25e-7 * (part + 1);
 }
 

@@ -100,9 +100,9 @@ TEST(test_orders)
         MUST(br_fit(&out.over_h, (enum br_part)part, &over_h, &err));
         MUST(br_fit(&out.over_k, (enum br_part)part, &over_k, &err));
         assert_true(over_h.joint.kind == BR_JOINT_SPACE && over_k.joint.kind == BR_JOINT_TIME);
-        CLOSE(over_h.joint.p.value, orders[part], 0.02);
-        AT_MOST(over_h.joint.p.high - over_h.joint.p.low, 0.1);
-        CLOSE(over_k.joint.q.value, 1, 0.05);
+        CLOSE(over_h.joint.order[0].value, orders[part], 0.02);
+        AT_MOST(over_h.joint.order[0].high - over_h.joint.order[0].low, 0.1);
+        CLOSE(over_k.joint.order[1].value, 1, 0.05);
         br_fits_clear(&over_h);
         br_fits_clear(&over_k);
     }

@@ -15,6 +15,8 @@
 
 enum { MOST = 12 };
 
+static struct br_error err;
+
 /* h of two-dimensional grids of so many cells, equation (2) of Celik et al., from coarse to fine.
  */
 static void sizes(const double *cells, size_t count, double *h)
@@ -30,50 +32,22 @@ static void sizes(const double *cells, size_t count, double *h)
  * 0.8465 %; 0.9 % comes out with phi_1 below (0.8538 %). */
 static const struct {
     double cells[3], value[3];
-    double r21, r32, p, limit, relative, extrapolated, index;
-    enum br_sequence sequence;
+    double r21, r32, p, limit;
+    double relative, extrapolated, index; /* % */
 } celik[] = {
-    {{4500, 8000, 18000},
-     {5.863, 5.972, 6.063},
-     1.5,
-     1.333,
-     1.53,
-     6.1685,
-     1.5,
-     1.7,
-     2.2,
-     BR_MONOTONE_CONVERGENCE},
-    {{980, 4500, 18000},
-     {10.6050, 10.7250, 10.7880},
-     2.0,
-     2.143,
-     0.75,
-     10.8801,
-     0.6,
-     0.8,
-     1.1,
-     BR_MONOTONE_CONVERGENCE},
-    {{980, 4500, 18000},
-     {6.0909, 5.9624, 6.0042},
-     2.0,
-     2.143,
-     1.51,
-     6.0269,
-     0.7,
-     0.4,
-     0.5,
-     BR_OSCILLATORY_CONVERGENCE},
+    {{4500, 8000, 18000}, {5.863, 5.972, 6.063}, 1.5, 1.333, 1.53, 6.1685, 1.5, 1.7, 2.2},
+    {{980, 4500, 18000}, {10.605, 10.725, 10.788}, 2.0, 2.143, 0.75, 10.8801, 0.6, 0.8, 1.1},
+    {{980, 4500, 18000}, {6.0909, 5.9624, 6.0042}, 2.0, 2.143, 1.51, 6.0269, 0.7, 0.4, 0.5},
 };
 
 TEST(test_celik)
 {
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof celik / sizeof *celik; i++) {
         double h[3];
         struct br_gci g;
         sizes(celik[i].cells, 3, h);
         MUST(br_gci(h, celik[i].value, 3, &g, &err));
-        assert_int_equal(g.sequence, celik[i].sequence);
+        assert_int_equal(g.sequence, i < 2 ? BR_MONOTONE_CONVERGENCE : BR_OSCILLATORY_CONVERGENCE);
         PRINTED(g.fine.ratio, celik[i].r21, 1);
         PRINTED(g.coarse.ratio, celik[i].r32, 3);
         PRINTED(g.order, celik[i].p, 2);
@@ -81,20 +55,11 @@ TEST(test_celik)
         PRINTED(100 * g.fine.relative, celik[i].relative, 1);
         PRINTED(100 * g.fine.relative_extrapolated, celik[i].extrapolated, 1);
         PRINTED(100 * g.fine.index, celik[i].index, 1);
-        assert_true(g.safety == 1.25);
+        if (i != 1)
+            continue;
+        CLOSE(100 * g.fine.relative_extrapolated, 0.8465, 1e-4);
+        PRINTED(100 * (g.fine.limit - celik[1].value[2]) / celik[1].value[2], 0.9, 1);
     }
-}
-
-/* As printed in column 2: relative to phi_1. */
-TEST(test_celik_misprint)
-{
-    struct br_error err = {0};
-    struct br_gci g;
-    double h[3];
-    sizes(celik[1].cells, 3, h);
-    MUST(br_gci(h, celik[1].value, 3, &g, &err));
-    PRINTED(100 * (g.fine.limit - celik[1].value[2]) / celik[1].value[2], 0.9, 1);
-    CLOSE(100 * g.fine.relative_extrapolated, 0.8465, 1e-4);
 }
 
 /* "Examining Spatial (Grid) Convergence", NPARC Alliance. Its 0.997980 is r^p GCI_12/GCI_23, the
@@ -102,7 +67,6 @@ TEST(test_celik_misprint)
 TEST(test_nparc)
 {
     static const double h[] = {4, 2, 1}, value[] = {0.96178, 0.96854, 0.97050};
-    struct br_error err = {0};
     struct br_gci g;
     MUST(br_gci(h, value, 3, &g, &err));
     PRINTED(g.order, 1.786170, 6);
@@ -115,59 +79,33 @@ TEST(test_nparc)
     CLOSE(g.fine.uncertainty, g.fine.index * value[2], 1e-15);
 }
 
-/* The paper's fixed-point iteration, as it is printed. */
-static double iterate_order(double r21, double r32, double e21, double e32)
-{
-    const double s = e32 / e21 > 0 ? 1 : -1;
-    double p = 1;
-    for (int i = 0; i < 10000; i++)
-        p = fabs(log(fabs(e32 / e21)) + log((pow(r21, p) - s) / (pow(r32, p) - s))) / log(r21);
-    return p;
-}
-
-TEST(test_fixed_point)
-{
-    struct br_test_random random = {20081};
-    struct br_error err = {0};
-    for (int i = 0; i < 200; i++) {
-        const double r21 = br_test_uniform(&random, 1.2, 3), r32 = br_test_uniform(&random, 1.2, 3);
-        const double h[] = {r21 * r32, r21, 1}, e21 = i % 2 ? 1 : -1;
-        const double growth = br_test_uniform(&random, 1.01, 20);
-        const double value[] = {3 + e21 + growth, 3 + e21, 3};
-        struct br_gci g;
-        MUST(br_gci(h, value, 3, &g, &err));
-        if (g.sequence == BR_MONOTONE_DIVERGENCE || log(r32) > 1.8 * log(r21))
-            continue;
-        const double p = iterate_order(r21, r32, e21, growth);
-        CLOSE(g.order, p, 1e-9 * p);
-    }
-}
-
-/* phi = 2 + 3 h^p gives back p and 2 for any ratios, also where the iteration runs away. */
+/* phi = 2 + 3 h^p gives back p and 2 for any ratios, also where the paper's iteration runs away;
+ * and so does 2 +- 3 h^p with alternating signs give back p. */
 TEST(test_power_law)
 {
     struct br_test_random random = {1};
-    struct br_error err = {0};
-    bool ran_away = false;
-    for (int i = 0; i < 300; i++) {
+    for (int i = 0; i < 400; i++) {
+        const bool alternates = i % 4 == 0;
         const double p = br_test_uniform(&random, -4, 6);
         const double r21 = br_test_uniform(&random, 1.1, 4), r32 = br_test_uniform(&random, 1.1, 9);
         const double h[] = {r21 * r32, r21, 1};
         double value[3];
         for (int j = 0; j < 3; j++)
-            value[j] = 2 + 3 * pow(h[j], p);
+            value[j] = 2 + (alternates && j % 2 ? -3 : 3) * pow(h[j], p);
         struct br_gci g;
         MUST(br_gci(h, value, 3, &g, &err));
         CLOSE(g.order, p, 1e-9);
+        if (alternates) {
+            assert_int_equal(g.sequence,
+                             p > 0 ? BR_OSCILLATORY_CONVERGENCE : BR_OSCILLATORY_DIVERGENCE);
+            continue;
+        }
         assert_int_equal(g.sequence, p > 0 ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE);
         if (p > 0) {
-            const double iterated =
-                iterate_order(r21, r32, value[1] - value[2], value[0] - value[1]);
             CLOSE(g.fine.limit, 2, 1e-8 / fmin(p, 1));
             CLOSE(g.coarse.limit, 2, 1e-7 / fmin(p, 1));
             CLOSE(g.fine.uncertainty, 1.25 * 3, 1e-7 / fmin(p, 1));
             CLOSE(g.asymptotic, fabs(value[2] / value[1]), 1e-9);
-            ran_away |= !(fabs(iterated - p) <= 1e-3);
         } else {
             IS_NAN(g.fine.uncertainty);
             IS_NAN(g.fine.limit);
@@ -175,7 +113,6 @@ TEST(test_power_law)
             IS_NAN(g.asymptotic);
         }
     }
-    assert_true(ran_away);
 }
 
 /* One h, the values, what they are. */
@@ -205,7 +142,6 @@ TEST(test_triplet_kinds)
         /* only the three finest count */
         {5, {16, 8, 4, 2, 1}, {1, 9, 1.4, 1.1, 1}, BR_MONOTONE_CONVERGENCE},
     };
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct named *c = &cases[i];
         struct br_gci g;
@@ -223,20 +159,10 @@ TEST(test_triplet_kinds)
     }
 }
 
-TEST(test_names)
-{
-    assert_string_equal(br_sequence_text(BR_SEQUENCE_UNKNOWN), "not known");
-    assert_string_equal(br_sequence_text(BR_SEQUENCE_CONSTANT), "constant");
-    assert_string_equal(br_sequence_text(BR_MONOTONE_CONVERGENCE), "monotone convergence");
-    assert_string_equal(br_sequence_text(BR_OSCILLATORY_DIVERGENCE), "oscillatory divergence");
-    assert_string_equal(br_sequence_text(BR_SEQUENCE_ANOMALOUS), "anomalous behaviour");
-}
-
 /* Relative errors of a value 0 are not known; absolute ones are. */
 TEST(test_zero_value)
 {
     static const double h[] = {4, 2, 1}, value[] = {5, 1, 0};
-    struct br_error err = {0};
     struct br_gci g;
     MUST(br_gci(h, value, 3, &g, &err));
     CLOSE(g.order, 2, 1e-13);
@@ -248,23 +174,6 @@ TEST(test_zero_value)
     IS_NAN(g.fine.index);
     IS_NAN(g.asymptotic);
     CLOSE(g.coarse.index, 1.25 * 4 / 3, 1e-12);
-}
-
-TEST(test_two_grids)
-{
-    static const double h[] = {7, 2, 1}, value[] = {9, 1.3, 1}, same[] = {1, 1};
-    struct br_error err = {0};
-    struct br_gci g;
-    MUST(br_gci_two(h, value, 3, 2, &g, &err));
-    CLOSE(g.fine.limit, 0.9, 1e-15);
-    CLOSE(g.fine.uncertainty, 0.3, 1e-15);
-    CLOSE(g.fine.index, 0.3, 1e-15);
-    CLOSE(g.fine.relative, 0.3, 1e-15);
-    assert_true(g.safety == 3 && g.order == 2 && g.sequence == BR_SEQUENCE_UNKNOWN);
-    IS_NAN(g.coarse.difference);
-    MUST(br_gci_two(h, same, 2, 2, &g, &err));
-    assert_int_equal(g.sequence, BR_SEQUENCE_CONSTANT);
-    IS_NAN(g.fine.uncertainty);
 }
 
 /* ---- least squares, once more: normal equations in long double ---- */
@@ -397,7 +306,6 @@ struct seen {
 
 static void compare(const struct named *c, double formal, struct seen *seen)
 {
-    struct br_error err = {0};
     struct br_least_squares r;
     MUST(br_least_squares(c->h, c->value, c->count, formal, &r, &err));
     const struct oracle o = oracle_of(c, formal);
@@ -454,7 +362,6 @@ TEST(test_random_sequences)
 TEST(test_exact_laws)
 {
     static const double orders[] = {0.5001, 0.8, 1, 1.3, 1.9, 2};
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
         struct named c = {6, {1, 0.7, 0.4, 0.3, 0.2, 0.15}, {0}, BR_MONOTONE_CONVERGENCE};
         for (size_t j = 0; j < c.count; j++)
@@ -476,42 +383,35 @@ TEST(test_exact_laws)
     }
 }
 
-/* Fits of the paper where the observed order is not believed. */
-TEST(test_fixed_powers)
+/* Values 7 + 2 h^order + b h^2, and which of the paper's fits they get. An order between the formal
+ * one and 0.1 more is fitted with the formal one, and reliable. */
+TEST(test_fits_of_the_paper)
 {
-    struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
-    struct br_error err = {0};
-    struct br_least_squares r;
-    for (size_t j = 0; j < c.count; j++)
-        c.value[j] = 7 + 2 * pow(c.h[j], 3);
-    MUST(br_least_squares(c.h, c.value, c.count, 2, &r, &err));
-    CLOSE(r.order, 3, 1e-7);
-    assert_true(r.fit.terms == 1 && !r.fit.observed && r.fit.power[0] == 2 && r.safety == 3);
-    MUST(br_least_squares(c.h, c.value, c.count, 4, &r, &err));
-    assert_true(r.fit.observed && r.safety == 1.25);
-    CLOSE(r.fit.limit, 7, 1e-7);
-    for (size_t j = 0; j < c.count; j++)
-        c.value[j] = 7 + 2 * c.h[j] - 1.9 * c.h[j] * c.h[j];
-    MUST(br_least_squares(c.h, c.value, c.count, 2, &r, &err));
-    assert_true(r.fit.terms == 2 && r.fit.power[0] == 1 && r.fit.power[1] == 2 && r.safety == 3);
-    CLOSE(r.fit.limit, 7, 1e-12);
-    CLOSE(r.fit.error, 2.0 / 16 - 1.9 / 256, 1e-12);
-    CLOSE(r.uncertainty, 3 * r.fit.error, 1e-12);
-}
-
-/* An order between the formal one and 0.1 more is fitted with the formal one, and reliable. */
-TEST(test_margin_of_order)
-{
-    struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
-    static const double orders[] = {2.05, 2.15}, safety[] = {1.25, 3};
-    struct br_error err = {0};
-    for (int i = 0; i < 2; i++) {
+    static const struct {
+        double order, b, formal;
+        size_t terms;
+        bool observed;
+        double power, safety;
+    } rows[] = {
+        {3, 0, 2, 1, false, 2, 3},       {3, 0, 4, 1, true, 3, 1.25},  {1, -1.9, 2, 2, false, 1, 3},
+        {2.05, 0, 2, 1, false, 2, 1.25}, {2.15, 0, 2, 1, false, 2, 3},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct named c = {5, {1, 0.5, 0.25, 0.125, 0.0625}, {0}, BR_SEQUENCE_UNKNOWN};
         struct br_least_squares r;
         for (size_t j = 0; j < c.count; j++)
-            c.value[j] = 7 + 2 * pow(c.h[j], orders[i]);
-        MUST(br_least_squares(c.h, c.value, c.count, 2, &r, &err));
-        CLOSE(r.order, orders[i], 1e-7);
-        assert_true(!r.fit.observed && r.fit.power[0] == 2 && r.safety == safety[i]);
+            c.value[j] = 7 + 2 * pow(c.h[j], rows[i].order) + rows[i].b * c.h[j] * c.h[j];
+        MUST(br_least_squares(c.h, c.value, c.count, rows[i].formal, &r, &err));
+        assert_int_equal(r.fit.terms, rows[i].terms);
+        assert_int_equal(r.fit.observed, rows[i].observed);
+        CLOSE(r.fit.power[0], rows[i].power, 1e-7);
+        CLOSE(r.safety, rows[i].safety, 0);
+        if (!rows[i].b)
+            CLOSE(r.order, rows[i].order, 1e-7);
+        if (rows[i].observed || rows[i].b)
+            CLOSE(r.fit.limit, 7, 1e-7);
+        if (rows[i].b)
+            CLOSE(r.uncertainty, 3 * (2.0 / 16 - 1.9 / 256), 1e-12);
     }
 }
 
@@ -520,7 +420,6 @@ TEST(test_logarithm)
 {
     static const double h[] = {1, 0.6, 0.3, 0.2, 0.1};
     double value[5];
-    struct br_error err = {0};
     struct br_least_squares r;
     for (int i = 0; i < 5; i++)
         value[i] = 3 + log(h[i]);
@@ -540,25 +439,29 @@ TEST(test_sequence_kinds)
         {4, {8, 4, 2, 1}, {1, 0x1p-14, 0x1p-28, 0x1p-42}, BR_SEQUENCE_ANOMALOUS}, /* order 14 */
         {4, {8, 4, 2, 1}, {3, 3, 3, 3}, BR_SEQUENCE_CONSTANT},
         {4, {8, 4, 2, 1}, {0, 0, 0, 0}, BR_SEQUENCE_CONSTANT},
+        {3, {4, 2, 1}, {1, 1.1, 1.5}, BR_MONOTONE_DIVERGENCE},
+        {3, {4, 2, 1}, {3, 3, 3}, BR_SEQUENCE_CONSTANT},
+        {3, {4, 2, 1}, {2, 3, 3}, BR_SEQUENCE_UNKNOWN},
     };
-    struct br_error err = {0};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct named *c = &cases[i];
-        struct br_least_squares r;
-        MUST(br_least_squares(c->h, c->value, c->count, 2, &r, &err));
-        if (r.sequence != c->sequence)
-            fail_msg("case %zu is %s, expected %s (p = %g)", i, br_sequence_text(r.sequence),
-                     br_sequence_text(c->sequence), r.order);
-        const bool constant = r.sequence == BR_SEQUENCE_CONSTANT;
-        assert_int_equal(isnan(r.uncertainty), constant);
-        assert_int_equal(r.fit.terms == 0, constant);
+        const bool constant = c->sequence == BR_SEQUENCE_CONSTANT;
         struct br_grid_limit limit;
         MUST(br_limit_of_values(c->h, c->value, c->count, 2, &limit, &err));
-        const bool divergent = strstr(br_sequence_text(r.sequence), "divergence");
-        assert_int_equal(limit.sequence, c->sequence);
-        assert_int_equal(isnan(limit.value.value), divergent);
-        assert_int_equal(isnan(limit.value.low), divergent || constant);
-        assert_int_equal(isnan(limit.value.high), divergent || constant);
+        if (limit.sequence != c->sequence)
+            fail_msg("case %zu is %s, expected %s (p = %g)", i, br_sequence_text(limit.sequence),
+                     br_sequence_text(c->sequence), limit.order);
+        const bool none = c->sequence == BR_SEQUENCE_UNKNOWN ||
+                          strstr(br_sequence_text(c->sequence), "divergence");
+        assert_int_equal(isnan(limit.value.value), none);
+        assert_int_equal(isnan(limit.value.low), none || constant);
+        assert_int_equal(isnan(limit.value.high), none || constant);
+        struct br_least_squares r;
+        if (c->count < 4)
+            continue;
+        MUST(br_least_squares(c->h, c->value, c->count, 2, &r, &err));
+        assert_int_equal(isnan(r.uncertainty), constant);
+        assert_int_equal(r.fit.terms == 0, constant);
     }
 }
 
@@ -567,7 +470,6 @@ TEST(test_units)
 {
     const struct named c = {5, {1, 0.6, 0.3, 0.2, 0.1}, {3.1, 2.2, 1.45, 1.3, 1.11}, 0};
     static const double scales[] = {1e-150, -1, 1e150};
-    struct br_error err = {0};
     struct br_least_squares one, other;
     MUST(br_least_squares(c.h, c.value, c.count, 2, &one, &err));
     for (int i = 0; i < 3; i++) {
@@ -590,16 +492,9 @@ TEST(test_units)
 TEST(test_limit)
 {
     static const double h[] = {1, 0.5, 0.25, 0.125}, value[] = {2.1, 1.4, 1.12, 1.03};
-    struct br_error err = {0};
     struct br_grid_limit limit;
     struct br_gci g;
     struct br_least_squares fit;
-    MUST(br_limit_of_values(h, value, 2, 2, &limit, &err));
-    MUST(br_gci_two(h, value, 2, 2, &g, &err));
-    assert_int_equal(limit.method, BR_LIMIT_TWO_GRIDS);
-    CLOSE(limit.value.value, 1.4 - 0.7 / 3, 1e-14);
-    CLOSE(limit.value.low, 1.4 - 0.7, 1e-14);
-    CLOSE(limit.value.high, 1.4 + 0.7, 1e-14);
     MUST(br_limit_of_values(h, value, 3, 2, &limit, &err));
     MUST(br_gci(h, value, 3, &g, &err));
     assert_int_equal(limit.method, BR_LIMIT_GCI);
@@ -622,7 +517,6 @@ TEST(test_limit)
 static double coverage(size_t count, double finest)
 {
     struct br_test_random random = {count};
-    struct br_error err = {0};
     int told = 0, right = 0;
     for (int i = 0; i < (br_test_quick() ? 20 : 100); i++) {
         const double a = br_test_uniform(&random, -1, 1), b = br_test_uniform(&random, -1, 1);
@@ -644,45 +538,10 @@ static double coverage(size_t count, double finest)
 /* The procedures promise 95 %, which holds only where the first term dominates. */
 TEST(test_coverage)
 {
-    for (size_t count = 2; count < 7; count++) {
+    for (size_t count = 3; count < 7; count++) {
         AT_MOST(0.93, coverage(count, 0.01));
         AT_MOST(0.5, coverage(count, 0.1));
     }
-}
-
-/* Three grids: what cannot be extrapolated is not. */
-TEST(test_refused_limits)
-{
-    static const double h[] = {4, 2, 1};
-    static const double divergent[] = {1, 1.1, 1.5}, constant[] = {3, 3, 3}, half[] = {2, 3, 3};
-    struct br_error err = {0};
-    struct br_grid_limit limit;
-    MUST(br_limit_of_values(h, divergent, 3, 2, &limit, &err));
-    assert_int_equal(limit.sequence, BR_MONOTONE_DIVERGENCE);
-    IS_NAN(limit.value.value);
-    IS_NAN(limit.value.low);
-    MUST(br_limit_of_values(h, constant, 3, 2, &limit, &err));
-    CLOSE(limit.value.value, 3, 0);
-    IS_NAN(limit.value.high);
-    MUST(br_limit_of_values(h, half, 3, 2, &limit, &err));
-    assert_int_equal(limit.sequence, BR_SEQUENCE_UNKNOWN);
-    IS_NAN(limit.value.value);
-    IS_NAN(limit.value.low);
-}
-
-TEST(test_order_of_values)
-{
-    static const double h[] = {1, 0.6, 0.3, 0.2, 0.1};
-    double value[5];
-    struct br_error err = {0};
-    struct br_estimate order;
-    for (int i = 0; i < 5; i++)
-        value[i] = 4 - 3 * pow(h[i], 1.7);
-    MUST(br_order_of_values(h, value, 5, &order, &err));
-    CLOSE(order.value, 1.7, 1e-9);
-    AT_MOST(order.high - order.low, 1e-8);
-    MUST(br_order_of_values(h, value, 3, &order, &err));
-    IS_NAN(order.value);
 }
 
 /* ---- bad input ---- */
@@ -703,48 +562,39 @@ TEST(test_bad_input)
         {{4, 3, 2, 1}, {4, 3, 2, -INFINITY}, "value[3] is -inf, expected a finite number"},
         {{4, 3, 2, 1}, {DBL_MAX, 3, 2, 1}, "value[0] is 1.79769e+308, expected a finite"},
     };
-    struct br_error err = {0};
+    static const struct {
+        size_t count;
+        double formal;
+        const char *message;
+    } few[] = {
+        {2, 2, "2 grids, expected at least"}, {4, 0.9, "the formal order is 0.9, expected 1 to 10"},
+        {4, 10.1, "expected 1 to 10"},        {4, NAN, "the formal order is nan, expected"},
+        {4, -2, "expected 1 to 10"},          {4, INFINITY, "expected 1 to 10"},
+    };
     struct br_gci g;
     struct br_least_squares r;
     struct br_grid_limit l;
-    struct br_estimate o;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         const double *h = bad[i].h, *v = bad[i].value;
         REFUSED(br_gci(h, v, 4, &g, &err), BR_BAD_INPUT, bad[i].message);
-        REFUSED(br_gci_two(h, v, 4, 2, &g, &err), BR_BAD_INPUT, bad[i].message);
         REFUSED(br_least_squares(h, v, 4, 2, &r, &err), BR_BAD_INPUT, bad[i].message);
         REFUSED(br_limit_of_values(h, v, 4, 2, &l, &err), BR_BAD_INPUT, bad[i].message);
-        REFUSED(br_order_of_values(h, v, 4, &o, &err), BR_BAD_INPUT, bad[i].message);
     }
-}
-
-TEST(test_bad_counts)
-{
     static const double h[] = {4, 2, 1, 0.5}, v[] = {3, 2, 1.5, 1.3};
-    struct br_error err = {0};
-    struct br_gci g;
-    struct br_least_squares r;
-    struct br_grid_limit l;
-    struct br_estimate o;
-    REFUSED(br_gci(h, v, 2, &g, &err), BR_BAD_INPUT, "2 grids, expected at least 3");
-    REFUSED(br_gci_two(h, v, 1, 2, &g, &err), BR_BAD_INPUT, "1 grids, expected at least 2");
-    REFUSED(br_least_squares(h, v, 3, 2, &r, &err), BR_BAD_INPUT, "3 grids, expected at least 4");
-    REFUSED(br_limit_of_values(h, v, 1, 2, &l, &err), BR_BAD_INPUT, "1 grids, expected at least 2");
-    REFUSED(br_order_of_values(h, v, 0, &o, &err), BR_BAD_INPUT, "0 grids, expected at least 2");
-    static const double formal[] = {0.9, 10.1, NAN, -2, INFINITY};
-    for (size_t i = 0; i < sizeof formal / sizeof *formal; i++) {
-        REFUSED(br_least_squares(h, v, 4, formal[i], &r, &err), BR_BAD_INPUT, "expected 1 to 10");
-        REFUSED(br_limit_of_values(h, v, 3, formal[i], &l, &err), BR_BAD_INPUT, "expected 1 to 10");
+    for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
+        const size_t count = few[i].count;
+        const double formal = few[i].formal;
+        REFUSED(br_least_squares(h, v, count, formal, &r, &err), BR_BAD_INPUT, few[i].message);
+        REFUSED(br_limit_of_values(h, v, count, formal, &l, &err), BR_BAD_INPUT, few[i].message);
     }
-    REFUSED(br_gci_two(h, v, 2, 0, &g, &err), BR_BAD_INPUT, "the formal order is 0, expected");
-    REFUSED(br_gci_two(h, v, 2, NAN, &g, &err), BR_BAD_INPUT, "the formal order is nan, expected");
+    REFUSED(br_gci(h, v, 2, &g, &err), BR_BAD_INPUT, "2 grids, expected at least 3");
 }
 
-static enum br_status attempt(const void *data, struct br_error *err)
+static enum br_status attempt(const void *data, struct br_error *why)
 {
     const struct named *c = data;
     struct br_grid_limit limit;
-    return br_limit_of_values(c->h, c->value, c->count, 2, &limit, err);
+    return br_limit_of_values(c->h, c->value, c->count, 2, &limit, why);
 }
 
 /* An oscillating sequence needs the order of its differences too. */

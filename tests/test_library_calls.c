@@ -251,17 +251,17 @@ static void same_study(const struct beamrate_study *study, struct br_study *expe
         beamrate_study_fit(study, (enum beamrate_part)part, &fit);
         assert_int_equal(fit.describes, br_joint_describes(&fits.joint));
         assert_int_equal(fit.points, fits.joint.points);
-        same_estimate(fit.p, fits.joint.p);
-        same_estimate(fit.q, fits.joint.q);
-        same_estimate(fit.c_h, fits.joint.c_h);
-        same_estimate(fit.c_k, fits.joint.c_k);
+        same_estimate(fit.p, fits.joint.order[0]);
+        same_estimate(fit.q, fits.joint.order[1]);
+        same_estimate(fit.c_h, fits.joint.c[0]);
+        same_estimate(fit.c_k, fits.joint.c[1]);
         same_estimate(fit.r, fits.joint.r);
         close_to(fit.misfit, fits.joint.misfit);
         for (size_t i = 0; i < 3; i++) {
             beamrate_study_slope(study, (enum beamrate_part)part, BEAMRATE_SPACE, i, &slope);
-            same_estimate(slope, fits.by_k[i].order);
+            same_estimate(slope, fits.slope[0][i].order);
             beamrate_study_slope(study, (enum beamrate_part)part, BEAMRATE_TIME, i, &slope);
-            same_estimate(slope, fits.by_n[i].order);
+            same_estimate(slope, fits.slope[1][i].order);
         }
         for (size_t c = 0; c < 9; c++) {
             beamrate_study_cell(study, c / 3, c % 3, &cell);

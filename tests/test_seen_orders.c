@@ -11,6 +11,8 @@
 enum { ROWS = 4, COLUMNS = 4, CELLS = ROWS * COLUMNS };
 static const size_t n[ROWS] = {25, 50, 100, 200}, steps[COLUMNS] = {100, 200, 400, 800};
 
+static struct br_error err;
+
 /* A study of errors a h^p + b k^q of a rod, and the differences of its meshes. */
 struct made {
     struct br_scene scene;
@@ -46,7 +48,6 @@ static void make(struct made *m, double a, double p, double b, double q)
 
 static void see(struct made *m)
 {
-    struct br_error err = {0};
     for (int part = 0; part < BR_PARTS; part++) {
         br_fits_clear(&m->report.fits[part]);
         MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
@@ -72,19 +73,19 @@ TEST(test_hidden_in_h)
     make(&m, 1e-3, 2, 10, 1);
     see(&m);
     const struct br_seen_order *seen = m.report.seen[BR_PART_TOTAL];
-    expect(&seen[BR_OVER_H], 2, "as in theory");
-    assert_non_null(strstr(seen[BR_OVER_H].by, "each mesh against the next at k = 0.01 s"));
-    expect(&seen[BR_OVER_K], 1, "as in theory");
-    assert_false(m.report.seen[BR_PART_BENDING][BR_OVER_H].asked);
+    expect(&seen[BR_AXIS_SPACE], 2, "as in theory");
+    assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "each mesh against the next at k = 0.01 s"));
+    expect(&seen[BR_AXIS_TIME], 1, "as in theory");
+    assert_false(m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE].asked);
     m.report.meshes = NULL;
     m.report.no_meshes = "the march failed";
     see(&m);
-    expect(&seen[BR_OVER_H], 2, "as in theory"); /* these have no other errors */
-    assert_non_null(strstr(seen[BR_OVER_H].by, "joint fit of 16 cells"));
+    expect(&seen[BR_AXIS_SPACE], 2, "as in theory"); /* these have no other errors */
+    assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "joint fit of 16 cells"));
     for (size_t i = 0; i < CELLS; i++)
         m.cell[i].error[0] *= 1 + 0.001 * (double)(i % 3);
     see(&m);
-    expect(&seen[BR_OVER_H], NAN, "not seen: the march failed");
+    expect(&seen[BR_AXIS_SPACE], NAN, "not seen: the march failed");
 }
 
 /* No order in k where space is in the way, and none of the joint fit. */
@@ -95,8 +96,8 @@ TEST(test_hidden_in_k)
     for (size_t i = 0; i < CELLS; i++)
         m.cell[i].error[0] *= 1 + 0.1 * (double)(i % 3); /* no fit describes that */
     see(&m);
-    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_H], 2, "as in theory");
-    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_K], NAN,
+    expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_SPACE], 2, "as in theory");
+    expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME], NAN,
            "hidden by the error in h, about 2.5e-04");
 }
 
@@ -108,7 +109,7 @@ static void expect_of(const double error[COLUMNS], double order, const char *rem
     for (size_t i = 0; i < CELLS; i++)
         m.cell[i].error[BR_PART_TOTAL] = error[i % COLUMNS] * (i / COLUMNS == 1 ? 1.1 : 1);
     see(&m);
-    expect(&m.report.seen[BR_PART_TOTAL][BR_OVER_K], order, remark);
+    expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME], order, remark);
 }
 
 TEST(test_remarks)
@@ -136,7 +137,7 @@ TEST(test_no_order_of_zero)
         for (size_t i = 0; i < CELLS; i++)
             m.cell[i].error[0] *= br_test_uniform(&random, 0.9, 1.1);
         see(&m);
-        for (int i = 0; i < BR_DIRECTIONS; i++) {
+        for (int i = 0; i < BR_AXES; i++) {
             const struct br_seen_order *seen = &m.report.seen[BR_PART_TOTAL][i];
             assert_true(isnan(seen->order.value) || seen->order.low > 0);
             assert_true(*seen->remark);
@@ -147,10 +148,9 @@ TEST(test_no_order_of_zero)
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
     struct br_report r = m->report;
-    struct br_error err = {0};
     MUST(br_report_see_orders(&r, &err));
-    assert_true(r.seen[part][BR_OVER_H].theory == in_h);
-    assert_true(r.seen[part][BR_OVER_K].theory == in_k);
+    assert_true(r.seen[part][BR_AXIS_SPACE].theory == in_h);
+    assert_true(r.seen[part][BR_AXIS_TIME].theory == in_k);
 }
 
 TEST(test_theory)
@@ -171,9 +171,8 @@ TEST(test_theory)
     m.study.norm = &br_norm_tip;
     expect_theory(&m, BR_PART_AXIAL, 4, 1);
     m.study.method.scheme = br_time_scheme_find("adaptive");
-    struct br_error err = {0};
     MUST(br_report_see_orders(&m.report, &err));
-    assert_false(m.report.seen[BR_PART_TOTAL][BR_OVER_K].asked); /* it has steps of its own */
+    assert_false(m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME].asked); /* it has steps of its own */
 }
 
 /* Coulomb's friction gives the order of the axial part to the bending part, Tresca's does not. */
@@ -184,7 +183,7 @@ TEST(test_bending_by_friction)
     m.scene.bending.modelled = true;
     m.scene.friction.law = BR_COULOMB;
     see(&m);
-    const struct br_seen_order *seen = &m.report.seen[BR_PART_BENDING][BR_OVER_H];
+    const struct br_seen_order *seen = &m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE];
     expect(seen, 2, "below theory: 2.00, 2.00 from size to size, as the axial part");
     m.scene.friction.law = BR_TRESCA;
     see(&m);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/fit/fit.h"
-
 #include <float.h>
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_roots.h>
 #include <math.h>
+
+#include "study/fit/grid_convergence.h"
 
 static const double safety = 1.25; /* with an observed order; Roache 1998 */
 static const double careful = 3;   /* without */
@@ -49,39 +47,21 @@ struct triple {
     const double *x, *value;
 };
 
-/* (x0^q - x1^q)/(x1^q - x2^q) - (v0 - v1)/(v1 - v2), which is 0 for v = v* + C x^q */
-static double mismatch(double q, void *self)
-{
-    const struct triple *t = self;
-    return (pow(t->x[0] / t->x[1], q) - 1) / (1 - pow(t->x[2] / t->x[1], q)) -
-           (t->value[0] - t->value[1]) / (t->value[1] - t->value[2]);
-}
-
 /* v* for a given order, from the last two values. */
 static double limit(const struct triple *t, double order)
 {
     return t->value[2] + (t->value[2] - t->value[1]) / (pow(t->x[1] / t->x[2], order) - 1);
 }
 
-/* The order that three values show; NaN where they show none. */
+/* The order that three values show; NaN where they show none that could be believed. */
 static double observed_order(const struct triple *t)
 {
-    double low = 0.2, high = 12, order = NAN;
-    gsl_function f = {mismatch, (void *)t};
-    if (!(mismatch(low, (void *)t) < 0 && mismatch(high, (void *)t) > 0))
+    const double growth = (t->value[0] - t->value[1]) / (t->value[1] - t->value[2]);
+    if (!(growth > 0 && isfinite(growth)))
         return NAN;
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (solver && gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS)
-        for (int i = 0; i < 100; i++) {
-            gsl_root_fsolver_iterate(solver);
-            order = gsl_root_fsolver_root(solver);
-            low = gsl_root_fsolver_x_lower(solver);
-            high = gsl_root_fsolver_x_upper(solver);
-            if (gsl_root_test_interval(low, high, 0, 1e-12) == GSL_SUCCESS)
-                break;
-        }
-    gsl_root_fsolver_free(solver);
-    return order;
+    const double order =
+        br_order_of_differences(log(t->x[1] / t->x[2]), log(t->x[0] / t->x[1]), log(growth), 1);
+    return order > 0.2 && order < 12 ? order : NAN;
 }
 
 /* Values on a line of the grid, from coarse to fine. */
@@ -145,7 +125,6 @@ struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind
     double *h = br_allocate(2 * n_count + k_count, sizeof *h);
     if (!h)
         return around(NAN, NAN);
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
     double *value = h + n_count, *k = value + n_count, half = 0;
     for (size_t j = 0; j < k_count; j++)
         k[j] = 1 / (double)tips->steps[j];
@@ -159,7 +138,6 @@ struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind
     const double formal = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4;
     const struct line line = {n_count, h, value, formal};
     struct br_estimate e = extrapolate_line(&line);
-    gsl_set_error_handler(handler);
     free(h);
     e.low -= half;
     e.high += half;

@@ -9,6 +9,23 @@
 
 const double br_flag_margin = 3;
 
+const char *const br_axis_letters[] = {"h", "k"};
+
+size_t br_axis_count(const struct br_study *s, int axis)
+{
+    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
+}
+
+double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
+{
+    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
+}
+
+size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
+{
+    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
+}
+
 bool br_order_determined(const struct br_estimate *order)
 {
     return order->high - order->low <= 1 && order->low > 0; /* false for NaN */
@@ -77,16 +94,6 @@ bool br_joint_describes(const struct br_joint_fit *fit)
     return fit->converged && fit->misfit <= 0.02;
 }
 
-static double mesh_of(const struct br_study *s, const struct br_cell *c)
-{
-    return br_mesh_size(s->scene, c->at.n);
-}
-
-static double step_of(const struct br_study *s, const struct br_cell *c)
-{
-    return br_time_step(s->scene, c->at.steps);
-}
-
 static bool usable(const struct br_cell *c, enum br_part part)
 {
     return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
@@ -104,31 +111,27 @@ static struct br_slope slope_of(const double *x, const double *y, size_t count)
     return slope;
 }
 
-/* Slopes along one direction of the grid: over k at each n, or over h at each k. */
-static enum br_status fit_lines(const struct br_study *s, enum br_part part, bool over_k,
+/* Slopes along one axis of the grid: over h at each k, or over k at each n. */
+static enum br_status fit_lines(const struct br_study *s, enum br_part part, int axis,
                                 struct br_slope **slopes, struct br_error *err)
 {
-    const size_t outer = over_k ? s->n_count : s->k_count, inner = over_k ? s->k_count : s->n_count;
-    double *x = br_allocate(2 * inner, sizeof *x);
-    *slopes = br_allocate(outer, sizeof **slopes);
-    if (!x || !*slopes) {
-        free(x);
-        return br_no_memory(err, "the fits");
-    }
-    double *y = x + inner;
-    for (size_t i = 0; i < outer; i++) {
+    const size_t lines = br_axis_count(s, 1 - axis), most = br_axis_count(s, axis);
+    double *x = br_allocate(2 * most, sizeof *x), *y = x + most;
+    *slopes = br_allocate(lines, sizeof **slopes);
+    for (size_t i = 0; i < lines && x && *slopes; i++) {
         size_t count = 0;
-        for (size_t j = 0; j < inner; j++) {
-            const struct br_cell *c = over_k ? br_study_cell(s, i, j) : br_study_cell(s, j, i);
+        for (size_t j = 0; j < most; j++) {
+            const struct br_cell *c = &s->cell[br_axis_cell(s, axis, j, i)];
             if (!usable(c, part))
                 continue;
-            x[count] = log(over_k ? step_of(s, c) : mesh_of(s, c));
+            x[count] = log(br_axis_size(s->scene, axis, c->at));
             y[count++] = log(c->error[part]);
         }
         (*slopes)[i] = slope_of(x, y, count);
     }
+    const bool known = x && *slopes;
     free(x);
-    return BR_OK;
+    return known ? BR_OK : br_no_memory(err, "the fits");
 }
 
 static enum br_status fit_joint(const struct br_study *s, enum br_part part,
@@ -138,15 +141,16 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
     if (!o)
         return br_no_memory(err, "the fits");
     size_t count = 0;
-    for (size_t i = 0; i < br_study_cells(s); i++)
-        if (usable(&s->cell[i], part))
-            o[count++] = (struct br_observation){
-                .h = mesh_of(s, &s->cell[i]),
-                .k = step_of(s, &s->cell[i]),
-                .h_ref = br_mesh_size(s->scene, s->cell[i].against.n),
-                .k_ref = br_time_step(s->scene, s->cell[i].against.steps),
-                .error = s->cell[i].error[part],
-            };
+    for (size_t i = 0; i < br_study_cells(s); i++) {
+        const struct br_cell *c = &s->cell[i];
+        if (!usable(c, part))
+            continue;
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            o[count].x[axis] = br_axis_size(s->scene, axis, c->at);
+            o[count].ref[axis] = br_axis_size(s->scene, axis, c->against);
+        }
+        o[count++].error = c->error[part];
+    }
     const enum br_status status = br_joint_fit_solve(o, count, fit, err);
     free(o);
     return status;
@@ -164,7 +168,8 @@ static double reference_error(const struct br_study *s, enum br_part part,
         return told;
     if (!br_joint_describes(fit))
         return NAN;
-    return br_joint_model(fit, br_reference_mesh(s), br_reference_step(s), 0, 0);
+    return br_joint_model(fit, (double[]){br_reference_mesh(s), br_reference_step(s)},
+                          (double[]){0, 0});
 }
 
 static bool in_part(enum br_part part, enum br_field_kind kind)
@@ -181,8 +186,8 @@ static double round_off(const struct br_study *s, const struct br_cell *c, enum 
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool modelled =
             kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
-        struct br_field field =
-            br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n, step_of(s, c));
+        struct br_field field = br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n,
+                                                  br_time_step(s->scene, c->at.steps));
         field.degree = method->axial_degree;
         if (modelled && in_part(part, (enum br_field_kind)kind))
             relative = fmax(relative, br_method_round_off(method, &field));
@@ -228,10 +233,8 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
         if (!(own <= fits->reference_error) && isfinite(own))
             fits->reference_error = own;
     } while (!status && set_flags(s, part, fits->reference_error) != 0);
-    if (!status)
-        status = fit_lines(s, part, true, &fits->by_n, err);
-    if (!status)
-        status = fit_lines(s, part, false, &fits->by_k, err);
+    for (int axis = 0; axis < BR_AXES && !status; axis++)
+        status = fit_lines(s, part, axis, &fits->slope[axis], err);
     return status;
 }
 
@@ -244,8 +247,8 @@ void br_flag_beside(struct br_study *s)
 
 void br_fits_clear(struct br_fits *fits)
 {
-    free(fits->by_n);
-    free(fits->by_k);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        free(fits->slope[axis]);
     *fits = (struct br_fits){0};
 }
 

@@ -5,6 +5,16 @@
 
 #include "study/grid/study.h"
 
+/* What is refined. */
+enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
+extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
+
+/* How many meshes, or time steps, a study has; the size of one, m or s (0: the continuous problem);
+ * and the place of a cell by its places along an axis and along the other one. */
+size_t br_axis_count(const struct br_study *study, int axis);
+double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at);
+size_t br_axis_cell(const struct br_study *study, int axis, size_t along, size_t at);
+
 /* A number with its 95 % interval; NaN where it could not be had. */
 struct br_estimate {
     double value, low, high;
@@ -41,20 +51,20 @@ struct br_slope {
  * deterministic, not noise: the intervals come from leaving out whole rows and
  * columns of the grid (joint_fit.c). */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
+bool br_joint_has(enum br_joint_kind kind, int axis); /* an error of that axis */
 
 struct br_joint_fit {
     enum br_joint_kind kind;
-    struct br_estimate c_h, p, c_k, q, r;
-    double misfit;    /* root mean square of log(model/error) */
-    double worst;     /* its largest magnitude */
-    double r_squared; /* of the logarithms */
+    struct br_estimate c[BR_AXES], order[BR_AXES], r; /* C_h, C_k; p, q; r */
+    double misfit;                                    /* root mean square of log(model/error) */
+    double worst;                                     /* its largest magnitude */
+    double r_squared;                                 /* of the logarithms */
     size_t points, freedom;
     bool converged; /* false: the rest is NaN */
 };
 
 struct br_fits {
-    struct br_slope *by_n; /* n_count: over k at fixed n */
-    struct br_slope *by_k; /* k_count: over h at fixed k */
+    struct br_slope *slope[BR_AXES]; /* over h at each k, k_count; over k at each n, n_count */
     struct br_joint_fit joint;
     double reference_error; /* the reference's own, by the joint model, m^(3/2); NaN where
                                the model does not describe the errors */
@@ -79,16 +89,16 @@ void br_fits_clear(struct br_fits *fits);
  * reference's own error or the predicted round-off. */
 extern const double br_flag_margin;
 
-/* The model's error at h and k, m^(3/2). */
-double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
-                      double k_ref);
+/* The model's error at h and k, m^(3/2), as they are in an observation. */
+double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
+                      const double ref[BR_AXES]);
 
 /* ---- the joint model, fitted to the logarithms of the errors ---- */
 
 /* One cell as the fit sees it. */
 struct br_observation {
-    double h, k;         /* m, s */
-    double h_ref, k_ref; /* of what it was compared with, m, s; 0: the continuous problem */
+    double x[BR_AXES];   /* h and k, m and s */
+    double ref[BR_AXES]; /* of what it was compared with; 0: the continuous problem */
     double error;        /* > 0 */
 };
 

@@ -7,7 +7,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
 #include <gsl/gsl_multifit.h>
-#include <gsl/gsl_roots.h>
 #include <math.h>
 
 static const double safety_observed = 1.25; /* with an observed order */
@@ -42,12 +41,11 @@ static enum br_status check_line(const double *h, const double *value, size_t co
     return BR_OK;
 }
 
-static enum br_status check_formal(double formal, double least, double most, struct br_error *err)
+static enum br_status check_formal(double formal, struct br_error *err)
 {
-    if (!(formal >= least && formal <= most))
-        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected %g to %g", formal,
-                       least, most);
-    return BR_OK;
+    return formal >= 1 && formal <= 10
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
 }
 
 /* What may be round-off in the difference of two values, as in extrapolation.c. */
@@ -77,39 +75,27 @@ static double ln_gain(double x, int s)
 /* (3a) and (3b): p ln r21 - ln |e32/e21| - q(p), q = ln((r21^p - s)/(r32^p - s)). It increases
  * with p from -infinity to infinity. Celik et al. take the magnitude of the right side; without
  * it, divergence has a negative order. */
-static double order_mismatch(double p, void *self)
+static double order_mismatch(const struct triplet *t, double p)
 {
-    const struct triplet *t = self;
     double q = ln_gain(p * t->ln21, t->s) - ln_gain(p * t->ln32, t->s);
     if (p == 0)
         q = t->s > 0 ? log(t->ln21 / t->ln32) : 0;
     return p * t->ln21 - t->ln_growth - q;
 }
 
-/* The root of (3). The paper's iteration p <- (ln |e32/e21| + q(p))/ln r21 has the same fixed
- * point, but runs away from it where r32 is greater than about r21^2: so the root is bracketed. */
-static enum br_status find_order(struct triplet *t, double *order, struct br_error *err)
+double br_order_of_differences(double ln_fine, double ln_coarse, double ln_growth, int s)
 {
+    const struct triplet t = {ln_fine, ln_coarse, ln_growth, s};
     double low = -1, high = 1;
-    while (order_mismatch(low, t) > 0)
+    while (order_mismatch(&t, low) > 0)
         low *= 2;
-    while (order_mismatch(high, t) < 0)
+    while (order_mismatch(&t, high) < 0)
         high *= 2;
-    gsl_function f = {order_mismatch, t};
-    gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
-    if (!solver)
-        return br_no_memory(err, "the apparent order");
-    *order = NAN;
-    if (gsl_root_fsolver_set(solver, &f, low, high) == GSL_SUCCESS)
-        for (int i = 0; i < 200 && gsl_root_fsolver_iterate(solver) == GSL_SUCCESS; i++) {
-            *order = gsl_root_fsolver_root(solver);
-            if (gsl_root_test_interval(gsl_root_fsolver_x_lower(solver),
-                                       gsl_root_fsolver_x_upper(solver), 1e-14,
-                                       1e-14) == GSL_SUCCESS)
-                break;
-        }
-    gsl_root_fsolver_free(solver);
-    return BR_OK;
+    for (int i = 0; i < 200; i++) {
+        const double p = (low + high) / 2;
+        *(order_mismatch(&t, p) < 0 ? &low : &high) = p;
+    }
+    return (low + high) / 2;
 }
 
 static enum br_sequence sequence_of(const struct triplet *t)
@@ -130,11 +116,11 @@ static double relative_to(double difference, double value)
 }
 
 /* h[0], value[0]: the coarser grid; h[1], value[1]: the finer one. order: NaN if there is none. */
-static struct br_gci_pair pair_of(const double *h, const double *value, double order, double safety)
+static struct br_gci_pair pair_of(const double *h, const double *value, double order)
 {
     const double ratio = h[0] / h[1], fine = value[1];
     const double step = (fine - value[0]) / expm1(order * log(ratio)); /* e/(r^p - 1) */
-    const double limit = fine + step, uncertainty = safety * fabs(step);
+    const double limit = fine + step, uncertainty = safety_observed * fabs(step);
     return (struct br_gci_pair){
         .ratio = ratio,
         .difference = fabs(fine - value[0]),
@@ -147,62 +133,38 @@ static struct br_gci_pair pair_of(const double *h, const double *value, double o
 }
 
 /* Sets kind and order from the three grids h[0] to h[2]. */
-static enum br_status judge_triplet(const double *h, const double *value, struct br_gci *gci,
-                                    struct br_error *err)
+static void judge_triplet(const double *h, const double *value, struct br_gci *gci)
 {
     const double e21 = value[1] - value[2], e32 = value[0] - value[1];
     const double zero = round_off_of(value, 3);
     if (fabs(e21) <= zero || fabs(e32) <= zero) {
         const bool both = fabs(e21) <= zero && fabs(e32) <= zero;
         gci->sequence = both ? BR_SEQUENCE_CONSTANT : BR_SEQUENCE_UNKNOWN;
-        return BR_OK;
+        return;
     }
-    struct triplet t = {
+    const struct triplet t = {
         .ln21 = log(h[1] / h[2]),
         .ln32 = log(h[0] / h[1]),
         .ln_growth = log(fabs(e32)) - log(fabs(e21)),
         .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
     };
     gci->sequence = sequence_of(&t);
-    return find_order(&t, &gci->order, err);
+    gci->order = br_order_of_differences(t.ln21, t.ln32, t.ln_growth, t.s);
 }
 
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err)
 {
-    *gci = (struct br_gci){.order = NAN, .safety = safety_observed};
-    enum br_status status = check_line(h, value, count, 3, err);
-    if (status)
-        return status;
+    *gci = (struct br_gci){.order = NAN};
+    if (check_line(h, value, count, 3, err))
+        return err->status;
     h += count - 3;
     value += count - 3;
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
-    status = judge_triplet(h, value, gci, err);
-    gsl_set_error_handler(handler);
+    judge_triplet(h, value, gci);
     const double order = convergent(gci->sequence) ? gci->order : NAN;
-    gci->fine = pair_of(h + 1, value + 1, order, gci->safety);
-    gci->coarse = pair_of(h, value, order, gci->safety);
+    gci->fine = pair_of(h + 1, value + 1, order);
+    gci->coarse = pair_of(h, value, order);
     gci->asymptotic = gci->coarse.index / (pow(gci->fine.ratio, order) * gci->fine.index);
-    return status;
-}
-
-enum br_status br_gci_two(const double *h, const double *value, size_t count, double formal,
-                          struct br_gci *gci, struct br_error *err)
-{
-    *gci = (struct br_gci){.order = NAN, .safety = safety_else};
-    enum br_status status = check_line(h, value, count, 2, err);
-    if (!status)
-        status = check_formal(formal, DBL_MIN, DBL_MAX, err);
-    if (status)
-        return status;
-    h += count - 2;
-    value += count - 2;
-    const bool constant = fabs(value[0] - value[1]) <= round_off_of(value, 2);
-    gci->sequence = constant ? BR_SEQUENCE_CONSTANT : BR_SEQUENCE_UNKNOWN;
-    gci->order = constant ? NAN : formal;
-    gci->fine = pair_of(h, value, gci->order, gci->safety);
-    gci->coarse = (struct br_gci_pair){NAN, NAN, NAN, NAN, NAN, NAN, NAN};
-    gci->asymptotic = NAN;
     return BR_OK;
 }
 
@@ -402,6 +364,21 @@ static void find_uncertainty(size_t count, double formal, struct br_least_square
                             : 3 * sigma / r->range * (error + sigma + misfit); /* (21) */
 }
 
+/* The observed order with its interval from the differences of successive values (br_order_fit); it
+ * needs four grids. */
+static enum br_status order_of_values(const double *h, const double *value, size_t count,
+                                      struct br_estimate *order, struct br_error *err)
+{
+    struct br_order_point *point = br_allocate(count - 1, sizeof *point);
+    if (!point)
+        return br_no_memory(err, "the order");
+    for (size_t i = 0; i + 1 < count; i++)
+        point[i] = (struct br_order_point){h[i], h[i + 1], fabs(value[i] - value[i + 1])};
+    const enum br_status status = br_order_fit(point, count - 1, order, err);
+    free(point);
+    return status;
+}
+
 static enum br_status name_sequence(const double *h, const double *value, size_t count,
                                     struct br_least_squares *r, struct br_error *err)
 {
@@ -417,7 +394,7 @@ static enum br_status name_sequence(const double *h, const double *value, size_t
     if (changes < count / 3)
         return BR_OK;
     struct br_estimate order;
-    const enum br_status status = br_order_of_values(h, value, count, &order, err);
+    const enum br_status status = order_of_values(h, value, count, &order, err);
     if (order.value > 0)
         r->sequence = BR_OSCILLATORY_CONVERGENCE;
     if (order.value <= 0)
@@ -443,7 +420,7 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
     *result = (struct br_least_squares){BR_SEQUENCE_UNKNOWN, NAN, none, NAN, NAN, NAN};
     enum br_status status = check_line(h, value, count, 4, err);
     if (!status)
-        status = check_formal(formal, 1, 10, err);
+        status = check_formal(formal, err);
     if (status)
         return status;
     double least = value[0], most = value[0];
@@ -472,58 +449,38 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
 
 /* ---- either ---- */
 
-enum br_status br_order_of_values(const double *h, const double *value, size_t count,
-                                  struct br_estimate *order, struct br_error *err)
-{
-    *order = (struct br_estimate){NAN, NAN, NAN};
-    enum br_status status = check_line(h, value, count, 2, err);
-    if (status)
-        return status;
-    struct br_order_point *point = br_allocate(count - 1, sizeof *point);
-    if (!point)
-        return br_no_memory(err, "the order");
-    for (size_t i = 0; i + 1 < count; i++)
-        point[i] = (struct br_order_point){h[i], h[i + 1], fabs(value[i] - value[i + 1])};
-    status = br_order_fit(point, count - 1, order, err);
-    free(point);
-    return status;
-}
-
-/* The limit with the uncertainty around the finest value. */
-static struct br_estimate around_finest(double limit, double finest, double uncertainty)
-{
-    return (struct br_estimate){limit, finest - uncertainty, finest + uncertainty};
-}
-
 enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
                                   struct br_grid_limit *limit, struct br_error *err)
 {
     *limit = (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
-    enum br_status status = check_line(h, value, count, 2, err);
-    if (!status)
-        status = check_formal(formal, 1, 10, err);
-    if (status)
-        return status;
-    const double finest = value[count - 1];
+    if (check_line(h, value, count, 3, err) || check_formal(formal, err))
+        return err->status;
+    double uncertainty;
     if (count > 3) {
         struct br_least_squares fit;
-        status = br_least_squares(h, value, count, formal, &fit, err);
+        if (br_least_squares(h, value, count, formal, &fit, err))
+            return err->status;
         limit->method = BR_LIMIT_LEAST_SQUARES;
         limit->sequence = fit.sequence;
         limit->order = fit.order;
-        limit->value = around_finest(fit.fit.limit, finest, fit.uncertainty);
+        limit->value.value = fit.fit.limit;
+        uncertainty = fit.uncertainty;
     } else {
         struct br_gci gci;
-        status = count == 3 ? br_gci(h, value, count, &gci, err)
-                            : br_gci_two(h, value, count, formal, &gci, err);
-        limit->method = count == 3 ? BR_LIMIT_GCI : BR_LIMIT_TWO_GRIDS;
+        if (br_gci(h, value, count, &gci, err))
+            return err->status;
+        limit->method = BR_LIMIT_GCI;
         limit->sequence = gci.sequence;
         limit->order = gci.order;
-        limit->value = around_finest(gci.fine.limit, finest, gci.fine.uncertainty);
+        limit->value.value = gci.fine.limit;
+        uncertainty = gci.fine.uncertainty;
     }
+    const double finest = value[count - 1];
+    limit->value.low = finest - uncertainty;
+    limit->value.high = finest + uncertainty;
     if (limit->sequence == BR_MONOTONE_DIVERGENCE || limit->sequence == BR_OSCILLATORY_DIVERGENCE)
         limit->value = (struct br_estimate){NAN, NAN, NAN};
     if (limit->sequence == BR_SEQUENCE_CONSTANT)
         limit->value = (struct br_estimate){finest, NAN, NAN};
-    return status;
+    return BR_OK;
 }

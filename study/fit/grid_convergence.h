@@ -43,7 +43,7 @@ struct br_gci_pair {
     double ratio;                 /* r = h_coarse/h_fine > 1 */
     double difference;            /* |phi_fine - phi_coarse|, in the unit of the values */
     double limit;                 /* phi_ext, equation (4) */
-    double uncertainty;           /* safety |phi_fine - phi_coarse| / (r^p - 1), in that unit */
+    double uncertainty;           /* 1.25 |phi_fine - phi_coarse| / (r^p - 1), in that unit */
     double relative;              /* e_a, (5), of phi_fine; relative ones are NaN beside 0 */
     double relative_extrapolated; /* e_ext, (6), of phi_ext */
     double index;                 /* GCI, (7): the uncertainty relative to phi_fine */
@@ -58,8 +58,7 @@ struct br_gci_pair {
  * Differences within round-off are zero: both, the sequence is constant; one, it is not known. */
 struct br_gci {
     enum br_sequence sequence;
-    double order;  /* p, (3): negative if divergent, given if there are two grids */
-    double safety; /* 1.25 with an observed order, 3 with two grids (V&V 20) */
+    double order;                    /* p, (3): negative if divergent */
     struct br_gci_pair fine, coarse; /* 21 and 32; without convergence only ratio, difference and
                                         relative are known */
     double asymptotic; /* GCI_32/(r21^p GCI_21), near 1 in the asymptotic range. With monotone
@@ -72,10 +71,11 @@ struct br_gci {
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err);
 
-/* From the two finest grids and the formal order > 0; count >= 2. Nothing shows whether the values
- * converge. Fails with BR_BAD_INPUT. */
-enum br_status br_gci_two(const double *h, const double *value, size_t count, double formal,
-                          struct br_gci *gci, struct br_error *err);
+/* The order p that two differences of values on three grids show, e = C (h^p - h_finer^p): the root
+ * of (3), with the logarithms of both refinement ratios and of |e32/e21|, and s = sign(e32/e21).
+ * Celik et al. iterate p <- (ln |e32/e21| + q(p))/ln r21, which has the same fixed point, but runs
+ * away from it where r32 is greater than about r21^2: so the root is bracketed. */
+double br_order_of_differences(double ln_r21, double ln_r32, double ln_growth, int s);
 
 /* ---- least squares ---- */
 
@@ -114,27 +114,22 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
 
 /* ---- either ---- */
 
-/* The observed order with its interval from the differences of successive values (br_order_fit); it
- * needs four grids. Fails with BR_BAD_INPUT, BR_NO_MEMORY. */
-enum br_status br_order_of_values(const double *h, const double *value, size_t count,
-                                  struct br_estimate *order, struct br_error *err);
-
-enum br_limit_method { BR_LIMIT_TWO_GRIDS, BR_LIMIT_GCI, BR_LIMIT_LEAST_SQUARES };
+enum br_limit_method { BR_LIMIT_GCI, BR_LIMIT_LEAST_SQUARES };
 
 struct br_grid_limit {
     struct br_estimate value; /* low, high: the finest value -+ its uncertainty, so they do not lie
                                  symmetrically around the limit */
-    double order;             /* p; the formal one for two grids */
+    double order;             /* p */
     enum br_limit_method method;
     enum br_sequence sequence;
 };
 
 /* The limit with its interval: by least squares for four grids or more, by the grid convergence
- * index for three, or two and the formal order. NaN for divergence, and where a single difference
- * is zero. A constant sequence has its value as limit, but no interval: the procedures do not
- * apply. count >= 2; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY.
- * The interval is an estimate, not a bound. Of random cubics in h, it held the limit in 95 to 100 %
- * at h = 0.01, where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
+ * index for three. NaN for divergence, and where a single difference is zero. A constant sequence
+ * has its value as limit, but no interval: the procedures do not apply. count >= 3; formal as in
+ * br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is an estimate, not a
+ * bound. Of random cubics in h, it held the limit in 95 to 100 % at h = 0.01, where the linear term
+ * dominates, but in 60 to 84 % at h = 0.1, where it does not. */
 enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
                                   struct br_grid_limit *limit, struct br_error *err);
 

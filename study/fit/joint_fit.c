@@ -6,18 +6,25 @@
 #include <gsl/gsl_multifit_nlinear.h>
 #include <math.h>
 
-/* The unknowns are log C_h, p, log C_k, q and theta with r = sin(theta). */
-enum { LOG_C_H, P, LOG_C_K, Q, THETA, UNKNOWNS };
+/* The unknowns are log C and the order of each axis, and theta with r = sin(theta). */
+enum { THETA = 2 * BR_AXES, UNKNOWNS };
+#define LOG_C(axis) (2 * (axis))
+#define ORDER(axis) (2 * (axis) + 1)
 
 /* Which of the unknowns a kind of model has, and how many. */
 static const struct {
     int unknown[UNKNOWNS];
     size_t count;
 } kinds[] = {
-    [BR_JOINT_BOTH] = {{LOG_C_H, P, LOG_C_K, Q, THETA}, 5},
-    [BR_JOINT_TIME] = {{LOG_C_K, Q}, 2},
-    [BR_JOINT_SPACE] = {{LOG_C_H, P}, 2},
+    [BR_JOINT_BOTH] = {{0, 1, 2, 3, THETA}, UNKNOWNS},
+    [BR_JOINT_TIME] = {{LOG_C(BR_AXIS_TIME), ORDER(BR_AXIS_TIME)}, 2},
+    [BR_JOINT_SPACE] = {{LOG_C(BR_AXIS_SPACE), ORDER(BR_AXIS_SPACE)}, 2},
 };
+
+bool br_joint_has(enum br_joint_kind kind, int axis)
+{
+    return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
+}
 
 /* The observations are in units of their own, so that no result depends on the units of a scene:
  * the largest h, the largest k and the largest error are one. */
@@ -25,7 +32,7 @@ struct problem {
     const struct br_observation *observation;
     size_t count;
     enum br_joint_kind kind;
-    double log_h, log_k, log_error; /* logarithms of those units in m, s, m^(3/2) */
+    double log_unit[BR_AXES], log_error; /* logarithms of those units in m, s, m^(3/2) */
 };
 
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
@@ -65,11 +72,12 @@ static void spread(const struct problem *problem, const gsl_vector *v, double fu
 
 /* The two errors; that which the model has not is 0. */
 static void find_parts(const struct problem *problem, const double full[UNKNOWNS],
-                       const struct br_observation *o, double *a, double *b)
+                       const struct br_observation *o, double part[BR_AXES])
 {
-    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
-    *a = space ? signed_error(full[LOG_C_H], full[P], o->h, o->h_ref) : 0;
-    *b = time ? signed_error(full[LOG_C_K], full[Q], o->k, o->k_ref) : 0;
+    for (int a = 0; a < BR_AXES; a++)
+        part[a] = br_joint_has(problem->kind, a)
+                      ? signed_error(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a])
+                      : 0;
 }
 
 static const double least_model = 1e-300;
@@ -83,9 +91,9 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double a, b;
-        find_parts(problem, full, o, &a, &b);
-        const double m = combine(a, b, r);
+        double part[BR_AXES];
+        find_parts(problem, full, o, part);
+        const double m = combine(part[0], part[1], r);
         const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
@@ -104,17 +112,15 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     const double r = sin(full[THETA]), slope = cos(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double a, b;
-        find_parts(problem, full, o, &a, &b);
-        const double m = combine(a, b, r), square = m * m;
-        const double by_a = (a + r * b) / square, by_b = (b + r * a) / square;
-        const double rate[UNKNOWNS] = {
-            [LOG_C_H] = by_a * a,
-            [P] = by_a * signed_rate(full[LOG_C_H], full[P], o->h, o->h_ref),
-            [LOG_C_K] = by_b * b,
-            [Q] = by_b * signed_rate(full[LOG_C_K], full[Q], o->k, o->k_ref),
-            [THETA] = a * b / square * slope,
-        };
+        double part[BR_AXES], rate[UNKNOWNS];
+        find_parts(problem, full, o, part);
+        const double m = combine(part[0], part[1], r), square = m * m;
+        for (int a = 0; a < BR_AXES; a++) {
+            const double by = (part[a] + r * part[1 - a]) / square;
+            rate[LOG_C(a)] = by * part[a];
+            rate[ORDER(a)] = by * signed_rate(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a]);
+        }
+        rate[THETA] = part[0] * part[1] / square * slope;
         for (size_t j = 0; j < kinds[problem->kind].count; j++) {
             const double value = square > 0 ? rate[kinds[problem->kind].unknown[j]] : 0;
             if (!isfinite(value))
@@ -128,14 +134,14 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
 /* What the logarithm of a constant in m and s lacks per unit of its order, else 0. */
 static double log_unit(const struct problem *problem, int unknown)
 {
-    return unknown == LOG_C_H ? problem->log_h : unknown == LOG_C_K ? problem->log_k : 0;
+    return unknown == THETA || unknown % 2 ? 0 : problem->log_unit[unknown / 2];
 }
 
 /* What is to be added to an unknown of the scene's units in the problem's own; a constant stands
  * before its order. */
 static double shift(const struct problem *problem, int unknown, const double full[UNKNOWNS])
 {
-    if (unknown != LOG_C_H && unknown != LOG_C_K)
+    if (unknown == THETA || unknown % 2)
         return 0;
     return full[unknown + 1] * log_unit(problem, unknown) - problem->log_error;
 }
@@ -143,19 +149,16 @@ static double shift(const struct problem *problem, int unknown, const double ful
 /* The least errors at the largest h and k, which are one, stand for the two scales. */
 static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
 {
-    double at_coarse_h = INFINITY, at_coarse_k = INFINITY;
-    for (size_t i = 0; i < problem->count; i++) {
-        const struct br_observation *o = &problem->observation[i];
-        if (o->h == 1)
-            at_coarse_h = fmin(at_coarse_h, o->error);
-        if (o->k == 1)
-            at_coarse_k = fmin(at_coarse_k, o->error);
-    }
-    full[P] = p;
-    full[Q] = 1;
+    full[ORDER(BR_AXIS_SPACE)] = p;
+    full[ORDER(BR_AXIS_TIME)] = 1;
     full[THETA] = asin(r);
-    full[LOG_C_H] = log(at_coarse_h) - shift(problem, LOG_C_H, full);
-    full[LOG_C_K] = log(at_coarse_k) - shift(problem, LOG_C_K, full);
+    for (int a = 0; a < BR_AXES; a++) {
+        double at_coarse = INFINITY;
+        for (size_t i = 0; i < problem->count; i++)
+            if (problem->observation[i].x[a] == 1)
+                at_coarse = fmin(at_coarse, problem->observation[i].error);
+        full[LOG_C(a)] = log(at_coarse) - shift(problem, LOG_C(a), full);
+    }
 }
 
 /* One start of one kind. */
@@ -255,47 +258,40 @@ static struct attempt best_attempt(const struct problem *problem)
 
 /* ---- intervals ---- */
 
-static double coordinate(const struct br_observation *o, bool over_h)
-{
-    return over_h ? o->h : o->k;
-}
-
 /* Whether observation i is the first with its h (or k). */
-static bool is_first(const struct problem *problem, size_t i, bool over_h)
+static bool is_first(const struct problem *problem, size_t i, int axis)
 {
     for (size_t j = 0; j < i; j++)
-        if (coordinate(&problem->observation[j], over_h) ==
-            coordinate(&problem->observation[i], over_h))
+        if (problem->observation[j].x[axis] == problem->observation[i].x[axis])
             return false;
     return true;
 }
 
 /* Different values of h (or k) among the observations. */
-static size_t distinct(const struct problem *problem, bool over_h)
+static size_t distinct(const struct problem *problem, int axis)
 {
     size_t count = 0;
     for (size_t i = 0; i < problem->count; i++)
-        count += is_first(problem, i, over_h);
+        count += is_first(problem, i, axis);
     return count;
 }
 
 /* Cells that share h or k are no independent trials: what is left of the errors is
  * deterministic. So the intervals come from leaving out one whole line of the grid
  * after the other (delete-a-group jackknife, Efron 1982), where that is wider. */
-static void widen_by_jackknife(const struct problem *problem, struct attempt *a, bool over_h,
+static void widen_by_jackknife(const struct problem *problem, struct attempt *a, int axis,
                                struct br_observation *workspace)
 {
-    const double groups = (double)distinct(problem, over_h);
+    const double groups = (double)distinct(problem, axis);
     double sum[UNKNOWNS] = {0}, squares[UNKNOWNS] = {0};
     for (size_t i = 0; i < problem->count; i++) {
-        if (!is_first(problem, i, over_h))
+        if (!is_first(problem, i, axis))
             continue;
         struct problem rest = *problem;
         rest.observation = workspace;
         rest.count = 0;
         for (size_t j = 0; j < problem->count; j++)
-            if (coordinate(&problem->observation[j], over_h) !=
-                coordinate(&problem->observation[i], over_h))
+            if (problem->observation[j].x[axis] != problem->observation[i].x[axis])
                 workspace[rest.count++] = problem->observation[j];
         struct attempt without = {.sum = INFINITY};
         if (rest.count > kinds[problem->kind].count)
@@ -326,11 +322,6 @@ double br_akaike(double sum, size_t count, size_t unknowns)
     return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
 }
 
-static struct br_estimate exponential(struct br_estimate e)
-{
-    return (struct br_estimate){exp(e.value), exp(e.low), exp(e.high)};
-}
-
 /* r = sin(theta), its interval by the slope of the sine, within [-1, 1]. */
 static struct br_estimate correlation(double theta, double deviation, size_t freedom)
 {
@@ -349,13 +340,15 @@ static void describe(const struct problem *problem, const struct attempt *a,
         .converged = true,
         .points = problem->count,
         .freedom = freedom,
-        .c_h = exponential(br_estimate_of(a->value[LOG_C_H], a->deviation[LOG_C_H], freedom)),
-        .p = br_estimate_of(a->value[P], a->deviation[P], freedom),
-        .c_k = exponential(br_estimate_of(a->value[LOG_C_K], a->deviation[LOG_C_K], freedom)),
-        .q = br_estimate_of(a->value[Q], a->deviation[Q], freedom),
         .r = correlation(a->value[THETA], a->deviation[THETA], freedom),
     };
 
+    for (int i = 0; i < BR_AXES; i++) {
+        const struct br_estimate log_c =
+            br_estimate_of(a->value[LOG_C(i)], a->deviation[LOG_C(i)], freedom);
+        fit->c[i] = (struct br_estimate){exp(log_c.value), exp(log_c.low), exp(log_c.high)};
+        fit->order[i] = br_estimate_of(a->value[ORDER(i)], a->deviation[ORDER(i)], freedom);
+    }
     double mean = 0, total = 0;
     for (size_t i = 0; i < problem->count; i++)
         mean += log(problem->observation[i].error) / (double)problem->count;
@@ -366,80 +359,84 @@ static void describe(const struct problem *problem, const struct attempt *a,
     fit->r_squared = total > 0 ? 1 - a->sum / total : NAN;
 }
 
-double br_joint_model(const struct br_joint_fit *fit, double h, double k, double h_ref,
-                      double k_ref)
+double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
+                      const double ref[BR_AXES])
 {
-    const double a =
-        fit->kind == BR_JOINT_TIME ? 0 : signed_error(log(fit->c_h.value), fit->p.value, h, h_ref);
-    const double b =
-        fit->kind == BR_JOINT_SPACE ? 0 : signed_error(log(fit->c_k.value), fit->q.value, k, k_ref);
-    return combine(a, b, fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
+    double part[BR_AXES] = {0};
+    for (int a = 0; a < BR_AXES; a++)
+        if (br_joint_has(fit->kind, a))
+            part[a] = signed_error(log(fit->c[a].value), fit->order[a].value, x[a], ref[a]);
+    return combine(part[0], part[1], fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
 }
 
 static struct br_joint_fit nothing_fitted(size_t points)
 {
     const struct br_estimate none = {NAN, NAN, NAN};
-    return (struct br_joint_fit){BR_JOINT_BOTH, none, none, none,   none, none,
-                                 NAN,           NAN,  NAN,  points, 0,    false};
+    return (struct br_joint_fit){.c = {none, none},
+                                 .order = {none, none},
+                                 .r = none,
+                                 .misfit = NAN,
+                                 .worst = NAN,
+                                 .r_squared = NAN,
+                                 .points = points};
 }
 
 /* Whether some observation differs from its reference in h (or k). */
-static bool varies(const struct problem *problem, bool over_h)
+static bool varies(const struct problem *problem, int axis)
 {
-    for (size_t i = 0; i < problem->count; i++) {
-        const struct br_observation *o = &problem->observation[i];
-        if (over_h ? o->h != o->h_ref : o->k != o->k_ref)
+    for (size_t i = 0; i < problem->count; i++)
+        if (problem->observation[i].x[axis] != problem->observation[i].ref[axis])
             return true;
-    }
     return false;
 }
 
 /* An order needs three values of what it is an order in. */
 static bool enough(const struct problem *problem)
 {
-    const bool space = problem->kind != BR_JOINT_TIME, time = problem->kind != BR_JOINT_SPACE;
-    if ((space && !varies(problem, true)) || (time && !varies(problem, false)))
-        return false;
-    return problem->count >= kinds[problem->kind].count + 2 &&
-           (!space || distinct(problem, true) >= 3) && (!time || distinct(problem, false) >= 3);
+    bool good = problem->count >= kinds[problem->kind].count + 2;
+    for (int a = 0; a < BR_AXES; a++)
+        if (br_joint_has(problem->kind, a))
+            good = good && varies(problem, a) && distinct(problem, a) >= 3;
+    return good;
 }
 
 /* Whether the orders that the model has can be told. */
 static bool is_told(const struct br_joint_fit *fit)
 {
-    return (fit->kind == BR_JOINT_TIME || br_order_determined(&fit->p)) &&
-           (fit->kind == BR_JOINT_SPACE || br_order_determined(&fit->q));
+    bool told = true;
+    for (int a = 0; a < BR_AXES; a++)
+        told &= !br_joint_has(fit->kind, a) || br_order_determined(&fit->order[a]);
+    return told;
 }
 
 /* Two errors, of which one cannot be told, where nothing simpler will do. */
 static bool tells_one(const struct br_joint_fit *fit)
 {
     return br_joint_describes(fit) &&
-           (br_order_determined(&fit->p) || br_order_determined(&fit->q));
+           (br_order_determined(&fit->order[0]) || br_order_determined(&fit->order[1]));
 }
 
 /* A problem in units of its own; own: out, its observations, count. */
 static struct problem problem_of(const struct br_observation *observation, size_t count,
                                  struct br_observation *own)
 {
-    double h = 0, k = 0, error = 0;
+    struct br_observation most = {.error = 0};
     for (size_t i = 0; i < count; i++) {
-        h = fmax(h, observation[i].h);
-        k = fmax(k, observation[i].k);
-        error = fmax(error, observation[i].error);
+        for (int a = 0; a < BR_AXES; a++)
+            most.x[a] = fmax(most.x[a], observation[i].x[a]);
+        most.error = fmax(most.error, observation[i].error);
     }
+    struct problem problem = {.observation = own, .count = count, .log_error = log(most.error)};
+    for (int a = 0; a < BR_AXES; a++)
+        problem.log_unit[a] = log(most.x[a]);
     for (size_t i = 0; i < count; i++) {
-        const struct br_observation *o = &observation[i];
-        own[i] = (struct br_observation){o->h / h, o->k / k, o->h_ref / h, o->k_ref / k,
-                                         o->error / error};
+        own[i].error = observation[i].error / most.error;
+        for (int a = 0; a < BR_AXES; a++) {
+            own[i].x[a] = observation[i].x[a] / most.x[a];
+            own[i].ref[a] = observation[i].ref[a] / most.x[a];
+        }
     }
-    return (struct problem){
-        .observation = own,
-        .count = count,
-        .log_h = log(h),
-        .log_k = log(k),
-        .log_error = log(error),
-    };
+    return problem;
 }
 
 /* A kind of model, fitted. */
@@ -459,10 +456,9 @@ static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct c
     problem->kind = kind;
     describe(problem, &c->attempt, &one);
     if (accepts(&one) && !c->widened) {
-        if (kind != BR_JOINT_TIME)
-            widen_by_jackknife(problem, &c->attempt, true, workspace);
-        if (kind != BR_JOINT_SPACE)
-            widen_by_jackknife(problem, &c->attempt, false, workspace);
+        for (int a = 0; a < BR_AXES; a++)
+            if (br_joint_has(kind, a))
+                widen_by_jackknife(problem, &c->attempt, a, workspace);
         c->widened = true;
         describe(problem, &c->attempt, &one);
     }

@@ -8,9 +8,10 @@
 #include "study/fit/report.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "study/scene/words.h"
 
 enum { LEAST = 3, MOST = 5 }; /* errors of an order: of more, the finest count */
 /* Of the error of time: an error of space this large is in the way. */
@@ -24,15 +25,7 @@ struct line {
     enum br_flag flag; /* of the first that is left out */
 };
 
-__attribute__((format(printf, 2, 3))) static void remark(struct br_seen_order *o,
-                                                         const char *format, ...)
-{
-    const size_t used = strlen(o->remark);
-    va_list args;
-    va_start(args, format);
-    vsnprintf(o->remark + used, sizeof o->remark - used, format, args);
-    va_end(args);
-}
+#define REMARK(o, ...) br_append((o)->remark, sizeof(o)->remark, __VA_ARGS__)
 
 struct br_study *br_report_fitted(const struct br_report *r)
 {
@@ -51,9 +44,13 @@ static double order_of_elements(const struct br_study *s, enum br_field_kind kin
     return degree + 1 - (s->norm->energy ? derivatives : 0);
 }
 
-static double theory_in_h(const struct br_study *s, enum br_part part)
+/* A contact force of the time level before is wrong by O(k). */
+static double theory_of(const struct br_study *s, enum br_part part, int axis)
 {
+    const bool lags = s->scene->contact.modelled && !s->method.contact->at_new_step;
     double order = INFINITY;
+    if (axis == BR_AXIS_TIME)
+        return lags ? 1 : s->method.scheme->order;
     if (s->scene->axial.modelled && part != BR_PART_BENDING)
         order = order_of_elements(s, BR_AXIAL);
     if (s->scene->bending.modelled && part != BR_PART_AXIAL)
@@ -61,59 +58,36 @@ static double theory_in_h(const struct br_study *s, enum br_part part)
     return order;
 }
 
-/* A contact force of the time level before is wrong by O(k). */
-static double theory_in_k(const struct br_study *s)
-{
-    const bool lags = s->scene->contact.modelled && !s->method.contact->at_new_step;
-    return lags ? 1 : s->method.scheme->order;
-}
-
 /* ---- lines ---- */
 
-static void add(struct line *l, const struct br_cell *c, enum br_part part, double z,
-                double z_against)
-{
-    if (c->flag[part] != BR_FLAG_NONE || !(c->error[part] > 0)) {
-        l->flag = l->left_out++ ? l->flag : c->flag[part];
-        return;
-    }
-    if (l->count == MOST)
-        memmove(l->point, l->point + 1, --l->count * sizeof *l->point);
-    l->point[l->count++] = (struct br_order_point){z, z_against, c->error[part]};
-}
-
-static struct line line_in_h(const struct br_study *s, enum br_part part, size_t column)
+/* Along an axis at a place of the other one. */
+static struct line line_of(const struct br_study *s, enum br_part part, int axis, size_t at)
 {
     struct line l = {0};
-    for (size_t i = 0; i < s->n_count; i++) {
-        const struct br_cell *c = br_study_cell(s, i, column);
-        add(&l, c, part, br_mesh_size(s->scene, c->at.n), br_mesh_size(s->scene, c->against.n));
+    for (size_t i = 0; i < br_axis_count(s, axis); i++) {
+        const struct br_cell *c = &s->cell[br_axis_cell(s, axis, i, at)];
+        if (c->flag[part] != BR_FLAG_NONE || !(c->error[part] > 0)) {
+            l.flag = l.left_out++ ? l.flag : c->flag[part];
+            continue;
+        }
+        if (l.count == MOST)
+            memmove(l.point, l.point + 1, --l.count * sizeof *l.point);
+        l.point[l.count++] =
+            (struct br_order_point){br_axis_size(s->scene, axis, c->at),
+                                    br_axis_size(s->scene, axis, c->against), c->error[part]};
     }
     return l;
 }
 
-/* At the coarsest time step that has enough of them. */
+/* Over h, at the coarsest time step that has enough of them. */
 static struct line meshes_of(const struct br_study *s, enum br_part part, size_t *column)
 {
-    struct line l;
     for (*column = 0; *column < s->k_count; ++*column) {
-        l = line_in_h(s, part, *column);
+        const struct line l = line_of(s, part, BR_AXIS_SPACE, *column);
         if (l.count >= LEAST)
             return l;
     }
-    return line_in_h(s, part, *column = 0);
-}
-
-/* On the finest mesh. */
-static struct line steps_of(const struct br_study *s, enum br_part part)
-{
-    struct line l = {0};
-    for (size_t j = 0; j < s->k_count; j++) {
-        const struct br_cell *c = br_study_cell(s, s->n_count - 1, j);
-        add(&l, c, part, br_time_step(s->scene, c->at.steps),
-            br_time_step(s->scene, c->against.steps));
-    }
-    return l;
+    return line_of(s, part, BR_AXIS_SPACE, *column = 0);
 }
 
 /* The order from point i to the next; what is lost beside z^p is as in theory. */
@@ -130,8 +104,8 @@ static double rate(const struct line *l, size_t i, double theory)
 static void say_rates(struct br_seen_order *o, const struct line *l)
 {
     for (size_t i = 0; i + 1 < l->count; i++)
-        remark(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory));
-    remark(o, " from size to size");
+        REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory));
+    REMARK(o, " from size to size");
 }
 
 /* How much nearer to theory the finest errors are than the coarsest ones, in orders of theory. */
@@ -148,28 +122,28 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
     const bool held = order.low <= o->theory && o->theory <= order.high;
     o->order = order;
     if (off <= near && (held || off <= near / 2))
-        remark(o, "as in theory");
+        REMARK(o, "as in theory");
     else if (off <= near)
-        remark(o, "near theory");
+        REMARK(o, "near theory");
     else
-        remark(o, held ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
+        REMARK(o, held ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
     if (off <= near || !l)
         return;
-    remark(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
+    REMARK(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
     say_rates(o, l);
 }
 
 static void say_too_few(struct br_seen_order *o, const struct line *l)
 {
-    remark(o, "not seen: %zu error%s, an order needs %d", l->count, l->count == 1 ? "" : "s",
+    REMARK(o, "not seen: %zu error%s, an order needs %d", l->count, l->count == 1 ? "" : "s",
            LEAST);
     if (l->left_out)
-        remark(o, "; %zu left out%s%s", l->left_out, l->flag ? ", the first: " : "",
+        REMARK(o, "; %zu left out%s%s", l->left_out, l->flag ? ", the first: " : "",
                l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
 }
 
 /* From errors alone. */
-static enum br_status judge_line(struct br_seen_order *o, const struct line *l, const char *size,
+static enum br_status judge_line(struct br_seen_order *o, const struct line *l, int axis,
                                  struct br_error *err)
 {
     struct br_estimate order;
@@ -189,41 +163,42 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
         return BR_OK;
     }
     if (falls) {
-        remark(o, "not seen: the errors fall by orders of");
+        REMARK(o, "not seen: the errors fall by orders of");
         say_rates(o, l);
     } else {
-        remark(o, "not seen: the errors do not fall,");
+        REMARK(o, "not seen: the errors do not fall,");
         for (size_t i = 0; i < l->count; i++)
-            remark(o, "%s%.1e", i ? ", " : " ", l->point[i].error);
+            REMARK(o, "%s%.1e", i ? ", " : " ", l->point[i].error);
     }
     const double closer = falls ? comes_closer(o, l) : 1;
     if (fabs(closer) > clear)
-        remark(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger", size);
+        REMARK(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger",
+               br_axis_letters[axis]);
     return BR_OK;
 }
 
 /* Whether the joint fit tells an order that can be believed. */
-static bool tells(const struct br_joint_fit *fit, const struct br_estimate *order, double theory)
+static bool tells(const struct br_joint_fit *fit, int axis, double theory)
 {
-    return br_joint_describes(fit) && br_order_determined(order) && order->value > theory / 2;
+    return br_joint_describes(fit) && br_order_determined(&fit->order[axis]) &&
+           fit->order[axis].value > theory / 2;
 }
 
-static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
-                        const struct br_estimate *order)
+static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit, int axis)
 {
     snprintf(o->by, sizeof o->by, "joint fit of %zu cells, misfit %.2g %%", fit->points,
              100 * fit->misfit);
     *o->remark = '\0';
-    claim(o, *order, NULL);
+    claim(o, fit->order[axis], NULL);
 }
 
 /* Coulomb's bound depends on the axial displacement of the tip. */
 static void explain_bending(struct br_seen_order *o, const struct br_study *s)
 {
-    const double axial = theory_in_h(s, BR_PART_AXIAL), order = o->order.value;
+    const double axial = theory_of(s, BR_PART_AXIAL, BR_AXIS_SPACE), order = o->order.value;
     if (s->scene->friction.law == BR_COULOMB && order < (1 - near) * o->theory &&
         fabs(order - axial) <= near / 2 * axial)
-        remark(o, ", as the axial part, on which friction depends");
+        REMARK(o, ", as the axial part, on which friction depends");
 }
 
 static enum br_status see_in_h(const struct br_report *r, enum br_part part,
@@ -235,17 +210,18 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         const struct line l = meshes_of(r->meshes, part, &column);
         snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
                  br_time_step(r->meshes->scene, r->meshes->steps[column]));
-        const enum br_status status = judge_line(o, &l, "h", err);
+        const enum br_status status = judge_line(o, &l, BR_AXIS_SPACE, err);
         if (status)
             return status;
         if (part == BR_PART_BENDING)
             explain_bending(o, r->meshes);
     }
+    const struct br_estimate *p = &fit->order[BR_AXIS_SPACE];
     const double width = o->order.high - o->order.low;
-    if (tells(fit, &fit->p, o->theory) && !(width <= fit->p.high - fit->p.low))
-        claim_joint(o, fit, &fit->p);
+    if (tells(fit, BR_AXIS_SPACE, o->theory) && !(width <= p->high - p->low))
+        claim_joint(o, fit, BR_AXIS_SPACE);
     else if (!r->meshes)
-        remark(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
+        REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     return BR_OK;
 }
 
@@ -253,7 +229,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
     const struct br_study *s = br_report_fitted(r);
-    const double order = theory_in_h(s, part);
+    const double order = theory_of(s, part, BR_AXIS_SPACE);
     size_t column;
     if (!r->meshes)
         return 0; /* not known */
@@ -270,9 +246,9 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
 {
     const struct br_study *s = br_report_fitted(r);
     const struct br_joint_fit *fit = &r->fits[part].joint;
-    const struct line l = steps_of(s, part);
-    if (tells(fit, &fit->q, o->theory)) {
-        claim_joint(o, fit, &fit->q);
+    const struct line l = line_of(s, part, BR_AXIS_TIME, s->n_count - 1); /* the finest mesh */
+    if (tells(fit, BR_AXIS_TIME, o->theory)) {
+        claim_joint(o, fit, BR_AXIS_TIME);
         return BR_OK;
     }
     const double space = error_of_space(r, part);
@@ -280,11 +256,11 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
              s->judge == &br_judge_none ? "each step against the next" : "errors",
              s->n[s->n_count - 1]);
     if (l.count && space > hidden * l.point[l.count - 1].error) {
-        remark(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
+        REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
                l.point[l.count - 1].error);
         return BR_OK;
     }
-    return judge_line(o, &l, "k", err);
+    return judge_line(o, &l, BR_AXIS_TIME, err);
 }
 
 static bool has_part(const struct br_scene *scene, enum br_part part)
@@ -299,17 +275,16 @@ enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
     const bool none = s->judge == &br_judge_none;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
-        struct br_seen_order *h = &r->seen[part][BR_OVER_H], *k = &r->seen[part][BR_OVER_K];
-        const struct br_estimate nothing = {NAN, NAN, NAN};
         const bool has = has_part(s->scene, part) && br_study_cells(s) > 0;
-        const bool in_k = has && (!none || !r->meshes) && !s->method.scheme->adaptive;
-        *h = (struct br_seen_order){
-            .asked = has && (!none || r->meshes), .order = nothing, .theory = theory_in_h(s, part)};
-        *k = (struct br_seen_order){.asked = in_k, .order = nothing, .theory = theory_in_k(s)};
-        if (h->asked)
-            status = see_in_h(r, part, h, err);
-        if (k->asked && !status)
-            status = see_in_k(r, part, k, err);
+        const bool asked[BR_AXES] = {has && (!none || r->meshes),
+                                     has && (!none || !r->meshes) && !s->method.scheme->adaptive};
+        for (int axis = 0; axis < BR_AXES && !status; axis++) {
+            struct br_seen_order *o = &r->seen[part][axis];
+            *o = (struct br_seen_order){
+                .asked = asked[axis], .order = {NAN, NAN, NAN}, .theory = theory_of(s, part, axis)};
+            if (asked[axis])
+                status = (axis == BR_AXIS_SPACE ? see_in_h : see_in_k)(r, part, o, err);
+        }
     }
     return status;
 }

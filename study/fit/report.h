@@ -8,8 +8,6 @@
 
 enum { BR_MOST_TRIANGLES = 4 };
 
-enum br_direction { BR_OVER_H, BR_OVER_K, BR_DIRECTIONS };
-
 /* The order of one part of the errors in h or in k, as far as it can be believed. */
 struct br_seen_order {
     bool asked; /* false: what is compared does not differ in that direction, or the scheme chooses
@@ -35,7 +33,7 @@ struct br_report {
         *no_meshes; /* why there are none; NULL: there are, or none are asked for. Borrowed */
     bool rates;     /* people see the slope of every row and column of the grid, too */
     struct br_fits fits[BR_PARTS];
-    struct br_seen_order seen[BR_PARTS][BR_DIRECTIONS];
+    struct br_seen_order seen[BR_PARTS][BR_AXES];
     struct br_estimate tip[2]; /* by br_field_kind: the tip at t = T for h, k -> 0, by
                                   extrapolation of those tips alone, m; NaN: not known */
     struct br_triangle triangle[BR_MOST_TRIANGLES];

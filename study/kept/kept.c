@@ -159,17 +159,20 @@ static bool write_file(const char *path, const char *head, const void *bytes, si
     return (fclose(file) == 0) & written;
 }
 
-void br_kept_write(struct br_kept *k, const char *key, const void *bytes, size_t size)
+bool br_kept_write(struct br_kept *k, const char *key, const void *bytes, size_t size)
 {
     char head[HEAD + 1], unfinished[1300], finished[1300];
     if (!k || !*k->folder)
-        return;
+        return true;
     write_head(head, key, bytes, size);
     snprintf(finished, sizeof finished, "%s/%s", k->folder, key);
     snprintf(unfinished, sizeof unfinished, "%s/.%s.%ld", k->folder, key, (long)getpid());
     mkdir(k->folder, 0777); /* only where there is something to keep */
     if (write_file(unfinished, head, bytes, size) && rename(unfinished, finished) == 0)
-        return;
+        return true;
+    const int reason = errno;
     unlink(unfinished);
+    errno = reason;
     atomic_fetch_add(&k->lost, 1);
+    return false;
 }

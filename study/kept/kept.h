@@ -44,9 +44,9 @@ bool br_kept_read(struct br_kept *kept, const char *key, void **bytes, size_t *s
 /* The same into so many bytes; another size is no entry of this kind. */
 bool br_kept_read_into(struct br_kept *kept, const char *key, void *bytes, size_t size);
 
-/* Writes an entry. Where that fails (a full disk), the work goes on, and it is counted. kept: NULL,
- * does nothing. */
-void br_kept_write(struct br_kept *kept, const char *key, const void *bytes, size_t size);
+/* Writes an entry. Where that fails (a full disk; see errno), the work may go on, and it is
+ * counted. kept: NULL, does nothing. */
+bool br_kept_write(struct br_kept *kept, const char *key, const void *bytes, size_t size);
 
 /* ---- a method in words ---- */
 

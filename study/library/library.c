@@ -155,10 +155,10 @@ struct beamrate_fit br_library_fit(const struct br_joint_fit *fit)
                                      nothing, nothing, NAN,     fit->points};
     return (struct beamrate_fit){
         .describes = br_joint_describes(fit),
-        .p = br_library_estimate(fit->p),
-        .c_h = br_library_estimate(fit->c_h),
-        .q = br_library_estimate(fit->q),
-        .c_k = br_library_estimate(fit->c_k),
+        .p = br_library_estimate(fit->order[BR_AXIS_SPACE]),
+        .c_h = br_library_estimate(fit->c[BR_AXIS_SPACE]),
+        .q = br_library_estimate(fit->order[BR_AXIS_TIME]),
+        .c_k = br_library_estimate(fit->c[BR_AXIS_TIME]),
         .r = br_library_estimate(fit->r),
         .misfit = fit->misfit,
         .points = fit->points,

@@ -170,7 +170,7 @@ void beamrate_study_slope(const struct beamrate_study *study, enum beamrate_part
                           enum beamrate_axis axis, size_t at, struct beamrate_estimate *order)
 {
     const struct br_fits *fits = &study->fits[part];
-    const struct br_slope *slope = axis == BEAMRATE_SPACE ? fits->by_k : fits->by_n;
+    const struct br_slope *slope = fits->slope[axis];
     *order = br_library_estimate(slope[at].order);
 }
 

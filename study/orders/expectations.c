@@ -10,7 +10,7 @@
 /* ---- the text ---- */
 
 struct reader {
-    const char *where, *at;
+    const char *at;
     struct br_error *err;
 };
 
@@ -30,8 +30,8 @@ static bool takes(struct reader *r, const char *word)
 
 static enum br_status refuse(const struct reader *r, const char *expected)
 {
-    return br_fail(r->err, BR_BAD_INPUT, "%s: found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'",
-                   r->where, r->at, expected);
+    return br_fail(r->err, BR_BAD_INPUT, "found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'",
+                   r->at, expected);
 }
 
 static bool take_number(struct reader *r, double *value)
@@ -77,11 +77,11 @@ static enum br_status take_name(struct reader *r, char name[64])
     return BR_OK;
 }
 
-enum br_status br_expectations_read(const char *where, const char *text, size_t line,
+enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err)
 {
-    struct reader r = {where, text, err};
+    struct reader r = {text, err};
     size_t most = *count + 1;
     for (const char *c = text; *c; c++)
         most += *c == ',' || *c == ';';
@@ -102,8 +102,8 @@ enum br_status br_expectations_read(const char *where, const char *text, size_t 
         e->line = line;
         for (const struct br_order_expectation *f = all; f < e; f++)
             if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
-                return br_fail(err, BR_BAD_INPUT, "%s: the order of %s in %s is given twice", where,
-                               name, br_axis_letters[e->axis]);
+                return br_fail(err, BR_BAD_INPUT, "the order of %s in %s is given twice", name,
+                               br_axis_letters[e->axis]);
         named = takes(&r, ",");
         goes_on = named || takes(&r, ";");
     }
@@ -134,11 +134,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
             c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
-    const bool space = line->axis == BR_AXIS_SPACE;
-    const struct br_estimate *joint = space ? &of->joint.p : &of->joint.q;
+    const struct br_estimate *joint = &of->joint.order[line->axis];
     if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
         c->order = *joint;
-        c->constant = fabs(space ? of->joint.c_h.value : of->joint.c_k.value);
+        c->constant = fabs(of->joint.c[line->axis].value);
     }
     return BR_OK;
 }

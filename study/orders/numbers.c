@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-const char *const br_axis_letters[] = {"h", "k"};
-
 const struct br_resolution_column br_resolution_columns[] = {
     {"h", BR_AXIS_SPACE, .is_size = true},
     {"n", BR_AXIS_SPACE, .is_size = false},
@@ -165,30 +163,23 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
 /* Sizes that differ by less than this share are one size, written in two ways. */
 static const double nearly = 1e-9;
 
-static int coarse_first(const void *a, const void *b)
+/* Makes nearly equal sizes along an axis the coarsest of them; returns how many different ones
+ * there are. */
+static size_t unite_sizes(struct br_numbers *numbers, int axis)
 {
-    const double *const *x = a, *const *y = b;
-    return by_size(**x, **y);
-}
-
-/* Makes nearly equal sizes along an axis equal; *count (out): of the different ones. */
-static enum br_status unite_sizes(struct br_numbers *numbers, int axis, size_t *count,
-                                  struct br_error *err)
-{
-    double **z = br_allocate(numbers->rows + 1, sizeof *z);
-    if (!z)
-        return br_no_memory(err, "the resolutions");
-    for (size_t i = 0; i < numbers->rows; i++)
-        z[i] = &numbers->row[i].z[axis];
-    qsort(z, numbers->rows, sizeof *z, coarse_first);
-    *count = numbers->rows > 0;
-    for (size_t i = 1; i < numbers->rows; i++)
-        if (*z[i] > (1 - nearly) * *z[i - 1])
-            *z[i] = *z[i - 1];
-        else
-            ++*count;
-    free(z);
-    return BR_OK;
+    struct br_numbers_row *row = numbers->row;
+    size_t count = 0;
+    for (size_t i = 0; i < numbers->rows; i++) {
+        const double own = row[i].z[axis];
+        for (size_t j = 0; j < numbers->rows; j++)
+            if (row[j].z[axis] > row[i].z[axis] && own > (1 - nearly) * row[j].z[axis])
+                row[i].z[axis] = row[j].z[axis];
+        size_t before = 0;
+        while (row[before].z[axis] != row[i].z[axis])
+            before++;
+        count += before == i;
+    }
+    return count;
 }
 
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err)
@@ -197,14 +188,12 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
     size_t most = 0;
     for (size_t i = 0; i < numbers->rows && !status; i++)
         status = check_row(numbers, &numbers->row[i], path, err);
-    for (int axis = 0; axis < BR_AXES && !status; axis++) {
-        size_t count = 0;
-        if (numbers->column[axis])
-            status = unite_sizes(numbers, axis, &count, err);
-        most = count > most ? count : most;
-    }
     if (status)
         return status;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const size_t count = numbers->column[axis] ? unite_sizes(numbers, axis) : 0;
+        most = count > most ? count : most;
+    }
     br_numbers_sort(numbers);
     for (size_t i = 1; i < numbers->rows; i++) {
         const struct br_numbers_row *a = &numbers->row[i - 1], *b = &numbers->row[i];

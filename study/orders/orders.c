@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/orders/orders.h"
 
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
 
@@ -25,65 +24,37 @@ static const double deep = 1e-6;
 /* What is less than this many times the level at which errors stay is off by that level. */
 static const double beside = 10;
 
-/* ln((a^p - b^p)/(b^p - c^p)) of sizes a > b > c; it grows with p. */
-static double growth(double a, double b, double c, double p)
-{
-    const double coarse = log(a / b), fine = log(b / c);
-    if (fabs(p) * fmax(coarse, fine) < 1e-6)
-        return log(coarse / fine) + p * (coarse + fine) / 2;
-    return log(expm1(p * coarse) / -expm1(-p * fine));
-}
-
-/* Orders of differences are looked for up to this one, of either sign. */
+/* Orders of differences are believed up to this one, of either sign. */
 static const double steepest = 60;
 
 /* The order that two errors show. Differences from the next finer value, where `fine` is that of
  * the value that `coarse` is compared with, are C |z^p - z_against^p|. */
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
-    const double falls = log(coarse->error / fine->error);
+    const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
     if (!(coarse->error > 0 && fine->error > 0))
         return NAN;
     if (coarse->z_against == 0)
-        return falls / log(coarse->z / fine->z);
-    double low = -steepest, high = steepest;
-    for (int i = 0; i < 64; i++) {
-        const double p = (low + high) / 2;
-        *(growth(coarse->z, fine->z, fine->z_against, p) < falls ? &low : &high) = p;
-    }
-    return (low + high) / 2;
-}
-
-/* Takes a number that is there out of sorted ones. */
-static void take_out(double *sorted, size_t count, double number)
-{
-    size_t first = 0, behind = count;
-    while (first < behind) {
-        const size_t middle = (first + behind) / 2;
-        if (sorted[middle] < number)
-            first = middle + 1;
-        else
-            behind = middle;
-    }
-    memmove(&sorted[first], &sorted[first + 1], (count - first - 1) * sizeof *sorted);
+        return falls / ratio;
+    const double order = br_order_of_differences(log(fine->z / fine->z_against), ratio, falls, 1);
+    return fmax(-steepest, fmin(order, steepest));
 }
 
 /* The first point that is hardly smaller than the one before it, as are all finer ones; count:
- * there is none. sorted: room for as many; it holds the rates of the pairs before a point. */
+ * there is none. sorted: room for as many; it holds the rates of the pairs before a point, whose
+ * median says what is hardly. */
 static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
 {
     size_t first = count;
-    for (size_t i = 1; i + 1 < count; i++)
-        sorted[i - 1] = rate(&p[i - 1], &p[i]);
-    if (count > LEAST_POINTS)
-        gsl_sort(sorted, 1, count - 2);
-    for (size_t i = count; i-- > LEAST_POINTS;) {
-        const double before = sorted[(i - 1) / 2];
+    for (size_t i = 1; i < count; i++) {
+        const double now = rate(&p[i - 1], &p[i]), before = i > 1 ? sorted[(i - 1) / 2] : 0;
         const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
-        if (!(before > stagnates && rate(&p[i - 1], &p[i]) < share * before))
-            break;
-        first = i;
-        take_out(sorted, i - 1, rate(&p[i - 2], &p[i - 1]));
+        const bool stays = i >= LEAST_POINTS && before > stagnates && now < share * before;
+        first = !stays ? count : first < count ? first : i;
+        size_t place = i - 1;
+        for (; place > 0 && sorted[place - 1] > now; place--)
+            sorted[place] = sorted[place - 1];
+        sorted[place] = now;
     }
     return first;
 }
@@ -299,9 +270,9 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     for (size_t i = 0; i < numbers->rows; i++) {
         const double error = numbers->row[i].number[of->quantity];
         if (error > 0 && counts(of, i))
-            seen[count++] = (struct br_observation){.h = z_of(numbers, i, BR_AXIS_SPACE),
-                                                    .k = z_of(numbers, i, BR_AXIS_TIME),
-                                                    .error = error};
+            seen[count++] = (struct br_observation){
+                .x = {z_of(numbers, i, BR_AXIS_SPACE), z_of(numbers, i, BR_AXIS_TIME)},
+                .error = error};
     }
     const bool same =
         count > 0 && count == of->joint.points; /* rows are left out, never taken back */
@@ -424,8 +395,9 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     struct br_order_point *point = line ? br_allocate(o->numbers->rows, sizeof *point) : NULL;
     if (!line || !point)
         return line ? br_no_memory(err, "the costs") : BR_OK;
+    const size_t rows = line->observed.points + o->numbers->quantity[o->of[0].quantity].is_value;
     size_t count = 0;
-    for (size_t i = 0; i < line->observed.points; i++) {
+    for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (row->seconds >= least_seconds)
             point[count++] = (struct br_order_point){row->z[axis], 0, row->seconds};

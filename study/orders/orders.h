@@ -13,10 +13,6 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
-/* What is refined. */
-enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
-extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
-
 /* How a column tells a resolution; const records. z = given for a size; 1/given for a number of
  * elements or steps; given^(-1/dimension) for unknowns. */
 struct br_resolution_column {
@@ -79,8 +75,7 @@ bool br_lists(const char *list, const char *name);
 
 /* Brings the rows into their order, takes sizes that differ by round-off for one, and refuses
  * (BR_BAD_INPUT, beginning with `path` and the line) resolutions that are not above 0 or are there
- * twice, fewer than three of them, errors below 0, and numbers too large for their differences.
- * Fails with BR_NO_MEMORY, too. */
+ * twice, fewer than three of them, errors below 0, and numbers too large for their differences. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
 /* ---- orders ---- */
@@ -159,9 +154,8 @@ struct br_order_expectation {
 };
 
 /* Reads "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2 down to 1e-9", on that line, and adds it to
- * a list, which is owned by the caller. Fails with BR_BAD_INPUT, beginning with `where`, or
- * BR_NO_MEMORY. */
-enum br_status br_expectations_read(const char *where, const char *text, size_t line,
+ * a list, which is owned by the caller. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 

@@ -9,6 +9,7 @@
 #include <spawn.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -16,246 +17,22 @@
 
 #include "solver/clock.h"
 #include "study/grid/each.h"
+#include "study/kept/kept.h"
 #include "study/orders/request.h"
-#include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
 enum {
-    NUMBER = 32,            /* bytes of a resolution's text, with its end */
-    SHOWN = 200,            /* bytes of foreign text in a message */
     TAIL = 301,             /* bytes of a failed run's last lines, with the end */
     MOST_PRINTED = 1 << 24, /* bytes of a run */
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
 
-/* One run to be. */
-struct cell {
-    char **words;  /* owned, as they are; a NULL at the end */
-    char *program; /* absolute path; owned */
-};
-
 struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers;
-    struct cell *cell;  /* by row; owned */
     char **environment; /* owned; its texts are not */
+    struct br_kept *kept;
 };
-
-/* ---- the command ---- */
-
-/* Counts have no point, sizes no more digits than they need. */
-static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
-{
-    if (!column->is_size)
-        snprintf(text, NUMBER, "%.0f", x);
-    for (int digits = 1; column->is_size && digits <= 17; digits++) {
-        snprintf(text, NUMBER, "%.*g", digits, x);
-        if (strtod(text, NULL) == x)
-            break;
-    }
-}
-
-/* A command on its way to words. */
-struct split {
-    const struct br_orders_request *program;
-    const struct br_numbers_row *row;
-    const char *rest;
-    char *to;   /* where the next letter goes */
-    char quote; /* that is open, or zero */
-    bool used[BR_AXES];
-};
-
-/* Puts what stands for a brace. */
-static enum br_status replace(struct split *s, struct br_error *err)
-{
-    char shown[NUMBER], expected[2 * NUMBER] = "";
-    if (s->rest[1] == '{') {
-        *s->to++ = '{';
-        s->rest += 2;
-        return BR_OK;
-    }
-    for (int i = 0; i < BR_AXES; i++) {
-        const struct br_resolution_column *column = s->program->axis[i].column;
-        const size_t length = column ? strlen(column->name) : 0, end = strlen(expected);
-        if (!column)
-            continue;
-        if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
-            print_number(column, s->row->given[i], s->to);
-            s->to += strlen(s->to);
-            s->rest += length + 2;
-            s->used[i] = true;
-            return BR_OK;
-        }
-        snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "", column->name);
-    }
-    return br_fail(err, BR_BAD_INPUT, "the command has '{' before '%s', expected %s; {{ is a brace",
-                   br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
-}
-
-static bool is_escape(const char *c, char quote)
-{
-    return *c == '\\' && c[1] && (!quote || (quote == '"' && strchr("\"\\$`", c[1])));
-}
-
-/* Moves on by one piece of a word. */
-static enum br_status put_piece(struct split *s, struct br_error *err)
-{
-    const char c = *s->rest;
-    if (is_escape(s->rest, s->quote)) {
-        *s->to++ = s->rest[1];
-        s->rest += 2;
-    } else if (c == s->quote) {
-        s->quote = '\0';
-        s->rest++;
-    } else if (!s->quote && strchr("'\"\\", c)) { /* \: the last, which has nothing to quote */
-        s->quote = c;
-        s->rest++;
-    } else if (c == '{') {
-        return replace(s, err);
-    } else {
-        *s->to++ = c;
-        s->rest++;
-    }
-    return BR_OK;
-}
-
-/* Splits the command and replaces its braces, into word (out), with a NULL at the end, and the
- * letters at s->to. What replaces braces has neither blanks nor quotes. */
-static enum br_status split_words(struct split *s, char **word, struct br_error *err)
-{
-    bool within = false;
-    while (*s->rest) {
-        if (!s->quote && strchr(" \t\n", *s->rest)) {
-            s->to += within; /* past the word's end */
-            within = false;
-            s->rest++;
-            continue;
-        }
-        if (!within)
-            *word++ = s->to;
-        within = true;
-        const enum br_status status = put_piece(s, err);
-        if (status)
-            return status;
-    }
-    if (s->quote)
-        return br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", s->quote);
-    return BR_OK;
-}
-
-static bool is_program(const char *path)
-{
-    struct stat info;
-    return stat(path, &info) == 0 && S_ISREG(info.st_mode) && access(path, X_OK) == 0;
-}
-
-/* A word of its own; one that names a file is its whole path, since the program runs elsewhere. */
-static enum br_status take_word(const char *here, const char *word, char **to, struct br_error *err)
-{
-    struct stat info;
-    if (asprintf(to, "%s/%s", here, word) < 0) {
-        *to = NULL;
-        return br_no_memory(err, "a file's path");
-    }
-    if (*word && *word != '/' && stat(*to, &info) == 0 && S_ISREG(info.st_mode))
-        return BR_OK;
-    strcpy(*to, word);
-    return BR_OK;
-}
-
-/* As a shell finds it. path: in and out of `here` where it is relative. */
-static enum br_status find_program(const char *here, const char *name, struct cell *cell,
-                                   struct br_error *err)
-{
-    const char *folders = getenv("PATH");
-    char shown[SHOWN];
-    const bool direct = strchr(name, '/');
-    for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
-        const int length = (int)strcspn(f, ":");
-        const bool absolute = direct ? *name == '/' : *f == '/';
-        free(cell->program);
-        if (asprintf(&cell->program, "%s%s%.*s%s%s", absolute ? "" : here, absolute ? "" : "/",
-                     length, f, length ? "/" : "", name) < 0) {
-            cell->program = NULL;
-            return br_no_memory(err, "a program's path");
-        }
-        if (is_program(cell->program))
-            return BR_OK;
-        f = f[length] ? f + length + 1 : NULL;
-    }
-    return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
-                   br_quoted(shown, sizeof shown, &br_for_text, name),
-                   direct ? "" : ", no folder of PATH has it");
-}
-
-static void clear_cells(struct job *j)
-{
-    for (size_t i = 0; i < j->numbers->rows && j->cell; i++) {
-        for (char **word = j->cell[i].words; word && *word; word++)
-            free(*word);
-        free(j->cell[i].words);
-        free(j->cell[i].program);
-    }
-    free(j->cell);
-    free(j->environment);
-}
-
-static enum br_status make_cell(const struct br_orders_request *p, const struct br_numbers_row *row,
-                                const char *here, struct cell *cell, struct br_error *err)
-{
-    const size_t most = strlen(p->command) + 1;
-    char *letters = br_allocate(most, NUMBER), **word = br_allocate(most + 1, sizeof *word);
-    struct split s = {p, row, .rest = p->command, .to = letters};
-    cell->words = br_allocate(most + 1, sizeof *cell->words);
-    enum br_status status = letters && word && cell->words
-                                ? split_words(&s, word, err)
-                                : br_no_memory(err, "the words of a command");
-    if (!status && (!*word || !**word))
-        status = br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
-    for (int i = 0; i < BR_AXES && !status; i++)
-        if (p->axis[i].column && !s.used[i])
-            status =
-                br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
-                        p->axis[i].column->name);
-    if (!status)
-        status = find_program(here, *word, cell, err);
-    for (size_t i = 0; !status && word[i]; i++)
-        status = take_word(i ? here : "", word[i], &cell->words[i], err);
-    free(letters);
-    free(word);
-    return status;
-}
-
-static enum br_status make_cells(struct job *j, struct br_error *err)
-{
-    const char *folder = j->program->folder;
-    char here[PATH_MAX]; /* where relative names are looked up */
-    enum br_status status = BR_OK;
-    j->cell = br_allocate(j->numbers->rows, sizeof *j->cell);
-    if (!j->cell)
-        status = br_no_memory(err, "the cells of a study");
-    else if (!(folder ? realpath(folder, here) : getcwd(here, sizeof here)))
-        status = br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
-    for (size_t i = 0; i < j->numbers->rows && !status; i++)
-        status = make_cell(j->program, &j->numbers->row[i], here, &j->cell[i], err);
-    return status;
-}
-
-static enum br_status make_environment(struct job *j, struct br_error *err)
-{
-    static char plain[] = "LC_ALL=C";
-    size_t count = 0, kept = 0;
-    while (environ[count])
-        count++;
-    j->environment = br_allocate(count + 2, sizeof *j->environment);
-    if (!j->environment)
-        return br_no_memory(err, "a program's environment");
-    for (size_t i = 0; i < count; i++)
-        if (strncmp(environ[i], "LC_ALL=", 7) != 0)
-            j->environment[kept++] = environ[i];
-    j->environment[kept] = plain;
-    return BR_OK;
-}
 
 /* ---- one run ---- */
 
@@ -274,10 +51,8 @@ struct run {
 /* A file without a name, which the program cannot find in its folder. */
 static bool open_printed(struct run *r, int i)
 {
-    char path[PATH_MAX + NUMBER];
-    snprintf(path, sizeof path, "%s/printed-XXXXXX", r->folder);
-    r->printed[i] = mkostemp(path, O_APPEND | O_CLOEXEC);
-    return r->printed[i] >= 0 && unlink(path) == 0;
+    r->printed[i] = memfd_create("printed", MFD_CLOEXEC);
+    return r->printed[i] >= 0 && fcntl(r->printed[i], F_SETFL, O_APPEND) == 0;
 }
 
 static enum br_status make_folder(struct run *r, struct br_error *err)
@@ -336,7 +111,7 @@ static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attrib
 }
 
 /* Returns an errno. */
-static int spawn(const struct job *j, const struct cell *cell, struct run *r)
+static int spawn(const struct job *j, const struct br_command_words *cell, struct run *r)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -347,7 +122,7 @@ static int spawn(const struct job *j, const struct cell *cell, struct run *r)
     if (!failure) {
         failure = set_up(&actions, &attributes, r);
         if (!failure)
-            failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->words,
+            failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->word,
                                   j->environment);
         posix_spawnattr_destroy(&attributes);
     }
@@ -355,7 +130,7 @@ static int spawn(const struct job *j, const struct cell *cell, struct run *r)
     return failure;
 }
 
-static enum br_status begin(const struct job *j, const struct cell *cell, struct run *r,
+static enum br_status begin(const struct job *j, const struct br_command_words *cell, struct run *r,
                             struct br_error *err)
 {
     struct rusage own;
@@ -392,11 +167,6 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-static double limit_of(const struct br_orders_request *p)
-{
-    return p->seconds > 0 ? p->seconds : BR_PROGRAM_SECONDS;
-}
-
 /* Why it must end before it does. */
 static enum end end_of(const struct br_orders_request *p, const struct run *r, double late)
 {
@@ -412,7 +182,7 @@ static void watch(const struct br_orders_request *p, struct run *r)
     const double start = br_seconds();
     struct timespec pause = {.tv_nsec = 1000000};
     while (!has_ended(r->child)) {
-        const double late = br_seconds() - start - limit_of(p); /* s */
+        const double late = br_seconds() - start - p->seconds; /* s */
         const enum end before = r->end;
         r->end = end_of(p, r, late);
         if (r->end == TOO_LONG && !before)
@@ -464,7 +234,7 @@ static enum br_status tell_failure(const struct br_orders_request *p, const stru
 {
     char what[sizeof err->message], tail[TAIL];
     if (r->end == TOO_LONG)
-        snprintf(what, sizeof what, "it did not end within %g s", limit_of(p));
+        snprintf(what, sizeof what, "it did not end within %g s", p->seconds);
     else if (r->end == TOO_MUCH)
         snprintf(what, sizeof what, "it printed more than %d MiB", MOST_PRINTED >> 20);
     else if (WIFSIGNALED(r->status))
@@ -527,8 +297,8 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     return tell_failure(p, r, why.message, row, err);
 }
 
-static enum br_status run_cell(const struct job *j, const struct cell *cell,
-                               struct br_numbers_row *row, struct br_error *err)
+static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
+                                struct br_numbers_row *row, struct br_error *err)
 {
     struct run r = {.child = 0};
     enum br_status status = begin(j, cell, &r, err);
@@ -545,15 +315,13 @@ static enum br_status run_cell(const struct job *j, const struct cell *cell,
 
 /* ---- finished cells ---- */
 
-static const char format[] = "beamrate-cell 1";
-
 enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes that are read for a word */
 
-/* With what it is and its end, so that no two lists of texts are the same bytes. */
-static void add_text(struct br_sha256 *sum, char kind, const char *text)
+/* With what it is. */
+static void add_text(struct br_sha256 *sum, const char *kind, const char *text)
 {
-    br_sha256_add(sum, &kind, 1);
-    br_sha256_add(sum, text, strlen(text) + 1);
+    br_kept_add(sum, kind);
+    br_kept_add(sum, text);
 }
 
 /* What is no regular file counts by its name alone. */
@@ -578,150 +346,77 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
                            "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
                            strerror(reason));
     }
-    add_text(sum, 'f', text);
+    add_text(sum, "file", text);
     return BR_OK;
 }
 
 /* Names a cell after all that its numbers follow from, as far as that can be seen: the words, the
  * contents of the program and of files that words name, also behind a "=" (of large ones their size
  * and time), and the readings. Files that the program reads without being told are not seen. */
-static enum br_status key_of(const struct br_orders_request *request, const struct cell *cell,
+static enum br_status key_of(const struct job *j, const struct br_command_words *cell,
                              char key[BR_SHA256_TEXT], struct br_error *err)
 {
-    struct br_sha256 sum;
-    br_sha256_start(&sum);
-    add_text(&sum, 'v', format);
-    add_text(&sum, 'p', cell->program);
+    static const char *const kinds[] = {"regex", "json", "csv"};
+    struct br_sha256 sum = j->kept->base;
+    add_text(&sum, "program", cell->program);
     enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
-    for (char **word = cell->words; *word && !status; word++) {
+    for (char **word = cell->word; *word && !status; word++) {
         const char *behind = strchr(*word, '=');
-        add_text(&sum, 'w', *word);
+        add_text(&sum, "word", *word);
         status = add_file(&sum, *word, LARGEST_WORD_FILE, err);
         if (behind && !status)
             status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
     }
-    for (size_t i = 0; i < request->readings; i++) {
-        add_text(&sum, 'n', request->reading[i].name);
-        add_text(&sum, "rjc"[request->reading[i].kind], request -> reading[i].what);
+    for (size_t i = 0; i < j->program->readings; i++) {
+        const struct br_reading *reading = &j->program->reading[i];
+        add_text(&sum, reading->name, kinds[reading->kind]);
+        br_kept_add(&sum, reading->what);
     }
     br_sha256_end(&sum, key);
     return status;
 }
 
-static double number_or_nan(const json_t *value)
+/* A row that is not kept is run; where its program has changed meanwhile, it is not kept then. An
+ * entry has the seconds, the bytes and the numbers. */
+static enum br_status take_row(const struct job *j, const struct br_command_words *words,
+                               struct br_numbers_row *row, struct br_error *err)
 {
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
-/* Fills the row's numbers, seconds and bytes, and says that it was kept. false: there is no such
- * cell that can be read. */
-static bool find_cell(const struct br_orders_request *request, const char *key,
-                      struct br_numbers_row *row)
-{
-    char path[PATH_MAX];
-    const size_t readings = request->readings;
-    if ((size_t)snprintf(path, sizeof path, "%s/%s.json", request->kept, key) >= sizeof path)
-        return false;
-    json_t *kept = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
-    const char *tag = json_string_value(json_object_get(kept, "format"));
-    const json_t *numbers = json_object_get(kept, "numbers");
-    bool found = tag && strcmp(tag, format) == 0 && json_array_size(numbers) == readings;
-    for (size_t i = 0; i < readings && found; i++) {
-        row->number[i] = number_or_nan(json_array_get(numbers, i));
-        found = isfinite(row->number[i]);
-    }
-    if (found) {
-        row->seconds = number_or_nan(json_object_get(kept, "seconds"));
-        row->bytes = number_or_nan(json_object_get(kept, "bytes"));
+    const size_t numbers = j->program->readings, size = (numbers + 2) * sizeof(double);
+    char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
+    if (!j->program->kept)
+        return run_words(j, words, row, err);
+    double *entry = br_allocate(1, size);
+    bool failed = !entry ? br_no_memory(err, "a finished cell") : key_of(j, words, key, err);
+    if (!failed && br_kept_read_into(j->kept, key, entry, size)) {
         row->kept = true;
+        row->seconds = entry[0];
+        row->bytes = entry[1];
+        memcpy(row->number, entry + 2, numbers * sizeof *entry);
+    } else if (!failed) {
+        failed = run_words(j, words, row, err) || (!row->failure && key_of(j, words, now, err));
+        if (!failed && !row->failure && strcmp(key, now) == 0) {
+            entry[0] = row->seconds;
+            entry[1] = row->bytes;
+            memcpy(entry + 2, row->number, numbers * sizeof *entry);
+            failed = !br_kept_write(j->kept, key, entry, size) &&
+                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                             j->program->kept, strerror(errno));
+        }
     }
-    json_decref(kept);
-    return found;
+    free(entry);
+    return failed ? err->status : BR_OK;
 }
 
-static json_t *json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
-/* NULL: out of memory. The command is there for people. */
-static json_t *text_of(const struct cell *cell, size_t readings, const struct br_numbers_row *row)
-{
-    json_t *command = json_array(), *numbers = json_array();
-    bool whole = command && numbers;
-    for (char **word = cell->words; *word && whole; word++) {
-        char text[512];
-        br_quoted(text, sizeof text, &br_for_text, *word);
-        whole = json_array_append_new(command, json_string(text)) == 0;
-    }
-    for (size_t i = 0; i < readings && whole; i++)
-        whole = json_array_append_new(numbers, json_number(row->number[i])) == 0;
-    json_t *all = whole ? json_pack("{s:s, s:O, s:O, s:o, s:o}", "format", format, "command",
-                                    command, "numbers", numbers, "seconds",
-                                    json_number(row->seconds), "bytes", json_number(row->bytes))
-                        : NULL;
-    json_decref(command);
-    json_decref(numbers);
-    return all;
-}
-
-/* By rename: another study finds it whole, or not at all. */
-static bool write_cell(char *unfinished, const char *finished, const json_t *cell)
-{
-    const int file = mkostemp(unfinished, O_CLOEXEC);
-    if (file < 0)
-        return false;
-    const bool written = json_dumpfd(cell, file, JSON_INDENT(1)) == 0 && fsync(file) == 0;
-    int reason = errno;
-    close(file);
-    if (written && rename(unfinished, finished) == 0)
-        return true;
-    reason = written ? errno : reason;
-    unlink(unfinished);
-    errno = reason;
-    return false;
-}
-
-/* Keeps a row, whole or not at all. */
-static enum br_status keep_cell(const struct br_orders_request *request, const char *key,
-                                const struct cell *of, const struct br_numbers_row *row,
-                                struct br_error *err)
-{
-    char unfinished[PATH_MAX], finished[PATH_MAX];
-    json_t *cell = text_of(of, request->readings, row);
-    if (!cell)
-        return br_no_memory(err, "a finished cell");
-    snprintf(unfinished, sizeof unfinished, "%s/.unfinished-XXXXXX", request->kept);
-    const int length = snprintf(finished, sizeof finished, "%s/%s.json", request->kept, key);
-    errno = ENAMETOOLONG;
-    const bool kept = (size_t)length < sizeof finished && write_cell(unfinished, finished, cell);
-    const int reason = errno;
-    json_decref(cell);
-    return kept ? BR_OK
-                : br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                          request->kept, strerror(reason));
-}
-
-/* A cell whose program has changed meanwhile is not kept. */
-static enum br_status take_cell(void *self, size_t i, struct br_error *err)
+static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    const struct br_orders_request *p = j->program;
-    const struct cell *cell = &j->cell[i];
     struct br_numbers_row *row = &j->numbers->row[i];
-    char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
-    if (!p->kept)
-        return run_cell(j, cell, row, err);
-    enum br_status status = key_of(p, cell, key, err);
-    if (status || (!p->anew && find_cell(p, key, row)))
-        return status;
-    status = run_cell(j, cell, row, err);
-    if (status || row->failure)
-        return status;
-    status = key_of(p, cell, now, err);
-    if (status || strcmp(key, now) != 0)
-        return status;
-    return keep_cell(p, key, cell, row, err);
+    struct br_command_words words = {NULL, NULL};
+    enum br_status status = br_command_split(j->program, row, &words, err);
+    if (!status)
+        status = take_row(j, &words, row, err);
+    br_command_clear(&words);
+    return status;
 }
 
 /* ---- the grid ---- */
@@ -731,13 +426,14 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
+/* *rows: out. */
 static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                                struct br_error *err)
+                                size_t *rows, struct br_error *err)
 {
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
-    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
-    for (size_t r = 0; r < rows && !status; r++) {
+    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
+    const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
+    for (size_t r = 0; r < *rows && !status; r++) {
         const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / inner, [BR_AXIS_TIME] = r % inner};
         struct br_numbers_row *row = &numbers->row[r];
         for (int i = 0; i < BR_AXES; i++) {
@@ -766,35 +462,65 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     return status ? status : br_orders_check_lists(p, numbers, err);
 }
 
+/* What a command is refused for at any resolution, before one is run. */
+static enum br_status check_commands(const struct job *j, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < j->numbers->rows && !status; i++) {
+        struct br_command_words words = {NULL, NULL};
+        status = br_command_split(j->program, &j->numbers->row[i], &words, err);
+        br_command_clear(&words);
+    }
+    return status;
+}
+
+/* Any version of this program takes them. */
+static enum br_status open_kept(struct job *j, struct br_error *err)
+{
+    const char *folder = j->program->kept;
+    const int length = snprintf(j->kept->folder, sizeof j->kept->folder, "%s", folder);
+    const bool fits = (size_t)length < sizeof j->kept->folder;
+    br_sha256_start(&j->kept->base);
+    br_kept_add(&j->kept->base, "beamrate-cell 2");
+    if (fits && (mkdir(folder, 0777) == 0 || errno == EEXIST))
+        return BR_OK;
+    return br_fail(err, BR_IO, "%.900s: %s", folder, strerror(fits ? errno : ENAMETOOLONG));
+}
+
+static enum br_status make_environment(struct job *j, struct br_error *err)
+{
+    static char plain[] = "LC_ALL=C";
+    size_t count = 0, kept = 0;
+    while (environ[count])
+        count++;
+    j->environment = br_allocate(count + 2, sizeof *j->environment);
+    if (!j->environment)
+        return br_no_memory(err, "a program's environment");
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(environ[i], "LC_ALL=", 7) != 0)
+            j->environment[kept++] = environ[i];
+    j->environment[kept] = plain;
+    return BR_OK;
+}
+
 enum br_status br_program_run(const struct br_orders_request *program, struct br_numbers *numbers,
                               struct br_error *err)
 {
-    struct job j = {.program = program, .numbers = numbers};
+    struct br_kept kept = {.take = !program->anew};
+    struct job j = {.program = program, .numbers = numbers, .kept = &kept};
     *numbers = (struct br_numbers){.rows = 0};
-    enum br_status status = BR_OK;
     if (!program->axis[BR_AXIS_SPACE].column && !program->axis[BR_AXIS_TIME].column)
-        status = br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
-    else if (program->readings == 0)
-        status = br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    if (!status)
-        status = make_rows(program, numbers, err);
-    if (!status)
-        status = make_quantities(program, numbers, err);
-    if (!status)
-        status = make_cells(&j, err);
-    if (!status)
-        status = make_environment(&j, err);
-    if (!status && program->kept && mkdir(program->kept, 0777) != 0 && errno != EEXIST)
-        status = br_fail(err, BR_IO, "%.900s: %s", program->kept, strerror(errno));
-    const struct br_each each = {.count = numbers->rows,
-                                 .threads = program->jobs,
-                                 .observer = program->observer,
-                                 .turn = take_cell,
-                                 .self = &j};
-    if (!status)
-        status = br_each(&each, err);
-    clear_cells(&j);
-    if (status)
+        return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
+    if (program->readings == 0)
+        return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
+    struct br_each each = {
+        .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
+    const bool failed = make_rows(program, numbers, &each.count, err) ||
+                        make_quantities(program, numbers, err) || check_commands(&j, err) ||
+                        make_environment(&j, err) || (program->kept && open_kept(&j, err)) ||
+                        br_each(&each, err);
+    free(j.environment);
+    if (failed)
         br_numbers_clear(numbers);
-    return status;
+    return failed ? err->status : BR_OK;
 }

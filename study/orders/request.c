@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/orders/sha256.h"
+#include "study/kept/kept.h"
 #include "study/scene/words.h"
 
 struct br_orders_request br_orders_request_default(void)
@@ -35,19 +35,6 @@ void br_orders_request_clear(struct br_orders_request *r)
 
 /* ---- sources ---- */
 
-static bool has_table(const struct br_orders_request *r)
-{
-    return r->table;
-}
-
-static bool has_command(const struct br_orders_request *r)
-{
-    return r->command;
-}
-
-const struct br_orders_source br_orders_sources[] = {
-    {has_command, br_program_run}, {has_table, br_table_read}, {NULL, NULL}};
-
 const char *br_orders_path(const struct br_orders_request *r)
 {
     return r->table_path ? r->table_path : r->path;
@@ -57,12 +44,11 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
                               struct br_error *err)
 {
     *numbers = (struct br_numbers){0};
-    for (const struct br_orders_source *s = br_orders_sources; s->applies; s++)
-        if (s->applies(r)) {
-            const enum br_status status = s->read(r, numbers, err);
-            return status ? status : br_numbers_check(numbers, br_orders_path(r), err);
-        }
-    return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
+    if (!r->command && !r->table)
+        return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
+    return (r->command ? br_program_run : br_table_read)(r, numbers, err)
+               ? err->status
+               : br_numbers_check(numbers, br_orders_path(r), err);
 }
 
 /* Every name of a list is a quantity's. */
@@ -156,9 +142,10 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
 
 /* ---- what is solved ---- */
 
+/* NULL: as an empty text. */
 static void add_text(struct br_sha256 *sum, const char *text)
 {
-    br_sha256_add(sum, text ? text : "", text ? strlen(text) + 1 : 1);
+    br_kept_add(sum, text ? text : "");
 }
 
 void br_orders_problem(const struct br_orders_request *r, char problem[40])

@@ -53,7 +53,7 @@ struct br_orders_request {
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
     size_t readings;
-    double seconds; /* limit of one run; 0: BR_PROGRAM_SECONDS */
+    double seconds; /* limit of one run */
     /* borrowed, and not of a study file */
     int jobs;                           /* runs at once; 0: one a core */
     const char *kept;                   /* the folder of finished cells, made where it is missing;
@@ -66,17 +66,9 @@ void br_orders_request_clear(struct br_orders_request *request);
 
 /* ---- sources ---- */
 
-/* Where numbers come from: a registry. */
-struct br_orders_source {
-    bool (*applies)(const struct br_orders_request *request);
-    /* *numbers (in): zeros. Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_IO or BR_INTERRUPTED. */
-    enum br_status (*read)(const struct br_orders_request *request, struct br_numbers *numbers,
-                           struct br_error *err);
-};
-extern const struct br_orders_source br_orders_sources[]; /* ends with zeros */
-
-/* Reads the numbers from the source that applies (out; clear them even after a failure), and checks
- * them. Fails as the source does, or with BR_BAD_INPUT where none applies. */
+/* Reads the numbers of the table, or of the program (out; clear them even after a failure), and
+ * checks them. Fails as br_table_read, br_program_run and br_numbers_check do, or with BR_BAD_INPUT
+ * where there is neither. */
 enum br_status br_orders_read(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
@@ -126,6 +118,16 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
  */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
+
+/* A command at one resolution. */
+struct br_command_words {
+    char **word;   /* owned, as they are; a NULL at the end */
+    char *program; /* absolute path; owned */
+};
+enum br_status br_command_split(const struct br_orders_request *request,
+                                const struct br_numbers_row *row, struct br_command_words *words,
+                                struct br_error *err);
+void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
 /* BR_BAD_INPUT: it cannot find a number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);

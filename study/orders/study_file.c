@@ -9,61 +9,48 @@
 #include "study/scene/value.h"
 #include "study/scene/words.h"
 
-/* A key on its way. */
+/* A text on its way into the request. */
 struct entry {
-    const struct br_scene_reader *r;
     struct br_orders_request *request;
     const struct key *of;
-    const char *text; /* NULL where the value is a mapping */
-    const yaml_node_t *node;
+    const char *path;        /* of the study file */
+    const char *name, *text; /* the key's, or of one of its pairs */
+    size_t line;
+    struct br_error *err;
 };
 
 struct key {
     const char *name;
-    enum br_status (*take)(const struct entry *e);
-    size_t at;        /* of a text or a number in the request */
-    const char *unit; /* of a number; NULL: none */
+    enum br_status (*take)(const struct entry *e); /* what it fails with is said of file and key */
+    size_t at;                                     /* of a text or a number in the request */
+    const char *unit;                              /* of a number; NULL: none */
     bool of_runs;
-    /* Of a mapping of names to texts, instead: takes each pair. */
-    enum br_status (*take_pair)(const struct entry *e, const char *name, const yaml_node_t *value);
+    bool pairs; /* a mapping of names to texts; each is taken */
 };
-
-static enum br_status refuse_inner(const struct entry *e, size_t line, const struct br_error *inner)
-{
-    if (inner->status != BR_BAD_INPUT)
-        return br_fail(e->r->err, inner->status, "%s", inner->message);
-    return br_scene_refuse(e->r, line, e->of->name, "%s", inner->message);
-}
 
 static enum br_status take_text(const struct entry *e)
 {
     char **to = (char **)((char *)e->request + e->of->at);
     *to = strdup(e->text);
-    return *to ? BR_OK : br_no_memory(e->r->err, "the study");
+    return *to ? BR_OK : br_no_memory(e->err, "the study");
 }
 
 /* In the folder of the study file. */
 static enum br_status take_table(const struct entry *e)
 {
-    const char *slash = strrchr(e->r->path, '/');
-    const int folder = slash && *e->text != '/' ? (int)(slash - e->r->path) + 1 : 0;
-    struct br_error inner = {0};
+    const char *slash = strrchr(e->path, '/');
+    const int folder = slash && *e->text != '/' ? (int)(slash - e->path) + 1 : 0;
     char **path = &e->request->table_path;
-    if (asprintf(path, "%.*s%s", folder, e->r->path, e->text) < 0) {
+    if (asprintf(path, "%.*s%s", folder, e->path, e->text) < 0) {
         *path = NULL;
-        return br_no_memory(e->r->err, "the study");
+        return br_no_memory(e->err, "the study");
     }
-    return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, &inner)
-               ? refuse_inner(e, br_yaml_line(e->node), &inner)
-               : BR_OK;
+    return br_text_load(*path, BR_LONGEST_TABLE, "table", &e->request->table, e->err);
 }
 
 static enum br_status take_list(const struct entry *e)
 {
-    struct br_error inner = {0};
-    return br_orders_request_axis(e->request, e->of->name, e->text, &inner)
-               ? refuse_inner(e, br_yaml_line(e->node), &inner)
-               : BR_OK;
+    return br_orders_request_axis(e->request, e->name, e->text, e->err);
 }
 
 /* A number above 0, with the unit that is expected behind it. */
@@ -74,9 +61,8 @@ static enum br_status take_number(const struct entry *e)
     end = end ? end + strspn(end, " ") : NULL;
     if (end && strcmp(end, unit) == 0 && *value > 0)
         return BR_OK;
-    return br_scene_refuse(e->r, br_yaml_line(e->node), e->of->name,
-                           "found '%s', expected a number above 0%s%s", e->text,
-                           *unit ? " and its unit, " : "", unit);
+    return br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a number above 0%s%s", e->text,
+                   *unit ? " and its unit, " : "", unit);
 }
 
 static enum br_status take_formal(const struct entry *e)
@@ -84,50 +70,24 @@ static enum br_status take_formal(const struct entry *e)
     const enum br_status status = take_number(e);
     return status || (e->request->formal >= 1 && e->request->formal <= 10)
                ? status
-               : br_scene_refuse(e->r, br_yaml_line(e->node), e->of->name,
-                                 "found '%s', expected an order from 1 to 10", e->text);
+               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected an order from 1 to 10",
+                         e->text);
 }
 
-static enum br_status take_pairs(const struct entry *e)
+static enum br_status take_reading(const struct entry *e)
 {
-    enum br_status status = BR_OK;
-    for (yaml_node_pair_t *p = e->node->data.mapping.pairs.start;
-         p < e->node->data.mapping.pairs.top && !status; p++) {
-        const yaml_node_t *name = yaml_document_get_node(e->r->document, p->key);
-        const yaml_node_t *value = yaml_document_get_node(e->r->document, p->value);
-        status = name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE
-                     ? br_scene_refuse(e->r, br_yaml_line(name), e->of->name,
-                                       "expected names with a text each")
-                     : e->of->take_pair(e, br_yaml_text(name), value);
-    }
-    return status;
+    return br_orders_request_reading(e->request, e->name, e->text, e->err);
 }
 
-static enum br_status take_reading(const struct entry *e, const char *name,
-                                   const yaml_node_t *value)
+static enum br_status take_expectation(const struct entry *e)
 {
-    struct br_error inner = {0};
-    return br_orders_request_reading(e->request, name, br_yaml_text(value), &inner)
-               ? refuse_inner(e, br_yaml_line(value), &inner)
-               : BR_OK;
-}
-
-static enum br_status take_expectation(const struct entry *e, const char *name,
-                                       const yaml_node_t *value)
-{
-    const size_t line = br_yaml_line(value);
-    char *where = NULL, *text = NULL;
-    enum br_status status = BR_NO_MEMORY;
-    if (asprintf(&where, "%s:%zu: verify", e->r->path, line) < 0)
-        where = NULL;
-    else if (asprintf(&text, "%s: %s", name, br_yaml_text(value)) < 0)
-        text = NULL;
-    else
-        status = br_expectations_read(where, text, line, &e->request->expectation,
-                                      &e->request->expectations, e->r->err);
-    free(where);
+    char *text;
+    if (asprintf(&text, "%s: %s", e->name, e->text) < 0)
+        return br_no_memory(e->err, "the study");
+    const enum br_status status = br_expectations_read(text, e->line, &e->request->expectation,
+                                                       &e->request->expectations, e->err);
     free(text);
-    return status == BR_NO_MEMORY ? br_no_memory(e->r->err, "the study") : status;
+    return status;
 }
 
 static const struct key keys[] = {
@@ -140,16 +100,44 @@ static const struct key keys[] = {
     {"k", take_list, .of_runs = true},
     {"dt", take_list, .of_runs = true},
     {"steps", take_list, .of_runs = true},
-    {"read", take_pairs, .of_runs = true, .take_pair = take_reading},
+    {"read", take_reading, .of_runs = true, .pairs = true},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_number, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},
-    {"verify", take_pairs, .take_pair = take_expectation},
+    {"verify", take_expectation, .pairs = true},
 };
 enum { KEYS = sizeof keys / sizeof *keys };
+
+/* name: the key's, or of a pair. */
+static enum br_status take_scalar(const struct br_scene_reader *r, const struct key *key,
+                                  const yaml_node_t *name, const yaml_node_t *value,
+                                  struct br_orders_request *request)
+{
+    struct br_error inner = {0};
+    const size_t line = br_yaml_line(value);
+    if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
+        return br_scene_refuse(r, key->pairs ? br_yaml_line(name) : line, key->name, "expected %s",
+                               key->pairs ? "names with a text each" : "one text");
+    key->take(&(struct entry){request, key, r->path, br_yaml_text(name), br_yaml_text(value), line,
+                              &inner});
+    return br_scene_pass_on(r, line, key->name, &inner);
+}
+
+static enum br_status take_pairs(const struct br_scene_reader *r, const struct key *key,
+                                 const yaml_node_t *node, struct br_orders_request *request)
+{
+    enum br_status status = BR_OK;
+    if (node->type != YAML_MAPPING_NODE)
+        return br_scene_refuse(r, br_yaml_line(node), key->name, "expected names with a text each");
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start;
+         p < node->data.mapping.pairs.top && !status; p++)
+        status = take_scalar(r, key, yaml_document_get_node(r->document, p->key),
+                             yaml_document_get_node(r->document, p->value), request);
+    return status;
+}
 
 static enum br_status take_entry(const struct br_scene_reader *r, const yaml_node_pair_t *pair,
                                  bool seen[KEYS], struct br_orders_request *request)
@@ -159,22 +147,17 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     if (name->type != YAML_SCALAR_NODE)
         return br_scene_refuse(r, br_yaml_line(name), "study", "expected a key");
     const char *text = br_yaml_text(name);
+    char known[400] = "";
     for (size_t i = 0; i < KEYS; i++) {
+        br_append(known, sizeof known, "%s%s", i ? ", " : "", keys[i].name);
         if (strcmp(keys[i].name, text) != 0)
             continue;
         if (seen[i])
             return br_scene_refuse(r, br_yaml_line(name), text, "is given twice");
-        if (value->type != (keys[i].take_pair ? YAML_MAPPING_NODE : YAML_SCALAR_NODE))
-            return br_scene_refuse(r, br_yaml_line(value), text, "expected %s",
-                                   keys[i].take_pair ? "names with a text each" : "one text");
         seen[i] = true;
-        return keys[i].take(&(struct entry){r, request, &keys[i],
-                                            keys[i].take_pair ? NULL : br_yaml_text(value), value});
+        return keys[i].pairs ? take_pairs(r, &keys[i], value, request)
+                             : take_scalar(r, &keys[i], name, value, request);
     }
-    char known[400] = "";
-    for (size_t i = 0; i < KEYS; i++)
-        snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", i ? ", " : "",
-                 keys[i].name);
     return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
 }
 

@@ -118,8 +118,8 @@ static enum br_status take_object(json_t *object, size_t line, const char *path,
     if (json_array_size(table) == 0) {
         json_t *first = json_pack("[I]", (json_int_t)line);
         bool kept = json_array_append_new(table, first) == 0;
-        json_object_foreach(object, key, value) kept &=
-            json_array_append_new(first, json_string(key)) == 0;
+        json_object_foreach (object, key, value)
+            kept &= json_array_append_new(first, json_string(key)) == 0;
         if (!kept) {
             json_decref(row);
             return br_no_memory(err, "the table");

@@ -32,7 +32,6 @@ static const struct rule {
     {BR_OP_SQRT, {"0.5/sqrt(x)"}},
     {BR_OP_ABS, {"2*step(x) - 1"}},
     {BR_OP_ADD, {"1", "1"}},
-    {BR_OP_SUBTRACT, {"1", "-1"}},
     {BR_OP_MULTIPLY, {"t", "x"}},
     {BR_OP_POW, {"t*x^(t - 1)", "x^t*log(x)"}},
 };
@@ -63,16 +62,21 @@ static unsigned follow(builder *b, const char *text, const struct argument a[2])
     return out;
 }
 
-/* By the chain rule. What does not change, as logarithms of negative numbers, is left out. */
+/* By the chain rule. What does not change, as logarithms of negative numbers, is left out. The
+ * order of factors decides which nodes are shared. */
 static unsigned by_rule(builder *b, enum br_operation operation, const struct argument a[2])
 {
     unsigned sum = br_tree_number(b, 0);
     const unsigned zero = sum;
     for (const struct rule *r = rules; r < rules + sizeof rules / sizeof *rules; r++)
         for (int k = 0; k < 2 && r->operation == operation && r->by[k]; k++)
-            if (a[k].slope != zero)
-                sum = node(b, BR_OP_ADD, sum,
-                           node(b, BR_OP_MULTIPLY, a[k].slope, follow(b, r->by[k], a)));
+            if (a[k].slope != zero) {
+                const unsigned partial = follow(b, r->by[k], a), slope = a[k].slope;
+                const bool behind = k == 1 || operation == BR_OP_POW;
+                sum = node(
+                    b, BR_OP_ADD, sum,
+                    node(b, BR_OP_MULTIPLY, behind ? partial : slope, behind ? slope : partial));
+            }
     return sum;
 }
 
@@ -85,6 +89,8 @@ static unsigned slope_of(builder *b, enum br_operation operation, unsigned value
                          const struct argument a[3])
 {
     switch (operation) {
+    case BR_OP_SUBTRACT:
+        return node(b, BR_OP_SUBTRACT, a[0].slope, a[1].slope);
     case BR_OP_DIVIDE: /* (a' - (a/b) b') / b */
         return node(b, BR_OP_DIVIDE,
                     node(b, BR_OP_SUBTRACT, a[0].slope, node(b, BR_OP_MULTIPLY, value, a[1].slope)),

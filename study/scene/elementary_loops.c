@@ -120,8 +120,4 @@ static void apply(enum br_operation operation, size_t count, const double *const
     }
 }
 
-#define TEXT_(word) #word
-#define TEXT(word) TEXT_(word)
-
-const struct br_elementary NAME(br_elementary_) = {
-    .name = TEXT(BR_SET), .width = WIDTH, .available = NAME(br_has_), .apply = apply};
+const struct br_elementary NAME(br_elementary_) = {.width = WIDTH, .apply = apply};

@@ -98,8 +98,6 @@ static unsigned simplify(struct br_tree_builder *b, enum br_operation operation,
                : b->tree.node[a].operation == BR_OP_NEGATE ? b->tree.node[a].argument[0]
                                                            : BR_NO_NODE;
     case BR_OP_ADD:
-        if (b->tree.node[c].operation == BR_OP_NEGATE)
-            return br_tree_node(b, BR_OP_SUBTRACT, a, b->tree.node[c].argument[0], 0);
         return is(b, a, 0) ? c : is(b, c, 0) ? a : BR_NO_NODE;
     case BR_OP_SUBTRACT:
         return is(b, c, 0) ? a : is(b, a, 0) ? br_tree_node(b, BR_OP_NEGATE, c, 0, 0) : BR_NO_NODE;
@@ -137,11 +135,6 @@ unsigned br_tree_node(struct br_tree_builder *b, enum br_operation operation, un
         node.uses_t |= a->uses_t;
         numbers += a->operation == BR_OP_NUMBER;
         number[i] = a->number;
-    }
-    if (b->simplifies && (operation == BR_OP_ADD || operation == BR_OP_MULTIPLY) &&
-        first > second) { /* so that a b and b a are one */
-        node.argument[0] = second;
-        node.argument[1] = first;
     }
     const unsigned shorter = b->simplifies ? simplify(b, operation, first, second) : BR_NO_NODE;
     if (shorter != BR_NO_NODE || b->status)
@@ -287,14 +280,39 @@ static double *values_of(const struct expression *e, size_t node)
 
 static const struct br_function_ops guard_ops;
 
-/* Appends the guard of a node's argument, if there is one. */
+static bool is_truth(enum br_operation o)
+{
+    return o == BR_OP_NOT || (o >= BR_OP_LESS && o <= BR_OP_OR);
+}
+
+static bool compares(enum br_operation o)
+{
+    return o >= BR_OP_MIN && o <= BR_OP_EQUAL;
+}
+
+/* Whether a change of sign of argument k, or of the difference of both that are compared, makes a
+ * node jump or bend. Truths jump where their own arguments change. */
+static bool needs_guard(const struct br_tree *tree, const struct br_node *n, unsigned k)
+{
+    const enum br_operation o = n->operation;
+    if (!n->uses_x && !n->uses_t)
+        return false;
+    if (compares(o))
+        return k == 0;
+    return o == BR_OP_ABS || o == BR_OP_SIGN || o == BR_OP_STEP ||
+           (!is_truth(tree->node[n->argument[k]].operation) &&
+            (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
+}
+
+/* Appends it; it has at most one node more than the tree. */
 static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
     struct guard *g = &e->guard[e->guards];
-    const unsigned root = br_tree_guard(&e->of.tree, n, k, &b);
-    if (root == BR_NO_NODE && !b.status)
-        return true;
+    unsigned root = br_tree_graft(&b, &e->of.tree, n->argument[k]);
+    if (compares(n->operation))
+        root = br_tree_node(&b, BR_OP_SUBTRACT, root,
+                            br_tree_graft(&b, &e->of.tree, n->argument[1]), 0);
     if (br_tree_finish(&b, root, &g->of.tree, NULL))
         return false;
     const struct br_node *last = &g->of.tree.node[g->of.tree.count - 1];
@@ -325,7 +343,7 @@ static struct expression *create(struct br_tree *tree)
         if (n->operation == BR_OP_NUMBER)
             fill(values_of(e, i), CHUNK, n->number);
         for (unsigned k = 0; k < br_operation_arguments(n->operation) && done; k++)
-            done = add_guard(e, n, k);
+            done = !needs_guard(&own, n, k) || add_guard(e, n, k);
     }
     if (done)
         return e;

@@ -19,9 +19,7 @@
 
 /* Loops for one instruction set. */
 struct br_elementary {
-    const char *name;
     size_t width; /* the doubles in its vectors */
-    bool (*available)(void);
     /* Any operation with arguments a, b and c: out[i] = operation(a[i], b[i], c[i]). count: a
      * multiple of the width; out: none of the arguments. All are aligned for vectors. */
     void (*apply)(enum br_operation operation, size_t count, const double *const argument[3],
@@ -31,7 +29,8 @@ struct br_elementary {
 #define BR_ELEMENTARY_DECLARE(set) extern const struct br_elementary br_elementary_##set;
 BR_INSTRUCTION_SETS(BR_ELEMENTARY_DECLARE)
 
-/* All, the best first; NULL behind the last. Those that this processor has not must not be used. */
+/* All, the best first; NULL behind the last. Those before br_instruction_set_best must not be used.
+ */
 extern const struct br_elementary *const br_elementary_all[];
 
 /* Around what needs rounding to nearest: the mode before, to be set again. */
@@ -103,10 +102,6 @@ struct br_interval br_interval_hull(struct br_interval a, struct br_interval b);
 struct br_interval br_interval_apply(enum br_operation operation,
                                      const struct br_interval *argument, bool same);
 
-/* The Taylor coefficients of an operation, order + 1 of them (out), from those of its arguments. */
-void br_series_apply(enum br_operation operation, size_t order,
-                     const struct br_interval *const argument[3], struct br_interval *out);
-
 /* ---- proofs of trees ---- */
 
 /* What is proved of a tree over a box of x and t, by interval arithmetic. */
@@ -123,10 +118,5 @@ bool br_tree_bound(const struct br_tree *tree, struct br_interval *work, struct 
 /* As br_function_taylor, by the recurrences of Moore; order: up to BR_TREE_MOST_ORDER. */
 bool br_tree_taylor(const struct br_tree *tree, struct br_interval *work, enum br_variable along,
                     struct br_box box, size_t order, struct br_interval *coefficient);
-
-/* The guard of argument k of a node of the tree (struct br_function_ops), made in another builder:
- * its place; BR_NO_NODE where there is none. It has at most one node more than the tree. */
-unsigned br_tree_guard(const struct br_tree *tree, const struct br_node *node, unsigned k,
-                       struct br_tree_builder *builder);
 
 #endif

@@ -151,14 +151,6 @@ const char *br_shortest(double number, char *text, size_t size)
     return text;
 }
 
-static bool contains(const double *values, size_t count, double value)
-{
-    for (size_t i = 0; i < count; i++)
-        if (values[i] == value)
-            return true;
-    return false;
-}
-
 enum br_status br_read_numbers(const char *option, const char *text, double **values, size_t *count,
                                struct br_error *err)
 {
@@ -173,8 +165,9 @@ enum br_status br_read_numbers(const char *option, const char *text, double **va
             return br_fail(err, BR_BAD_INPUT,
                            "%s: found '%s', expected positive numbers separated by commas", option,
                            rest);
-        if (contains(*values, *count, value))
-            return br_fail(err, BR_BAD_INPUT, "%s: %g is given twice", option, value);
+        for (size_t i = 0; i < *count; i++)
+            if ((*values)[i] == value)
+                return br_fail(err, BR_BAD_INPUT, "%s: %g is given twice", option, value);
         if (*count == MOST)
             return br_fail(err, BR_BAD_INPUT, "%s: more than %d values", option, MOST);
         (*values)[(*count)++] = value;

@@ -158,8 +158,8 @@ static bool study(size_t kind, struct tally *t)
     if (kinds[kind].error)
         cover(t, &o.of[0].line[0].observed.order, p);
     else if (br_joint_describes(&o.of[0].joint)) {
-        cover(t, &o.of[0].joint.p, p);
-        cover(t, &o.of[0].joint.q, m.q);
+        cover(t, &o.of[0].joint.order[0], p);
+        cover(t, &o.of[0].joint.order[1], m.q);
     }
     expect_wrong(t, &o, BR_AXIS_SPACE, p);
     br_orders_clear(&o);

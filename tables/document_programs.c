@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Everything for programs, by jansson: what kind of report it is, the answer, facts, tables as
- * lists of rows, notes, verdicts, and what repeats it. What is not there is null. */
+/* Formats for programs. */
 #include <jansson.h>
 #include <string.h>
 
+#include "study/scene/quote.h"
 #include "tables/document.h"
 #include "tables/json_value.h"
+
+/* ---- JSON, by jansson: what kind of report it is, the answer, facts, tables as lists of rows,
+ * notes, verdicts, and what repeats it. What is not there is null. ---- */
 
 /* A report on its way out. */
 struct page {
@@ -100,20 +103,9 @@ static json_t *verdict(struct page *p, const struct br_document_verdict *v)
 static json_t *provenance(struct page *p)
 {
     const struct br_provenance *from = &p->d->provenance;
-    const char *const rows[][2] = {
-        {"version", from->version},
-        {"commit", from->commit},
-        {"compiler", from->compiler},
-        {"flags", from->flags},
-        {"command_line", from->command_line},
-        {"machine", from->machine},
-        {"date", from->date},
-        {"scene_path", from->scene_path},
-        {"scene_text", from->scene_text},
-    };
     json_t *o = json_object();
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        put(p, o, rows[i][0], br_json_string(rows[i][1]));
+    for (const struct br_provenance_text *t = br_provenance_texts; t->key; t++)
+        put(p, o, t->key, br_json_string(*(const char *const *)((const char *)from + t->at)));
     put(p, o, "threads", json_integer(from->threads));
     return o;
 }
@@ -159,8 +151,8 @@ static json_t *root_of(struct page *p)
     return root;
 }
 
-static enum br_status write(FILE *out, const struct br_document *d,
-                            const struct br_document_table *table, struct br_error *err)
+static enum br_status write_json(FILE *out, const struct br_document *d,
+                                 const struct br_document_table *table, struct br_error *err)
 {
     (void)table;
     struct page p = {.d = d};
@@ -182,5 +174,41 @@ const struct br_document_format br_document_json = {
     .name = "json",
     .extension = ".json",
     .title = "everything, for programs",
-    .write = write,
+    .write = write_json,
+};
+
+/* ---- CSV: a table a file (RFC 4180), a line of keys, with units in brackets, and a line a row.
+ * Numbers have all their digits, what is not there is an empty field, and a text stays on its line.
+ * ---- */
+
+static enum br_status write_csv(FILE *out, const struct br_document *d,
+                                const struct br_document_table *t, struct br_error *err)
+{
+    (void)d, (void)err;
+    for (size_t line = 0; line <= t->rows; line++) { /* the first is the head */
+        const char *separator = "";
+        for (size_t c = 0; c < t->columns; c++) {
+            if (!br_for_programs(t->column[c].flags))
+                continue;
+            fputs(separator, out);
+            separator = ",";
+            if (line > 0)
+                br_document_print_value(out, &br_for_csv, "",
+                                        &br_document_cell_at(t, line - 1, c)->value);
+            else if (t->column[c].unit)
+                fprintf(out, "%s [%s]", t->column[c].key, t->column[c].unit);
+            else
+                fputs(t->column[c].key, out);
+        }
+        fputc('\n', out);
+    }
+    return BR_OK;
+}
+
+const struct br_document_format br_document_csv = {
+    .name = "csv",
+    .extension = ".csv",
+    .title = "for programs: a file a table",
+    .by_table = true,
+    .write = write_csv,
 };

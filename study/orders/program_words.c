@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The words of a command, at one resolution each. */
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "study/orders/request.h"
+#include "study/scene/quote.h"
+
+enum {
+    NUMBER = 32, /* bytes of a resolution's text, with its end */
+    SHOWN = 200  /* bytes of foreign text in a message */
+};
+
+/* Counts have no point, sizes no more digits than they need. */
+static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
+{
+    snprintf(text, NUMBER, "%.0f", x);
+    for (int digits = 1; column->is_size && digits <= 17; digits++) {
+        snprintf(text, NUMBER, "%.*g", digits, x);
+        if (strtod(text, NULL) == x)
+            break;
+    }
+}
+
+/* A command on its way to words. */
+struct split {
+    const struct br_orders_request *request;
+    const struct br_numbers_row *row;
+    const char *rest;
+    bool used[BR_AXES];
+};
+
+/* Puts what stands for a brace. */
+static enum br_status replace(struct split *s, char **to, struct br_error *err)
+{
+    char shown[NUMBER], expected[2 * NUMBER] = "";
+    if (s->rest[1] == '{') {
+        *(*to)++ = '{';
+        s->rest += 2;
+        return BR_OK;
+    }
+    for (int i = 0; i < BR_AXES; i++) {
+        const struct br_resolution_column *column = s->request->axis[i].column;
+        const size_t length = column ? strlen(column->name) : 0, end = strlen(expected);
+        if (!column)
+            continue;
+        if (strncmp(s->rest + 1, column->name, length) == 0 && s->rest[1 + length] == '}') {
+            print_number(column, s->row->given[i], *to);
+            *to += strlen(*to);
+            s->rest += length + 2;
+            s->used[i] = true;
+            return BR_OK;
+        }
+        snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "", column->name);
+    }
+    return br_fail(err, BR_BAD_INPUT, "the command has '{' before '%s', expected %s; {{ is a brace",
+                   br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
+}
+
+/* The next word, with its braces replaced; there is one. What replaces braces has neither blanks
+ * nor quotes. */
+static enum br_status take_word(struct split *s, char *to, struct br_error *err)
+{
+    char quote = '\0'; /* that is open */
+    while (*s->rest && (quote || !strchr(" \t\n", *s->rest))) {
+        const char c = *s->rest, next = s->rest[1];
+        const bool escape =
+            c == '\\' && next && (!quote || (quote == '"' && strchr("\"\\$`", next)));
+        if (c == '{') {
+            if (replace(s, &to, err))
+                return err->status;
+            continue;
+        }
+        if (escape)
+            *to++ = next;
+        else if (c == quote)
+            quote = '\0';
+        else if (!quote && strchr("'\"\\", c)) /* \: the last, which has nothing to quote */
+            quote = c;
+        else
+            *to++ = c;
+        s->rest += 1 + escape;
+    }
+    *to = '\0';
+    return quote ? br_fail(err, BR_BAD_INPUT, "the command's quote %c is not closed", quote)
+                 : BR_OK;
+}
+
+/* A word that names a file in `here` as its whole path, since the program runs elsewhere. */
+static char *whole_path(const char *here, const char *word)
+{
+    struct stat info;
+    char *path;
+    if (asprintf(&path, "%s/%s", here, word) < 0)
+        return NULL;
+    if (!*word || *word == '/' || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        strcpy(path, word);
+    return path;
+}
+
+/* As a shell finds it. path: in and out of `here` where it is relative. */
+static enum br_status find_program(const char *here, const char *name, char **program,
+                                   struct br_error *err)
+{
+    const char *folders = getenv("PATH");
+    char shown[SHOWN];
+    struct stat info;
+    const bool direct = strchr(name, '/');
+    for (const char *f = direct ? "" : folders ? folders : "/usr/bin:/bin"; f;) {
+        const int length = (int)strcspn(f, ":");
+        const bool absolute = direct ? *name == '/' : *f == '/';
+        free(*program);
+        if (asprintf(program, "%s%s%.*s%s%s", absolute ? "" : here, absolute ? "" : "/", length, f,
+                     length ? "/" : "", name) < 0) {
+            *program = NULL;
+            return br_no_memory(err, "a program's path");
+        }
+        if (stat(*program, &info) == 0 && S_ISREG(info.st_mode) && access(*program, X_OK) == 0)
+            return BR_OK;
+        f = f[length] ? f + length + 1 : NULL;
+    }
+    return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
+                   br_quoted(shown, sizeof shown, &br_for_text, name),
+                   direct ? "" : ", no folder of PATH has it");
+}
+
+/* word: room for any. */
+static enum br_status take_words(struct split *s, const char *here, char *word,
+                                 struct br_command_words *c, struct br_error *err)
+{
+    for (size_t i = 0; *(s->rest += strspn(s->rest, " \t\n")); i++) {
+        if (take_word(s, word, err))
+            return err->status;
+        c->word[i] = i ? whole_path(here, word) : strdup(word);
+        if (!c->word[i])
+            return br_no_memory(err, "the words of a command");
+    }
+    if (!c->word[0] || !*c->word[0])
+        return br_fail(err, BR_BAD_INPUT, "the command is empty, expected a program");
+    for (int i = 0; i < BR_AXES; i++)
+        if (s->request->axis[i].column && !s->used[i])
+            return br_fail(err, BR_BAD_INPUT, "the command has no {%s}, expected one for its list",
+                           s->request->axis[i].column->name);
+    return find_program(here, c->word[0], &c->program, err);
+}
+
+enum br_status br_command_split(const struct br_orders_request *request,
+                                const struct br_numbers_row *row, struct br_command_words *c,
+                                struct br_error *err)
+{
+    char here[PATH_MAX]; /* where relative names are looked up */
+    if (!(request->folder ? realpath(request->folder, here) : getcwd(here, sizeof here)))
+        return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
+    const size_t most = strlen(request->command) + 1;
+    char *word = br_allocate(most, NUMBER);
+    struct split s = {request, row, .rest = request->command};
+    c->word = br_allocate(most + 1, sizeof *c->word);
+    const enum br_status status = word && c->word ? take_words(&s, here, word, c, err)
+                                                  : br_no_memory(err, "the words of a command");
+    free(word);
+    return status;
+}
+
+void br_command_clear(struct br_command_words *c)
+{
+    for (char **word = c->word; word && *word; word++)
+        free(*word);
+    free(c->word);
+    free(c->program);
+}
