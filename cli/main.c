@@ -7,7 +7,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "plots/render.h"
+#include "plots/pictures.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/quote.h"
 #include "study/scene/words.h"

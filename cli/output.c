@@ -39,17 +39,22 @@ static enum br_status fail_with_errno(const char *name, struct br_error *err)
 
 static const char owner_name[] = ".owner";
 
-/* Programs that are started do not inherit it. */
-static int open_folder(int parent, const char *name)
+/* Opens and locks what a program of this user left behind, or makes: a hidden folder, or a file
+ * (info: out). Programs that are started do not inherit it. -1 with errno: ENOENT where it is gone,
+ * EWOULDBLOCK where somebody uses it. */
+static int take(int parent, const char *name, struct stat *info)
 {
-    return openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-}
-
-static bool is_still(int parent, const char *name, int folder)
-{
-    struct stat there, ours;
-    return fstatat(parent, name, &there, AT_SYMLINK_NOFOLLOW) == 0 && fstat(folder, &ours) == 0 &&
-           there.st_dev == ours.st_dev && there.st_ino == ours.st_ino;
+    struct stat there;
+    const int found = openat(parent, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (found >= 0 && flock(found, LOCK_EX | LOCK_NB) == 0 && fstat(found, info) == 0) {
+        const bool still = fstatat(parent, name, &there, AT_SYMLINK_NOFOLLOW) == 0 &&
+                           there.st_dev == info->st_dev && there.st_ino == info->st_ino;
+        if (still && info->st_uid == geteuid())
+            return found;
+        errno = still ? EPERM : ENOENT;
+    }
+    br_close(found);
+    return -1;
 }
 
 static bool write_owner(int folder)
@@ -65,106 +70,37 @@ static bool write_owner(int folder)
     return written;
 }
 
-static enum br_status refuse(int parent, const char *name, struct br_error *err)
+static enum br_status refuse(int parent, const char *hidden, struct br_error *err)
 {
-    char owner[800] = "another program or user";
-    const int folder = open_folder(parent, name);
-    const int file = folder >= 0 ? openat(folder, owner_name, O_RDONLY | O_CLOEXEC) : -1;
+    char owner[800] = "another program or user", name[300];
+    snprintf(name, sizeof name, "%s/%s", hidden, owner_name);
+    const int file = openat(parent, name, O_RDONLY | O_CLOEXEC);
     const ssize_t got = file >= 0 ? read(file, owner, sizeof owner - 1) : 0;
     owner[got > 0 ? got : (ssize_t)strlen(owner)] = '\0';
     br_close(file);
-    br_close(folder);
     return br_fail(err, BR_BAD_INPUT,
                    "the folder is in use by %s; wait for its end, choose another folder, or, if "
                    "that program has ended, remove %s there",
-                   owner, name);
+                   owner, hidden);
 }
 
-/* Makes and locks a hidden folder in an open one. BR_OK with folder (out): its descriptor; -1: it
- * is there, and nobody uses it. Fails with BR_BAD_INPUT where it cannot be made, or where another
- * program uses it, which the message names. Between making and locking it somebody may take it for
- * one that was left behind. */
-static enum br_status make_hidden(int parent, const char *name, int *folder, struct br_error *err)
-{
-    const bool made = mkdirat(parent, name, 0700) == 0;
-    if (!made && errno != EEXIST)
-        return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
-    *folder = open_folder(parent, name);
-    const bool locked = *folder >= 0 && flock(*folder, LOCK_EX | LOCK_NB) == 0;
-    const bool taken = !locked && errno == EWOULDBLOCK;
-    if (*folder >= 0 && made && !taken && is_still(parent, name, *folder) && write_owner(*folder))
-        return BR_OK;
-    br_close(*folder);
-    const bool gone = *folder < 0 && errno == ENOENT;
-    *folder = -1;
-    if (made && !taken && errno && errno != ENOENT)
-        return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
-    return locked || gone ? BR_OK : refuse(parent, name, err);
-}
-
-/* The descriptor of a hidden folder that this user's program left behind, which is then locked; -1:
- * it is in use, or no such folder. */
-static int take_hidden(int parent, const char *name)
-{
-    struct stat info;
-    const int folder = open_folder(parent, name);
-    if (folder < 0)
-        return -1;
-    if (flock(folder, LOCK_EX | LOCK_NB) == 0 && is_still(parent, name, folder) &&
-        fstat(folder, &info) == 0 && info.st_uid == geteuid()) {
-        if (faccessat(folder, owner_name, F_OK, 0) == 0)
-            return folder;
-        unlinkat(parent, name, AT_REMOVEDIR); /* where it is empty: ended before it was signed */
-    }
-    close(folder);
-    return -1;
-}
-
-/* The names in an open folder, which stays open; NULL with errno. */
-static DIR *open_list(int folder)
-{
-    const int copy = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    DIR *list = copy >= 0 ? fdopendir(copy) : NULL;
-    if (!list)
-        br_close(copy);
-    return list;
-}
-
-/* All files but the owner's. False: some are still there. */
-static bool empty(int folder)
-{
-    DIR *list = open_list(folder);
-    bool all = list;
-    for (struct dirent *entry; list && (entry = readdir(list));) {
-        const char *name = entry->d_name;
-        if (strcmp(name, ".") != 0 && strcmp(name, "..") != 0 && strcmp(name, owner_name) != 0)
-            all = unlinkat(folder, name, 0) == 0 && all;
-    }
-    if (list)
-        closedir(list);
-    return all;
-}
-
-/* Removes a locked one with its files, and closes it. The owner goes last: what has one is ours,
- * and the next program removes the rest. */
+/* Removes a locked one with its files. The owner goes last: what has one is ours, and the next
+ * program removes the rest. */
 static void remove_hidden(int parent, const char *name, int folder)
 {
-    if (empty(folder) && unlinkat(folder, owner_name, 0) == 0)
+    struct dirent **entry;
+    const int found = scandirat(folder, ".", &entry, NULL, NULL);
+    bool empty = found >= 0;
+    for (int i = 0; i < found; i++) {
+        const char *file = entry[i]->d_name;
+        if (strcmp(file, ".") != 0 && strcmp(file, "..") != 0 && strcmp(file, owner_name) != 0)
+            empty = unlinkat(folder, file, 0) == 0 && empty;
+        free(entry[i]);
+    }
+    if (found >= 0)
+        free(entry);
+    if (empty && unlinkat(folder, owner_name, 0) == 0)
         unlinkat(parent, name, AT_REMOVEDIR);
-    close(folder);
-}
-
-/* One that nobody is writing. */
-static void remove_hidden_file(int parent, const char *name)
-{
-    struct stat info;
-    const int file = openat(parent, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0)
-        return;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &info) == 0 && S_ISREG(info.st_mode) &&
-        info.st_uid == geteuid())
-        unlinkat(parent, name, 0);
-    close(file);
 }
 
 /* ---- putting in place: each step may have been done before ---- */
@@ -199,21 +135,19 @@ static enum br_status remove_stale(int parent, const json_t *file, struct br_err
 static enum br_status move_files(int parent, int folder, const json_t *old, const json_t *sets,
                                  struct br_error *err)
 {
-    const json_t *files = br_sets_newest(sets);
-    for (size_t i = 0; i < json_array_size(files); i++) {
-        const char *name = br_listed_name(json_array_get(files, i));
+    size_t i, s;
+    json_t *file, *set;
+    json_array_foreach(br_sets_newest(sets), i, file)
+    {
+        const char *name = br_listed_name(file);
         if (place(parent, folder, name, br_sets_find(old, name), err))
             return err->status;
     }
-    for (size_t s = 0; s < json_array_size(old); s++) {
-        files = json_object_get(json_array_get(old, s), "files");
-        for (size_t i = 0; i < json_array_size(files); i++) {
-            const json_t *file = json_array_get(files, i);
-            const char *name = br_listed_name(file);
-            if (!br_sets_find(sets, name) && is_there(parent, name) &&
-                remove_stale(parent, file, err))
-                return err->status;
-        }
+    json_array_foreach(old, s, set) json_array_foreach(json_object_get(set, "files"), i, file)
+    {
+        const char *name = br_listed_name(file);
+        if (!br_sets_find(sets, name) && is_there(parent, name) && remove_stale(parent, file, err))
+            return err->status;
     }
     return BR_OK;
 }
@@ -248,40 +182,46 @@ static void name_manifest(const char *hidden, char name[280])
 static enum br_status sweep_one(int parent, const char *hidden, struct br_error *err)
 {
     char name[280];
-    const int folder = take_hidden(parent, hidden);
-    if (folder < 0) {
-        remove_hidden_file(parent, hidden);
-        return BR_OK;
-    }
+    struct stat info;
     struct br_error inner = {0};
+    const int found = take(parent, hidden, &info);
+    if (found < 0)
+        return BR_OK;
     name_manifest(hidden, name);
-    if (is_there(folder, decided) && finish(parent, folder, name, &inner)) {
-        close(folder);
-        return br_fail(err, inner.status,
-                       "the results in %s, which an earlier run left, cannot be put in place: %s",
-                       hidden, inner.message);
-    }
-    remove_hidden(parent, hidden, folder);
-    return BR_OK;
+    if (S_ISREG(info.st_mode))
+        unlinkat(parent, hidden, 0);
+    else if (!is_there(found, owner_name))
+        unlinkat(parent, hidden, AT_REMOVEDIR); /* where it is empty: ended before it was signed */
+    else if (!is_there(found, decided) || !finish(parent, found, name, &inner))
+        remove_hidden(parent, hidden, found);
+    close(found);
+    return inner.status ? br_fail(err, inner.status,
+                                  "the results in %s, which an earlier run left, cannot be put in "
+                                  "place: %s",
+                                  hidden, inner.message)
+                        : BR_OK;
 }
 
-static bool is_hidden(const char *name)
+static int is_hidden(const struct dirent *entry)
 {
-    const size_t length = strlen(BR_HIDDEN);
-    return strncmp(name, BR_HIDDEN, length) == 0 && (name[length] == '\0' || name[length] == '-');
+    const char *name = entry->d_name, *rest = name + strlen(BR_HIDDEN);
+    return strncmp(name, BR_HIDDEN, strlen(BR_HIDDEN)) == 0 && (*rest == '\0' || *rest == '-');
 }
 
 enum br_status br_output_sweep(int folder, struct br_error *err)
 {
-    DIR *list = open_list(folder);
-    if (!list)
+    struct dirent **entry;
+    const int found = scandirat(folder, ".", &entry, is_hidden, NULL);
+    if (found < 0)
         return br_fail(err, errno == ENOMEM ? BR_NO_MEMORY : BR_BAD_INPUT,
                        "cannot read the folder: %s", strerror(errno));
     enum br_status status = BR_OK;
-    for (struct dirent *entry; !status && (entry = readdir(list));)
-        if (is_hidden(entry->d_name))
-            status = sweep_one(folder, entry->d_name, err);
-    closedir(list);
+    for (int i = 0; i < found; i++) {
+        if (!status)
+            status = sweep_one(folder, entry[i]->d_name, err);
+        free(entry[i]);
+    }
+    free(entry);
     return status;
 }
 
@@ -301,15 +241,27 @@ bool br_make_folders(const char *path, mode_t last, bool *made)
     return *made || errno == EEXIST;
 }
 
+/* Between making and locking it somebody may take it for one that was left behind: once more. */
 static enum br_status make_staging(struct br_output *o, struct br_error *err)
 {
     enum { TRIALS = 100 };
+    struct stat info;
     for (int i = 0; i < TRIALS; i++) {
-        if (br_output_sweep(o->parent, err) ||
-            make_hidden(o->parent, o->hidden, &o->descriptor, err))
+        if (br_output_sweep(o->parent, err))
             return err->status;
-        if (o->descriptor >= 0)
+        const bool made = mkdirat(o->parent, o->hidden, 0700) == 0;
+        if (!made && errno != EEXIST)
+            return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+        o->descriptor = take(o->parent, o->hidden, &info);
+        if (made && o->descriptor >= 0 && write_owner(o->descriptor))
             return BR_OK;
+        const bool retry = o->descriptor >= 0 || errno == ENOENT;
+        br_close(o->descriptor);
+        o->descriptor = -1;
+        if (made && errno && errno != ENOENT && errno != EWOULDBLOCK)
+            return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+        if (!made && !retry)
+            return refuse(o->parent, o->hidden, err);
     }
     return br_fail(err, BR_BAD_INPUT, "%s is in the way", o->hidden);
 }
@@ -370,9 +322,11 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
 static const char *find_foreign(const struct br_output *o, const json_t *sets, const json_t *old)
 {
     struct stat info;
-    const json_t *files = br_sets_newest(sets);
-    for (size_t i = 0; i < json_array_size(files); i++) {
-        const char *name = br_listed_name(json_array_get(files, i));
+    size_t i;
+    json_t *file;
+    json_array_foreach(br_sets_newest(sets), i, file)
+    {
+        const char *name = br_listed_name(file);
         if (fstatat(o->parent, name, &info, AT_SYMLINK_NOFOLLOW) == 0 &&
             (S_ISDIR(info.st_mode) || !br_sets_find(old, name)))
             return name;
@@ -380,8 +334,11 @@ static const char *find_foreign(const struct br_output *o, const json_t *sets, c
     return NULL;
 }
 
-static void close_output(struct br_output *o)
+/* Closes the folders, and the hidden one for good where nothing in it is needed. */
+static void close_output(struct br_output *o, bool remove)
 {
+    if (remove && o->descriptor >= 0)
+        remove_hidden(o->parent, o->hidden, o->descriptor);
     br_close(o->descriptor);
     br_close(o->parent);
     o->staging[0] = '\0';
@@ -395,16 +352,15 @@ static enum br_status divert(struct br_output *o, json_t *sets, const char *fore
     snprintf(name, sizeof name, "set-%s", o->run);
     if (br_sets_write(o->descriptor, "manifest.json", sets, err))
         return err->status;
-    if (unlinkat(o->descriptor, ".owner", 0) != 0 ||
+    if (unlinkat(o->descriptor, owner_name, 0) != 0 ||
         fchmod(o->descriptor, br_new_permissions(0777)) != 0 ||
         renameat(o->parent, o->hidden, o->parent, name) != 0)
         return fail_with_errno(name, err);
-    br_fail(err, BR_IO,
-            "%s/%s was not written by an earlier run and is not replaced: all results are in "
-            "%s/%s instead",
-            o->folder, foreign, o->folder, name);
-    close_output(o);
-    return BR_IO;
+    close_output(o, false);
+    return br_fail(err, BR_IO,
+                   "%s/%s was not written by an earlier run and is not replaced: all results are "
+                   "in %s/%s instead",
+                   o->folder, foreign, o->folder, name);
 }
 
 /* After the decision the hidden folder is the next program's, if this one cannot go on. */
@@ -412,11 +368,7 @@ static enum br_status put_in_place(struct br_output *o, struct br_error *err)
 {
     struct br_error inner = {0};
     const enum br_status status = finish(o->parent, o->descriptor, o->manifest, &inner);
-    if (!status) {
-        remove_hidden(o->parent, o->hidden, o->descriptor);
-        o->descriptor = -1;
-    }
-    close_output(o);
+    close_output(o, !status);
     return status ? br_fail(err, status,
                             "%s: %.700s; the results are whole in %s/%s: the next command with "
                             "this folder puts them in place first",
@@ -444,14 +396,9 @@ void br_output_discard(struct br_output *o)
 {
     if (!o->staging[0])
         return;
-    if (o->descriptor >= 0) {
+    if (o->descriptor >= 0)
         unlinkat(o->descriptor, decided, 0); /* where it cannot go, its files must stay */
-        if (!is_there(o->descriptor, decided)) {
-            remove_hidden(o->parent, o->hidden, o->descriptor);
-            o->descriptor = -1;
-        }
-    }
-    close_output(o);
+    close_output(o, o->descriptor >= 0 && !is_there(o->descriptor, decided));
     if (o->made)
         rmdir(o->folder); /* fails, as it should, where there are results */
 }

@@ -87,8 +87,10 @@ mode_t br_new_permissions(mode_t wanted);
  * beside its place, then renamed into it. Begins as zeros. */
 struct br_whole_file {
     const char *path; /* as given; borrowed; NULL: not wanted, and all calls do nothing */
-    char *place;      /* where that is, symbolic links followed; owned; NULL: standard output */
+    char *place;      /* where that is, symbolic links followed; owned; NULL: standard output, a
+                         device, or a pipe without a name */
     bool renamed;     /* else it is no plain file, and written in place */
+    int folder;       /* of one that is renamed, open */
     FILE *file;       /* to be written */
     char *text;       /* size bytes: what was written; owned */
     size_t size;
@@ -100,12 +102,11 @@ struct br_whole_file {
 enum br_status br_whole_file_open(struct br_whole_file *whole, const char *option, const char *path,
                                   struct br_error *err);
 
-/* Whether two open ones would end in the same place; whether one would replace a given file. */
+/* Whether two open ones would end in the same place. */
 bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b);
-bool br_whole_file_replaces(const struct br_whole_file *w, const char *path);
 
-/* Whether it is that folder, which need not be there yet, or would stand in it. */
-bool br_whole_file_is_in(const struct br_whole_file *file, const char *folder);
+/* Whether it would replace that file, or stand in that folder; neither need be there yet. */
+bool br_whole_file_meets(const struct br_whole_file *file, const char *path);
 
 /* Puts what was written in its place. Fails with BR_IO or BR_NO_MEMORY; discard it all the same. */
 enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error *err);
@@ -115,8 +116,12 @@ void br_whole_file_discard(struct br_whole_file *whole);
 
 /* ---- among these files ---- */
 
-/* Writes all of the bytes, and waits until the disk has them. False: errno tells why. */
-bool br_write_whole(int file, const char *bytes, size_t count);
+/* Writes a file of an open folder, whole or not at all: under a hidden name, which is then renamed.
+ * False: errno tells why. */
+bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count);
+
+/* Whether two files have one name but for what follows its last dot. */
+bool br_same_stem(const char *a, const char *b);
 
 /* Closes a descriptor, unless it is -1; errno is kept. */
 void br_close(int descriptor);

@@ -104,33 +104,29 @@ static enum br_status write_results(struct run *r, const char *stopped, struct b
 
 /* ---- before the march ---- */
 
-/* Whether two files have one name but for what follows its last dot. */
-static bool same_stem(const char *a, const char *b)
+static const char *base_of(const char *path)
 {
-    const char *x = strrchr(a, '/') ? strrchr(a, '/') + 1 : a;
-    const char *y = strrchr(b, '/') ? strrchr(b, '/') + 1 : b;
-    const size_t m = strrchr(x, '.') ? (size_t)(strrchr(x, '.') - x) : strlen(x);
-    const size_t n = strrchr(y, '.') ? (size_t)(strrchr(y, '.') - y) : strlen(y);
-    return m == n && strncmp(x, y, n) == 0;
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
 }
 
 /* One output must not replace another, or a scene. */
 static enum br_status check_places(const struct run *r, struct br_error *err)
 {
-    const char *slash = r->animate ? strrchr(r->animate, '/') : NULL;
-    char folder[1024] = ".";
-    if (br_whole_file_replaces(&r->summary, r->plan.opened.path))
+    char folder[1024] = "./";
+    if (br_whole_file_meets(&r->summary, r->plan.opened.path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
-    if (r->out && br_whole_file_is_in(&r->summary, r->out))
+    if (r->out && br_whole_file_meets(&r->summary, r->out))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', expected a place outside of the folder of --out, which "
                        "has a summary.json of its own",
                        r->json);
-    if (slash)
-        snprintf(folder, sizeof folder, "%.*s", (int)(slash - r->animate + 1), r->animate);
-    if (r->animate &&
-        (br_whole_file_is_in(&r->summary, r->animate) ||
-         (br_whole_file_is_in(&r->summary, folder) && same_stem(r->json, r->animate))))
+    if (r->animate && strchr(r->animate, '/'))
+        snprintf(folder, sizeof folder, "%.*s", (int)(base_of(r->animate) - r->animate),
+                 r->animate);
+    if (r->animate && (br_whole_file_meets(&r->summary, r->animate) ||
+                       (br_whole_file_meets(&r->summary, folder) &&
+                        br_same_stem(base_of(r->json), base_of(r->animate)))))
         return br_fail(err, BR_BAD_INPUT,
                        "--json: found '%s', which --animate %s writes too, expected another name",
                        r->json, r->animate);

@@ -7,8 +7,7 @@
 
 #include "cli/option.h"
 #include "cli/output.h"
-#include "plots/figure.h"
-#include "plots/render.h"
+#include "plots/pictures.h"
 #include "study/foresee/foreseen.h"
 #include "study/foresee/warnings.h"
 #include "study/kept/kept.h"

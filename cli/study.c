@@ -30,7 +30,8 @@ struct job {
 
 enum { MESHES = 4 }; /* an order needs three differences */
 
-/* A job on its way. */
+/* A job on its way. Each mesh is compared with the next at one time step, and without a reference
+ * each cell of the grid with its neighbours. */
 struct work {
     struct br_opened_scene opened;
     size_t *steps;             /* of the grid, ascending; owned */
@@ -38,8 +39,7 @@ struct work {
     size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
     struct br_error no_meshes; /* why there are no differences */
     struct br_kept kept;
-    struct br_study meshes[BR_MOST_NORMS]; /* each mesh against the next at one time step; without
-                                              a reference not used */
+    struct br_differences apart[BR_MOST_NORMS];
 };
 
 /* A report with its name and caption. */
@@ -55,8 +55,7 @@ struct run {
     const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
     size_t jobs, pages;
-    size_t heads;      /* jobs, or twice that: each job, then each against the exact solution, or
-                          without a reference over h, then over k */
+    size_t heads;      /* jobs, or twice that: each job, then each against the exact solution */
     struct work *work; /* jobs */
     struct page *page; /* pages, those of a job together */
     struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
@@ -137,35 +136,37 @@ static enum br_status read_printed(const char *relative, struct br_report *repor
     return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
 }
 
-/* Of a job in norm m; without a reference over h (variant 0) or k (1). Names end with the norm, but
- * for the default one, and with what is compared. */
+/* Of a job in norm m; without a reference over h, then k. Names end with the norm, but for the
+ * default one, and with what is compared. */
 static enum br_status start_report(struct run *r, const struct job *job, size_t i, size_t m,
-                                   size_t variant, struct br_error *err)
+                                   bool over_k, struct br_error *err)
 {
-    static const char *const compared[][2] = {
-        {"-meshes", ": differences of successive meshes"},
-        {"-steps", ": differences of successive time steps"},
-        {"", ""},
-    };
-    const char *const *what = compared[r->differences ? variant : 2];
+    struct work *w = &r->work[i];
     const struct br_norm *norm = r->request.norm[m];
-    const struct br_scene *scene = &r->work[i].opened.scene;
+    const struct br_scene *scene = &w->opened.scene;
     const bool usual = norm == br_norms[0];
     struct page *page = &r->page[r->pages++];
-    page->work = &r->work[i];
+    page->work = w;
     snprintf(page->name, sizeof page->name, "%s%s%s%s", job->name ? job->name : scene->name,
-             usual ? "" : "-", usual ? "" : norm->name, what[0]);
-    snprintf(page->caption, sizeof page->caption, "%s%s",
-             job->caption ? job->caption : scene->title, what[1]);
+             usual ? "" : "-", usual ? "" : norm->name,
+             !r->differences ? ""
+             : over_k        ? "-steps"
+                             : "-meshes");
+    snprintf(page->caption, sizeof page->caption, "%s%s%s",
+             job->caption ? job->caption : scene->title,
+             r->differences ? ": differences of successive " : "",
+             !r->differences ? ""
+             : over_k        ? "time steps"
+                             : "meshes");
     page->report = (struct br_report){
         .name = page->name,
         .caption = page->caption,
-        .study = study_of(r, variant * r->jobs + i, m),
-        .exact = !r->differences && r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
-        .tips = r->differences ? &r->work[i].tips : NULL,
-        .meshes = !r->differences ? &r->work[i].meshes[m]
-                  : variant == 0  ? study_of(r, i, m)
-                                  : NULL,
+        .study = !r->differences ? study_of(r, i, m)
+                 : over_k        ? &w->apart[m].over_k
+                                 : &w->apart[m].over_h,
+        .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .tips = r->differences ? &w->tips : NULL,
+        .meshes = over_k ? NULL : &w->apart[m].over_h,
         .rates = br_option_given(r->session->options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
@@ -182,9 +183,9 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
         return err->status;
     spread_study(r, i);
     for (size_t m = 0; m < r->request.norms; m++)
-        for (size_t v = 0; v < (r->differences ? 2 : 1); v++)
-            if (start_report(r, job, i, m, v, err))
-                return err->status;
+        if (start_report(r, job, i, m, false, err) ||
+            (r->differences && start_report(r, job, i, m, true, err)))
+            return err->status;
     return BR_OK;
 }
 
@@ -197,8 +198,7 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
     if (br_study_request_read(r->session->options, &r->request, err))
         return err->status;
     r->differences = q->judge == &br_judge_none;
-    r->heads =
-        r->differences || (with_exact && q->judge && q->judge->nests) ? 2 * r->jobs : r->jobs;
+    r->heads = with_exact && q->judge && q->judge->nests ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
@@ -222,8 +222,10 @@ static void clear(void *self)
     for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
-        for (size_t m = 0; m < r->request.norms; m++)
-            br_study_clear(&r->work[i].meshes[m]);
+        for (size_t m = 0; m < r->request.norms; m++) {
+            br_study_clear(&r->work[i].apart[m].over_h);
+            br_study_clear(&r->work[i].apart[m].over_k);
+        }
         br_opened_scene_clear(&r->work[i].opened);
         br_tips_clear(&r->work[i].tips);
         free(r->work[i].steps);
@@ -262,20 +264,6 @@ static enum br_status check_memory(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* The differences of one job's grids, into its studies. */
-static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
-                                      struct br_error *err)
-{
-    struct br_differences out[BR_MOST_NORMS] = {0};
-    const enum br_status status = br_differences_run(study_of(r, job, 0), out, &r->work[job].tips,
-                                                     r->session->threads, observer, err);
-    for (size_t m = 0; m < r->request.norms; m++) {
-        *study_of(r, job, m) = out[m].over_h;
-        *study_of(r, r->jobs + job, m) = out[m].over_k;
-    }
-    return status;
-}
-
 /* The meshes of the grid, if they are enough and each nests in the next, or else some up to about
  * the finest; at the coarsest time step that all of them can march. */
 static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESHES])
@@ -299,27 +287,27 @@ static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESH
     return grid;
 }
 
-/* They show the order in h, which the error in k hides in most grids. A study goes on without. */
-static enum br_status run_meshes(struct run *r, size_t job, const struct br_observer *observer,
-                                 struct br_error *err)
+/* Those of meshes show the order in h, which the error in k hides in most grids. A study with a
+ * reference goes on without. */
+static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
+                                      struct br_error *err)
 {
     const size_t norms = r->request.norms;
     struct work *w = &r->work[job];
     struct br_study grid[BR_MOST_NORMS] = {0};
-    struct br_differences out[BR_MOST_NORMS] = {0};
     for (size_t m = 0; m < norms; m++) {
-        grid[m] = grid_of_meshes(study_of(r, job, 0), w->mesh);
+        grid[m] =
+            r->differences ? *study_of(r, job, 0) : grid_of_meshes(study_of(r, job, 0), w->mesh);
         grid[m].norm = r->request.norm[m];
         grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
     }
     const enum br_status status =
-        br_differences_run(grid, out, NULL, r->session->threads, observer, &w->no_meshes);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
+        br_differences_run(grid, w->apart, r->differences ? &w->tips : NULL, r->session->threads,
+                           observer, &w->no_meshes);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || (status && r->differences))
         return br_fail(err, status, "%s", w->no_meshes.message);
-    for (size_t m = 0; m < norms && !status; m++) {
-        w->meshes[m] = out[m].over_h;
-        br_flag_beside(&w->meshes[m]);
-    }
+    for (size_t m = 0; m < norms && !status && !r->differences; m++)
+        br_flag_beside(&w->apart[m].over_h);
     return BR_OK;
 }
 
@@ -331,8 +319,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
     if (!r->differences)
         status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
     for (size_t i = 0; i < r->jobs && !status; i++)
-        status =
-            r->differences ? run_differences(r, i, observer, err) : run_meshes(r, i, observer, err);
+        status = run_differences(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
         br_session_tell_kept(r->session, &r->work[i].kept);
@@ -373,7 +360,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 static void foresee(void *self, struct br_foreseen *work)
 {
     const struct run *r = self;
-    for (size_t h = 0; h < (r->differences ? r->jobs : r->heads); h++)
+    for (size_t h = 0; h < r->heads; h++)
         br_foreseen_add_study(work, study_of(r, h, 0));
 }
 
@@ -382,12 +369,16 @@ static enum br_status check_cells(const struct run *r, struct br_error *err)
 {
     size_t failed = 0, cells = 0;
     const struct br_cell *first = NULL;
-    for (const struct br_study *s = r->study; s < r->study + r->heads; s++)
-        for (size_t c = 0; c < s->n_count * s->k_count; c++, cells++)
-            if (s->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED) {
-                first = first ? first : &s->cell[c];
-                failed++;
-            }
+    for (size_t i = 0; i < 2 * r->pages; i++) {
+        const struct br_report *report = &r->page[i / 2].report;
+        const struct br_study *s = i % 2 ? report->exact : report->study;
+        for (size_t c = 0; s && s->norm == r->request.norm[0] && c < br_study_cells(s); c++) {
+            const bool bad = s->cell[c].flag[BR_PART_TOTAL] == BR_FLAG_FAILED;
+            first = bad && !first ? &s->cell[c] : first;
+            failed += bad;
+            cells++;
+        }
+    }
     if (!failed)
         return BR_OK;
     return br_fail(err, BR_NOT_FINITE, "%zu of %zu cells failed; the first is n = %zu: %s", failed,

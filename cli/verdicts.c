@@ -31,7 +31,7 @@ enum br_status br_verdicts_spare(const struct br_verdicts *v, const char *path,
                                  struct br_error *err)
 {
     for (size_t i = 1; path && br_check_formats[i]; i++)
-        if (br_whole_file_replaces(&v->file[i], path))
+        if (br_whole_file_meets(&v->file[i], path))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace %s, which is read",
                            br_check_formats[i]->name, path);
     return BR_OK;
@@ -50,7 +50,7 @@ static enum br_status check_places(const struct br_verdicts *v, const char *base
                 return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
                                br_check_formats[j]->name, name, f->path);
         if (baseline &&
-            (br_whole_file_replaces(f, baseline) || br_whole_file_same(f, &v->baseline)))
+            (br_whole_file_meets(f, baseline) || br_whole_file_same(f, &v->baseline)))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plots/figure.h"
+#include "plots/pictures.h"
 
 #include <math.h>
 #include <stdarg.h>

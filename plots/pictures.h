@@ -1,12 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The pictures of each report, filled from its result: nothing is computed here but where a point
- * stands. Clear what they return; where there was no memory for all of it, br_figure_check tells.
+/* Pictures: what a figure is, the fillers that make one of each report, and gnuplot, which draws
+ * it.
  *
  * To add a picture: a filler, and a row of its registry or a declaration below. */
 #ifndef BR_PLOTS_PICTURES_H
 #define BR_PLOTS_PICTURES_H
 
-#include "plots/figure.h"
+#include <stdbool.h>
+#include <stdio.h>
+#include <sys/types.h>
+
+#include "solver/status.h"
+#include "study/grid/observer.h"
+
 struct br_named_method;
 struct br_orders;
 struct br_energy_behaviour;
@@ -22,6 +28,153 @@ struct br_stability;
 struct br_variation;
 struct br_trade;
 struct br_trial;
+
+/* ---- figure.c ---- */
+
+/* A picture as data: panels of series between axes, or of coloured cells, and one key for all of
+ * them. A filler fills it from a result (plots/pictures.h), and script.c alone writes it for
+ * gnuplot, which lays it out.
+ *
+ * Fillers add to the last panel, and need not look whether there was memory: the figure remembers,
+ * and br_figure_check tells. Texts are in gnuplot's enhanced markup unless they are called plain;
+ * plain ones may come from a scene. */
+
+enum {
+    BR_FIGURE_PANELS = 6,
+    BR_FIGURE_NOTES = 3,
+    BR_FIGURE_KINDS = 8,
+    BR_HUES = 6 /* that can be told apart; each has a dash and a mark of its own */
+};
+
+/* How a series is drawn. The first two are in a hue; where none is left, they are grey, two of the
+ * "others". */
+enum br_pen {
+    BR_PEN_CURVE, /* a line with marks */
+    BR_PEN_LINE,  /* a line, for many points */
+    BR_PEN_OTHERS,
+    BR_PEN_GUIDE, /* what is predicted or compared with: thin, dark, dashed */
+    BR_PEN_BAND,  /* wide and pale, behind the others */
+    BR_PEN_DOTS,  /* points: small and grey, */
+    BR_PEN_RINGS, /* and so on */
+    BR_PEN_SQUARES,
+    BR_PEN_PLUSES,
+    BR_PEN_STARS,
+    BR_PEN_SIGNS, /* a mark in black, for a key whose hues mean something else */
+    BR_PENS
+};
+
+struct br_figure_point {
+    double x, y;      /* not finite: a gap */
+    const char *flag; /* a word, why it counts less: its mark is hollow; NULL: none. Borrowed */
+};
+
+/* Series of one pen and title look the same in all panels, and have one entry in the key. */
+struct br_series {
+    char title[80]; /* "": not in the key */
+    char end[16];   /* a text beside the last point */
+    enum br_pen pen;
+    size_t look; /* 1, 2, ...: the hue; of a guide its dash */
+    bool in_key; /* the first one of its title */
+    size_t mark; /* 1 to BR_HUES: another hue's mark; 0: its own */
+    struct br_figure_point *point;
+    size_t count, room; /* no points: it stands in the key alone */
+    bool failed;
+};
+
+/* Cells of a plane. value: rows * columns, by rows; NaN: an empty cell. */
+struct br_cells {
+    size_t columns, rows;
+    double *x, *y, *value; /* x, y: edges, columns + 1 and rows + 1, ascending; owned */
+};
+
+struct br_range {
+    double low, high;
+};
+
+struct br_panel {
+    char title[96], x_label[96], y_label[96], top_label[32];
+    bool log_x, log_y;
+    struct br_series **series; /* count; owned */
+    size_t count, room;
+    struct br_series top;  /* ticks of the upper axis: at x stands the number y */
+    struct br_cells cells; /* 0 columns: none */
+};
+
+struct br_figure {
+    char stem[512];                  /* of the files, plain */
+    char title[1024];                /* plain */
+    char about[256];                 /* a comment in the files, plain */
+    char note[BR_FIGURE_NOTES][256]; /* lines below the title, plain */
+    char hollow[48];                 /* what a hollow mark means */
+    bool one_y;                      /* all panels share the range of y */
+    struct br_panel panel[BR_FIGURE_PANELS];
+    size_t panels;
+    bool failed;
+    struct br_series lost; /* what a filler gets where there is no memory */
+    /* Of cells: factors, by size, with white at 1; or, where they are kinds 0, 1, ..., names. */
+    char value_label[96];
+    struct br_range value; /* the ends of the colours: below and above 1 */
+    char kind[BR_FIGURE_KINDS][64];
+    size_t kinds;
+};
+
+/* Fills a text of a figure. */
+#define BR_SAY(text, ...) snprintf((text), sizeof(text), __VA_ARGS__)
+
+/* A new panel; there must be room. */
+struct br_panel *br_panel_add(struct br_figure *figure, const char *x_label, const char *y_label);
+
+/* A new series of the last panel, to be filled. The title is a format. */
+__attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_figure *figure,
+                                                                      enum br_pen pen,
+                                                                      const char *title, ...);
+void br_point_add(struct br_series *series, double x, double y, const char *flag);
+
+/* Brings the points into the order of x; of equals the least y first. */
+void br_series_sort(struct br_series *series);
+
+/* To the last panel, when its series are there: a line across it at one x, with a title in the key,
+ * and right of all points (both axes are logarithmic) slopes to compare with, ascending. */
+void br_mark_add(struct br_figure *figure, double x, const char *title);
+void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
+
+/* Makes the last panel's cells, all NaN, with their edges to be filled; NULL without memory. */
+struct br_cells *br_cells_make(struct br_figure *figure, size_t columns, size_t rows);
+
+/* Whether a point can be drawn: finite, and positive along logarithmic axes. */
+bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);
+
+/* The range of the points that are drawn; low > high: there are none. */
+struct br_range br_extent(const struct br_panel *panel, bool along_y);
+
+/* What a cell is coloured by: its kind, or its value brought between the ends; -1: it is empty. */
+double br_colour_of(const struct br_figure *figure, double value);
+
+/* Fails with BR_NO_MEMORY where something is missing in the figure, and with BR_BAD_INPUT where its
+ * stem is not the beginning of a file's name; a figure for the terminal has none. */
+enum br_status br_figure_check(const struct br_figure *figure, struct br_error *err);
+void br_figure_clear(struct br_figure *figure);
+
+/* The data: a block for each panel's cells and each series with points. */
+void br_figure_write_data(FILE *out, const struct br_figure *figure);
+
+/* ---- script.c ---- */
+
+/* The script that draws stem.svg, stem.png and, where gnuplot can, stem.pdf from stem.dat. */
+void br_figure_write_script(FILE *out, const struct br_figure *figure);
+
+/* A script that draws the panels one below the other with letters, `columns` wide, on standard
+ * output; its data are in it. */
+void br_figure_write_letters(FILE *out, const struct br_figure *figure, int columns);
+
+/* How every script begins: comments, and the variables `stem` and `data`. pictures: what it draws.
+ */
+void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures);
+
+/* ==== what is filled ====
+ *
+ * From a result: nothing is computed here but where a point stands. Clear what they return; where
+ * there was no memory for all of it, br_figure_check tells. */
 
 /* ---- convergence.c: a study's errors ---- */
 
@@ -116,7 +269,7 @@ void br_rows_add(struct br_figure *figure, const char *title,
 struct br_figure br_history_draw(const struct br_scene *scene,
                                  const struct br_history_record *record);
 
-/* ---- movie.c: beam, obstacle, and the forces at the tip, moving ---- */
+/* ---- run.c, too: beam, obstacle, and the forces at the tip, moving ---- */
 
 /* A row of the registry. */
 struct br_movie_format {
@@ -146,5 +299,56 @@ void br_movie_write_script(FILE *out, const struct br_movie *movie);
 
 /* The name of a movie's picture: of frame i for a set of frames. */
 void br_movie_file(const struct br_movie *movie, size_t frame, char *file, size_t size);
+
+/* ---- render.c ---- */
+
+/* Running gnuplot, and ffmpeg. All fail with BR_IO where gnuplot does, with the line in which it
+ * says why, and where it takes longer than a minute (or BEAMRATE_GNUPLOT_SECONDS); with
+ * BR_INTERRUPTED when the work is to stop. A gnuplot that has not ended is killed. */
+
+/* What tells all that wait for gnuplot that they shall stop. NULL, as at first: nothing. */
+void br_gnuplot_stop_when(bool (*stop)(void));
+
+/* A script that gnuplot is at work on; several may be so side by side. */
+enum { BR_SCRIPT_NAME = 512 };
+struct br_gnuplot {
+    const char *program; /* its name */
+    char folder[4096], script[BR_SCRIPT_NAME];
+    pid_t child;
+    FILE *said;     /* what it says */
+    double started; /* s, by the monotonic clock */
+    /* of a script that says a dot a picture: who is told how many it has drawn of all; NULL: nobody
+     */
+    const struct br_observer *observer;
+    size_t pictures;
+};
+
+/* Starts gnuplot on a script in its folder, or on commands (script NULL) that stand in a file.
+ * *missing (out): gnuplot is not installed, and the call fails. End what has been started. */
+enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
+                                FILE *commands, bool *missing, struct br_error *err);
+
+/* Waits for the end. */
+enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
+
+/* The same for the script of a figure. Fails, too, where a picture is not complete (a full disk);
+ * after any failure none of them stays. */
+enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err);
+
+/* Runs the commands in a temporary file, which is closed (NULL: it could not be made); what gnuplot
+ * says goes to `out`. */
+enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err);
+
+/* Makes a film, folder/stem.mp4, of the frames folder/stem-0001.png and so on, with ffmpeg, and
+ * removes them. *missing (out): ffmpeg is not installed, and the call fails. */
+enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
+                            struct br_error *err);
+
+/* Whether ffmpeg is installed. */
+bool br_film_can_be_made(void);
+
+/* Whether a picture that gnuplot has drawn is whole, which gnuplot does not look at: fails with
+ * BR_IO where it is not there, or does not end as its kind does. */
+enum br_status br_picture_check(const char *path, struct br_error *err);
 
 #endif

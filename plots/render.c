@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "plots/render.h"
+#include "plots/pictures.h"
 
 extern char **environ;
 

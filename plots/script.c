@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "plots/figure.h"
+#include "plots/pictures.h"
 #include "study/scene/quote.h"
 
 enum {

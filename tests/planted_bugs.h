@@ -831,7 +831,7 @@ static const struct planted_bug planted_bugs[] = {
      "if (axial)\n        order[orders++] = 2;", "if (axial)\n        order[orders++] = 1;"},
     {"measured_losses_are_the_predicted", "drawn", "plots/extremes.c",
      "tests/test_figure test_stored", "fabs(measured || row", "fabs(!measured || row"},
-    {"movie_of_slopes", "drawn", "plots/movie.c", "golden run_animate",
+    {"movie_of_slopes", "drawn", "plots/run.c", "golden run_animate",
      "u[i * r->unknowns[BR_AXIAL]], w[2 * i]", "u[i * r->unknowns[BR_AXIAL]], w[2 * i + 1]"},
     {"split_over_n", "drawn", "plots/split.c", "golden split_meshes",
      "br_mesh_size(s->scene, s->at.n)", "(double)s->at.n"},

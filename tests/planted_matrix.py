@@ -5,156 +5,89 @@ tests whose programs the bug changes; all others give what they gave before. App
 table for each test that fails, and one without a test for a bug that none sees. Bugs that are in
 the table already are passed over, so an interrupted run goes on where it was.
 
-usage: planted_matrix.py COPY TABLE [--bugs NAME,...] [--tests NAME,...] [--limit SECONDS]
+usage: planted_matrix.py COPY TABLE [BUG...]      COPY: a folder, kept for the next run
 """
-import argparse
 import csv
 import hashlib
 import json
 import os
 import pathlib
-import shutil
-import signal
 import subprocess
 import sys
-import time
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-HEADING = ["bug", "kind", "file", "test", "outcome", "seconds"]
+LIMIT = 300  # seconds of a test
 # Prints every row of the table of bugs, its texts ended by a zero byte each.
 PRINTER = """#include <stdio.h>
 #include "tests/planted_bugs.h"
 int main(void)
 {
-    for (size_t i = 0; i < PLANTED_BUGS; i++) {
-        const struct planted_bug *b = &planted_bugs[i];
+    for (const struct planted_bug *b = planted_bugs; b < planted_bugs + PLANTED_BUGS; b++)
         printf("%s%c%s%c%s%c%s%c%s%c", b->name, 0, b->kind, 0, b->file, 0, b->text, 0, b->instead, 0);
-    }
 }
 """
 
 
+def output_of(*words, **more):
+    return subprocess.run(words, capture_output=True, text=True, check=True, **more).stdout
+
+
 def planted_bugs(folder):
-    program = folder / "print_bugs"
-    subprocess.run(["cc", "-I", SOURCE, "-x", "c", "-", "-o", program], input=PRINTER, text=True,
+    subprocess.run(["cc", "-I", SOURCE, "-x", "c", "-", "-o", folder / "bugs"], input=PRINTER, text=True,
                    check=True)
-    texts = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split("\0")
-    keys = ["name", "kind", "file", "text", "instead"]
-    return [dict(zip(keys, texts[i:i + 5])) for i in range(0, len(texts) - 1, 5)]
-
-
-def copy_tree(tree):
-    """The files that git knows, as they are."""
-    listed = subprocess.run(["git", "-C", SOURCE, "ls-files", "-z"], capture_output=True, text=True,
-                            check=True).stdout
-    for name in filter(None, listed.split("\0")):
-        (tree / name).parent.mkdir(parents=True, exist_ok=True)
-        if not (tree / name).exists() or (tree / name).read_bytes() != (SOURCE / name).read_bytes():
-            shutil.copy(SOURCE / name, tree / name)
-
-
-def ninja(build):
-    return subprocess.run(["ninja", "-C", build, "-j", "2"], capture_output=True, text=True)
-
-
-def known_tests(build, wanted):
-    out = subprocess.run(["meson", "introspect", "--tests", build], capture_output=True, text=True,
-                         check=True).stdout
-    return [t for t in json.loads(out) if not t["name"].startswith("planted")
-            and (not wanted or t["name"] in wanted)]
-
-
-def programs(build, test):
-    """What a test runs: itself, and the programs that its words and environment name."""
-    words = test["cmd"] + list(test["env"].values())
-    return sorted({w for w in words if w.startswith(str(build)) and os.path.isfile(w)})
+    texts = output_of(folder / "bugs").split("\0")
+    return [texts[i:i + 5] for i in range(0, len(texts) - 1, 5)]
 
 
 def fingerprint(build, test):
-    digest = hashlib.sha256()
-    for name in programs(build, test):
-        digest.update(pathlib.Path(name).read_bytes())
-    return digest.hexdigest()
+    """Of what a test runs: itself, and the programs that its words and environment name."""
+    words = test["cmd"] + list(test["env"].values())
+    names = sorted({w for w in words if w.startswith(str(build)) and os.path.isfile(w)})
+    return [hashlib.sha256(pathlib.Path(name).read_bytes()).digest() for name in names]
 
 
-def outcome(test, limit):
-    """passed, failed or timeout; what the test has started ends with it."""
-    process = subprocess.Popen(test["cmd"], env={**os.environ, **test["env"]}, cwd=test["workdir"],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                               start_new_session=True)
+def passes(test):
+    """What the test has started ends with it."""
+    words = ["timeout", "-s", "KILL", str(LIMIT), *test["cmd"]]
+    return subprocess.run(words, env={**os.environ, **test["env"]}, cwd=test["workdir"],
+                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode in (0, 77)
+
+
+def seen_by(file, text, instead, tree, build, sound):
+    """Plants, builds, runs; the tests that fail, or why there are none."""
+    source = (tree / file).read_text()
+    if source.count(text) != 1:
+        return [["", "its text does not stand there once"]]
+    (tree / file).write_text(source.replace(text, instead))
     try:
-        return "passed" if process.wait(limit) in (0, 77) else "failed"
-    except subprocess.TimeoutExpired:
-        os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
-        return "timeout"
-
-
-def sound_tests(build, tests, limit):
-    """Those that pass without a bug, with the fingerprints of their programs."""
-    sound = {}
-    for test in tests:
-        if (found := outcome(test, limit)) == "passed":
-            sound[test["name"]] = fingerprint(build, test)
-        else:
-            print(f"{test['name']}: {found} without a bug, left out", file=sys.stderr)
-    return [t for t in tests if t["name"] in sound], sound
-
-
-def lines_of(bug, tree, build, tests, sound, limit):
-    """Plants, builds, runs; the lines of the table."""
-    begin = [bug["name"], bug["kind"], bug["file"]]
-    path = tree / bug["file"]
-    source = path.read_text()
-    if source.count(bug["text"]) != 1:
-        return [begin + ["", "its text does not stand there once", 0]]
-    path.write_text(source.replace(bug["text"], bug["instead"]))
-    try:
-        if ninja(build).returncode:
-            return [begin + ["", "does not build", 0]]
-        lines = []
-        for test in tests:
-            if fingerprint(build, test) == sound[test["name"]]:
-                continue
-            start = time.monotonic()
-            found = outcome(test, limit)
-            if found != "passed":
-                lines.append(begin + [test["name"], found, f"{time.monotonic() - start:.1f}"])
-        return lines or [begin + ["", "seen by none", 0]]
+        if subprocess.run(["ninja", "-C", build], stdout=subprocess.DEVNULL).returncode:
+            return [["", "does not build"]]
+        changed = (t for t, was in sound if fingerprint(build, t) != was)
+        return [[t["name"], "failed"] for t in changed if not passes(t)] or [["", "seen by none"]]
     finally:
-        path.write_text(source)
+        (tree / file).write_text(source)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("copy", type=pathlib.Path, help="folder of the copy, kept for the next run")
-    parser.add_argument("table", type=pathlib.Path, help="CSV that lines are appended to")
-    parser.add_argument("--bugs", help="names, by default all")
-    parser.add_argument("--tests", help="names, by default all")
-    parser.add_argument("--limit", type=float, default=300, help="seconds of a test, at most")
-    options = parser.parse_args()
-    tree, build = options.copy.resolve() / "tree", options.copy.resolve() / "build"
+def main(copy, table, *wanted):
+    tree, build = copy / "tree", copy / "build"
     tree.mkdir(parents=True, exist_ok=True)
-    copy_tree(tree)
+    output_of("sh", "-c", 'git ls-files -z | xargs -0 cp -u --preserve=timestamps --parents -t "$0"', tree,
+              cwd=SOURCE)
     if not (build / "build.ninja").exists():
-        subprocess.run(["meson", "setup", build, tree], check=True, stdout=subprocess.DEVNULL)
-    if (result := ninja(build)).returncode:
-        sys.exit(result.stdout)
-    tests = known_tests(build, options.tests and options.tests.split(","))
-    tests, sound = sound_tests(build, tests, options.limit)
-    done = set()
-    if options.table.exists():
-        done = {row["bug"] for row in csv.DictReader(options.table.open())}
-    with options.table.open("a", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        if not done:
-            table.writerow(HEADING)
-        for bug in planted_bugs(options.copy.resolve()):
-            if bug["name"] in done or (options.bugs and bug["name"] not in options.bugs.split(",")):
-                continue
-            table.writerows(lines_of(bug, tree, build, tests, sound, options.limit))
-            file.flush()
+        output_of("meson", "setup", build, tree)
+    output_of("ninja", "-C", build)
+    tests = json.loads(output_of("meson", "introspect", "--tests", build))
+    sound = [(t, fingerprint(build, t)) for t in tests if not t["name"].startswith("planted") and passes(t)]
+    done = {row[0] for row in csv.reader(table.open())} if table.exists() else set()
+    with table.open("a", newline="") as file:
+        for name, kind, *bug in planted_bugs(copy):
+            if name not in done and (not wanted or name in wanted):
+                for line in seen_by(*bug, tree, build, sound):
+                    csv.writer(file, lineterminator="\n").writerow([name, kind, bug[0], *line])
+                file.flush()
 
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]), *sys.argv[3:])

@@ -12,6 +12,7 @@
 
 #include "reference/certificate/certificate.h"
 #include "study/scene/file.h"
+#include "study/scene/rescale.h"
 #include "support.h"
 
 enum { MOST = 2 * 100 };
@@ -246,38 +247,6 @@ TEST(test_certificates)
 
 /* ---- other units ---- */
 
-struct units {
-    double metre, second, kilogram; /* how many of the other units one is */
-};
-
-static struct br_load other_load(const struct br_load *load, double factor)
-{
-    struct br_load other = *load;
-    other.term[0].space.constant *= factor;
-    return other;
-}
-
-/* The same scene with its numbers in other units. Loads are constants in x and t. */
-static struct br_scene in_units(const struct br_scene *s, const struct units *u)
-{
-    const double m = u->metre, t = u->second, newton = u->kilogram * m / (t * t);
-    struct br_scene o = *s;
-    o.length *= m;
-    o.duration *= t;
-    o.density *= u->kilogram / m;
-    o.axial.stiffness *= newton;
-    o.axial.viscosity *= newton * t;
-    o.bending.stiffness *= newton * m * m;
-    o.bending.viscosity *= newton * m * m * t;
-    o.axial.load = other_load(&s->axial.load, newton / m);
-    o.bending.load = other_load(&s->bending.load, newton / m);
-    o.contact.gap *= m;
-    o.contact.stiffness *= newton / m;
-    o.friction.coefficient *= s->friction.law == BR_TRESCA ? newton : newton / m;
-    o.friction.regularisation *= m / t;
-    return o;
-}
-
 /* A soft contact and any friction: nothing that magnifies differences. */
 static struct br_scene any_scene(struct br_test_random *r)
 {
@@ -301,12 +270,15 @@ static struct br_scene any_scene(struct br_test_random *r)
 }
 
 static void compare_units(const struct br_scene *s, const struct br_method *method, size_t n,
-                          const struct units *u, bool exact)
+                          const struct br_units_change *u, bool exact)
 {
-    const struct br_scene other = in_units(s, u);
+    struct br_error err = {0};
+    struct br_scene other;
     if (!goes(s, n, 30, method))
         return;
+    MUST(br_rescale(s, u, &other, &err));
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
+    br_scene_clear(&other);
     /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
     const bool flexible = !method->solver->factoriser;
     const double numbers = flexible ? 1e-12 : 1e-8;
@@ -332,12 +304,12 @@ TEST(test_units)
     for (int i = 0; i < (br_test_quick() ? 4 : 25); i++) {
         struct br_scene s = any_scene(&r);
         const size_t n = 1 + br_test_index(&r, 40);
-        const struct units any = {br_test_log_uniform(&r, 1e-6, 1e6),
-                                  br_test_log_uniform(&r, 1e-6, 1e6),
-                                  br_test_log_uniform(&r, 1e-6, 1e6)};
-        const struct units twos = {ldexp(1, (int)br_test_index(&r, 40) - 20),
-                                   ldexp(1, (int)br_test_index(&r, 40) - 20),
-                                   ldexp(1, (int)br_test_index(&r, 40) - 20)};
+        const struct br_units_change any = {br_test_log_uniform(&r, 1e-6, 1e6),
+                                            br_test_log_uniform(&r, 1e-6, 1e6),
+                                            br_test_log_uniform(&r, 1e-6, 1e6)};
+        const struct br_units_change twos = {ldexp(1, (int)br_test_index(&r, 40) - 20),
+                                             ldexp(1, (int)br_test_index(&r, 40) - 20),
+                                             ldexp(1, (int)br_test_index(&r, 40) - 20)};
         EACH_METHOD(solver, scheme)
         {
             struct br_method method = method_of(solver, scheme);

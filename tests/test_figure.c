@@ -10,7 +10,6 @@
 
 #include "made_report.h"
 #include "plots/pictures.h"
-#include "plots/render.h"
 #include "study/extremes/energy_behaviour.h"
 #include "study/extremes/floors.h"
 #include "study/extremes/map.h"
@@ -76,20 +75,54 @@ static struct br_figure made(size_t panels, bool cells, size_t kinds)
     return f;
 }
 
-/* What is stored: script and data. */
+typedef void writer(FILE *out, const struct br_figure *f);
+
+/* What it writes, to be freed. */
+static char *written(writer *write, const struct br_figure *f)
+{
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    assert_non_null(out);
+    write(out, f);
+    assert_int_equal(fclose(out), 0);
+    return text;
+}
+
+/* Its lines, but for those of another text, and empty cells. */
+static void print_lines(FILE *out, char *text, const char *other)
+{
+    char *rest;
+    for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+        const size_t length = strlen(line);
+        const bool empty_cell = length > 6 && strcmp(line + length - 6, "NaN -1") == 0;
+        if (!strstr(other, line) && !empty_cell)
+            fprintf(out, "%s\n", line);
+    }
+    free(text);
+}
+
+/* What is stored: of its script what that of the curves has not, and its data. */
 static void print(FILE *out, struct br_figure f)
 {
     struct br_error err = {0};
+    struct br_figure curves = made(2, false, 0);
+    char *known = written(br_figure_write_script, &curves);
     MUST(br_figure_check(&f, &err));
     fprintf(out, "==== %s.gp\n", f.stem);
-    br_figure_write_script(out, &f);
+    print_lines(out, written(br_figure_write_script, &f), known);
     fprintf(out, "==== %s.dat\n", f.stem);
-    br_figure_write_data(out, &f);
+    print_lines(out, written(br_figure_write_data, &f), "");
+    br_figure_clear(&curves);
     br_figure_clear(&f);
+    free(known);
 }
 
 static void print_made(FILE *out)
 {
+    struct br_figure curves = made(2, false, 0);
+    print_lines(out, written(br_figure_write_script, &curves), "");
+    br_figure_clear(&curves);
     print(out, made(2, false, 0));
     print(out, made(2, true, 0));
     print(out, made(1, true, 2));
@@ -142,7 +175,7 @@ static void print_powers(FILE *out)
 }
 
 static void write_file(const char *folder, const char *name, const struct br_figure *f,
-                       void (*write)(FILE *, const struct br_figure *))
+                       writer *write)
 {
     char path[128];
     snprintf(path, sizeof path, "%s/%s", folder, name);

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "plots/render.h"
+#include "plots/pictures.h"
 #include "support.h"
 
 static void make_folder(char folder[64])

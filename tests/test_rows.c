@@ -104,93 +104,59 @@ static void run_command(char *row)
     circumstances = (struct cli_circumstances){0};
 }
 
-/* Calls for each word. */
-static void each_word(char *words, void (*call)(char *word))
+static void check_count(const char *folder, const char *count)
 {
-    char *rest;
-    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
-        call(word);
-}
-
-static void is_there(char *name)
-{
-    if (!cli_is_there(name))
-        fail_msg("%s is not there", name);
-}
-
-static void is_gone(char *name)
-{
-    if (cli_is_there(name))
-        fail_msg("%s is there", name);
-}
-
-static void check_count(char *folder)
-{
-    const size_t expected = strtoul(br_test_part(folder), NULL, 10),
-                 found = cli_count_files(folder);
+    const size_t expected = strtoul(count, NULL, 10), found = cli_count_files(folder);
     if (found != expected)
         fail_msg("%zu files in %s, expected %zu", found, folder, expected);
 }
 
-static void write_file(char *row)
+/* Of each word of a row: a circumstance, or whether a file is there. */
+static void take_words(char *words, bool are_files, bool there)
 {
-    char *text = br_test_part(row);
-    cli_write_file(row, br_test_unescape(text));
-}
-
-static void set_circumstances(char *row)
-{
-    each_word(row, set_circumstance);
-}
-
-static void says(char *text)
-{
-    check_text("the output", out.output, br_test_unescape(text), true);
-}
-
-static void is_silent(char *text)
-{
-    check_text("the output", out.output, br_test_unescape(text), false);
-}
-
-static void has(char *row)
-{
-    const char *text = br_test_unescape(br_test_part(row));
-    check_text(row, cli_read(row), text, true);
-}
-
-static void lacks(char *row)
-{
-    const char *text = br_test_unescape(br_test_part(row));
-    check_text(row, cli_read(row), text, false);
-}
-
-static void are_there(char *row)
-{
-    each_word(row, is_there);
-}
-
-static void are_gone(char *row)
-{
-    each_word(row, is_gone);
+    char *rest;
+    for (char *word = strtok_r(words, " ", &rest); word; word = strtok_r(NULL, " ", &rest))
+        if (!are_files)
+            set_circumstance(word);
+        else if (cli_is_there(word) != there)
+            fail_msg("%s is %s", word, there ? "not there" : "there");
 }
 
 static void run_row(char *row)
 {
+    enum what { WRITE, WITH, OUTPUT, CONTENTS, FILES, COUNT, COMMAND };
     static const struct {
         const char *begin;
-        void (*call)(char *rest);
+        enum what what;
+        bool expected;
     } kinds[] = {
-        {"@ ", write_file},      {"with ", set_circumstances},
-        {"says ", says},         {"silent ", is_silent},
-        {"has ", has},           {"lacks ", lacks},
-        {"there ", are_there},   {"gone ", are_gone},
-        {"files ", check_count}, {"", run_command},
+        {"@ ", WRITE, true},        {"with ", WITH, true},    {"says ", OUTPUT, true},
+        {"silent ", OUTPUT, false}, {"has ", CONTENTS, true}, {"lacks ", CONTENTS, false},
+        {"there ", FILES, true},    {"gone ", FILES, false},  {"files ", COUNT, true},
+        {"", COMMAND, true},
     };
     size_t k = 0;
     while (strncmp(row, kinds[k].begin, strlen(kinds[k].begin)) != 0)
         k++;
-    kinds[k].call(row + strlen(kinds[k].begin));
+    const enum what what = kinds[k].what;
+    const bool expected = kinds[k].expected;
+    char *rest = row + strlen(kinds[k].begin);
+    if (what == COMMAND) {
+        run_command(rest);
+        return;
+    }
+    const bool parted = what == WRITE || what == CONTENTS || what == COUNT;
+    char *text = br_test_unescape(parted ? br_test_part(rest) : rest);
+    if (what == WRITE)
+        cli_write_file(rest, text);
+    else if (what == OUTPUT)
+        check_text("the output", out.output, text, expected);
+    else if (what == CONTENTS)
+        check_text(rest, cli_read(rest), text, expected);
+    else if (what == COUNT)
+        check_count(rest, text);
+    else
+        take_words(rest, what == FILES, expected);
 }
 
 static void test_rows(void **state)

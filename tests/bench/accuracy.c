@@ -16,8 +16,7 @@ static double predicted(const struct br_scene *scene, const struct br_test_golde
     return round_off;
 }
 
-static void run_row(struct bench *b, const struct br_test_golden *row,
-                    const struct br_method *method)
+static void run_row(const struct br_test_golden *row, const struct br_method *method)
 {
     struct br_scene scene = br_test_bundled(row->scene);
     const struct br_test_end end = br_test_run(&scene, row->n, row->steps, method);
@@ -28,35 +27,34 @@ static void run_row(struct bench *b, const struct br_test_golden *row,
     br_scene_clear(&scene);
     printf("%-8s %10d %8zu %12.1e %12.1e\n", name, refinement, row->n, deviation, limit);
     fflush(stdout);
-    if (refinement)
-        bench_record_value(b, "relative", deviation, "%s refinement=%d round-off n=%zu", name,
-                           refinement, row->n);
-    else
-        bench_record_value(b, "relative", deviation, "%s round-off n=%zu", name, row->n);
+    json_t *made = refinement
+                       ? bench_row("%s refinement=%d round-off n=%zu", name, refinement, row->n)
+                       : bench_row("%s round-off n=%zu", name, row->n);
+    bench_put(made, "relative", deviation);
     if (!(deviation <= limit))
         fail_msg("%s, n = %zu: the round-off is %g, predicted were at most %g", name, row->n,
                  deviation, limit);
 }
 
 /* Without refinement, and with some where the solver knows it. */
-static void run_solver(struct bench *b, const struct br_test_golden *row,
-                       const struct br_linear_solver *solver)
+static void run_solver(const struct br_test_golden *row, const struct br_linear_solver *solver)
 {
     struct br_method method = br_test_method(solver->name, "lagged", "exact");
-    run_row(b, row, &method);
+    run_row(row, &method);
     method.linear.refinement = REFINEMENT;
     if (br_linear_solver_heeds(solver, "--refinement"))
-        run_row(b, row, &method);
+        run_row(row, &method);
 }
 
 void bench_accuracy(void **state)
 {
     struct br_test_golden rows[BR_TEST_MOST_GOLDEN];
+    (void)state;
     const size_t count = br_test_golden(rows);
     printf("\nRound-off of Example 2 with k = 1e-3 s, relative to quadruple precision\n");
     printf("%-8s %10s %8s %12s %12s\n", "solver", "refinement", "n", "measured", "predicted");
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         for (size_t i = 0; i < count; i++)
             if (strcmp(rows[i].scene, "example2") == 0)
-                run_solver(*state, &rows[i], *s);
+                run_solver(&rows[i], *s);
 }

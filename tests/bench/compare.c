@@ -5,21 +5,25 @@
 
 #include "tests/bench/bench.h"
 
-static enum br_status read_file(const char *path, json_t **root, struct br_error *err)
+static json_t *read_file(const char *label, const char *path, struct br_error *err)
 {
-    json_error_t why;
-    *root = json_load_file(path, 0, &why);
-    if (!*root)
-        return br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, why.line, why.text);
-    if (!json_is_array(json_object_get(*root, "rows")))
-        return br_fail(err, BR_BAD_INPUT, "%s: found no rows, expected a file of the benchmark",
-                       path);
-    return BR_OK;
+    json_error_t why = {.text = "found no rows, expected a file of the benchmark"};
+    const char *commit, *compiler, *machine, *date;
+    json_t *root = json_load_file(path, 0, &why), *rows;
+    if (root && json_unpack_ex(root, &why, 0, "{s:{s:s, s:s, s:s, s:s}, s:o}", "provenance",
+                               "commit", &commit, "compiler", &compiler, "machine", &machine,
+                               "date", &date, "rows", &rows) == 0) {
+        printf("%s: %s, %s, %s, %s\n", label, commit, compiler, machine, date);
+        return root;
+    }
+    br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, why.line, why.text);
+    json_decref(root);
+    return NULL;
 }
 
-static const char *text_of(const json_t *o, const char *key)
+static const char *text_of(const json_t *row, const char *key)
 {
-    const char *text = json_string_value(json_object_get(o, key));
+    const char *text = json_string_value(json_object_get(row, key));
     return text ? text : "";
 }
 
@@ -40,13 +44,6 @@ static const json_t *row_of(const json_t *root, const char *name)
             return row;
     }
     return NULL;
-}
-
-static void print_origin(const char *label, const json_t *root)
-{
-    const json_t *p = json_object_get(root, "provenance");
-    printf("%s: %s, %s, %s, %s\n", label, text_of(p, "commit"), text_of(p, "compiler"),
-           text_of(p, "machine"), text_of(p, "date"));
 }
 
 /* A number, or "-" where there is none. */
@@ -84,16 +81,11 @@ static void print_rows(const json_t *old, const json_t *new)
 
 enum br_status bench_compare(const char *old_path, const char *new_path, struct br_error *err)
 {
-    json_t *old = NULL, *new = NULL;
-    enum br_status status = read_file(old_path, &old, err);
-    if (!status)
-        status = read_file(new_path, &new, err);
-    if (!status) {
-        print_origin("old", old);
-        print_origin("new", new);
+    json_t *old = read_file("old", old_path, err);
+    json_t *new = old ? read_file("new", new_path, err) : NULL;
+    if (new)
         print_rows(old, new);
-    }
     json_decref(old);
     json_decref(new);
-    return status;
+    return new ? BR_OK : err->status;
 }

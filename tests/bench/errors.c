@@ -43,6 +43,7 @@ static struct parts run(const struct br_scene *scene, const struct br_method *me
 
 void bench_errors(void **state)
 {
+    (void)state;
     struct br_scene scene = br_test_bundled("example2");
     const struct br_method method = bench_fast_method();
     struct parts best = run(&scene, &method);
@@ -57,8 +58,8 @@ void bench_errors(void **state)
            "%.3f s,\nwhich is %.1f %% of the reference\n",
            method.solver->name, best.reference, best.cells, best.errors,
            100 * best.errors / best.reference);
-    bench_record_value(*state, "s", best.reference, "study, reference");
-    bench_record_value(*state, "s", best.cells, "study, cells");
-    bench_record_value(*state, "s", best.errors, "study, errors");
-    bench_record_value(*state, "1", best.errors / best.reference, "study, errors/reference");
+    bench_put(bench_row("study, reference"), "s", best.reference);
+    bench_put(bench_row("study, cells"), "s", best.cells);
+    bench_put(bench_row("study, errors"), "s", best.errors);
+    bench_put(bench_row("study, errors/reference"), "1", best.errors / best.reference);
 }

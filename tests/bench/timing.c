@@ -27,6 +27,17 @@ struct bench_time bench_time(void (*work)(void *self), void *self, double amount
     return (struct bench_time){ns[REPEATS / 2], ns[0], ns[REPEATS - 1]};
 }
 
+struct br_method bench_fast_method(void)
+{
+    struct br_method method = br_method_default();
+    const struct br_linear_solver *const *s = br_linear_solvers;
+    while (*s && !((*s)->cost && br_linear_solver_heeds(*s, "--kernel")))
+        s++;
+    assert_non_null(*s);
+    method.solver = *s;
+    return method;
+}
+
 struct running {
     struct br_march *march;
     size_t steps;
@@ -51,16 +62,18 @@ double bench_march_cost(const struct bench_march *b, double set_up)
     return set_up + 1e-9 * b->guess * (double)(b->n * steps_of(b) * (REPEATS + 1));
 }
 
-struct bench_march_time bench_march(const struct bench_march *b)
+enum br_status bench_march(const struct bench_march *b, struct bench_march_time *time,
+                           struct br_error *err)
 {
     const double start = br_seconds();
     struct running r = {.steps = steps_of(b)};
     const size_t total = (REPEATS + 1) * r.steps;
     struct br_scene scene = *b->scene;
     scene.duration = total < 1000 ? 1e-3 * (double)total : 1;
-    r.march = br_test_march(&scene, b->n, total, b->method);
-    const double set_up = br_seconds() - start;
-    const struct bench_time step = bench_time(advance, &r, (double)(b->n * r.steps));
+    if (br_march_create(&r.march, &scene, b->n, total, b->method, err))
+        return err->status;
+    time->set_up = br_seconds() - start;
+    time->step = bench_time(advance, &r, (double)(b->n * r.steps));
     br_march_free(r.march);
-    return (struct bench_march_time){step, set_up};
+    return BR_OK;
 }

@@ -16,15 +16,18 @@ update=
 [ "${1:-}" = --update ] && update=yes && shift
 wanted=" $* "
 
-# What no two runs have in common, seconds on the wall, and what a build may have or not.
+# Without what no two runs have in common, seconds on the wall, and what a build may have or not; of
+# JSON a row of a table is a line.
 mask() {
     sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
         -e 's/"(version|commit|size|run)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
         -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
-        -e 's/"fields\.(h5|csv)"/"fields.FORMAT"/' -e '/^  (avx[0-9a-z]*|portable) /d'
+        -e 's/"fields\.(h5|csv)"/"fields.FORMAT"/' -e '/^  (avx[0-9a-z]*|portable) /d' |
+        awk -f "$here/join.awk"
 }
 
-# Runs a command line and prints all that it leaves, these files among it.
+# Runs a command line and prints all that it leaves, these files among it; of a script for gnuplot
+# what the first one has not.
 run() {
     rm -rf "$folder/work" && mkdir "$folder/work" && cd "$folder/work" || exit 99
     (PATH="$folder/bin"; eval "$1") >../out 2>../err
@@ -33,9 +36,17 @@ run() {
     mask <../out
     echo "==== standard error"
     mask <../err
+    script=
     for file in $2; do
         echo "==== $file"
-        if [ -f "$file" ]; then mask <"$file"; else echo "is not there"; fi
+        if [ ! -f "$file" ]; then
+            echo "is not there"
+        elif [ "$script" ] && [ "${file%.gp}" != "$file" ]; then
+            grep -vxFf "$script" "$file" | mask
+        else
+            mask <"$file"
+        fi
+        case $file in *.gp) script=${script:-$file} ;; esac
     done
     cd "$here" || exit 99
 }

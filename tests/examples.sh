@@ -1,0 +1,121 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Every example that the program's help, the README and the pages of docs/ print works as it stands.
+# $BEAMRATE is the program, $BEAMRATE_DATA the source tree.
+#
+# A block of a page that begins with ```sh is run line by line. One that begins with ```sh long would
+# take minutes: of its lines only the command and the names of the options are tried. A block of YAML
+# whose first line is a remark that begins with NAME.yaml is that file.
+set -u
+work=$(mktemp -d "${TMPDIR:-/tmp}/beamrate examples XXXXXX") || exit 99
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 99
+mkdir bin files few few/study few/study/scenes
+ln -s "$BEAMRATE" bin/beamrate
+PATH=$work/bin:$PATH
+export PATH XDG_STATE_HOME="$work/state" # what is trusted stays here
+
+# ---- what is printed: how, where and which line, once each ----
+
+# pages NAME FILE...: those of one page, or of several. One that ends with a backslash goes on in the
+# next; of a variable that holds the program the $ is left out, and a remark, which would swallow what
+# is added to the line.
+pages() {
+    awk -v mode="$1" -v at="$2" -v scenes="$work/files/" '
+        FNR == 1 && mode == "page" { at = FILENAME; how = "" }
+        mode == "help" { how = "short" }
+        /^```/ && mode == "page" {
+            how = $0 == "```sh" ? "short" : $0 == "```sh long" ? "long" : substr($0, 4)
+            file = whole = ""
+            first = 1
+            next
+        }
+        how == "yaml" && first && /^# [a-z_]+\.yaml/ { file = scenes $2; sub(/\.yaml.*/, ".yaml", file) }
+        { first = 0 }
+        how == "yaml" && file { print >file }
+        how != "short" && how != "long" { next }
+        {
+            sub(/^ */, "")
+            if (whole == "" && !/^(\$?beamrate|mpirun|cc) /)
+                next
+            whole = whole $0
+            if (sub(/\\$/, "", whole))
+                next
+            sub(/ # .*/, "", whole)
+            sub(/^\$/, "", whole)
+            sub(/ *$/, "", whole)
+            print how "\t" at "\t" whole
+            whole = ""
+        }' "$3"
+}
+
+commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+{
+    beamrate --help | pages help --help -
+    for command in $commands; do
+        beamrate "$command" --help >help || echo "bad	$command	--help fails"
+        grep -q '^  beamrate ' help || echo "bad	$command	--help has no example"
+        pages help "$command" help
+    done
+    for page in "$BEAMRATE_DATA"/README.md "$BEAMRATE_DATA"/docs/*.md; do
+        pages page '' "$page"
+    done
+} | awk -F '\t' '!seen[$3]++' >examples
+
+# ---- running them ----
+
+# unless TEXT WITHOUT WITHOUT WORDS: adds the words to a line that has the text and neither of two
+# others. Those that the suite runs elsewhere are asked for their help, which reads the options.
+unless() {
+    case $line in
+    *"$2"* | *"$3"*) ;;
+    *"$1"*) line="$line $4" ;;
+    esac
+}
+
+shorten() {
+    unless 'beamrate tables' ' --n ' ' -n ' '--n 5,10 --k 0.1,0.05 --reference fine:20,0.05'
+    unless ' --split --methods' ' --help' ' -h ' --help
+    unless ' --split' ' --n ' ' -n ' '--n 10'
+    unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1'
+    unless 'beamrate plan' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2 --repeats 1'
+    unless 'beamrate extremes' ' --help' ' -h ' --help
+    unless 'beamrate figures' ' --help' ' -h ' --help
+    unless ' 1e-4 --check' ' --help' ' -h ' --help
+    unless ' --animate example' ' --n ' ' -n ' '--n 4 --k 0.2'
+    for command in tables study trade; do
+        unless "beamrate $command" ' --no-plots' ' --help' --no-plots
+    done
+}
+
+# What the examples take for granted, one scene for --all, and the programs of docs/orders/.
+cp "$BEAMRATE_DATA"/study/scenes/example3.yaml few/study/scenes
+(
+    cd files && cp "$BEAMRATE_DATA"/docs/orders/* . && cc -o poisson poisson.c -lm &&
+        beamrate scenes example3 >my_scene.yaml &&
+        beamrate check my_scene.yaml --quiet --json old.json && cp old.json orders-of-last-month.json &&
+        beamrate study example2 -n 4,8,16 -k 0.1,0.05,0.025 --no-plots --quiet
+) >output 2>&1 || { cat output; exit 99; }
+
+# In a copy of the folder; a scene that is to be made is not there yet.
+number=0
+while IFS='	' read -r how origin line; do
+    number=$((number + 1))
+    case $line in
+    mpirun*) # left to test_ranks
+        echo "ok $number - left to test_ranks: $line"
+        continue
+        ;;
+    esac
+    if [ "$how" = long ]; then line="$line --help"; else shorten; fi
+    rm -rf here && cp -r files here
+    case $line in *--new*) rm here/my_scene.yaml ;; esac
+    (
+        cd here && case $line in *--all*) export BEAMRATE_DATA="$work/few" ;; esac
+        beamrate=beamrate sh -c "$line"
+    ) >output 2>&1 </dev/null && [ "$how" != bad ] && echo "ok $number - ${origin##*/}: $line" && continue
+    echo "not ok $number - ${origin##*/}: $line"
+    sed 's/^/# /' output
+done <examples
+echo "1..$number"
+[ "$(wc -w <examples)" -gt 100 ]
