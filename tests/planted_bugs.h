@@ -703,6 +703,8 @@ static const struct planted_bug planted_bugs[] = {
      "(double)t->at.steps * at_mesh(pace->level", "at_mesh(pace->level"},
     {"front_of_last_bits", "tolerance", "study/trade/trade.c", "tests/test_trade",
      "other_error <= (1 + tie) * error;", "other_error < (1 - tie) * error;"},
+    {"chance_of_missing", "sign", "study/trade/plan.c", "tests/test_plan", "erfc(-distance /",
+     "erfc(distance /"},
     {"floor_in_metres", "units", "study/extremes/floors.c", "tests/test_floors",
      "floor->deviation[kind] = (double)(most / largest);",
      "floor->deviation[kind] = (double)most;"},

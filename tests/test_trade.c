@@ -12,82 +12,72 @@
 
 static struct br_named_method pair[2];
 
-/* A trial of that relative error and cost; nothing of it was marched. */
-static struct br_trial made(int named, double error, double seconds, size_t solves)
-{
-    return (struct br_trial){
-        .named = &pair[named],
-        .at = {10, 10},
-        .cost = {.march = seconds, .counts = {.stages = solves}},
-        .error = {2 * error, error, error},
-        .scale = 2,
-        .own = NAN,
-    };
-}
+/* Trials of a relative error and cost; nothing of them was marched. The judge's own error is added:
+ * what it cannot tell is no success. */
+static const struct {
+    int named;
+    double error, seconds, own;
+    size_t solves;
+    enum br_trial_end end;
+    bool front;
+} made[] = {
+    {0, 1e-2, 1, NAN, 9, BR_TRIAL_DONE, true},
+    {0, 1e-3, 2, NAN, 9, BR_TRIAL_DONE, true},
+    {0, 1e-3, 3, NAN, 7, BR_TRIAL_DONE, false}, /* slower */
+    {1, 1e-2, 1, NAN, 9, BR_TRIAL_DONE, false}, /* equal to the first */
+    {1, 2e-3, 2, NAN, 7, BR_TRIAL_DONE, false}, /* worse */
+    {1, NAN, 0.1, NAN, 9, BR_TRIAL_DONE, false},
+    {1, 1e-9, NAN, NAN, 9, BR_TRIAL_DONE, false},
+    {1, 1e-4, 9, NAN, 9, BR_TRIAL_DONE, true},
+    {0, 1e-20, 1e-9, NAN, 1, BR_TRIAL_OVER, false},
+    {1, 1e-4 * (1 - 1e-9), 20, NAN, 9, BR_TRIAL_DONE, false}, /* round-off */
+    {0, 1e-3, 2, NAN, 7, BR_TRIAL_DONE, false},               /* fewer solves */
+    {0, 0.9e-4, 7, 0.2e-4, 9, BR_TRIAL_DOUBTFUL, true},       /* at most 1.1e-4 */
+    {1, 1e-12, 0.01, NAN, 9, BR_TRIAL_FAILED, false},
+    {1, 1e-12, 0.01, NAN, 9, BR_TRIAL_UNSTABLE, false},
+};
+enum { MADE = sizeof made / sizeof *made, NOBODY = MADE };
 
-TEST(test_cheapest)
+static const struct {
+    double target;
+    int only; /* a named method; 2: any */
+    size_t cheapest;
+} choices[] = {
+    {2e-2, 2, 0},      {2e-2, 1, 3},      {1e-3, 2, 10}, {1e-3, 1, 7},
+    {1.2e-4, 0, 11},   {1e-4, 0, NOBODY}, {1e-4, 2, 7},  {1e-4 * (1 - 1e-10), 2, 9},
+    {9e-5, 2, NOBODY},
+};
+
+TEST(test_choices)
 {
-    struct br_trial t[] = {
-        made(0, 1e-3, 5, 9),   made(1, 1e-3, 3, 9), made(0, 1e-2, 1, 9),     made(0, NAN, 0.1, 9),
-        made(1, 1e-9, NAN, 9), made(1, 1e-3, 3, 7), made(0, 1e-12, 0.01, 9),
-    };
-    const size_t count = sizeof t / sizeof *t;
-    t[6].end = BR_TRIAL_FAILED;
-    assert_int_equal(br_trials_cheapest(t, count, 2e-2, NULL), 2);
-    assert_int_equal(br_trials_cheapest(t, count, 1e-3, NULL), 5); /* fewer solves */
-    assert_int_equal(br_trials_cheapest(t, count, 1e-3, &pair[0]), 0);
-    assert_int_equal(br_trials_cheapest(t, count, 9e-4, NULL), count);
+    struct br_trial t[MADE];
+    bool front[MADE];
+    for (size_t i = 0; i < MADE; i++)
+        t[i] = (struct br_trial){
+            .named = &pair[made[i].named],
+            .at = {10, 10},
+            .cost = {.march = made[i].seconds, .counts = {.stages = made[i].solves}},
+            .error = {2 * made[i].error, made[i].error, made[i].error},
+            .scale = 2,
+            .own = 2 * made[i].own,
+            .end = made[i].end,
+        };
+    br_trials_front(t, MADE, front);
+    for (size_t i = 0; i < MADE; i++)
+        if (front[i] != made[i].front)
+            fail_msg("trial %zu: found %d, expected %d", i, front[i], made[i].front);
+    for (size_t i = 0; i < sizeof choices / sizeof *choices; i++) {
+        const size_t found = br_trials_cheapest(
+            t, MADE, choices[i].target, choices[i].only < 2 ? &pair[choices[i].only] : NULL);
+        if (found != choices[i].cheapest)
+            fail_msg("to %g: found %zu, expected %zu", choices[i].target, found,
+                     choices[i].cheapest);
+    }
     assert_int_equal(br_trials_cheapest(t, 0, 1, NULL), 0);
-    t[5].cost.counts.stages = 9;
-    assert_int_equal(br_trials_cheapest(t, count, 1e-3, NULL), 1); /* of equals the first */
-}
-
-/* The judge's own error is added: what it cannot tell is no success. */
-TEST(test_own_error)
-{
-    struct br_trial t = made(0, 0.9e-3, 1, 1);
-    assert_int_equal(br_trials_cheapest(&t, 1, 1e-3, NULL), 0);
-    t.own = 2 * 0.2e-3;
-    t.end = BR_TRIAL_DOUBTFUL;
-    assert_int_equal(br_trials_cheapest(&t, 1, 1e-3, NULL), 1);
-    assert_int_equal(br_trials_cheapest(&t, 1, 1.2e-3, NULL), 0);
-    t.end = BR_TRIAL_UNSTABLE;
-    assert_int_equal(br_trials_cheapest(&t, 1, 1, NULL), 1);
-    t = made(0, 1e-3, 1, 1);
-    t.scale = 0; /* no relative error of a solution that is zero */
-    assert_int_equal(br_trials_cheapest(&t, 1, 1, NULL), 1);
-}
-
-TEST(test_front)
-{
-    struct br_trial t[] = {
-        made(0, 1e-2, 1, 1),
-        made(0, 1e-3, 2, 1),
-        made(0, 1e-3, 3, 1), /* slower */
-        made(1, 1e-2, 1, 1), /* equal to the first */
-        made(1, 2e-3, 2, 1), /* worse */
-        made(1, NAN, 0.1, 1),
-        made(1, 1e-9, NAN, 1),
-        made(1, 1e-4, 9, 1),
-        made(0, 1e-20, 1e-9, 1),
-        made(1, 1e-4 * (1 - 1e-9), 20, 1), /* round-off */
-    };
-    const bool expected[] = {true, true, false, false, false, false, false, true, false, false};
-    enum { COUNT = sizeof t / sizeof *t };
-    bool front[COUNT];
-    t[8].end = BR_TRIAL_OVER;
-    br_trials_front(t, COUNT, front);
-    for (size_t i = 0; i < COUNT; i++)
-        if (front[i] != expected[i])
-            fail_msg("trial %zu: found %d, expected %d", i, front[i], expected[i]);
-}
-
-TEST(test_digits)
-{
-    struct br_trial t = made(0, 1e-4, 0.5, 1);
-    CLOSE(br_trade_digits_per_second(&t), 8, 1e-9);
-    t.end = BR_TRIAL_FAILED;
-    assert_true(isnan(br_trade_digits_per_second(&t)));
+    CLOSE(br_trade_digits_per_second(&t[7]), 4.0 / 9, 1e-9);
+    assert_true(isnan(br_trade_digits_per_second(&t[8])));
+    t[0].scale = 0; /* no relative error of a solution that is zero */
+    assert_int_equal(br_trials_cheapest(t, 1, 1, NULL), 1);
     CLOSE(br_trade_target(0), 1e-2, 1e-14);
     CLOSE(br_trade_target(BR_TRADE_DIGITS - 1), 1e-10, 1e-22);
 }

@@ -115,10 +115,13 @@ static struct br_method tight_method(const struct br_method *own, double times)
     return m;
 }
 
-static void set_study(struct br_probe *p, const struct br_method *method,
-                      const struct br_method *reference, struct br_resolution fine)
+/* Of the whole scene, against a fine run. */
+static void set_study(struct br_probe *p, const struct br_planned_march *o,
+                      const struct br_method *method, const struct br_method *reference,
+                      struct br_resolution fine)
 {
     p->held = true;
+    p->scene = *o->scene;
     p->study = (struct br_study){
         .scene = &p->scene,
         .norm = &br_norm_l2,
@@ -167,9 +170,8 @@ static void set_whole_cells(struct br_probe *p, const struct br_planned_march *o
         p->method[i] = method[i];
     }
     p->method[BR_WHOLE_RUN].most_steps = check->most_steps;
-    p->scene = *o->scene;
     p->measured = true;
-    set_study(p, o->method, reference,
+    set_study(p, o, o->method, reference,
               (struct br_resolution){fine, check->scheme->adaptive ? steps : steps * shorter});
     p->study.path = true;
     p->study.n_count = p->study.k_count = BR_WHOLE_CELLS;
@@ -241,7 +243,7 @@ static void measure_time(struct br_probe *p, const struct br_planned_march *o, d
     p->beyond = 1;
     p->steps[0] = o->steps;
     p->steps[1] = o->steps * ratio / 3;
-    set_study(p, o->method, &best, (struct br_resolution){p->n[0], o->steps * ratio});
+    set_study(p, o, o->method, &best, (struct br_resolution){p->n[0], o->steps * ratio});
     p->study.k_count = ratio > 3 ? 2 : 1;
 }
 
@@ -265,7 +267,7 @@ static void extrapolate_time(struct br_probe *p, const struct br_planned_march *
     p->beyond = (double)o->steps / (2 * (double)a);
     p->steps[0] = a;
     p->steps[1] = 2 * a;
-    set_study(p, o->method, &best, (struct br_resolution){p->n[0], 8 * a});
+    set_study(p, o, o->method, &best, (struct br_resolution){p->n[0], 8 * a});
     p->study.k_count = 2;
 }
 
@@ -280,13 +282,12 @@ static void compare_tolerances(struct br_probe *p, const struct br_planned_march
     p->steps[0] = TOLERANCE_LEVELS;
     struct br_method reference = tight_method(&method, tighter);
     reference.most_steps = method.most_steps;
-    set_study(p, &method, &reference, (struct br_resolution){p->n[0], TOLERANCE_LEVELS});
+    set_study(p, o, &method, &reference, (struct br_resolution){p->n[0], TOLERANCE_LEVELS});
 }
 
 static void set_time(struct br_probe *p, const struct br_planned_march *o)
 {
     const struct br_method best = best_method(o);
-    p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = time_share * budget(o) / solve(o, (double)p->n[0]);
     if (o->method->scheme->adaptive)
@@ -307,11 +308,10 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
     if (time->measured || o->scene->friction.law == BR_FRICTIONLESS ||
         !o->method->friction->iterates)
         return;
-    p->scene = *o->scene;
     p->beyond = time->beyond;
     p->n[0] = time->n[0];
     p->steps[0] = time->steps[1];
-    set_study(p, o->method, &direct, (struct br_resolution){p->n[0], p->steps[0]});
+    set_study(p, o, o->method, &direct, (struct br_resolution){p->n[0], p->steps[0]});
 }
 
 /* The run's first steps against steps by a tolerance, which find what dies away within a step; if
@@ -322,7 +322,6 @@ static void set_start(struct br_probe *p, const struct br_planned_march *o, bool
     const bool at_once = follows_at_once(o);
     const struct br_method best = best_method(o);
     struct br_method fine = equal ? best : tight_method(o->method, tighter);
-    p->scene = *o->scene;
     p->n[0] = least(o->n, TIME_N);
     const double most = start_share * budget(o) / solve(o, (double)p->n[0]);
     const double many =
@@ -330,10 +329,10 @@ static void set_start(struct br_probe *p, const struct br_planned_march *o, bool
     const size_t finer = at_once ? FIRST_REFINED : equal ? 3 : 1;
     fine.most_steps = most_steps(o, (double)p->n[0]);
     p->steps[0] = least(o->steps, (size_t)many);
-    p->scene.duration *= (double)p->steps[0] / (double)o->steps;
     p->measured = true;
     p->ratio = 3;
-    set_study(p, o->method, &fine, (struct br_resolution){p->n[0], finer * p->steps[0]});
+    set_study(p, o, o->method, &fine, (struct br_resolution){p->n[0], finer * p->steps[0]});
+    p->scene.duration *= (double)p->steps[0] / (double)o->steps;
 }
 
 /* ---- space ---- */
@@ -342,7 +341,6 @@ static void set_space(struct br_probe *p, const struct br_planned_march *o)
 {
     const struct br_method best = best_method(o);
     size_t finest = 2 * SPACE_N;
-    p->scene = *o->scene;
     p->measured = o->n <= SPACE_N;
     if (p->measured) {
         size_t ratio = 4;
@@ -360,7 +358,7 @@ static void set_space(struct br_probe *p, const struct br_planned_march *o)
     /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
     p->steps[0] = least(o->method->scheme->adaptive ? SIZE_MAX : o->steps,
                         (size_t)(space_share * budget(o) / a_step) + 1);
-    set_study(p, &best, &best, (struct br_resolution){finest, p->steps[0]});
+    set_study(p, o, &best, &best, (struct br_resolution){finest, p->steps[0]});
     p->study.n_count = 2;
 }
 

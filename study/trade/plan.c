@@ -213,6 +213,12 @@ static const double most_growth = 16;
  * times how likely that is. */
 static const double least_promise = 0.1;
 
+/* Where it is not reached, any promise will do; of what is less likely than this, hardly any. */
+static const double least_chance = 0.01, next_to_nothing = 1e-4;
+
+/* A promise is at least this share of the best one of the round. */
+static const double least_share = 0.2;
+
 /* What any relative error is less than. */
 static const double any_error = 1e9;
 
@@ -249,13 +255,16 @@ static bool is_near_failure(const struct br_plan *p, const struct br_trial *tria
     return failed;
 }
 
-/* The price is that of what just meets the goal where it is expected to miss it. */
+/* The price is that of what just meets the goal where it is expected to miss it. What hardly may
+ * meet it promises next to nothing, and the more the nearer it surely comes. */
 static double promise_of(const struct search *s, const struct br_plan_prediction *e)
 {
     const struct br_plan_goal *goal = &s->plan->goal;
     const int met = isnan(goal->error) ? BR_PLAN_SECONDS : BR_PLAN_ERROR;
     const double distance = log(met == BR_PLAN_ERROR ? goal->error : goal->seconds) - e->log[met];
     const double chance = 0.5 * erfc(-distance / fmax(e->deviation[met], 1e-6) / sqrt(2));
+    if (chance < least_chance)
+        return next_to_nothing * exp(distance - e->deviation[met]);
     return chance * log(s->least / price(s->plan, fmin(exp(e->log[BR_PLAN_ERROR]), goal->error),
                                          fmin(exp(e->log[BR_PLAN_SECONDS]), goal->seconds)));
 }
@@ -345,20 +354,29 @@ static void search_all(struct search *s)
 /* After so many rounds without anything better there is none more. */
 static const size_t most_idle_rounds = 3;
 
-/* Whether the rounds have gone on for long without anything better than the best, or the judge
- * could not say what is better. */
+/* Whether the rounds have gone on for long without anything better than the best or, where nothing
+ * meets the goal, without anything nearer to it; or the judge could not say what is better. */
 static bool is_idle(const struct br_plan *p)
 {
+    const bool by_error = isfinite(p->goal.error);
     double least;
-    const size_t best = best_of(p, &least);
-    return best < p->count && (p->rounds >= p->forecast[best].round + most_idle_rounds ||
-                               (isnan(p->goal.error) && p->trial[best].end == BR_TRIAL_DOUBTFUL));
+    size_t best = best_of(p, &least);
+    if (best < p->count && !by_error && p->trial[best].end == BR_TRIAL_DOUBTFUL)
+        return true;
+    for (size_t i = 0; i < p->count && !isfinite(least); i++) {
+        const struct br_trial *t = &p->trial[i], *nearest = &p->trial[best];
+        const double here = by_error ? br_trial_bound(t) : p->seconds(t);
+        if (best == p->count || here < (by_error ? br_trial_bound(nearest) : p->seconds(nearest)))
+            best = isfinite(here) ? i : best;
+    }
+    return best < p->count && p->rounds >= p->forecast[best].round + most_idle_rounds;
 }
 
 /* One round: whether anything was tried (*tried, out). */
 static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *err)
 {
     const size_t from = p->count;
+    double promised = 0;
     struct search *s = br_allocate(1, sizeof *s);
     enum br_status status = s ? fit_all(p, err) : br_no_memory(err, "the search");
     if (!status) {
@@ -370,10 +388,11 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
         for (size_t c = 1; c < p->methods.count; c++)
             if (s->best[c].promise > most->promise)
                 most = &s->best[c];
+        promised = fmax(promised, most->promise);
         const struct br_plan_forecast forecast = {p->rounds + 1,
                                                   exp(most->expected.log[BR_PLAN_ERROR]),
                                                   exp(most->expected.log[BR_PLAN_SECONDS])};
-        if (most->trial.named)
+        if (most->trial.named && most->promise >= least_share * promised)
             add(p, &most->trial, forecast);
         *most = (struct candidate){.promise = 0};
     }

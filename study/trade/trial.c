@@ -138,9 +138,10 @@ static enum br_status make_steps(struct clocked *c, struct br_error *err)
     const bool adaptive = c->trial->named->method.scheme->adaptive;
     enum br_status status = look_at_clock(c, err);
     for (size_t i = 1; i <= steps && !status; i++) {
-        status = br_march_step(c->march, &c->trial->failure);
-        if (status == BR_INTERRUPTED || (!status && (i % c->every == 0 || i == steps || adaptive)))
-            status = look_at_clock(c, err);
+        const enum br_status step = br_march_step(c->march, &c->trial->failure);
+        const bool looks = !step && (i % c->every == 0 || i == steps || adaptive);
+        status = looks || step == BR_INTERRUPTED ? look_at_clock(c, err) : BR_OK;
+        status = status ? status : step;
     }
     return status;
 }
@@ -176,18 +177,20 @@ enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request 
 static enum br_status repeat(struct br_trial *t, const struct br_trial_request *r,
                              struct br_error *err)
 {
-    struct br_trial_cost least = {.set_up = INFINITY}, now = {0};
-    enum br_status status = br_trial_march(t, r, &now, err);
-    double spent = now.set_up + now.march;
-    if (!status && !(spent <= r->repeat_seconds))
-        least = now, least.repeats = 1;
-    for (spent = 0; !status && least.repeats < r->repeats && spent <= r->repeat_seconds;) {
-        if (least.repeats == 1 && least.set_up + least.march > r->repeat_seconds)
-            break;
+    struct br_trial_cost least = {.set_up = INFINITY}, now;
+    enum br_status status = BR_OK;
+    bool warm = false;
+    for (double spent = 0;
+         !status && (!warm || (least.repeats < r->repeats && spent <= r->repeat_seconds));) {
         status = br_trial_march(t, r, &now, err);
-        spent += now.set_up + now.march;
+        const double seconds = now.set_up + now.march;
+        const bool counts = warm || !(seconds <= r->repeat_seconds);
+        warm = true;
+        if (!counts)
+            continue;
+        spent += seconds;
         now.repeats = least.repeats + 1;
-        if (now.set_up + now.march < least.set_up + least.march)
+        if (seconds < least.set_up + least.march)
             least = now;
         least.repeats = now.repeats;
     }
