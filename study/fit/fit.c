@@ -284,8 +284,7 @@ static struct regression regress(const struct br_order_point *point, size_t coun
     return (struct regression){slope, sqrt(cov11 < 0 ? 0 : cov11)}; /* NaN stays */
 }
 
-/* Repeats the regression until p stands: the losses depend on p, but weakly (where all ratios are
- * the same, not at all). */
+/* Repeats the regression until p stands; the losses depend on p, but only weakly. */
 static struct regression solve(const struct br_order_point *point, size_t count, size_t left_out,
                                double *x, double *y)
 {

@@ -55,8 +55,7 @@ struct br_gci_pair {
  * For equal ratios the left side is |R|, with R = e21/e32 of the literature. For unequal ones R
  * alone misleads: values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and
  * 5/11 R = 5. The quotient of the logarithms is the limit of (r32^p - 1)/(r21^p - 1) for p -> 0.
- * Differences within round-off count as zero. Where both are zero, the sequence is constant; where
- * one is, the sequence is not known. */
+ * Differences within round-off count as zero: two, the sequence is constant; one, not known. */
 struct br_gci {
     enum br_sequence sequence;
     double order;                    /* p, (3): negative if divergent */
@@ -92,11 +91,10 @@ struct br_expansion_fit {
     double sigma;    /* standard deviation of the fit */
 };
 
-/* The sequence is monotone where an order between -12 and 12 fits best, whatever the scatter:
- * convergent or divergent by the sign of the order. Else no order can be established. Then the
- * sequence is oscillatory if its differences change sign count/3 times (rounded down) or more:
- * convergent or divergent by the order of the magnitudes of the differences. Else it is
- * anomalous. */
+/* The sequence is monotone where an order between -12 and 12 fits best, whatever the scatter. Else
+ * no order can be established; then it is oscillatory if its differences change sign count/3 times
+ * (rounded down) or more, else anomalous. It is convergent or divergent by the sign of the order,
+ * or of that of the magnitudes of the differences. */
 struct br_least_squares {
     enum br_sequence sequence;
     double order;                /* p of phi_0 + alpha h^p; NaN where none can be established */

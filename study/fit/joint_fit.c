@@ -49,8 +49,7 @@ static double signed_error(double log_c, double order, double x, double x_ref)
     return exp(log_c + order * log(x)) - exp(log_c + order * log(x_ref));
 }
 
-/* Its derivative with respect to the order. (The derivative with respect to log C is the error
- * itself.) */
+/* Its derivative with respect to the order; with respect to log C it is the error itself. */
 static double signed_rate(double log_c, double order, double x, double x_ref)
 {
     const double rate = exp(log_c + order * log(x)) * log(x);
@@ -73,12 +72,12 @@ static void spread(const struct problem *problem, const gsl_vector *v, double fu
 
 /* The two errors; 0 where the model does not have one. */
 static void find_errors(const struct problem *problem, const double full[UNKNOWNS],
-                        const struct br_observation *o, double component[BR_AXES])
+                        const struct br_observation *o, double error[BR_AXES])
 {
     for (int a = 0; a < BR_AXES; a++)
-        component[a] = br_joint_has(problem->kind, a)
-                           ? signed_error(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a])
-                           : 0;
+        error[a] = br_joint_has(problem->kind, a)
+                       ? signed_error(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a])
+                       : 0;
 }
 
 static const double least_model = 1e-300;
@@ -92,9 +91,9 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double component[BR_AXES];
-        find_errors(problem, full, o, component);
-        const double m = combine(component[0], component[1], r);
+        double error[BR_AXES];
+        find_errors(problem, full, o, error);
+        const double m = combine(error[0], error[1], r);
         const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
@@ -113,15 +112,15 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     const double r = sin(full[THETA]), slope = cos(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double component[BR_AXES], rate[UNKNOWNS];
-        find_errors(problem, full, o, component);
-        const double m = combine(component[0], component[1], r), square = m * m;
+        double error[BR_AXES], rate[UNKNOWNS];
+        find_errors(problem, full, o, error);
+        const double m = combine(error[0], error[1], r), square = m * m;
         for (int a = 0; a < BR_AXES; a++) {
-            const double by = (component[a] + r * component[1 - a]) / square;
-            rate[LOG_C(a)] = by * component[a];
+            const double by = (error[a] + r * error[1 - a]) / square;
+            rate[LOG_C(a)] = by * error[a];
             rate[ORDER(a)] = by * signed_rate(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a]);
         }
-        rate[THETA] = component[0] * component[1] / square * slope;
+        rate[THETA] = error[0] * error[1] / square * slope;
         for (size_t j = 0; j < kinds[problem->kind].count; j++) {
             const double value = square > 0 ? rate[kinds[problem->kind].unknown[j]] : 0;
             if (!isfinite(value))
@@ -147,8 +146,7 @@ static double shift(const struct problem *problem, int unknown, const double ful
     return full[unknown + 1] * log_unit(problem, unknown) - problem->log_error;
 }
 
-/* Start values: the constants are the least errors at the largest h and at the largest k (both are
- * one). */
+/* Start values; for the constants the least errors at the largest h and at the largest k. */
 static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
 {
     full[ORDER(BR_AXIS_SPACE)] = p;
@@ -165,8 +163,7 @@ static void start_at(const struct problem *problem, double p, double r, double f
 
 /* One start of one kind. */
 struct attempt {
-    double sum, worst; /* sum of the squared residuals (infinite: no fit); largest magnitude of a
-                          residual */
+    double sum, worst; /* sum of squared residuals (infinite: no fit); largest magnitude */
     double value[UNKNOWNS], deviation[UNKNOWNS]; /* in m and s; NaN where not in the model */
 };
 
@@ -365,11 +362,11 @@ static void describe(const struct problem *problem, const struct attempt *a,
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
                       const double ref[BR_AXES])
 {
-    double component[BR_AXES] = {0};
+    double error[BR_AXES] = {0};
     for (int a = 0; a < BR_AXES; a++)
         if (br_joint_has(fit->kind, a))
-            component[a] = signed_error(log(fit->c[a].value), fit->order[a].value, x[a], ref[a]);
-    return combine(component[0], component[1], fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
+            error[a] = signed_error(log(fit->c[a].value), fit->order[a].value, x[a], ref[a]);
+    return combine(error[0], error[1], fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
 }
 
 static struct br_joint_fit nothing_fitted(size_t points)
@@ -412,8 +409,7 @@ static bool all_determined(const struct br_joint_fit *fit)
     return determined;
 }
 
-/* Whether the model describes the errors with one determined order: for errors that no simpler
- * model describes. */
+/* Whether the model describes the errors and one of its orders is determined. */
 static bool one_determined(const struct br_joint_fit *fit)
 {
     return br_joint_describes(fit) &&
@@ -450,9 +446,8 @@ struct candidate {
     bool widened;
 };
 
-/* Sets the fit to a kind that is accepted, with the intervals of the jackknife, which takes most of
- * the time. The jackknife only widens intervals, so it is not needed where the kind is refused
- * without it. */
+/* Sets the fit to a kind that is accepted, with jackknife intervals. The jackknife is slow and only
+ * widens intervals, so it is not done for a kind that is refused without it. */
 static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct candidate *c,
                       bool (*accepts)(const struct br_joint_fit *),
                       struct br_observation *workspace, struct br_joint_fit *fit)
@@ -473,8 +468,7 @@ static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct c
     return true;
 }
 
-/* The kind with the least criterion that is not done; the first one of equal ones; BR_JOINT_SPACE +
- * 1: there is none left. */
+/* The kind with the least criterion that is not done; BR_JOINT_SPACE + 1: there is none left. */
 static int next_best(const struct candidate *candidate, const bool *done)
 {
     int best = BR_JOINT_SPACE + 1;

@@ -34,8 +34,7 @@ struct br_study *br_report_fitted(const struct br_report *r)
 
 /* ---- theory ---- */
 
-/* The order of the elements in L2; one less for each derivative in the norm. At the nodes it is
- * twice that of the highest derivative. */
+/* In L2; one less for each derivative in the norm; at the nodes twice that of the derivative. */
 static double order_of_elements(const struct br_study *s, enum br_field_kind kind)
 {
     const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3;
@@ -91,8 +90,7 @@ static struct line meshes_of(const struct br_study *s, enum br_part part, size_t
     return line_of(s, part, BR_AXIS_SPACE, *column = 0);
 }
 
-/* The order from point i to the next. The loss by the finite resolution of the references is
- * computed with the order of theory. */
+/* The order from point i to the next; the loss by finite references is that of theory. */
 static double rate(const struct line *l, size_t i, double theory)
 {
     const struct br_order_point *a = &l->point[i], *b = a + 1;
@@ -110,29 +108,25 @@ static void say_rates(struct br_seen_order *o, const struct line *l)
     REMARK(o, " from size to size");
 }
 
-/* By how much the finest errors are nearer to the order of theory than the coarsest ones, relative
- * to that order. */
+/* By how much the last rate is nearer to theory than the first one, relative to theory. */
 static double comes_closer(const struct br_seen_order *o, const struct line *l)
 {
     const double first = rate(l, 0, o->theory), last = rate(l, l->count - 2, o->theory);
     return (fabs(first - o->theory) - fabs(last - o->theory)) / o->theory;
 }
 
-/* Sets the order with its remark. l: the rates of this line follow where the order is not as in
- * theory; NULL: none. */
+/* Sets order and remark. l: its rates follow where the order is not as in theory; NULL: none. */
 static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
 {
     const double off = fabs(order.value - o->theory) / o->theory;
-    const bool contained = order.low <= o->theory && o->theory <= order.high;
+    const bool fits = order.low <= o->theory && o->theory <= order.high;
     o->order = order;
-    if (off <= near && (contained || off <= near / 2))
+    if (off <= near && (fits || off <= near / 2))
         REMARK(o, "as in theory");
     else if (off <= near)
         REMARK(o, "near theory");
     else
-        REMARK(o, contained                 ? "not settled"
-                  : order.value < o->theory ? "below theory"
-                                            : "above theory");
+        REMARK(o, fits ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
     if (off <= near || !l)
         return;
     REMARK(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
@@ -231,8 +225,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
     return BR_OK;
 }
 
-/* The error of space on the finest mesh of the study, from the finest difference of meshes; 0: not
- * known. */
+/* The error of space on the finest mesh, from the finest difference of meshes; 0: not known. */
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
     const struct br_study *s = br_report_fitted(r);

@@ -40,9 +40,8 @@ static double rate(const struct br_point *coarse, const struct br_point *fine)
     return fmax(-steepest, fmin(order, steepest));
 }
 
-/* The first point of those at the fine end that are hardly smaller than the point before; count:
- * there is none. The median rate of the pairs before a point decides what is hardly smaller.
- * sorted: room for `count` rates. */
+/* The first of the points at the fine end that are hardly smaller than the point before, by the
+ * median rate of the pairs before; count: there is none. sorted: room for `count` rates. */
 static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
 {
     size_t first = count;
@@ -242,8 +241,7 @@ static struct br_point *point_on(const struct br_quantity_orders *of, enum br_ax
     return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
-/* Removes the flags of errors that stay along one axis but fall along the other one: they are
- * errors of the other axis. */
+/* Removes flags of errors that stay along one axis but fall along the other one, whose they are. */
 static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
 {
     for (size_t i = 0; i < o->numbers->rows; i++) {

@@ -83,8 +83,7 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
 /* The observed order of a quantity along one axis, at one size of the other axis. */
 struct br_orders_line {
     enum br_axis axis;
-    char at[64]; /* "k = 0.01"; "": the other axis is not refined, or is refined together with this
-                    one */
+    char at[64]; /* "k = 0.01"; "": the other axis is not refined, or tied to this one */
     size_t *row; /* indices of rows, from coarse to fine: observed.points of them, for a value one
                     more; owned */
     struct br_case observed; /* for a value: its differences from the next finer one */
@@ -113,8 +112,7 @@ struct br_orders {
     double formal;                 /* order of values */
     struct br_quantity_orders *of; /* count; owned */
     size_t count;
-    bool tied; /* whether both axes are refined from each row to the next: then there is one line
-                  along both */
+    bool tied; /* both axes are refined from each row to the next, along one line */
 };
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
@@ -140,8 +138,7 @@ double br_orders_rate(const struct br_orders_line *line, size_t i);
 enum br_status br_orders_growth(const struct br_orders *orders, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err);
 
-/* The cheapest run whose error in a quantity is at most `error`; NULL: there is none, or no run was
- * timed. */
+/* The cheapest run whose error in a quantity is at most this; NULL: none, or no run was timed. */
 const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, size_t quantity,
                                                 double error);
 

@@ -138,8 +138,7 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
     if (status)
         return status;
     const int failure = spawn(j, cell, r);
-    /* Until the child has become another program, its memory was that of this process: the kernel
-     * counts it, too. */
+    /* The kernel counts memory of this process that the child had before it became the program. */
     getrusage(RUSAGE_SELF, &own);
     r->own_peak = 1024.0 * (double)own.ru_maxrss;
     if (!failure)

@@ -61,8 +61,7 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
                    br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
-/* Takes the next word, with its braces replaced; there must be one. The text for a brace has
- * neither blanks nor quotes. */
+/* Takes the next word; there must be one. The text for a brace has no blanks and no quotes. */
 static enum br_status take_word(struct split *s, char *to, struct br_error *err)
 {
     char quote = '\0'; /* the open one; zero: none */

@@ -36,9 +36,8 @@ enum { BR_PROGRAM_SECONDS = 600 };
 struct br_orders_request {
     char *path;            /* of the table or the study file, for messages */
     char *title;           /* one line; NULL: the path */
-    char *errors, *values; /* names of columns or readings, "l2,h1": those with errors, and those
-                              with values whose limit is not known; NULL: see br_table_read,
-                              br_program_run */
+    char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
+                              known limit; NULL: see the sources */
     double dimension;      /* of the mesh, for unknowns (dofs) */
     double formal;         /* the order of theory for values */
     struct br_order_expectation *expectation; /* expectations */
@@ -76,8 +75,8 @@ enum br_status br_orders_read(const struct br_orders_request *request, struct br
 /* The file that the numbers come from, for messages. */
 const char *br_orders_path(const struct br_orders_request *request);
 
-/* For sources: refuses (BR_BAD_INPUT) a name of an error or a value that is no quantity, or is in
- * both lists. */
+/* For sources: refuses (BR_BAD_INPUT) names of errors and values of no quantity, or in both
+ * lists. */
 enum br_status br_orders_check_lists(const struct br_orders_request *request,
                                      const struct br_numbers *numbers, struct br_error *err);
 

@@ -218,8 +218,7 @@ static bool is_number(const json_t *field, double *value)
     return json_is_number(field) || json_is_null(field);
 }
 
-/* Whether a column has a number. Then all its fields must be numbers; a column of words is not
- * studied. */
+/* Whether a column has a number; then all its fields must be numbers. Else it is not studied. */
 static bool has_number(const struct source *s, size_t column)
 {
     double value;
