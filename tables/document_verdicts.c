@@ -185,7 +185,7 @@ const struct br_document_format br_document_tap = {
     .write = write_tap,
 };
 
-/* ---- GitHub: a line for what did not pass, which its pages show beside the file's line ---- */
+/* ---- GitHub: a line for each verdict that did not pass, shown at the line of its file ---- */
 
 static enum br_status write_annotations(FILE *out, const struct br_document *d,
                                         const struct br_document_table *table, struct br_error *err)

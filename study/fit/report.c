@@ -99,7 +99,7 @@ static double rate(const struct line *l, size_t i, double theory)
     return (log(a->error / b->error) - lost) / log(a->z / b->z);
 }
 
-/* ---- what is seen ---- */
+/* ---- observed orders ---- */
 
 static void say_rates(struct br_seen_order *o, const struct line *l)
 {

@@ -241,7 +241,7 @@ static struct br_point *point_on(const struct br_quantity_orders *of, enum br_ax
     return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
-/* Removes flags of errors that stay along one axis but fall along the other one, whose they are. */
+/* An error that stays along one axis but falls along the other belongs to the other: no flag. */
 static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
 {
     for (size_t i = 0; i < o->numbers->rows; i++) {

@@ -34,7 +34,7 @@ struct br_quantity {
 /* One run of the program that made the numbers. */
 struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column */
-    double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN likewise */
+    double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
     double *number;        /* by quantity; NaN: missing; owned */
     size_t line;           /* in the source file; 0: there is none */
     double seconds, bytes; /* processor time and peak memory; NaN: not measured */
@@ -161,7 +161,7 @@ enum br_status br_expectations_read(const char *text, size_t line,
 
 /* Judges each expectation: by the joint fit where it describes the errors, else on the line at the
  * finest size of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a
- * quantity or an axis is not there, or with BR_NO_MEMORY. */
+ * quantity or an axis is missing, or with BR_NO_MEMORY. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

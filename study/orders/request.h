@@ -157,8 +157,8 @@ enum br_status br_orders_request_reading(struct br_orders_request *request, cons
 /* Whether a YAML text is a study file: it has 'run' or 'table' at the top; a scene has neither. */
 bool br_is_study_file(const char *text);
 
-/* Reads a study file's text; its table is looked for in its folder. Every refusal names path, line
- * and key. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+/* Reads a study file's text; the path of its table is relative to its folder. Every refusal names
+ * path, line and key. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_orders_request_read(const char *path, const char *text,
                                       struct br_orders_request *request, struct br_error *err);
 

@@ -161,7 +161,7 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
 }
 
-/* Refuses keys of runs beside a table. */
+/* Refuses keys of runs in a study of a table. */
 static enum br_status check_table(const struct br_scene_reader *r, const bool seen[KEYS])
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
