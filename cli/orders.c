@@ -18,7 +18,7 @@ struct run {
     double wall_seconds;
 };
 
-/* ---- what is asked ---- */
+/* ---- the request ---- */
 
 static enum br_status copy_text(const char *text, char **to, struct br_error *err)
 {
@@ -26,7 +26,7 @@ static enum br_status copy_text(const char *text, char **to, struct br_error *er
     return text && !*to ? br_no_memory(err, "the options") : BR_OK;
 }
 
-/* "NAME=WHAT", a line each. */
+/* Reads "NAME=WHAT", one on each line. */
 static enum br_status read_readings(const char *text, struct br_orders_request *q,
                                     struct br_error *err)
 {
@@ -49,20 +49,20 @@ static enum br_status read_readings(const char *text, struct br_orders_request *
     return failed ? err->status : BR_OK;
 }
 
-/* The options beside the file. Those of a run are refused beside a file. */
+/* Reads the options that come with a table or with --run. A table refuses those of a run. */
 static enum br_status read_options(const struct br_options *o, struct br_orders_request *q,
                                    struct br_error *err)
 {
     static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_DOFS,       BR_OPT_K,
                                                 BR_OPT_STEPS,  BR_OPT_TIME_LIMIT, BR_OPT_KEEP,
                                                 BR_OPT_RESUME, BR_OPTIONS};
-    static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first of these */
-    const char *unheeded = q->command ? NULL : br_first_given(o, of_runs);
+    static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
+    const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
-    if (unheeded)
-        return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unheeded);
+    if (unused)
+        return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
     if (br_option_given(o, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
     if (br_option_given(o, BR_OPT_READ) != !!q->command)
@@ -78,7 +78,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     return failed ? err->status : BR_OK;
 }
 
-/* Of a table, or of the program of --run (path NULL). */
+/* Reads the request of a table, or of --run (path NULL). */
 static enum br_status read_beside(const char *path, const struct br_options *o,
                                   struct br_orders_request *q, struct br_error *err)
 {
@@ -95,7 +95,7 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
     return failed ? err->status : BR_OK;
 }
 
-/* A study file says all by itself. */
+/* Reads a study file. It refuses options for what the file has. */
 static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
 {
@@ -134,7 +134,7 @@ static enum br_status read_request(struct run *r, struct br_error *err)
     return br_fail(err, inner.status, "--expect: %s", inner.message);
 }
 
-/* What can be refused is refused before a program is run. */
+/* Checks all that can be checked before a program is run. */
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
@@ -186,7 +186,7 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
     return BR_OK;
 }
 
-/* The orders, and where something is expected the verdicts behind them. */
+/* Writes the orders, and the verdicts where something is expected. */
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_check_findings findings = {
@@ -199,7 +199,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
                   : br_session_finish(&r->session, err);
 }
 
-/* Runs without a number fail the command, after everything has been written. */
+/* A run without a number makes the command fail, after everything has been written. */
 static enum br_status check_rows(const struct run *r, struct br_error *err)
 {
     size_t failed = 0;

@@ -46,7 +46,7 @@ static enum br_status open_results(struct run *r, struct br_error *err)
         .scene = &r->plan.marched,
         .n = r->plan.request.n,
         .steps = r->plan.request.steps,
-        .looks = r->plan.request.levels,
+        .levels = r->plan.request.levels,
         .axial_degree = r->plan.request.method.axial_degree,
         .provenance = &r->provenance,
     };
@@ -74,7 +74,7 @@ static enum br_status write_look(void *self, const struct br_march *march,
                                  const struct br_history_row *row, struct br_error *err)
 {
     struct run *r = self;
-    return r->format->look(r->fields, march, row, err);
+    return r->format->append(r->fields, march, row, err);
 }
 
 /* stopped: why the march did not reach T; NULL: it did. */

@@ -9,7 +9,7 @@
 #include "study/orders/sha256.h"
 #include "study/scene/quote.h"
 
-/* For each format the file that its option names. */
+/* Opens, for each format, the file that its option names. */
 static enum br_status open_files(struct br_verdicts *v, const struct br_options *options,
                                  struct br_error *err)
 {
@@ -37,10 +37,9 @@ enum br_status br_verdicts_spare(const struct br_verdicts *v, const char *path,
     return BR_OK;
 }
 
-/* No report may end where another one does, or in the place of what is read. */
-static enum br_status check_places(const struct br_verdicts *v, const char *baseline,
-                                   const struct br_check *checks, size_t count,
-                                   struct br_error *err)
+/* Refuses a report at the path of another report, or of a file that is read. */
+static enum br_status check_paths(const struct br_verdicts *v, const char *baseline,
+                                  const struct br_check *checks, size_t count, struct br_error *err)
 {
     for (size_t i = 1; br_check_formats[i]; i++) {
         const struct br_whole_file *f = &v->file[i];
@@ -60,7 +59,7 @@ static enum br_status check_places(const struct br_verdicts *v, const char *base
     return BR_OK;
 }
 
-/* A baseline that is to be written need not be there yet, nor be of the same problem. */
+/* A baseline that will be written may be missing, or be of another problem. */
 static enum br_status read_baseline(struct br_verdicts *v, const struct br_options *options,
                                     const struct br_check *checks, size_t count,
                                     struct br_error *err)
@@ -86,9 +85,9 @@ static enum br_status read_baseline(struct br_verdicts *v, const struct br_optio
 enum br_status br_verdicts_open(struct br_verdicts *v, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err)
 {
-    const bool failed =
-        read_baseline(v, options, checks, count, err) || open_files(v, options, err) ||
-        check_places(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
+    const bool failed = read_baseline(v, options, checks, count, err) ||
+                        open_files(v, options, err) ||
+                        check_paths(v, br_option_text(options, BR_OPT_COMPARE), checks, count, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -164,9 +163,9 @@ void br_study_file_clear(struct br_study_file *f)
     br_orders_request_clear(&f->request);
 }
 
-/* The file that remembers the sums of study files whose commands may be run (out); false: there is
- * no place for one. */
-static bool place_of_trust(char path[4096], bool make)
+/* The path (out) of the file with the sums of trusted study files, whose commands may be run. make:
+ * make its folder. false: there is no path. */
+static bool find_trust_file(char path[4096], bool make)
 {
     const char *state = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
     char folder[4000];
@@ -183,7 +182,7 @@ static bool place_of_trust(char path[4096], bool make)
 static bool is_trusted(const char *sum)
 {
     char path[4096], line[128];
-    FILE *file = place_of_trust(path, false) ? fopen(path, "re") : NULL;
+    FILE *file = find_trust_file(path, false) ? fopen(path, "re") : NULL;
     bool found = false;
     while (file && !found && fgets(line, sizeof line, file))
         found = strncmp(line, sum, strlen(sum)) == 0;
@@ -195,7 +194,7 @@ static bool is_trusted(const char *sum)
 static void remember(const char *sum)
 {
     char path[4096];
-    FILE *file = place_of_trust(path, true) ? fopen(path, "ae") : NULL;
+    FILE *file = find_trust_file(path, true) ? fopen(path, "ae") : NULL;
     if (!file || fprintf(file, "%s\n", sum) < 0)
         fprintf(stderr, "beamrate: warning: that the study file is trusted could not be kept\n");
     if (file)

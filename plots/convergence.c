@@ -7,7 +7,7 @@
 #include "study/fit/report.h"
 #include "study/scene/words.h"
 
-/* The study's entry of an axis: n over h, steps over k. */
+/* Entry i of the study's list for an axis: n over h, steps over k. */
 static size_t entry_of(const struct br_report *r, int axis, size_t i)
 {
     const struct br_study *study = br_report_fitted(r);
@@ -27,7 +27,7 @@ static double size_of(const struct br_report *r, int axis, size_t i)
                                  : br_time_step(s->scene, s->steps[i]);
 }
 
-/* What is drawn of a cell; NaN: a gap. */
+/* The number that is drawn for a cell; NaN: a gap. */
 typedef double of_cell(const struct br_report *r, size_t cell, enum br_part part);
 
 static double error_of(const struct br_report *r, size_t cell, enum br_part part)
@@ -42,7 +42,7 @@ static double printed_of(const struct br_report *r, size_t cell, enum br_part pa
     return r->printed[cell];
 }
 
-/* How far the error is from what the joint fit says, relative. */
+/* The relative difference of the error and the joint fit. */
 static double misfit_of(const struct br_report *r, size_t cell, enum br_part part)
 {
     const struct br_study *s = br_report_fitted(r);
@@ -52,7 +52,7 @@ static double misfit_of(const struct br_report *r, size_t cell, enum br_part par
     return -1 + error_of(r, cell, part) / br_joint_model(&r->fits[part].joint, size, ref);
 }
 
-/* The points of a series along an axis, at a place of the other one. */
+/* Adds the points of a series along an axis, at index `at` of the other axis. */
 static void add_points(const struct br_report *r, int axis, size_t at, of_cell *value,
                        enum br_part part, struct br_series *series)
 {
@@ -66,7 +66,7 @@ static void add_points(const struct br_report *r, int axis, size_t at, of_cell *
     }
 }
 
-/* The hue of entry i of a list: at most BR_HUES of them, spread evenly, have one; 0: none. */
+/* The hue of entry i of a list, for at most BR_HUES entries, evenly spread; 0: none. */
 static size_t hue_of(size_t i, size_t count)
 {
     if (count <= BR_HUES)
@@ -77,7 +77,7 @@ static size_t hue_of(size_t i, size_t count)
     return 0;
 }
 
-/* "k = 0.01 s" or "n = 100": the curve over an axis at a place of the other one. */
+/* "k = 0.01 s" or "n = 100": the curve over an axis, at index `at` of the other axis. */
 static const char *name_curve(const struct br_report *r, int axis, size_t at, char name[40])
 {
     if (axis == BR_AXIS_SPACE)
@@ -87,7 +87,7 @@ static const char *name_curve(const struct br_report *r, int axis, size_t at, ch
     return name;
 }
 
-/* Curves along an axis, one for each place of the other one. */
+/* Adds the curves along an axis, one for each entry of the other axis. */
 static void add_curves(const struct br_report *r, int axis, of_cell *value, struct br_figure *f)
 {
     const size_t count = count_of(r, 1 - axis);
@@ -136,8 +136,7 @@ static bool always(const struct br_report *r)
     return br_report_fitted(r)->n_count > 0 && br_report_fitted(r)->k_count > 0;
 }
 
-/* Slopes: the bounds of the theory, and what the elements can do on smooth solutions, in the norm:
- * one order less for each derivative. */
+/* The slopes: bounds of the theory, and orders of the elements for smooth solutions. */
 static void fill_h(const struct br_report *r, struct br_figure *f)
 {
     const struct br_study *study = br_report_fitted(r);
@@ -159,7 +158,7 @@ static void fill_h(const struct br_report *r, struct br_figure *f)
     br_slopes_add(f, orders, order);
 }
 
-/* Beside the errors what the fit leaves over: curves over k may lie on one another. */
+/* The second panel has the residuals of the fit, since the curves over k may coincide. */
 static void fill_k(const struct br_report *r, struct br_figure *f)
 {
     const struct br_joint_fit *fit = &r->fits[BR_PART_TOTAL].joint;
@@ -175,31 +174,31 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
     add_curves(r, BR_AXIS_TIME, misfit_of, f);
 }
 
-static bool has_parts(const struct br_report *r)
+static bool has_components(const struct br_report *r)
 {
     const struct br_scene *scene = br_report_fitted(r)->scene;
     return always(r) && scene->axial.modelled && scene->bending.modelled;
 }
 
-/* The parts along an axis, at the finest place of the other one. */
-static void add_parts(const struct br_report *r, int axis, struct br_figure *f)
+/* Adds the components along an axis, at the finest entry of the other axis. */
+static void add_components(const struct br_report *r, int axis, struct br_figure *f)
 {
     for (enum br_part part = BR_PART_TOTAL; part < BR_PARTS; part++)
         add_points(r, axis, count_of(r, 1 - axis) - 1, error_of, part,
                    br_series_add(f, BR_PEN_CURVE, "%s", br_part_names[part]));
 }
 
-static void fill_parts(const struct br_report *r, struct br_figure *f)
+static void fill_components(const struct br_report *r, struct br_figure *f)
 {
     say_fit(r, BR_PART_AXIAL, f->note[0]);
     say_fit(r, BR_PART_BENDING, f->note[1]);
     BR_SAY(add_panel(r, BR_AXIS_SPACE, f)->x_label, "mesh size h (m), at k = %.4g s",
            size_of(r, BR_AXIS_TIME, count_of(r, BR_AXIS_TIME) - 1));
-    add_parts(r, BR_AXIS_SPACE, f);
+    add_components(r, BR_AXIS_SPACE, f);
     br_slopes_add(f, 3, (const double[]){1, 2, 4});
     BR_SAY(add_panel(r, BR_AXIS_TIME, f)->x_label, "time step k (s), at n = %zu",
            entry_of(r, BR_AXIS_SPACE, count_of(r, BR_AXIS_SPACE) - 1));
-    add_parts(r, BR_AXIS_TIME, f);
+    add_components(r, BR_AXIS_TIME, f);
     br_slopes_add(f, 1, (const double[]){1});
 }
 
@@ -208,7 +207,7 @@ static bool has_printed(const struct br_report *r)
     return always(r) && r->printed;
 }
 
-/* The hue tells whose error it is, the mark which curve. */
+/* The hue shows whose error it is, the mark which curve it is. */
 static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 {
     const size_t count = count_of(r, 1 - axis);
@@ -222,7 +221,7 @@ static void add_both(const struct br_report *r, int axis, struct br_figure *f)
     }
 }
 
-/* Which place of the other axis a mark is in a panel; "": none. */
+/* The name of the curve that a mark stands for in a panel; "": there is none. */
 static const char *say_mark(const struct br_report *r, int axis, size_t hue, char name[40])
 {
     const size_t count = count_of(r, 1 - axis);
@@ -233,7 +232,7 @@ static const char *say_mark(const struct br_report *r, int axis, size_t hue, cha
     return name;
 }
 
-/* With a key of the marks: over k they are meshes, over h time steps. */
+/* Adds a key of the marks: over k they are meshes, over h time steps. */
 static void fill_printed(const struct br_report *r, struct br_figure *f)
 {
     f->one_y = true;
@@ -254,14 +253,15 @@ static const struct br_convergence_picture
     over_h = {"h", "The error against the mesh size h, one curve per time step k.", always, fill_h},
     over_k = {"k", "The error against the time step k, one curve per number of elements n.", always,
               fill_k},
-    parts = {"parts", "The error's axial and bending parts against h and k, the other one finest.",
-             has_parts, fill_parts},
+    components = {"parts",
+                  "The error's axial and bending parts against h and k, the other one finest.",
+                  has_components, fill_components},
     printed = {"printed",
                "The computed and the printed errors against the time step k and the mesh size h.",
                has_printed, fill_printed};
 
-const struct br_convergence_picture *const br_convergence_pictures[] = {&over_h, &over_k, &parts,
-                                                                        &printed, NULL};
+const struct br_convergence_picture *const br_convergence_pictures[] = {
+    &over_h, &over_k, &components, &printed, NULL};
 
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)

@@ -23,7 +23,7 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
     br_series_sort(s);
 }
 
-/* Sizes of the source have its unit; one over a count has none. */
+/* A size has the unit of the source; one over a count has none. */
 static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[160])
 {
     static const char *const names[] = {"mesh size h", "time step k"};
@@ -38,7 +38,7 @@ static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char 
                  unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* With a unit where all have the same. */
+/* The unit is named where all quantities have the same. */
 static void name_quantities(const struct br_numbers *numbers, char label[160])
 {
     const char *unit = numbers->quantity[0].unit;
@@ -56,7 +56,7 @@ static void name_quantities(const struct br_numbers *numbers, char label[160])
              unit ? ", " : "", unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
-/* The lines along one axis: of all quantities the one at the finest size of the other axis. */
+/* The lines along one axis: for each quantity the one at the finest size of the other axis. */
 static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_axis axis)
 {
     double slope[3];
@@ -73,8 +73,8 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         add_line(f, o, &o->of[i], finest);
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        /* As the joint fit has it, where that describes the errors: along a line the other axis
-         * bends it. */
+        /* The order of the joint fit where that describes the errors: the error of the other axis
+         * bends a line. */
         const struct br_joint_fit *joint = &o->of[i].joint;
         const double order = round(br_joint_describes(joint) ? joint->order[axis].value
                                                              : finest->observed.order.value);
@@ -89,7 +89,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
     br_slopes_add(f, slopes, slope);
 }
 
-/* Where runs were timed: errors over processor time. */
+/* Adds errors over processor time where runs were timed. */
 static void add_costs(struct br_figure *f, const struct br_orders *o)
 {
     const struct br_numbers *numbers = o->numbers;

@@ -29,7 +29,7 @@ struct br_document_memory {
     _Alignas(ALIGNED) char bytes[];
 };
 
-/* Zeros; NULL after any failure. */
+/* Memory of zeros; NULL after any failure. */
 static void *take(struct br_document *d, size_t size)
 {
     struct br_document_memory *m = d->memory;
@@ -51,7 +51,7 @@ static void *take(struct br_document *d, size_t size)
     return m->bytes + m->used - size;
 }
 
-/* The list with room for one more than `count`; NULL after a failure. */
+/* A list with room for one more than `count` elements; NULL after a failure. */
 static void *grown(struct br_document *d, void *list, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
@@ -79,8 +79,8 @@ static const char *copied(struct br_document *d, const char *text)
     return copy ? note_length(d, strcpy(copy, text)) : NULL;
 }
 
-/* What rounds to zero has no sign: takes the minus from each number of a text whose digits are all
- * zeros. "-0.00 [-0.01, 0.00]" becomes "0.00 [-0.01, 0.00]". */
+/* Removes the minus from each number of a text whose digits are all zeros. "-0.00 [-0.01, 0.00]"
+ * becomes "0.00 [-0.01, 0.00]". */
 static const char *without_signs_of_zero(char *text)
 {
     for (char *c = text; (c = strchr(c, '-')); c++) {
@@ -130,7 +130,7 @@ void br_document_begin(struct br_document *d, const char *name, const char *form
     d->caption = copied(d, caption);
 }
 
-/* A report that is built wrongly is not printed. */
+/* Stores the failure of a report that is built wrongly; it is not printed. */
 static void refuse(struct br_document *d, const char *what, const char *key)
 {
     if (!d->failure.status)
@@ -186,7 +186,7 @@ void br_put_more_text(struct br_document *d, const char *more)
         *d->open = br_format(d, "%s%s", *d->open, more);
 }
 
-/* Whether printf may be called with it and one double. */
+/* Whether printf may be called with this format and one double. */
 static bool is_number_format(const char *format)
 {
     size_t conversions = 0;
@@ -295,7 +295,7 @@ static const char *key_of(const struct br_column *column)
     return column->key ? column->key : column->heading ? column->heading : "";
 }
 
-/* The column of a key, from the next one on and around; t->columns: none. */
+/* The column of a key; the search begins at column `next`. t->columns: there is none. */
 static size_t find_column(const struct br_document_table *t, const char *key, size_t next)
 {
     for (size_t i = 0; i < t->columns; i++) {
@@ -357,10 +357,10 @@ void br_put_rule(struct br_document *d)
         t->row[t->rows - 1].rule = true;
 }
 
-/* The place of a key's column, which the first row makes if the table began without columns;
- * t->columns: there is none. */
-static size_t place_of(struct br_document *d, struct br_document_table *t,
-                       const struct br_column *column)
+/* The index of the column of a key. The first row makes the column if the table began without
+ * columns. t->columns: there is none. */
+static size_t column_of(struct br_document *d, struct br_document_table *t,
+                        const struct br_column *column)
 {
     const bool next = !column->key && !column->heading;
     const size_t at = next ? d->next : find_column(t, key_of(column), d->next);
@@ -374,7 +374,7 @@ static size_t place_of(struct br_document *d, struct br_document_table *t,
 void br_put_cell(struct br_document *d, const struct br_column *column, struct br_value value)
 {
     struct br_document_table *t = open_table(d);
-    const size_t at = t ? place_of(d, t, column) : 0;
+    const size_t at = t ? column_of(d, t, column) : 0;
     const struct br_value copy = d->blank ? br_nothing() : copied_value(d, value);
     if (d->failure.status)
         return;

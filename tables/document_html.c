@@ -6,7 +6,7 @@
 
 #include "tables/markup.h"
 
-/* All colours of letters have a contrast of at least 4.5 to both grounds (tests/html_page.py). */
+/* All colours of text have a contrast of at least 4.5 to both backgrounds (tests/html_page.py). */
 static const char style[] =
     ":root { color-scheme: light dark; --ground: #ffffff; --shade: #f3f5f7; --line: #ccd1d6;\n"
     "  --ink: #1a1c1f; --quiet: #53585d; --link: #0a55a8;\n"
@@ -72,7 +72,7 @@ static void close_table(const struct br_markup_page *p, const struct br_document
     fputs(is_folded(t) ? "</details>\n" : "", p->out);
 }
 
-/* STEM.svg as a text, to be freed; NULL: there is none. */
+/* The text of STEM.svg, which the caller frees; NULL: there is none. */
 static char *read_svg(struct br_markup_page *p, const char *stem)
 {
     char path[4096], *svg = NULL;
@@ -91,9 +91,9 @@ static char *read_svg(struct br_markup_page *p, const char *stem)
     return NULL;
 }
 
-/* What is behind a picture's opening tag. All pictures of gnuplot have the same ids: within tags,
- * each id and each reference to one gets a prefix. Of texts only those in the picture stay, no
- * titles, which would be shown under the mouse. */
+/* Prints the contents of a picture behind its opening tag. All pictures of gnuplot have the same
+ * ids: so within tags, each id and each reference to one gets a prefix. Only texts in the picture
+ * are printed, not titles, which a browser would show under the mouse. */
 static void print_unique(const struct br_markup_page *p, const char *svg)
 {
     static const char *const before[] = {" id='", " id=\"", "href='#", "href=\"#", "url(#"};
@@ -113,7 +113,7 @@ static void print_unique(const struct br_markup_page *p, const char *svg)
     }
 }
 
-/* In a frame that keeps its shape, not its size. Whether it is a picture. */
+/* Prints a picture in a frame of its shape, at any size. Returns whether the text is a picture. */
 static bool print_svg(const struct br_markup_page *p, const char *svg, const char *caption)
 {
     static const char key[] = "viewBox=\"";
@@ -172,7 +172,7 @@ static void print_provenance(const struct br_markup_page *p, const struct br_pro
     fprintf(p->out, "<div><dt>Threads</dt>\n<dd>%d</dd></div>\n</dl>\n", from->threads);
 }
 
-/* Cells have their alignment as a class; "" is where none is needed. */
+/* The class of a cell is its alignment. */
 static const char *const classes[] = {" class=\"number\"", " class=\"text\"",
                                       " class=\"text wrap\""};
 
@@ -206,7 +206,7 @@ static const struct br_markup html = {
     .classes = classes,
 };
 
-/* "beamrate extremes" of "beamrate extremes map". */
+/* The title; of several reports "beamrate extremes" of the format "beamrate extremes map". */
 static void print_title(const struct br_markup_page *p, const struct br_document *d, size_t count)
 {
     const size_t first = strcspn(d->format, " "), blank = d->format[first] == ' ';
@@ -217,7 +217,7 @@ static void print_title(const struct br_markup_page *p, const struct br_document
                 (int)(first + blank + strcspn(d->format + first + blank, " ")), d->format, count);
 }
 
-/* The reports, and what is said first of each. */
+/* Prints a list of the reports, with the first answer of each. */
 static void print_contents(const struct br_markup_page *p, const struct br_document *d,
                            size_t count)
 {
@@ -233,7 +233,7 @@ static void print_contents(const struct br_markup_page *p, const struct br_docum
     fputs("</ol></nav>\n", p->out);
 }
 
-/* All reports of a page are of one command, so where they come from stands once. */
+/* All reports of a page are of one command, so its provenance is printed once. */
 enum br_status br_document_print_page(FILE *out, const struct br_document *d, size_t count,
                                       const char *folder, struct br_error *err)
 {

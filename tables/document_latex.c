@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* LaTeX to \input; it needs the booktabs and longtable packages, and graphicx where the pictures
- * are there as PDF. */
+/* LaTeX to \input; it needs the booktabs and longtable packages, and graphicx if the pictures are
+ * there as PDF. */
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "tables/markup.h"
 
-/* The exponent's e of a text that ends with a number like 1.2e-05; NULL: it does not. */
+/* The e of the exponent at the end of a text like 1.2e-05; NULL: there is none. */
 static char *exponent_of(char *text)
 {
     char *e = strrchr(text, 'e');
@@ -16,7 +16,7 @@ static char *exponent_of(char *text)
     return e[2] && e[2 + strspn(e + 2, "0123456789")] == '\0' ? e : NULL;
 }
 
-/* "1.2e-05" as $1.2\cdot10^{-5}$, and any other text as it is. */
+/* Prints "1.2e-05" as $1.2\cdot10^{-5}$, and any other text as it is. */
 static void print_number(FILE *out, const char *number)
 {
     char text[BR_SHOWN];
@@ -36,7 +36,7 @@ static void print_number(FILE *out, const char *number)
     fprintf(out, "$%s\\cdot10^{%ld}$", start, strtol(e + 1, NULL, 10));
 }
 
-/* m^(3/2) with its exponent raised. */
+/* Prints m^(3/2) with its exponent raised. */
 static void print_unit(FILE *out, const char *unit)
 {
     const char *raised = strstr(unit, "^("), *end = raised ? strchr(raised, ')') : NULL;
@@ -47,7 +47,7 @@ static void print_unit(FILE *out, const char *unit)
         br_quote(out, &br_for_latex, unit);
 }
 
-/* Its caption stands in the tables'. */
+/* The caption of the document is part of the captions of its tables. */
 static void begin(const struct br_markup_page *p)
 {
     const struct br_provenance *from = &p->d->provenance;
@@ -66,7 +66,7 @@ static void open_table(const struct br_markup_page *p, const struct br_document_
     br_markup_put(p, "", t->title, "}\\\\\n\\toprule\n");
 }
 
-/* Only where there is one that LaTeX reads. */
+/* Includes the picture if there is a PDF, which LaTeX reads. */
 static void picture(struct br_markup_page *p, const struct br_block *b)
 {
     fprintf(p->out,

@@ -30,7 +30,7 @@ static void picture(struct br_markup_page *p, const struct br_block *b)
     fputs(".svg>)\n", p->out);
 }
 
-/* The command line between backticks, unless it has one of its own. */
+/* Prints the command line between backticks, unless it contains one. */
 static void end(const struct br_markup_page *p)
 {
     const struct br_provenance *from = &p->d->provenance;
@@ -56,7 +56,7 @@ static const struct br_markup markdown = {
     .fact = {"- ", "\n"},
     .label = {"", ": "},
     .command = {"", ":\n\n"},
-    .lines = {"````\n", "````\n"}, /* no line of a command ends this */
+    .lines = {"````\n", "````\n"}, /* a line of a command cannot end this block */
     .line = {"", "\n"},
     .verdict = {"- ", "\n"},
     .detail = {"  - ", "\n"},

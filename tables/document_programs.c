@@ -7,17 +7,17 @@
 #include "tables/document.h"
 #include "tables/json_value.h"
 
-/* ---- JSON, by jansson: what kind of report it is, the answer, facts, tables as lists of rows,
- * notes, verdicts, and what repeats it. What is not there is null. ---- */
+/* ---- JSON, by jansson: the kind of the report, the answer, facts, tables as lists of rows, notes,
+ * verdicts, and the provenance. A value that is nothing is null. ---- */
 
-/* A report on its way out. */
+/* A report that is being printed. */
 struct page {
     const struct br_document *d;
     bool lacked;     /* memory */
     char twice[100]; /* a key that has two values; "": none */
 };
 
-/* Takes the value. */
+/* Takes ownership of the value. */
 static void put(struct page *p, json_t *object, const char *key, json_t *value)
 {
     if (json_object_get(object, key))
@@ -46,7 +46,7 @@ static json_t *value_of(const struct br_value *value)
     }
 }
 
-/* A key with dots is an object in an object, which is made if it is not there. */
+/* A key with dots is an object in an object; objects are made as they are needed. */
 static void put_fact(struct page *p, json_t *object, const char *key, json_t *value)
 {
     char name[100];
@@ -72,7 +72,7 @@ static json_t *rows_of(struct page *p, const struct br_document_table *t)
     return rows;
 }
 
-/* Titles of the tables, and units of their columns. */
+/* The title of a table, and the units of its columns. */
 static json_t *columns_of(struct page *p, const struct br_document_table *t)
 {
     json_t *o = json_object(), *units = json_object();
@@ -162,7 +162,7 @@ static enum br_status write_json(FILE *out, const struct br_document *d,
     if (*p.twice)
         status =
             br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
-    /* Not json_dumps: it drops a key that its buffer has no room for. */
+    /* Not json_dumps: without memory for its buffer, it drops a key. */
     else if (p.lacked || (json_dumpf(root, out, flags) != 0 && !ferror(out)))
         status = br_no_memory(err, "the JSON text");
     fputc('\n', out);
@@ -177,9 +177,9 @@ const struct br_document_format br_document_json = {
     .write = write_json,
 };
 
-/* ---- CSV: a table a file (RFC 4180), a line of keys, with units in brackets, and a line a row.
- * Numbers have all their digits, what is not there is an empty field, and a text stays on its line.
- * ---- */
+/* ---- CSV: one table in a file (RFC 4180): a line of keys, with units in brackets, then a line for
+ * each row. Numbers have all their digits, a value that is nothing is an empty field, a text stays
+ * on its line. ---- */
 
 static enum br_status write_csv(FILE *out, const struct br_document *d,
                                 const struct br_document_table *t, struct br_error *err)

@@ -6,16 +6,16 @@
 
 enum {
     WIDTH = 100, /* columns of a paragraph */
-    WRAPPED = 44 /* of a cell in a column that is wrapped */
+    WRAPPED = 44 /* of a cell in a wrapped column */
 };
 
-/* Buffers of `size` bytes: any text of the report has room in them, quoted. */
+/* Buffers of `size` bytes: enough for any text of the report, quoted. */
 struct buffers {
     char *visible, *piece;
     size_t size;
 };
 
-/* Its columns: characters, not bytes. */
+/* The number of columns of a text: characters, not bytes. */
 static int width_of(const struct br_markup_page *p, const char *text)
 {
     const struct buffers *b = p->own;
@@ -38,7 +38,7 @@ static void print_title(const struct br_markup_page *p, int level, const char *t
     fputc('\n', p->out);
 }
 
-/* In lines of at most WIDTH columns; those after the first are indented. */
+/* Prints lines of at most WIDTH columns; all but the first are indented. */
 static void print_paragraph(const struct br_markup_page *p, const char *paragraph)
 {
     const struct buffers *b = p->own;
@@ -62,12 +62,12 @@ static void print_paragraph(const struct br_markup_page *p, const char *paragrap
 
 struct layout {
     const struct br_column *column;
-    int width, mark; /* of values and of what stands behind them */
+    int width, mark; /* of the values and of the marks behind them */
     bool shown, left;
-    const char *rest; /* of the text of the row's cell */
+    const char *rest; /* the rest of the cell's text, for the next line */
 };
 
-/* "time step, s"; overwrites the piece. */
+/* The heading "time step, s"; it overwrites the buffer `piece`. */
 static const char *heading_of(const struct br_markup_page *p, const struct br_column *c)
 {
     const struct buffers *b = p->own;
@@ -101,7 +101,7 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
     return l;
 }
 
-/* How many bytes of a text stand on a line of its cell: whole words, as many as have room. */
+/* The number of bytes of a text on one line of its cell: as many whole words as fit. */
 static size_t bytes_of_line(const struct layout *l, const char *text)
 {
     size_t bytes = 0;
@@ -118,7 +118,7 @@ static size_t bytes_of_line(const struct layout *l, const char *text)
     return bytes;
 }
 
-/* Prints a line of l->rest, and a mark. */
+/* Prints one line of l->rest, and a mark. */
 static void print_piece(const struct br_markup_page *p, struct layout *l, const char *mark,
                         bool last)
 {
@@ -143,7 +143,7 @@ static size_t last_shown(const struct br_document_table *t, const struct layout 
     return last;
 }
 
-/* Several lines where cells are wrapped. */
+/* Prints a row, on several lines where cells are wrapped. */
 static void print_row(const struct br_markup_page *p, const struct br_document_table *t,
                       struct layout *l, size_t r)
 {
@@ -160,7 +160,7 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
                 l[c].rest = br_document_shown(l[c].column, cell, buffer);
             print_piece(p, &l[c], first && cell->mark ? cell->mark : "", c + 1 == last);
             if (!*l[c].rest)
-                l[c].rest = ""; /* not what the buffer will have */
+                l[c].rest = ""; /* the next cell overwrites the buffer */
             more |= *l[c].rest != '\0';
         }
         fputc('\n', p->out);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report's verdicts for CI systems: JUnit's XML, TAP and GitHub's annotations. The first two have
- * the numbers of a verdict's row by their keys, and the lines that explain it. */
+ * the numbers of a verdict's row by their keys. All have the lines that explain a verdict. */
 #include <math.h>
 #include <string.h>
 
 #include "study/scene/quote.h"
 #include "tables/document.h"
 
-/* "  key: value", a line a column of the verdict's row. */
+/* Prints "key: value", a line for each column of the verdict's row. */
 static void print_row(FILE *out, const struct br_quoting *target, const struct br_document *d,
                       const struct br_document_verdict *v)
 {
@@ -38,7 +38,7 @@ static void print_attribute(FILE *out, const char *name, const char *text)
     fputc('"', out);
 }
 
-/* Counts verdicts from `begin` to `end`; returns how many were skipped. */
+/* Prints counts of the verdicts from `begin` to `end`; returns how many were skipped. */
 static size_t print_counts(FILE *out, const struct br_document *d, size_t begin, size_t end)
 {
     size_t of[BR_OUTCOME_SKIPPED + 1] = {0};
@@ -52,7 +52,7 @@ static size_t print_counts(FILE *out, const struct br_document *d, size_t begin,
     return of[BR_OUTCOME_SKIPPED];
 }
 
-/* Where it is expected, and the lines that explain. The schemas have no attributes for a place. */
+/* Prints where it is expected, as the schemas have no attributes for that, and the explanations. */
 static void print_details(FILE *out, const struct br_document_verdict *v)
 {
     if (v->file)
@@ -130,7 +130,7 @@ const struct br_document_format br_document_junit = {
     .write = write_junit,
 };
 
-/* ---- TAP: without times, so that two runs of one build differ in the answer alone ---- */
+/* ---- TAP: without times, so that two runs of one build differ in the answers alone ---- */
 
 static void print_test(FILE *out, const struct br_document *d, size_t number)
 {
@@ -185,7 +185,7 @@ const struct br_document_format br_document_tap = {
     .write = write_tap,
 };
 
-/* ---- GitHub: a line for what did not pass, which its pages show beside the file's line ---- */
+/* ---- GitHub: a line for each verdict that did not pass, shown at the line of its file ---- */
 
 static enum br_status write_annotations(FILE *out, const struct br_document *d,
                                         const struct br_document_table *table, struct br_error *err)

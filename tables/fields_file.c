@@ -24,7 +24,7 @@ size_t br_field_variable_count(int axial_degree)
     return axial_degree == 2 ? BR_FIELD_VARIABLES : BR_FIELD_VARIABLES - 2;
 }
 
-/* The nodes' values and, of quadratic elements, those in their middles (else NULL). */
+/* The values at the nodes and, for quadratic elements, those in their middles (else NULL). */
 static void axial_values(const double *nodal, size_t nodes, double *at_node, double *middle)
 {
     const size_t unknowns = middle ? 2 : 1;
@@ -34,7 +34,7 @@ static void axial_values(const double *nodal, size_t nodes, double *at_node, dou
         middle[i] = i == 0 ? NAN : (at_node[i - 1] + at_node[i]) / 2 - nodal[2 * i + 1] / 4;
 }
 
-/* No number, for `count` variables. */
+/* Sets `count` variables to NaN. */
 static void blank(size_t first, size_t count, size_t nodes, double *values)
 {
     for (size_t i = 0; i < count * nodes; i++)
@@ -100,7 +100,7 @@ void br_history_csv_stopped(FILE *out, const char *message)
     fputc('\n', out);
 }
 
-/* ---- CSV: one line a node and time: t, x and the variables, in SI units ---- */
+/* ---- CSV: one line for each node and time: t, x and the variables, in SI units ---- */
 
 struct br_fields_file {
     FILE *out;
@@ -133,8 +133,8 @@ static enum br_status open_csv(struct br_fields_file **out, const struct br_fiel
     return BR_OK;
 }
 
-static enum br_status look_csv(struct br_fields_file *f, const struct br_march *march,
-                               const struct br_history_row *row, struct br_error *err)
+static enum br_status append_csv(struct br_fields_file *f, const struct br_march *march,
+                                 const struct br_history_row *row, struct br_error *err)
 {
     br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
     for (size_t i = 0; i < f->nodes; i++) {
@@ -171,7 +171,7 @@ static const struct br_fields_format csv = {
     .file_name = "fields.csv",
     .title = "one line a node and time",
     .open = open_csv,
-    .look = look_csv,
+    .append = append_csv,
     .close = close_csv,
 };
 

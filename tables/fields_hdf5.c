@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5: x (nodes), t (times) and each variable (times, nodes), with `units` and `long_name` as
  * attributes, as CF names them; x and t are the dimension scales of the variables. The scene's
- * text, version, n, k and, where it is so, `stopped` at the root. Beside it fields.xdmf, by which
- * ParaView and VisIt read the file. */
+ * text, version, n, k and, for a march that stopped early, `stopped` are at the root. ParaView and
+ * VisIt read the file by fields.xdmf in the same folder. */
 #include <errno.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
@@ -16,28 +16,28 @@
 struct br_fields_file {
     char path[2048];
     hid_t file, x, t, variable[BR_FIELD_VARIABLES]; /* H5I_INVALID_HID: not open */
-    hsize_t nodes, looks;
+    hsize_t nodes, levels;
     size_t variables;
     double *work; /* values, then workspace */
-    double *time; /* of the looks, s */
+    double *time; /* of the levels, s */
 };
 
 /* ---- memory ---- */
 
-static bool without_memory; /* why HDF5 has failed */
+static bool without_memory; /* whether HDF5 has failed for that reason */
 
-static herr_t look_at_error(unsigned depth, const H5E_error2_t *error, void *self)
+static herr_t check_error(unsigned depth, const H5E_error2_t *error, void *self)
 {
     (void)depth, (void)self;
     without_memory |= error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC;
     return 0;
 }
 
-/* HDF5 prints nothing: what fails is told by us. */
+/* Replaces the error messages of HDF5: beamrate prints its own. */
 static herr_t note_error(hid_t stack, void *self)
 {
     without_memory |= errno == ENOMEM;
-    return H5Ewalk2(stack, H5E_WALK_UPWARD, look_at_error, self);
+    return H5Ewalk2(stack, H5E_WALK_UPWARD, check_error, self);
 }
 
 static void give_up(void)
@@ -56,8 +56,8 @@ static void meet_signal(int number)
 }
 
 /* HDF5 1.10 does not survive a failed allocation: it calls itself until the stack is full, follows
- * null pointers, or leaves a heap that nobody may free. So the program ends there, by its own
- * words; what it leaves in the folder is swept by the next one. */
+ * null pointers, or corrupts the heap. So the program ends there, with its own message; the next
+ * command removes what stays in the folder. */
 struct guard {
     stack_t stack;
     struct sigaction action[2];
@@ -65,9 +65,9 @@ struct guard {
 
 static void guard_begin(struct guard *g)
 {
-    static char place[1 << 16];
+    static char stack[1 << 16];
     const struct sigaction meet = {.sa_handler = meet_signal, .sa_flags = SA_ONSTACK};
-    sigaltstack(&(stack_t){.ss_sp = place, .ss_size = sizeof place}, &g->stack);
+    sigaltstack(&(stack_t){.ss_sp = stack, .ss_size = sizeof stack}, &g->stack);
     sigaction(SIGSEGV, &meet, &g->action[0]);
     sigaction(SIGABRT, &meet, &g->action[1]);
     errno = 0;
@@ -75,7 +75,7 @@ static void guard_begin(struct guard *g)
 
 static enum br_status guard_end(const struct guard *g, enum br_status status)
 {
-    if (without_memory || errno == ENOMEM) /* even where HDF5 says that all went well */
+    if (without_memory || errno == ENOMEM) /* even where HDF5 returns success */
         give_up();
     sigaction(SIGSEGV, &g->action[0], NULL);
     sigaction(SIGABRT, &g->action[1], NULL);
@@ -135,7 +135,7 @@ static bool text_anyhow(hid_t file, const char *name, const char *text)
 
 /* ---- data sets ---- */
 
-/* Grows by one time with each look; nodes 0: one value a time. */
+/* A data set that grows by one time with each level; nodes 0: one value for each time. */
 static hid_t create_set(hid_t file, const char *name, hsize_t nodes)
 {
     const int rank = nodes ? 2 : 1;
@@ -154,14 +154,14 @@ static hid_t create_set(hid_t file, const char *name, hsize_t nodes)
 static bool append(const struct br_fields_file *f, hid_t set, hsize_t nodes, const double *values)
 {
     const int rank = nodes ? 2 : 1;
-    const hsize_t size[2] = {f->looks + 1, nodes}, start[2] = {f->looks, 0}, count[2] = {1, nodes};
+    const hsize_t size[2] = {f->levels + 1, nodes}, start[2] = {f->levels}, count[2] = {1, nodes};
     if (H5Dset_extent(set, size) < 0)
         return false;
-    const hid_t place = H5Dget_space(set), memory = H5Screate_simple(rank, count, NULL);
-    const bool good = H5Sselect_hyperslab(place, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
-                      H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, place, H5P_DEFAULT, values) >= 0;
+    const hid_t target = H5Dget_space(set), memory = H5Screate_simple(rank, count, NULL);
+    const bool good = H5Sselect_hyperslab(target, H5S_SELECT_SET, start, NULL, count, NULL) >= 0 &&
+                      H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, target, H5P_DEFAULT, values) >= 0;
     H5Sclose(memory);
-    H5Sclose(place);
+    H5Sclose(target);
     return good;
 }
 
@@ -209,30 +209,30 @@ static bool describe(const struct br_fields_file *f, const struct br_fields_requ
            text_anyhow(f->file, "scene", p->scene_text);
 }
 
-/* ---- XDMF 2 (xdmf.org), by which ParaView and VisIt read the file ---- */
+/* ---- XDMF 2 (xdmf.org), for ParaView and VisIt ---- */
 
 /* The nodes are a line along x; each variable is a number at the nodes, and `displacement` is the
- * vector (u, w, 0), to warp the line by. */
+ * vector (u, w, 0), to deform the line. */
 
-/* A file that describes; the numbers stay in HDF5. */
+/* The file of the description; the numbers stay in HDF5. */
 struct description {
     FILE *out;
     const char *heavy; /* the file of numbers, in the same folder */
-    size_t looks, nodes;
+    size_t levels, nodes;
 };
 
 /* The values of a variable at one time: a row of its data set. */
-static void print_row(const struct description *d, const char *variable, size_t look)
+static void print_row(const struct description *d, const char *variable, size_t level)
 {
     fprintf(d->out,
             "<DataItem ItemType=\"HyperSlab\" Dimensions=\"1 1 %zu\">"
             "<DataItem Dimensions=\"3 2\" Format=\"XML\">%zu 0 1 1 1 %zu</DataItem>"
             "<DataItem Dimensions=\"%zu %zu\" NumberType=\"Float\" Precision=\"8\" "
             "Format=\"HDF\">%s:/%s</DataItem></DataItem>",
-            d->nodes, look, d->nodes, d->looks, d->nodes, d->heavy, variable);
+            d->nodes, level, d->nodes, d->levels, d->nodes, d->heavy, variable);
 }
 
-static void print_look(const struct description *d, size_t look, double time, size_t variables)
+static void print_level(const struct description *d, size_t level, double time, size_t variables)
 {
     fprintf(d->out,
             "<Grid Name=\"beam\"><Time Value=\"%.17g\"/>\n"
@@ -248,13 +248,13 @@ static void print_look(const struct description *d, size_t look, double time, si
             "<DataItem ItemType=\"Function\" Function=\"JOIN($0, $1, 0*$0)\" "
             "Dimensions=\"1 1 %zu 3\">",
             d->nodes);
-    print_row(d, "u", look);
-    print_row(d, "w", look);
+    print_row(d, "u", level);
+    print_row(d, "w", level);
     fputs("</DataItem></Attribute>\n", d->out);
     for (size_t v = 0; v < variables; v++) {
         const char *name = br_field_variables[v].name;
         fprintf(d->out, "<Attribute Name=\"%s\" AttributeType=\"Scalar\" Center=\"Node\">", name);
-        print_row(d, name, look);
+        print_row(d, name, level);
         fputs("</Attribute>\n", d->out);
     }
     fputs("</Grid>\n", d->out);
@@ -266,14 +266,14 @@ static enum br_status write_xdmf(const struct br_fields_file *f, struct br_error
     const char *slash = strrchr(f->path, '/');
     const char *heavy = slash ? slash + 1 : f->path;
     snprintf(path, sizeof path, "%.*s.xdmf", (int)(strlen(f->path) - strlen(".h5")), f->path);
-    const struct description d = {fopen(path, "w"), heavy, f->looks, f->nodes};
+    const struct description d = {fopen(path, "w"), heavy, f->levels, f->nodes};
     if (!d.out)
         return br_fail(err, BR_IO, "%s: %s", path, strerror(errno));
     fputs("<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
           "<Grid Name=\"looks\" GridType=\"Collection\" CollectionType=\"Temporal\">\n",
           d.out);
-    for (size_t look = 0; look < d.looks; look++)
-        print_look(&d, look, f->time[look], f->variables);
+    for (size_t level = 0; level < d.levels; level++)
+        print_level(&d, level, f->time[level], f->variables);
     fputs("</Grid></Domain></Xdmf>\n", d.out);
     const bool failed = ferror(d.out);
     return fclose(d.out) || failed ? br_fail(err, BR_IO, "%s could not be written", path) : BR_OK;
@@ -312,7 +312,7 @@ static enum br_status open_hdf5(struct br_fields_file **out, const struct br_fie
     f->nodes = q->n + 1;
     f->variables = br_field_variable_count(q->axial_degree);
     f->work = br_allocate((size_t)(BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
-    f->time = br_allocate(q->looks, sizeof *f->time);
+    f->time = br_allocate(q->levels, sizeof *f->time);
     if (!f->work || !f->time)
         return br_no_memory(err, "the fields' file");
     struct guard guard;
@@ -327,12 +327,12 @@ static enum br_status append_all(struct br_fields_file *f, double time, struct b
     for (size_t v = 0; v < f->variables; v++)
         if (!append(f, f->variable[v], f->nodes, f->work + v * f->nodes))
             return fail(f, br_field_variables[v].name, err);
-    f->time[f->looks++] = time;
+    f->time[f->levels++] = time;
     return BR_OK;
 }
 
-static enum br_status look_hdf5(struct br_fields_file *f, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
+static enum br_status append_hdf5(struct br_fields_file *f, const struct br_march *march,
+                                  const struct br_history_row *row, struct br_error *err)
 {
     struct guard guard;
     br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
@@ -360,7 +360,7 @@ static enum br_status close_hdf5(struct br_fields_file *f, const char *stopped,
     if (f->file >= 0)
         good = H5Fclose(f->file) >= 0 && good;
     enum br_status status = guard_end(&guard, good ? BR_OK : fail(f, "the file whole", err));
-    if (!status && f->looks > 0)
+    if (!status && f->levels > 0)
         status = write_xdmf(f, err);
     free(f->time);
     free(f->work);
@@ -374,6 +374,6 @@ const struct br_fields_format br_fields_hdf5 = {
     .file_name = "fields.h5",
     .title = "HDF5, for Python, Octave, Julia and the like",
     .open = open_hdf5,
-    .look = look_hdf5,
+    .append = append_hdf5,
     .close = close_hdf5,
 };

@@ -53,7 +53,7 @@ void br_markup_heading(const struct br_markup_page *p, int level, const char *te
     fprintf(p->out, p->markup->heading.after, level);
 }
 
-/* Each line as it is, quoted, in pieces of whole characters. */
+/* Prints each line quoted, in pieces of whole characters. */
 void br_markup_lines(const struct br_markup_page *p, const char *lines)
 {
     const struct br_markup *m = p->markup;
@@ -78,7 +78,7 @@ void br_markup_lines(const struct br_markup_page *p, const char *lines)
     say(p, m->lines.after);
 }
 
-/* By a function of the format's own; NULL: as any text. */
+/* Prints a text by a function of the format; NULL: as any text. */
 static void print_by(const struct br_markup_page *p, void (*own)(FILE *out, const char *text),
                      const char *text)
 {
@@ -102,7 +102,7 @@ static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
 
 /* ---- tables ---- */
 
-/* How a column is set, in the order of what a format says of each. */
+/* How a column is aligned; the order is that of br_markup_columns. */
 enum alignment { RIGHT, LEFT, WRAPPED };
 
 static enum alignment alignment_of(const struct br_document_table *t, size_t column)
@@ -137,7 +137,7 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
         put(p, &p->markup->mark, cell->mark);
 }
 
-/* row: NULL, the head. What a cell begins with may have its alignment as a part. */
+/* row: NULL, the head. The text before a cell may contain its alignment (%s). */
 static void print_row(const struct br_markup_page *p, const struct br_document_table *t,
                       const struct br_document_row *row)
 {
@@ -189,7 +189,7 @@ static void print_command(const struct br_markup_page *p, const struct br_block 
     br_markup_lines(p, b->cell.value.text);
 }
 
-/* level: of a section; the tables below one are a level lower. */
+/* level: of a section; `under` one, tables are a level lower. */
 static void print_block(struct br_markup_page *p, const struct br_block *b, int level, bool under)
 {
     switch (b->kind) {
@@ -218,7 +218,7 @@ static void print_block(struct br_markup_page *p, const struct br_block *b, int 
     }
 }
 
-/* A terminal has short tables and facts, and the titles that are needed for these. */
+/* Whether a block is printed. A terminal gets short tables, facts, and the titles of facts. */
 static bool is_shown(const struct br_markup_page *p, size_t block)
 {
     const struct br_block *b = &p->d->block[block];
@@ -278,7 +278,7 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
         put(p, &p->markup->detail, v->detail[i]);
 }
 
-/* How many there are of each kind, which a terminal is told by the answer. */
+/* Prints the number of verdicts of each kind; for a terminal the answer has them. */
 static void count_verdicts(const struct br_markup_page *p)
 {
     const char *between = "";
@@ -297,7 +297,7 @@ static void count_verdicts(const struct br_markup_page *p)
     say(p, p->markup->note.after);
 }
 
-/* Those that a person should hear of. */
+/* Prints the verdicts that did not pass or have a message. */
 static void print_verdicts(const struct br_markup_page *p)
 {
     const struct br_markup *m = p->markup;
@@ -324,7 +324,7 @@ static void print_answer(const struct br_markup_page *p)
     say(p, p->d->answers ? m->answers.after : NULL);
 }
 
-/* What a terminal shows last: the answer, and what may be typed next. */
+/* Prints what a terminal shows last: the answers, and the commands that may be typed next. */
 static void print_end(const struct br_markup_page *p)
 {
     print_verdicts(p);

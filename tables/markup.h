@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formats for people: plain text, Markdown, LaTeX, HTML. One walk prints a document; a const record
- * says what stands around each piece, and has functions for what is a format's own. */
+/* Formats for people: plain text, Markdown, LaTeX, HTML. One function prints any document; a const
+ * record has the texts around each piece, and the functions that are special to a format. */
 #ifndef BR_TABLES_MARKUP_H
 #define BR_TABLES_MARKUP_H
 
 #include "study/scene/quote.h"
 #include "tables/document.h"
 
-/* A document on its way out. */
+/* A document that is being printed. */
 struct br_markup_page {
     FILE *out;
     const struct br_markup *markup;
@@ -15,10 +15,10 @@ struct br_markup_page {
     const char *folder; /* of drawn pictures; NULL: none */
     int level;          /* of the caption's heading */
     size_t pictures;    /* so far */
-    bool terminal;      /* it gets what is short, and the answer last */
+    bool terminal;      /* it gets short tables only, and the answers last */
     void *own;          /* the format's */
     struct br_error *err;
-    enum br_status status; /* of all until now: what cannot be printed is left out */
+    enum br_status status; /* of all until now; after a failure the rest is left out */
 };
 
 struct br_around {
@@ -26,16 +26,16 @@ struct br_around {
 };
 
 struct br_markup {
-    const struct br_quoting *quoting, *of_lines; /* of texts; of what is to be copied */
+    const struct br_quoting *quoting, *of_lines; /* of texts; of lines to be copied */
     struct br_around heading, answers, answer, note, facts, fact, label, command, lines, line,
         verdicts, verdict, detail, head, cell, mark, row, rows;
-    const char *word; /* of a verdict: %s is the word, and perhaps again */
+    const char *word; /* of a verdict: %s is the word, once or twice */
     /* NULL: nothing. */
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
     const char *rule;    /* before a row that has a line above it */
-    /* A table to its first heading; more between its head and `rows` (NULL: nothing), and behind
-     * these; or all of it. */
+    /* A table up to its first heading; text between its head and `rows`; text behind its rows (the
+     * last two may be NULL: nothing). Or `table` prints all of it. */
     void (*open_table)(const struct br_markup_page *p, const struct br_document_table *t,
                        int level);
     void (*open_rows)(const struct br_markup_page *p, const struct br_document_table *t);
@@ -45,7 +45,7 @@ struct br_markup {
     /* NULL: nothing. */
     void (*begin)(const struct br_markup_page *p);
     void (*end)(const struct br_markup_page *p);
-    /* NULL: as any text, between what stands around it. */
+    /* NULL: printed as any text, between the texts around it. */
     void (*title)(const struct br_markup_page *p, int level, const char *text);
     void (*paragraph)(const struct br_markup_page *p, const char *text);
     void (*number)(FILE *out, const char *text);
@@ -53,17 +53,17 @@ struct br_markup {
     const char *const *classes; /* for %s in head and cell, as br_markup_columns; NULL: none */
 };
 
-/* A text as the format quotes it (NULL: nothing), and between two others. In headings %d is the
- * level. */
+/* Print a text as the format quotes it (NULL: nothing), also between two other texts. In headings
+ * %d is the level. */
 void br_markup_text(const struct br_markup_page *p, const char *text);
 void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
                    const char *after);
 void br_markup_heading(const struct br_markup_page *p, int level, const char *text);
 
-/* Lines to be copied. */
+/* Prints lines to be copied. */
 void br_markup_lines(const struct br_markup_page *p, const char *lines);
 
-/* One of three words for each column that people see: numbers, texts, texts on several lines. */
+/* Prints one of three words for each column that people see: numbers, texts, wrapped texts. */
 void br_markup_columns(const struct br_markup_page *p, const struct br_document_table *t,
                        const char *const word[3]);
 

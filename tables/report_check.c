@@ -24,7 +24,7 @@ static const char *name_of(const struct br_case *c, char name[NAME])
     return name;
 }
 
-/* What is checked, for people: scenes, or where there are other programs' numbers, sources. */
+/* What is checked, for people: scenes, or sources if some numbers are of other programs. */
 static const char *source_of(const struct br_check_findings *f)
 {
     for (size_t i = 0; i < f->count; i++)
@@ -33,7 +33,7 @@ static const char *source_of(const struct br_check_findings *f)
     return "scene";
 }
 
-/* Its points, and for the writers of verdicts what was found. */
+/* Puts the verdict of a case, with its points as details. */
 static void put_verdict(struct br_document *d, const struct br_check *check,
                         const struct br_case *c)
 {
@@ -83,7 +83,7 @@ static void put_cells(struct br_document *d, const struct br_scene *scene,
     br_put_more(d, " s\n");
 }
 
-/* Of a scene that does not say what to expect: the defaults, as its file would have them. */
+/* The default expectations of a scene without any, as its file would state them. */
 static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
 {
     char key[NAME], label[1200];
@@ -103,7 +103,7 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
     }
 }
 
-/* Against an earlier check. */
+/* Puts the differences from an earlier check. */
 static void put_comparison(struct br_document *d, const struct br_comparison *c)
 {
     static const struct br_column columns[] = {
@@ -146,8 +146,8 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
     br_hide_fact(d, br_truth(f->stopped), NULL, "stopped");
 
-    /* The first of what does not pass. */
-    char name[NAME], place[1100];
+    /* The first checks that fail and orders that do not pass. */
+    char name[NAME], where[1100];
     size_t failures = 0;
     for (size_t i = 0; i < f->count; i++)
         if (f->checks[i].failure.status && ++failures <= FIRST_FAILURES)
@@ -157,12 +157,12 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         for (size_t j = 0; j < f->checks[i].count; j++) {
             const struct br_case *c = &f->checks[i].cases[j];
             if (c->expected.line)
-                snprintf(place, sizeof place, " (%s:%zu)", f->checks[i].path, c->expected.line);
+                snprintf(where, sizeof where, " (%s:%zu)", f->checks[i].path, c->expected.line);
             else
-                *place = '\0';
+                *where = '\0';
             if (c->verdict != BR_PASS && ++failures <= FIRST_FAILURES)
                 br_put_answer(d, "%s, %s, %s%s: %s", br_verdict_names[c->verdict],
-                              f->checks[i].name, name_of(c, name), place, c->reason);
+                              f->checks[i].name, name_of(c, name), where, c->reason);
         }
     if (failures > FIRST_FAILURES)
         br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
@@ -216,7 +216,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     if (f->comparison)
         put_comparison(d, f->comparison);
 
-    /* People see them with the verdicts. */
+    /* For people, the points are details of the verdicts. */
     static const struct br_column points_columns[] = {
         {.key = "scene"},   {.key = "study"},    {.key = "norm"},      {.key = "part"},
         {.key = "n"},       {.key = "steps"},    {.key = "against_n"}, {.key = "against_steps"},
@@ -236,7 +236,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
                            br_text(p->label));
         }
 
-    /* The methods are facts: "methods.0.space" is that of the first scene's study over h. */
+    /* The methods are facts: "methods.0.space" is that of the study over h of the first scene. */
     static const struct br_column scenes_columns[] = {
         {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
         {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Of a study: its grids, for people, a row a mesh, a column a time step; their slopes; and the
- * printed table against itself. */
+/* Tables of a study: its grids, for people, with a row for each mesh and a column for each time
+ * step; the slopes of the grids; and the contradictions in the printed table. */
 #include <math.h>
 
 #include "study/fit/report.h"
@@ -16,13 +16,13 @@ struct grid {
     const char *key;
     const struct br_study *study;
     enum br_part part;
-    const struct br_fits *fits; /* whose slopes stand beside the errors; NULL: none do */
+    const struct br_fits *fits; /* whose slopes are put with the errors; NULL: none */
     double (*value)(const struct br_report *r, size_t cell); /* NULL: the study's errors */
     const char *format;
     unsigned flags;
 };
 
-/* A slope that is not above zero is no order. */
+/* The text of a slope; one that is not above zero is no order. */
 static const char *slope_text(const struct br_estimate *slope, char text[64])
 {
     return slope->value <= 0 || slope->low <= 0 ? "no order" : br_order_text(slope, text, 64);

@@ -16,9 +16,9 @@ static const char *const limit_methods[] = {
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };
 
-enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities; others are left for the tables */
+enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities with an answer; the tables have all */
 
-/* Parts of a sentence: the first follows its colon. */
+/* What is put before an item of a sentence; the first item follows a colon. */
 static const char *separator(bool *first)
 {
     const bool was = *first;
@@ -54,7 +54,7 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
                     of->joint.points, 100 * of->joint.misfit);
 }
 
-/* How many rows are left out, the first reason and where it begins. */
+/* Puts the number of rows that are left out, the first reason and where it begins. */
 static void say_left_out(struct br_document *d, const struct br_quantity_orders *of)
 {
     size_t count = 0, points = 0;
@@ -117,7 +117,7 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
                .format = q->is_value ? "%.9g" : "%.3e");
         for (int axis = 0; axis < BR_AXES; axis++) {
             const struct br_row_point *at = of->point[axis] ? &of->point[axis][i] : NULL;
-            const struct br_orders_line *line = at ? at->line : NULL; /* NULL: it is in none */
+            const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
             const enum br_flag flag = line ? line->observed.point[at->index].flag : BR_FLAG_NONE;
             if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME))
                 BR_PUT(d, br_number(line ? br_orders_rate(line, at->index) : (double)NAN),
@@ -145,7 +145,7 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
     }
 }
 
-/* The errors that are asked for are powers of ten, from the largest down to what is reached. */
+/* Puts the cheapest run for each power of ten, from the largest error down to the smallest one. */
 static void put_cheapest_of(struct br_document *d, const struct br_orders *o, size_t quantity)
 {
     const struct br_numbers *numbers = o->numbers;
@@ -154,7 +154,7 @@ static void put_cheapest_of(struct br_document *d, const struct br_orders *o, si
     for (size_t i = 0; i < numbers->rows; i++)
         most = fmax(most, numbers->row[i].number[quantity]);
     double error = pow(10, floor(log10(most)));
-    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: there is no digit to ask for */
+    for (int digit = 0; digit < 17 && error > 0; digit++) { /* 0: no power of ten is smaller */
         if (!(run = br_orders_cheapest(o, quantity, error)))
             break;
         br_put_row(d);
@@ -176,7 +176,7 @@ static void put_cheapest(struct br_document *d, const struct br_orders *o)
             put_cheapest_of(d, o, o->of[i].quantity);
 }
 
-/* An order, and for programs its ends. */
+/* Puts an order, and for programs the ends of its interval. */
 static void put_order(struct br_document *d, const struct br_estimate *order)
 {
     BR_PUT_CELLS(d, br_number(order->value));
@@ -215,7 +215,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
     for (size_t i = 0; i < o->numbers->rows; i++)
         kept += o->numbers->row[i].kept;
-    if (kept) /* their numbers are of the program as it was when it ran */
+    if (kept) /* their numbers are those of the program at that time */
         br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
                       o->numbers->rows);
 
@@ -266,8 +266,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                      br_count(f->points), br_number(f->misfit));
     }
 
-    /* What values tend to. The grid convergence index is that of the three finest rows, relative as
-     * Celik et al. print it. */
+    /* The limits of values. The grid convergence index is that of the three finest rows, relative
+     * as Celik et al. print it. */
     static const struct br_column limits_columns[] = {
         {.key = "quantity"},
         {.key = "in"},

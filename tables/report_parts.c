@@ -6,7 +6,7 @@
 
 #include "study/fit/fit.h"
 
-/* text (out): where it is a text. */
+/* text: a buffer for a value that is a text. */
 static struct br_value value_of(const struct br_method_field *f, const struct br_method *m,
                                 char text[BR_METHOD_VALUE])
 {
@@ -18,7 +18,7 @@ static struct br_value value_of(const struct br_method_field *f, const struct br
     return f->words ? br_text(br_method_field_text(f, m, text)) : br_number(f->get(m));
 }
 
-/* Fields of a group are members of one object, null where they are not heeded. */
+/* Fields of a group are members of one object, which is null where the method does not use them. */
 void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *m,
                          const struct br_meshes *on)
 {
@@ -48,7 +48,7 @@ void br_put_method_cells(struct br_document *d, const struct br_method *m)
     }
 }
 
-/* k, s; NaN where the steps are chosen. */
+/* k, s; NaN where the scheme chooses its steps. */
 static double step_of(const struct br_scene *scene, const struct br_trial *t)
 {
     return t->named->method.scheme->adaptive ? (double)NAN : br_time_step(scene, t->at.steps);

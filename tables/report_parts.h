@@ -7,14 +7,14 @@
 #include "study/trade/trial.h"
 #include "tables/reports.h"
 
-/* All that a method is (br_method_fields), for programs: as facts, each a member of the object
- * `key`, and as cells of a row. What the method does not heed is nothing. Facts have what the
- * linear solver was on the meshes, too. */
+/* All fields of a method (br_method_fields), for programs: as facts, each a member of the object
+ * `key`, and as cells of a row. A field that the method does not use is nothing. Facts also have
+ * the linear solver that is taken on the meshes. */
 void br_put_method_facts(struct br_document *d, const char *key, const struct br_method *method,
                          const struct br_meshes *on);
 void br_put_method_cells(struct br_document *d, const struct br_method *method);
 
-/* Cells: method, n, steps_or_levels, k and tolerance; people see a tolerance in the place of k. */
+/* Cells: method, n, steps_or_levels, k and tolerance; people see a tolerance instead of k. */
 void br_put_trial(struct br_document *d, const struct br_scene *scene,
                   const struct br_trial *trial);
 
@@ -23,7 +23,7 @@ enum { BR_TRIAL_TEXT = 160 };
 const char *br_trial_text(const struct br_scene *scene, const struct br_trial *trial,
                           char text[BR_TRIAL_TEXT]);
 
-/* An estimate, and its interval in columns of their own. shown: to people; NULL: the number. */
+/* An estimate, with its interval in two more columns. shown: for people; NULL: the number. */
 void br_put_estimate(struct br_document *d, const struct br_column *column,
                      const struct br_estimate *estimate, const char *shown);
 #define BR_PUT_ESTIMATE(d, e, shown, ...) \
@@ -31,14 +31,14 @@ void br_put_estimate(struct br_document *d, const struct br_column *column,
 
 /* ---- of a study (report_study.c, report_grids.c) ---- */
 
-/* A scene of one field has the total alone. */
+/* Whether a component is shown: a scene of one field has the total alone. */
 bool br_part_is_shown(const struct br_report *report, enum br_part part);
 void br_put_grids(struct br_document *d, const struct br_report *report);
 void br_put_slopes(struct br_document *d, const struct br_report *report);
-/* Nothing where nothing is printed. */
+/* Puts nothing where no errors are printed in the paper. */
 void br_put_triangles(struct br_document *d, const struct br_report *report);
 
-/* What is said of a failure; nothing of none. */
+/* The message of a failure; nothing where there is none. */
 static inline struct br_value br_failure_text(const struct br_error *failure)
 {
     return br_text(failure->status ? failure->message : NULL);

@@ -24,7 +24,7 @@ static bool has_friction(const struct br_run_report *r)
     return r->marched.friction.law != BR_FRICTIONLESS;
 }
 
-/* Of both fields: KEY.axial and KEY.bending. label: NULL, for programs alone. */
+/* Puts a number of both fields: KEY.axial and KEY.bending. label: NULL, for programs alone. */
 static void put_two(struct br_document *d, const struct br_run_report *r, const double x[2],
                     const char *label, const char *unit, const char *key)
 {
@@ -43,7 +43,7 @@ static const char *direction(int sign)
 
 /* ---- the answer ---- */
 
-/* What the tip's displacement is predicted to be off, m; NAN: not known. */
+/* The predicted error of the tip's displacement, m; NAN: not known. */
 static double tip_error(const struct br_run_findings *f, int kind)
 {
     const double error =
@@ -60,8 +60,8 @@ static const char *with_error(double value, double error, char text[VALUE])
     return text;
 }
 
-/* A number of the march with as many digits as its predicted error allows, three where that is not
- * known; error: its own, if that is known better than the march's. */
+/* Puts a number of the march with as many digits as its error allows. error: of this number; NaN:
+ * the predicted error of the march, or three digits where that is not known. */
 static void put_number(struct br_document *d, const struct br_run_findings *f, double value,
                        double error, const char *heading, const char *unit, const char *key)
 {
@@ -137,7 +137,7 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++) { /* in all */
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++) { /* of the whole march */
         const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
         const double in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
         if (!(added > 0))
@@ -154,7 +154,7 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
                          "chatter at the step's rate. --contact implicit has no such limit.");
     for (size_t i = 0; i < w->count; i++) {
-        if (i == 0) /* their texts stand below, and were on the terminal before the march */
+        if (i == 0) /* their texts are below, and the terminal had them before the march */
             br_put_answer(d, "%zu warning%s before the march: ", w->count,
                           w->count == 1 ? "" : "s");
         br_put_more(d, "%s%s", br_warning_words[w->list[i].kind], i + 1 < w->count ? ", " : ".");
@@ -185,7 +185,7 @@ static void put_extreme(struct br_document *d, const struct br_run_findings *f, 
     br_put_fact_as(d, br_if(known, br_number(e->time)), "  at t", "s", "events.%s.t", key);
 }
 
-/* The bound of Coulomb's law is as wrong as the penetration; that of Tresca's is given. */
+/* Coulomb's bound is as wrong as the penetration; the bound of Tresca's law is given. */
 static void put_friction(struct br_document *d, const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -206,8 +206,7 @@ static void put_friction(struct br_document *d, const struct br_run_findings *f)
                 &w->friction_force);
 }
 
-/* Whether the tip sticks, and what its velocity is besides may be round-off: that of the
- * displacements in a step. */
+/* Whether the tip sticks and its velocity may be the round-off of displacements, over a step. */
 static bool rests(const struct br_run_findings *f)
 {
     const struct br_run_report *r = f->report;
@@ -274,7 +273,7 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
     }
 }
 
-/* How many steps, and what share that is. */
+/* Puts a number of steps, and their share. */
 static void put_steps(struct br_document *d, bool known, const char *word, size_t steps, size_t all)
 {
     char label[80];
@@ -325,7 +324,7 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
 
 /* ---- energies ---- */
 
-/* People see that of the end. */
+/* Puts the energies of a state; people see those of the end. */
 static void put_state(struct br_document *d, const struct br_run_report *r, bool end,
                       const struct br_energy *e)
 {
@@ -386,7 +385,7 @@ static void put_energies(struct br_document *d, const struct br_run_report *r)
 
 /* ---- the certificate ---- */
 
-/* By code that the solver does not share; by stages where the scheme has some. */
+/* Puts the certificate, by code that the solver does not share; by stages where there are some. */
 static void put_certificate(struct br_document *d, const struct br_run_report *r)
 {
     const struct br_certificate *c = &r->worst, *limit = &r->limits;
@@ -427,7 +426,7 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
     br_hide_fact(d, br_text(r->bad_steps ? r->verdict.message : NULL), NULL, "certificate.first");
 }
 
-/* ---- what is modelled, and what it costs ---- */
+/* ---- costs ---- */
 
 static void put_cost(struct br_document *d, const struct br_run_report *r)
 {
@@ -491,7 +490,7 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
         br_put_fact_as(d, br_number(n->value), heading, n->unit, "derived.%s", n->what);
     }
 
-    /* Remedies are options that can be typed. */
+    /* A remedy is an option that can be typed. */
     br_put_table(d, "warnings", "Warnings before the march", BR_FOR_PROGRAMS);
     for (size_t i = 0; i < f->warnings->count; i++) {
         const struct br_warning *w = &f->warnings->list[i];

@@ -11,7 +11,8 @@ static double step_of(const struct br_study *s, const struct br_cell *c)
     return br_time_step(s->scene, c->at.steps);
 }
 
-/* An error over the norm of the solution, or of its field; not finite where that is not known. */
+/* An error over the norm of the solution, or of its field; not finite where the norm is not
+ * known. */
 static double relative_of(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
     const double size = part == BR_PART_TOTAL   ? s->reference_scale
@@ -22,11 +23,11 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-/* Says how well a reference is known. own: its own error; NaN: not known. */
+/* Puts the own error of a reference and its round-off. own: NaN where it is not known. */
 static void say_own_error(struct br_document *d, const struct br_study *s, double own)
 {
     const double floor = s->judged_by.round_off * s->reference_scale;
-    const double told =
+    const double stated =
         br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
     if (s->judge == &br_judge_none)
         return;
@@ -37,13 +38,13 @@ static void say_own_error(struct br_document *d, const struct br_study *s, doubl
                     s->auditor->name);
     else
         br_put_more(d, "Its own error is about %.1e, by %s", own,
-                    isfinite(told) ? "its own estimate" : "the joint fit");
+                    isfinite(stated) ? "its own estimate" : "the joint fit");
     if (floor > 0)
         br_put_more(d, "; its round-off is about %.0e", floor);
     br_put_more(d, ". ");
 }
 
-/* Says how many cells are left out of fits, and why. */
+/* Puts the number of cells that are left out of fits, and why. */
 static void say_flags(struct br_document *d, const struct br_study *s)
 {
     static const struct {
@@ -186,9 +187,8 @@ static void put_answers(struct br_document *d, const struct br_report *r)
 
 /* ---- lists ---- */
 
-/* The order that a cell and its coarser neighbour along an axis show; not finite where there is
- * none.
- */
+/* The order that a cell and its coarser neighbour along an axis show; nothing where there is no
+ * neighbour. */
 static struct br_value rate_to(const struct br_study *s, size_t cell, enum br_part part, int axis)
 {
     const size_t stride = axis == BR_AXIS_SPACE ? s->k_count : 1;
@@ -242,18 +242,18 @@ static void put_cells(struct br_document *d, const struct br_report *r)
 
 /* ---- slopes, fits and tips ---- */
 
-/* Numbers of a fit that does not describe the errors are not claimed. */
+/* People do not see the numbers of a fit that does not describe the errors. */
 static void put_fits(struct br_document *d, const struct br_report *r)
 {
     static const char *const kinds[] = {"space and time", "time", "space"};
     static const char *const orders[] = {"p", "q"}, *const headings[] = {"p [95 %]", "q [95 %]"},
                              *const constants[] = {"C_h", "C_k"};
-    bool told = r->rates;
+    bool shown = r->rates;
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        told |=
+        shown |=
             br_part_is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
     br_put_table(d, "fits", "Joint fit of the signed errors C_h h^p and C_k k^q",
-                 told ? 0 : BR_FILES_ONLY);
+                 shown ? 0 : BR_FILES_ONLY);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
         const struct br_joint_fit *j = &r->fits[part].joint;
         const bool claims = br_joint_describes(j);
@@ -293,7 +293,7 @@ static void put_fits(struct br_document *d, const struct br_report *r)
 
 /* ---- notes and facts ---- */
 
-/* Who judges. */
+/* Puts the reference that judges a study. */
 static void put_judge(struct br_document *d, const char *label, const struct br_study *s)
 {
     char method[BR_METHOD_TEXT];
@@ -400,7 +400,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     br_document_begin(d, r->name, "beamrate study", 2, r->caption);
     put_answers(d, r);
 
-    /* What the answers say, and the same of each part. */
+    /* The orders of the answers, and those of each component. */
     const struct br_study *fitted = br_report_fitted(r);
     const struct br_cell *finest = &fitted->cell[fitted->n_count * fitted->k_count - 1];
     const double error = finest->error[BR_PART_TOTAL];

@@ -4,7 +4,7 @@
 #include "study/scene/vary.h"
 #include "tables/report_parts.h"
 
-/* "1e-3 m (at 100 N/m)" */
+/* Puts "1e-3 m (at 100 N/m)". */
 static void put_end(struct br_document *d, const struct br_variation *s, size_t i, size_t column)
 {
     const char *unit = s->column[column].unit;
@@ -13,8 +13,8 @@ static void put_end(struct br_document *d, const struct br_variation *s, size_t 
                 s->varied->unit);
 }
 
-/* "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." Returns whether it says anything: a
- * length or a force that no march has is not modelled. */
+/* Puts "error over length: from 1e-3 m (at 1 m) to 2e-2 m (at 2 m)." Returns whether it has put
+ * anything: a column with a unit and without a value is not modelled. */
 static bool answer_range(struct br_document *d, const struct br_variation *s, size_t column)
 {
     const struct br_variation_column *what = &s->column[column];

@@ -872,7 +872,7 @@ static const struct planted_bug planted_bugs[] = {
     {"unknowns_without_a_root", "column", "study/orders/numbers.c", "tests/test_orders",
      "pow(given, -1 / dimension)", "pow(given, -1)"},
     {"floors_are_not_left_out", "left out", "study/orders/orders.c", "tests/test_orders",
-     "if (p[i].error < beside * level)", "if (p[i].error < 0 * level)"},
+     "if (p[i].error < level_margin * level)", "if (p[i].error < 0 * level)"},
     {"lines_from_fine_to_coarse", "left out", "study/orders/orders.c", "tests/test_orders",
      "(x->other < y->other) - (x->other > y->other)",
      "(x->other > y->other) - (x->other < y->other)"},

@@ -43,7 +43,7 @@ static enum br_status write_fields(void *self, const struct br_march *march,
     struct watched *w = self;
     enum br_status status = BR_OK;
     for (size_t f = 0; br_fields_formats[f] && !status; f++)
-        status = br_fields_formats[f]->look(w->file[f], march, row, err);
+        status = br_fields_formats[f]->append(w->file[f], march, row, err);
     return status;
 }
 

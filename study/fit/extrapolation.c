@@ -4,8 +4,8 @@
 
 #include "study/fit/grid_convergence.h"
 
-static const double safety = 1.25; /* with an observed order; Roache 1998 */
-static const double careful = 3;   /* without */
+static const double safety = 1.25; /* factor with an observed order; Roache 1998 */
+static const double careful = 3;   /* factor without one */
 
 enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
                               struct br_error *err)
@@ -47,13 +47,13 @@ struct triple {
     const double *x, *value;
 };
 
-/* v* for a given order, from the last two values. */
+/* The limit that the last two values give with this order. */
 static double limit(const struct triple *t, double order)
 {
     return t->value[2] + (t->value[2] - t->value[1]) / (pow(t->x[1] / t->x[2], order) - 1);
 }
 
-/* The order that three values show; NaN where they show none that could be believed. */
+/* The order that three values show; NaN: none, or none from 0.2 to 12. */
 static double observed_order(const struct triple *t)
 {
     const double growth = (t->value[0] - t->value[1]) / (t->value[1] - t->value[2]);
@@ -68,7 +68,7 @@ static double observed_order(const struct triple *t)
 struct line {
     size_t count;
     const double *x, *value;
-    double formal; /* order that theory knows */
+    double formal; /* the order of theory */
 };
 
 static struct br_estimate around(double value, double half)
@@ -76,8 +76,8 @@ static struct br_estimate around(double value, double half)
     return (struct br_estimate){value, value - half, value + half};
 }
 
-/* Coarse cells that failed are left out; what is left must be whole. */
-static struct line known_part(const struct line *l)
+/* Leaves out coarse cells that failed. All other cells must be known, else none is left. */
+static struct line known_cells(const struct line *l)
 {
     struct line known = *l;
     while (known.count && !isfinite(known.value[0])) {
@@ -93,7 +93,7 @@ static struct line known_part(const struct line *l)
 
 static struct br_estimate extrapolate_line(const struct line *whole)
 {
-    const struct line part = known_part(whole), *l = &part;
+    const struct line known = known_cells(whole), *l = &known;
     if (l->count < 3)
         return around(NAN, NAN);
     const struct triple fine = {l->x + l->count - 3, l->value + l->count - 3};
@@ -116,9 +116,9 @@ static struct br_estimate extrapolate_line(const struct line *whole)
     return around(value, safety * spread + round_off);
 }
 
-/* First over k on each mesh, then over h. The uncertainty over time is nearly the same on all
- * meshes: it is added at the end, and only what it does not share is noise for the extrapolation
- * over h. */
+/* Extrapolates over k on each mesh, then over h. The uncertainty over k is nearly the same on all
+ * meshes, so it is added at the end: in the extrapolation over h, only its differences between the
+ * meshes are noise. */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind)
 {
     const size_t n_count = tips->n_count, k_count = tips->k_count;

@@ -41,15 +41,15 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
     }
     const double half = (order->high - order->low) / 2;
     const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    const double unit = pow(10, -decimals); /* what rounds to zero has no sign */
+    const double unit = pow(10, -decimals); /* so that what rounds to zero has no sign */
     snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, unit * round(order->value / unit) + 0.0,
              decimals, unit * round(order->low / unit) + 0.0, decimals,
              unit * round(order->high / unit) + 0.0);
     return buffer;
 }
 
-/* The place of the first digit; that of 0: far to the right. */
-static int first_place(double value)
+/* The power of ten of the first digit; of 0: a very small one. */
+static int first_digit(double value)
 {
     return value != 0 ? (int)floor(log10(fabs(value))) : -400;
 }
@@ -58,7 +58,7 @@ static int first_place(double value)
 static int print_rounded(double value, int last, char *buffer, size_t size)
 {
     const double unit = pow(10, last), rounded = unit * round(value / unit);
-    const int first = first_place(rounded);
+    const int first = first_digit(rounded);
     if (rounded == 0)
         return snprintf(buffer, size, "0");
     if (first >= -4 && first < 7)
@@ -69,7 +69,7 @@ static int print_rounded(double value, int last, char *buffer, size_t size)
 const char *br_digits_text(double value, int digits, char *buffer, size_t size)
 {
     if (isfinite(value) && value != 0)
-        print_rounded(value, first_place(value) - digits + 1, buffer, size);
+        print_rounded(value, first_digit(value) - digits + 1, buffer, size);
     else
         snprintf(buffer, size, "%g", value + 0.0); /* no minus zero */
     return buffer;
@@ -82,7 +82,7 @@ const char *br_uncertain_text(double value, double half, char *buffer, size_t si
         snprintf(buffer, size, "%.6g", value + 0.0);
         return buffer;
     }
-    const int last = first_place(half) - 1, least = first_place(value) - MOST + 1;
+    const int last = first_digit(half) - 1, least = first_digit(value) - MOST + 1;
     int used = print_rounded(value, last > least ? last : least, buffer, size);
     used += snprintf(buffer + used, size - (size_t)used, " +- ");
     print_rounded(half, last, buffer + used, size - (size_t)used);
@@ -156,29 +156,29 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
     return status;
 }
 
-/* The reference's own error: by the auditor, by the reference itself, or else by the
- * model against a reference without one. */
+/* The reference's own error: by the auditor, by the reference's statement, or else by the model
+ * against a reference without error. */
 static double reference_error(const struct br_study *s, enum br_part part,
                               const struct br_joint_fit *fit)
 {
     if (s->auditor)
         return s->reference_error[part];
-    const double told = br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
-    if (isfinite(told))
-        return told;
+    const double stated = br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
+    if (isfinite(stated))
+        return stated;
     if (!br_joint_describes(fit))
         return NAN;
     return br_joint_model(fit, (double[]){br_reference_mesh(s), br_reference_step(s)},
                           (double[]){0, 0});
 }
 
-static bool in_part(enum br_part part, enum br_field_kind kind)
+static bool has_field(enum br_part part, enum br_field_kind kind)
 {
     return part == BR_PART_TOTAL || (part == BR_PART_AXIAL) == (kind == BR_AXIAL);
 }
 
-/* Predicted round-off of a part of a cell, and of the reference's unless an auditor
- * has measured all of its error, m^(3/2). */
+/* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless an auditor
+ * has measured all of its error. */
 static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
     const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));
@@ -189,13 +189,13 @@ static double round_off(const struct br_study *s, const struct br_cell *c, enum 
         struct br_field field = br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n,
                                                   br_time_step(s->scene, c->at.steps));
         field.degree = method->axial_degree;
-        if (modelled && in_part(part, (enum br_field_kind)kind))
+        if (modelled && has_field(part, (enum br_field_kind)kind))
             relative = fmax(relative, br_method_round_off(method, &field));
     }
     return relative * s->reference_scale;
 }
 
-/* Sets the flags of one part; returns how many changed. */
+/* Sets the flags of one component; returns how many changed. */
 static size_t set_flags(struct br_study *s, enum br_part part, double reference)
 {
     size_t changed = 0;
@@ -225,8 +225,8 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
     *fits = (struct br_fits){.reference_error = NAN};
     set_flags(s, part, 0);
     enum br_status status = BR_OK;
-    /* What a round finds of the reference's error only grows, so flags are never
-     * taken back and the rounds end. */
+    /* The reference's error only grows from round to round, so no flag is cleared and the rounds
+     * end. */
     do {
         status = fit_joint(s, part, &fits->joint, err);
         const double own = reference_error(s, part, &fits->joint);
@@ -258,7 +258,7 @@ struct regression {
     double slope, deviation;
 };
 
-/* log((1 - ratio^p) / p), which is smooth at p = 0: what is lost beside z^p. */
+/* log((1 - ratio^p) / p), smooth at p = 0: the loss by a reference of finite resolution. */
 static double log_loss(double ratio, double p)
 {
     if (ratio == 0)
@@ -267,8 +267,8 @@ static double log_loss(double ratio, double p)
     return fabs(decay) < 1e-8 ? log(-log(ratio)) : log(-expm1(decay) / p);
 }
 
-/* The regression for given losses, without the point `left_out` (count: with all). x, y: room for
- * count values each. */
+/* The regression with the losses at p, without the point `left_out` (count: with all). x, y: room
+ * for count values each. */
 static struct regression regress(const struct br_order_point *point, size_t count, size_t left_out,
                                  double p, double *x, double *y)
 {
@@ -284,7 +284,7 @@ static struct regression regress(const struct br_order_point *point, size_t coun
     return (struct regression){slope, sqrt(cov11 < 0 ? 0 : cov11)}; /* NaN stays */
 }
 
-/* The losses depend on p, but hardly: where all ratios are the same, not at all. */
+/* Repeats the regression until p stands; the losses depend on p, but only weakly. */
 static struct regression solve(const struct br_order_point *point, size_t count, size_t left_out,
                                double *x, double *y)
 {
@@ -298,7 +298,7 @@ static struct regression solve(const struct br_order_point *point, size_t count,
     return (struct regression){NAN, NAN};
 }
 
-/* The standard deviation of the slope, from what leaving out one point does to it. */
+/* The standard deviation of the slope, by leaving out one point after the other. */
 static double jackknife(const struct br_order_point *point, size_t count, double *x, double *y)
 {
     double sum = 0, squares = 0;
@@ -336,15 +336,15 @@ enum br_status br_order_fit(const struct br_order_point *point, size_t count,
 
 /* ---- the same with a next term ---- */
 
-/* The share of the squares that the next term may leave over. With five points noise leaves less in
- * one case of a hundred (F test with 1 and 2 degrees of freedom). */
+/* The next term is used where it leaves at most this share of the sum of squares. With five points,
+ * noise leaves less in one case of a hundred (F test with 1 and 2 degrees of freedom). */
 static const double explained = 0.02;
 
 enum { LEAST_DRIFTING = 5, TERMS = 3 };
 
 struct drift_fit {
     double order, deviation;
-    double left, before; /* squares that are left over: with the next term, and without it */
+    double left, before; /* sums of squares: with the next term, and without it */
 };
 
 /* Rows 1, log z, z of the model; y as in regress. x: room for count rows. */

@@ -9,49 +9,47 @@
 enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
 extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
 
-/* How many meshes, or time steps, a study has; the size of one, m or s (0: the continuous problem);
- * and the place of a cell by its places along an axis and along the other one. */
+/* The number of meshes, or of time steps, of a study; the size of one, m or s (0: the continuous
+ * problem); and the index of a cell from its indices along an axis and along the other axis. */
 size_t br_axis_count(const struct br_study *study, int axis);
 double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at);
 size_t br_axis_cell(const struct br_study *study, int axis, size_t along, size_t at);
 
-/* A number with its 95 % interval; NaN where it could not be had. */
+/* A number with its 95 % interval; NaN: not known. */
 struct br_estimate {
     double value, low, high;
 };
 
-/* Whether an order's interval is narrow enough, 1 wide, and above zero: else it says
- * nothing. */
+/* Whether an order's interval is at most 1 wide and above zero. Any other interval says nothing. */
 bool br_order_determined(const struct br_estimate *order);
 
-/* "1.02 [1.00, 1.04]" with the decimals that the interval deserves, 2 to 4; "-" where
- * there is none. buffer: at least 64 characters. */
+/* "1.02 [1.00, 1.04]" with 2 to 4 decimals, by the width of the interval; "-": there is no order.
+ * buffer: at least 64 characters. */
 const char *br_order_text(const struct br_estimate *order, char *buffer, size_t size);
 
 /* "-0.2216 +- 0.0014": a value with the digits that half the width of its interval allows, at most
- * ten, "0" where there are none; without a width six digits. And a value with so many digits.
- * buffer: at least 64 characters. */
+ * ten, "0" where it allows none; six digits where the width is not known. br_digits_text: a value
+ * with this number of digits. buffer: at least 64 characters. */
 const char *br_uncertain_text(double value, double half, char *buffer, size_t size);
 const char *br_digits_text(double value, int digits, char *buffer, size_t size);
 
-/* Slope of log(error) against log(h) or log(k): what a reader would draw. It means
- * an order only where one of the two errors dominates. */
+/* Slope of log(error) against log(h) or log(k), as a reader would draw it. It is an order only
+ * where one of the two errors dominates. */
 struct br_slope {
     struct br_estimate order;
     size_t points; /* an interval needs 3 */
 };
 
-/* The joint model of a grid. The space and the time error are fields with signs,
- * so their norms do not add; and the reference has a resolution of its own:
+/* The joint model of a grid. The errors of space and of time are fields with
+ * signs, so their norms do not add. The reference has a resolution, too:
  *     e^2 = a^2 + 2 r a b + b^2,   -1 <= r <= 1,
  *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q).
- * Where one of the two errors cannot be seen in the cells, the model without it
- * explains them as well with fewer parameters (by the corrected Akaike
- * criterion), and what belongs to the other is NaN. What the model leaves over is
- * deterministic, not noise: the intervals come from leaving out whole rows and
- * columns of the grid (joint_fit.c). */
+ * Where the cells do not show one of the two errors, the model without it is chosen (by the
+ * corrected Akaike criterion); the numbers of that error are NaN. The residuals of the model are
+ * deterministic, not noise: so the intervals come from leaving out whole rows and columns of the
+ * grid (joint_fit.c). */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
-bool br_joint_has(enum br_joint_kind kind, int axis); /* an error of that axis */
+bool br_joint_has(enum br_joint_kind kind, int axis); /* whether it has an error of this axis */
 
 struct br_joint_fit {
     enum br_joint_kind kind;
@@ -66,21 +64,20 @@ struct br_joint_fit {
 struct br_fits {
     struct br_slope *slope[BR_AXES]; /* over h at each k, k_count; over k at each n, n_count */
     struct br_joint_fit joint;
-    double reference_error; /* the reference's own, by the joint model, m^(3/2); NaN where
-                               the model does not describe the errors */
+    double reference_error; /* the reference's own error, m^(3/2); NaN: not known */
 };
 
 /* Whether the joint model describes the errors: a misfit of at most 2 %. */
 bool br_joint_describes(const struct br_joint_fit *fit);
 
-/* Fits one part of a study's errors, leaving out flagged cells, and sets the flags
- * of that part: cells whose error is less than `margin` times what limits them.
- * The reference's own error is itself fitted, so this is repeated until the flags
- * stand. Fails with BR_NO_MEMORY; a fit that cannot be done is NaN. */
+/* Fits one component of a study's errors without the flagged cells, and sets the flags of this
+ * component: of cells whose error is less than br_flag_margin times what limits it. The reference's
+ * own error comes from the fit, so both are repeated until no flag changes. A fit that cannot be
+ * done is NaN. Fails with BR_NO_MEMORY. */
 enum br_status br_fit(struct br_study *study, enum br_part part, struct br_fits *fits,
                       struct br_error *err);
-/* Sets the flags of a study that is shown but not fitted. Without an auditor its
- * reference's own error is not known and flags nothing. */
+/* Sets the flags of a study that is shown but not fitted. A reference's own error that needs the
+ * fit is not known, and flags nothing. */
 void br_flag_beside(struct br_study *study);
 
 void br_fits_clear(struct br_fits *fits);
@@ -89,60 +86,60 @@ void br_fits_clear(struct br_fits *fits);
  * reference's own error or the predicted round-off. */
 extern const double br_flag_margin;
 
-/* The model's error at h and k, m^(3/2), as they are in an observation. */
+/* The model's error at h and k, m^(3/2); x and ref as in an observation. */
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
                       const double ref[BR_AXES]);
 
 /* ---- the joint model, fitted to the logarithms of the errors ---- */
 
-/* One cell as the fit sees it. */
+/* One cell, as the fit needs it. */
 struct br_observation {
     double x[BR_AXES];   /* h and k, m and s */
-    double ref[BR_AXES]; /* of what it was compared with; 0: the continuous problem */
+    double ref[BR_AXES]; /* of the reference; 0: the continuous problem */
     double error;        /* > 0 */
 };
 
-/* Fits the model with what the observations can tell; a fit that cannot be done
- * has converged == false. Where all have h = h_ref, or k = k_ref, it has no such part. Fails with
- * BR_NO_MEMORY. */
+/* Fits the model that the observations determine; without a fit, converged is false. Where all
+ * observations have h = h_ref, the model has no error of space; where all have k = k_ref, it has
+ * none of time. Fails with BR_NO_MEMORY. */
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
                                   struct br_joint_fit *fit, struct br_error *err);
 
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
 
-/* Akaike's criterion with Hurvich and Tsai's correction for few points, of `count` residuals with
- * that sum of squares; infinite where there are too few. */
+/* Akaike's criterion, with Hurvich and Tsai's correction for few points, of `count` residuals; sum:
+ * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);
 
 /* ---- one order ----
  *
  * One order from a line of errors, refined in one quantity z (h/L or k/T):
  *     e = C |z^p - z_against^p|.
- * Any p can come out, also one that is zero or negative: errors that stall or grow. */
+ * p may be zero or negative: then the errors stall or grow. */
 
 struct br_order_point {
-    double z, z_against; /* z_against < z: of what it was compared with; 0: the solution itself */
+    double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
     double error;
 };
 
 /* Fits p to the logarithms by least squares. Its 95 % interval is the wider one of two: that of the
- * regression, which takes what is left over for noise, and that of leaving out one point after the
- * other (jackknife, Efron 1982), which sees a drift. NaN with less than 3 points, or where an error
- * is not > 0. Fails with BR_NO_MEMORY. */
+ * regression, which takes the residuals for noise, and that of leaving out one point after the
+ * other (jackknife, Efron 1982), which shows a drift. NaN with less than 3 points, or where an
+ * error is not > 0. Fails with BR_NO_MEMORY. */
 enum br_status br_order_fit(const struct br_order_point *point, size_t count,
                             struct br_estimate *order, struct br_error *err);
 
 /* The same of errors that may still be far from their asymptotic range,
  *     e = C |z^p - z_against^p| exp(D z):
- * where D explains nearly all that a plain power law leaves over, the order is that of this model,
- * and its interval reaches to what the power law says, at least. It needs five points. */
+ * where D explains nearly all residuals of the plain power law, the order is that of this model,
+ * and its interval reaches at least to the order of the power law. It needs five points. */
 enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t count,
                                      struct br_estimate *order, struct br_error *err);
 
 /* ---- extrapolation ----
  *
- * What the tips of a grid's cells say of the tip at h = k = 0, without any reference:
+ * The tip at h = k = 0 from the tips of a grid's cells, without any reference:
  * Richardson extrapolation with observed orders, first over k on each mesh, then over h. */
 
 /* The displacement of the tip at t = T in all cells of a grid. */
@@ -161,10 +158,9 @@ enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *stu
                                 struct br_error *err);
 void br_tips_clear(struct br_tips *tips);
 
-/* The value at h = k = 0, m. The interval is Roache's (1998): the distance from what the
- * formal order and the next coarser three cells would give, times 1.25; or, where no order
- * is observed, 3 times the last difference. NaN with less than three meshes or time steps.
- * What the intervals are worth is tested against the exact solution. */
+/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 1.25 times the
+ * distance from the values by the formal order and by the next coarser three cells; or, where no
+ * order is observed, 3 times the last difference. NaN with less than three meshes or time steps. */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equation numbers: of Celik et al. (2008) for the grid convergence index, of Eca and Hoekstra
- * (2014) for least squares. */
+/* Equation numbers are those of Celik et al. (2008) for the grid convergence index, and of Eca and
+ * Hoekstra (2014) for least squares. */
 #include "study/fit/grid_convergence.h"
 
 #include <float.h>
@@ -48,7 +48,7 @@ static enum br_status check_formal(double formal, struct br_error *err)
                : br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
 }
 
-/* What may be round-off in the difference of two values, as in extrapolation.c. */
+/* The round-off that the difference of two values may have, as in extrapolation.c. */
 static double round_off_of(const double *value, size_t count)
 {
     double largest = 0;
@@ -59,22 +59,22 @@ static double round_off_of(const double *value, size_t count)
 
 /* ---- the grid convergence index ---- */
 
-/* What (3) needs of the three finest grids. */
+/* The numbers of (3) from the three finest grids. */
 struct triplet {
     double ln21, ln32; /* logarithms of the refinement ratios */
     double ln_growth;  /* ln |e32/e21| */
     int s;             /* sign(e32/e21), (3c) */
 };
 
-/* ln |e^x - s|, also where e^x overflows */
+/* ln |e^x - s|, finite also where e^x overflows */
 static double ln_gain(double x, int s)
 {
     return fmax(x, 0) + (s > 0 ? log(-expm1(-fabs(x))) : log1p(exp(-fabs(x))));
 }
 
 /* (3a) and (3b): p ln r21 - ln |e32/e21| - q(p), q = ln((r21^p - s)/(r32^p - s)). It increases
- * with p from -infinity to infinity. Celik et al. take the magnitude of the right side; without
- * it, divergence has a negative order. */
+ * with p from -infinity to infinity. Celik et al. take the magnitude of the right side; here,
+ * without it, divergence has a negative order. */
 static double order_mismatch(const struct triplet *t, double p)
 {
     double q = ln_gain(p * t->ln21, t->s) - ln_gain(p * t->ln32, t->s);
@@ -132,7 +132,7 @@ static struct br_gci_pair pair_of(const double *h, const double *value, double o
     };
 }
 
-/* Sets kind and order from the three grids h[0] to h[2]. */
+/* Sets sequence and order from the three grids h[0] to h[2]. */
 static void judge_triplet(const double *h, const double *value, struct br_gci *gci)
 {
     const double e21 = value[1] - value[2], e32 = value[0] - value[1];
@@ -170,7 +170,7 @@ enum br_status br_gci(const double *h, const double *value, size_t count, struct
 
 /* ---- least squares ---- */
 
-/* The values less the finest one, over (max - min): fits do not depend on units and offsets. */
+/* The values minus the finest one, over (max - min): so fits do not depend on units and offsets. */
 struct data {
     size_t count;
     double *y;         /* count */
@@ -219,8 +219,8 @@ static enum br_status data_create(struct data *d, const double *h, const double 
     return BR_OK;
 }
 
-/* The columns 1 and ((h/h_1)^power - 1)/power of each term. They span what 1 and h^power do, but
- * stay apart as power -> 0. Returns whether all are finite. */
+/* The columns 1 and ((h/h_1)^power - 1)/power of each term. They span the same space as 1 and
+ * h^power, but stay independent as power -> 0. Returns whether all are finite. */
 static bool fill_columns(const struct data *d, const struct br_expansion_fit *fit)
 {
     const size_t columns = 1 + fit->terms;
@@ -237,7 +237,7 @@ static bool fill_columns(const struct data *d, const struct br_expansion_fit *fi
     return finite;
 }
 
-/* Fits the expansion whose first four members are given; sigma is NaN if it cannot be done.
+/* Fits the expansion whose first four members are given; sigma is NaN where there is no fit.
  * sigma^2 = sum n w_i (phi_i - fit_i)^2 / (n - parameters), Appendix B. */
 static void fit_expansion(const struct data *d, struct br_expansion_fit *fit)
 {
@@ -275,9 +275,9 @@ static double variance_at(double p, void *self)
     return fit.sigma * fit.sigma;
 }
 
-/* phi_0 + alpha h^p with the best p, (1). For a given p the fit is linear; the variance can have
- * several minima over p, so it is scanned before the lowest one is refined. A best p at either end
- * of the scan is none: no terms. */
+/* phi_0 + alpha h^p with the best p, (1). For a given p the fit is linear. The variance can have
+ * several minima over p, so p is scanned before the lowest minimum is refined. Where the best p is
+ * at an end of the scan, there is no fit: no terms. */
 static struct br_expansion_fit fit_observed(const struct data *d, bool weighted)
 {
     enum { STEPS = 480 };
@@ -310,7 +310,7 @@ static struct br_expansion_fit fit_observed(const struct data *d, bool weighted)
     return fit;
 }
 
-/* Replaces a fit by one with a smaller sigma. */
+/* Keeps the fit with the smaller sigma. */
 static void keep_better(struct br_expansion_fit *best, const struct br_expansion_fit *other)
 {
     if (other->terms > 0 && (best->terms == 0 || other->sigma < best->sigma))
@@ -364,8 +364,8 @@ static void find_uncertainty(size_t count, double formal, struct br_least_square
                             : 3 * sigma / r->range * (error + sigma + misfit); /* (21) */
 }
 
-/* The observed order with its interval from the differences of successive values (br_order_fit); it
- * needs four grids. */
+/* The observed order with its interval, from the differences of successive values (br_order_fit).
+ * It needs four grids. */
 static enum br_status order_of_values(const double *h, const double *value, size_t count,
                                       struct br_estimate *order, struct br_error *err)
 {
@@ -433,7 +433,7 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
         result->range = (most - least) / (double)(count - 1);
         return BR_OK;
     }
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* it would end the program */
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* its default ends the program */
     struct data data;
     status = data_create(&data, h, value, count, most - least, err);
     if (!status) {

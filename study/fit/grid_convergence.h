@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of a quantity on finer and finer grids, without a reference: what they converge to, and
- * how far from that the finest one may be.
+/* Values of a quantity on finer and finer grids, without a reference: their limit, and how far from
+ * it the finest value may be.
  *
  * Three grids: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
  * "Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD
@@ -44,7 +44,7 @@ struct br_gci_pair {
     double difference;            /* |phi_fine - phi_coarse|, in the unit of the values */
     double limit;                 /* phi_ext, equation (4) */
     double uncertainty;           /* 1.25 |phi_fine - phi_coarse| / (r^p - 1), in that unit */
-    double relative;              /* e_a, (5), of phi_fine; relative ones are NaN beside 0 */
+    double relative;              /* e_a, (5), of phi_fine; NaN where phi_fine is 0 */
     double relative_extrapolated; /* e_ext, (6), of phi_ext */
     double index;                 /* GCI, (7): the uncertainty relative to phi_fine */
 };
@@ -52,29 +52,29 @@ struct br_gci_pair {
 /* With e21 = phi_2 - phi_1 and e32 = phi_3 - phi_2, convergence means that the order is positive:
  *     e21/e32 ln r32/ln r21 < 1 where both differences have the same sign,
  *     |e21/e32| < 1             where the signs alternate.
- * For equal ratios both are R = e21/e32 of the literature. For unequal ones R alone misleads:
- * values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and 5/11 R = 5. The
- * logarithms are the limit of (r32^p - 1)/(r21^p - 1) for p = 0.
- * Differences within round-off are zero: both, the sequence is constant; one, it is not known. */
+ * For equal ratios the left side is |R|, with R = e21/e32 of the literature. For unequal ones R
+ * alone misleads: values 1 + h at h = 1, 1/10 and 1/100000 have R = 0.11, but at h = 1, 10/11 and
+ * 5/11 R = 5. The quotient of the logarithms is the limit of (r32^p - 1)/(r21^p - 1) for p -> 0.
+ * Differences within round-off count as zero: two, the sequence is constant; one, not known. */
 struct br_gci {
     enum br_sequence sequence;
     double order;                    /* p, (3): negative if divergent */
     struct br_gci_pair fine, coarse; /* 21 and 32; without convergence only ratio, difference and
                                         relative are known */
     double asymptotic; /* GCI_32/(r21^p GCI_21), near 1 in the asymptotic range. With monotone
-                          convergence it is |phi_1/phi_2| by construction and shows little. */
+                          convergence it is always |phi_1/phi_2|, so it shows little. */
 };
 
 /* From the three finest grids; count >= 3. An order far above the formal one makes the uncertainty
- * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): look at it. Fails with
+ * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): compare the orders. Fails with
  * BR_BAD_INPUT, BR_NO_MEMORY. */
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err);
 
 /* The order p that two differences of values on three grids show, e = C (h^p - h_finer^p): the root
  * of (3), with the logarithms of both refinement ratios and of |e32/e21|, and s = sign(e32/e21).
- * Celik et al. iterate p <- (ln |e32/e21| + q(p))/ln r21, which has the same fixed point, but runs
- * away from it where r32 is greater than about r21^2: so the root is bracketed. */
+ * Celik et al. iterate p <- (ln |e32/e21| + q(p))/ln r21, which has the same fixed point, but
+ * diverges from it where r32 is greater than about r21^2. So the root is bracketed here. */
 double br_order_of_differences(double ln_r21, double ln_r32, double ln_growth, int s);
 
 /* ---- least squares ---- */
@@ -83,18 +83,18 @@ double br_order_of_differences(double ln_r21, double ln_r32, double ln_growth, i
 struct br_expansion_fit {
     size_t terms;    /* 1 or 2; 0: no fit */
     double power[2]; /* of each term */
-    bool observed;   /* power[0] is the observed order; else fixed */
+    bool observed;   /* power[0] is the observed order; else it is fixed */
     bool weighted;   /* by 1/h */
     double limit;    /* phi_0 */
-    double error;    /* eps: the fit at the finest grid less phi_0 */
-    double misfit;   /* the finest value less the fit there */
+    double error;    /* eps: the fit at the finest grid minus phi_0 */
+    double misfit;   /* the finest value minus the fit there */
     double sigma;    /* standard deviation of the fit */
 };
 
-/* Kinds of sequences: monotone by the sign of the observed order, whatever scatter there is. Where
- * no order between -12 and 12 fits best, none can be established. Such a sequence is oscillatory if
- * its differences change sign count/3 times (rounded down) or more: convergent or divergent by the
- * order of their magnitudes (br_order_of_values). Else it is anomalous. */
+/* The sequence is monotone where an order between -12 and 12 fits best, whatever the scatter. Else
+ * no order can be established; then it is oscillatory if its differences change sign count/3 times
+ * (rounded down) or more, else anomalous. It is convergent or divergent by the sign of the order,
+ * or of that of the magnitudes of the differences. */
 struct br_least_squares {
     enum br_sequence sequence;
     double order;                /* p of phi_0 + alpha h^p; NaN where none can be established */
@@ -104,11 +104,11 @@ struct br_least_squares {
     double uncertainty;          /* U of the finest value, 95 % */
 };
 
-/* The paper is about methods of formal order 2. Another formal order, 1 to 10, takes the place of 2
- * as the highest order that is believed (2.1: formal + 0.1) and as the exponent of the second
- * term; for formal order 1 the second term is h^2, and never stands alone. count >= 4. An
- * uncertainty comes out for each kind of sequence but a constant one, also for divergence. Fails
- * with BR_BAD_INPUT, BR_NO_MEMORY. */
+/* The paper is about methods of formal order 2. Another formal order, 1 to 10, replaces 2 as the
+ * highest order that is accepted (2.1: formal + 0.1) and as the exponent of the second term; for
+ * formal order 1 the second term is h^2, and is never the only one. count >= 4. The uncertainty is
+ * known for each sequence but a constant one, also for divergence. Fails with BR_BAD_INPUT,
+ * BR_NO_MEMORY. */
 enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
                                 struct br_least_squares *result, struct br_error *err);
 
@@ -117,19 +117,19 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
 enum br_limit_method { BR_LIMIT_GCI, BR_LIMIT_LEAST_SQUARES };
 
 struct br_grid_limit {
-    struct br_estimate value; /* low, high: the finest value -+ its uncertainty, so they do not lie
-                                 symmetrically around the limit */
+    struct br_estimate value; /* low, high: the finest value -+ its uncertainty, so they are not
+                                 symmetric to the limit */
     double order;             /* p */
     enum br_limit_method method;
     enum br_sequence sequence;
 };
 
 /* The limit with its interval: by least squares for four grids or more, by the grid convergence
- * index for three. NaN for divergence, and where a single difference is zero. A constant sequence
- * has its value as limit, but no interval: the procedures do not apply. count >= 3; formal as in
- * br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is an estimate, not a
- * bound. Of random cubics in h, it held the limit in 95 to 100 % at h = 0.01, where the linear term
- * dominates, but in 60 to 84 % at h = 0.1, where it does not. */
+ * index for three. NaN for divergence, and where a single difference is zero. The limit of a
+ * constant sequence is its value, without an interval: the procedures do not apply. count >= 3;
+ * formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is an
+ * estimate, not a bound. For random cubics in h, it contained the limit in 95 to 100 % at h = 0.01,
+ * where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
 enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
                                   struct br_grid_limit *limit, struct br_error *err);
 

@@ -11,7 +11,7 @@ enum { THETA = 2 * BR_AXES, UNKNOWNS };
 #define LOG_C(axis) (2 * (axis))
 #define ORDER(axis) (2 * (axis) + 1)
 
-/* Which of the unknowns a kind of model has, and how many. */
+/* The unknowns that a kind of model has, and their number. */
 static const struct {
     int unknown[UNKNOWNS];
     size_t count;
@@ -26,8 +26,8 @@ bool br_joint_has(enum br_joint_kind kind, int axis)
     return kind != (axis == BR_AXIS_SPACE ? BR_JOINT_TIME : BR_JOINT_SPACE);
 }
 
-/* The observations are in units of their own, so that no result depends on the units of a scene:
- * the largest h, the largest k and the largest error are one. */
+/* The observations are scaled so that the largest h, the largest k and the largest error are one.
+ * So no result depends on the units of a scene. */
 struct problem {
     const struct br_observation *observation;
     size_t count;
@@ -49,7 +49,7 @@ static double signed_error(double log_c, double order, double x, double x_ref)
     return exp(log_c + order * log(x)) - exp(log_c + order * log(x_ref));
 }
 
-/* Its derivative with respect to the order; that to log C is itself. */
+/* Its derivative with respect to the order; with respect to log C it is the error itself. */
 static double signed_rate(double log_c, double order, double x, double x_ref)
 {
     const double rate = exp(log_c + order * log(x)) * log(x);
@@ -70,14 +70,14 @@ static void spread(const struct problem *problem, const gsl_vector *v, double fu
         full[kinds[problem->kind].unknown[i]] = gsl_vector_get(v, i);
 }
 
-/* The two errors; that which the model has not is 0. */
-static void find_parts(const struct problem *problem, const double full[UNKNOWNS],
-                       const struct br_observation *o, double part[BR_AXES])
+/* The two errors; 0 where the model does not have one. */
+static void find_errors(const struct problem *problem, const double full[UNKNOWNS],
+                        const struct br_observation *o, double error[BR_AXES])
 {
     for (int a = 0; a < BR_AXES; a++)
-        part[a] = br_joint_has(problem->kind, a)
-                      ? signed_error(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a])
-                      : 0;
+        error[a] = br_joint_has(problem->kind, a)
+                       ? signed_error(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a])
+                       : 0;
 }
 
 static const double least_model = 1e-300;
@@ -91,9 +91,9 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     const double r = sin(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double part[BR_AXES];
-        find_parts(problem, full, o, part);
-        const double m = combine(part[0], part[1], r);
+        double error[BR_AXES];
+        find_errors(problem, full, o, error);
+        const double m = combine(error[0], error[1], r);
         const double f = log((m < least_model ? least_model : m) / o->error);
         if (!isfinite(f))
             return GSL_EDOM;
@@ -112,15 +112,15 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     const double r = sin(full[THETA]), slope = cos(full[THETA]);
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
-        double part[BR_AXES], rate[UNKNOWNS];
-        find_parts(problem, full, o, part);
-        const double m = combine(part[0], part[1], r), square = m * m;
+        double error[BR_AXES], rate[UNKNOWNS];
+        find_errors(problem, full, o, error);
+        const double m = combine(error[0], error[1], r), square = m * m;
         for (int a = 0; a < BR_AXES; a++) {
-            const double by = (part[a] + r * part[1 - a]) / square;
-            rate[LOG_C(a)] = by * part[a];
+            const double by = (error[a] + r * error[1 - a]) / square;
+            rate[LOG_C(a)] = by * error[a];
             rate[ORDER(a)] = by * signed_rate(full[LOG_C(a)], full[ORDER(a)], o->x[a], o->ref[a]);
         }
-        rate[THETA] = part[0] * part[1] / square * slope;
+        rate[THETA] = error[0] * error[1] / square * slope;
         for (size_t j = 0; j < kinds[problem->kind].count; j++) {
             const double value = square > 0 ? rate[kinds[problem->kind].unknown[j]] : 0;
             if (!isfinite(value))
@@ -131,14 +131,14 @@ static int jacobian(const gsl_vector *v, void *params, gsl_matrix *out)
     return GSL_SUCCESS;
 }
 
-/* What the logarithm of a constant in m and s lacks per unit of its order, else 0. */
+/* The logarithm of the unit of a constant's axis; 0 for the other unknowns. */
 static double log_unit(const struct problem *problem, int unknown)
 {
     return unknown == THETA || unknown % 2 ? 0 : problem->log_unit[unknown / 2];
 }
 
-/* What is to be added to an unknown of the scene's units in the problem's own; a constant stands
- * before its order. */
+/* What is added to an unknown in m and s to get it in scaled units. It is 0 but for constants; the
+ * order of a constant is the next unknown. */
 static double shift(const struct problem *problem, int unknown, const double full[UNKNOWNS])
 {
     if (unknown == THETA || unknown % 2)
@@ -146,7 +146,7 @@ static double shift(const struct problem *problem, int unknown, const double ful
     return full[unknown + 1] * log_unit(problem, unknown) - problem->log_error;
 }
 
-/* The least errors at the largest h and k, which are one, stand for the two scales. */
+/* Start values; for the constants the least errors at the largest h and at the largest k. */
 static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
 {
     full[ORDER(BR_AXIS_SPACE)] = p;
@@ -163,12 +163,12 @@ static void start_at(const struct problem *problem, double p, double r, double f
 
 /* One start of one kind. */
 struct attempt {
-    double sum, worst; /* of the squared residuals, or infinity; their largest magnitude */
+    double sum, worst; /* sum of squared residuals (infinite: no fit); largest magnitude */
     double value[UNKNOWNS], deviation[UNKNOWNS]; /* in m and s; NaN where not in the model */
 };
 
-/* The variance of unknown i in m and s: of log C - order log_unit for a constant. Not positive:
- * rank deficient. */
+/* The variance of unknown i in m and s; of a constant, that of log C - order log_unit. Where it is
+ * not positive, the problem is rank deficient. */
 static double variance_of(const struct problem *problem, const gsl_matrix *covariance, size_t i)
 {
     const double c = gsl_matrix_get(covariance, i, i);
@@ -267,7 +267,7 @@ static bool is_first(const struct problem *problem, size_t i, int axis)
     return true;
 }
 
-/* Different values of h (or k) among the observations. */
+/* The number of different values of h (or k) among the observations. */
 static size_t distinct(const struct problem *problem, int axis)
 {
     size_t count = 0;
@@ -276,9 +276,9 @@ static size_t distinct(const struct problem *problem, int axis)
     return count;
 }
 
-/* Cells that share h or k are no independent trials: what is left of the errors is
- * deterministic. So the intervals come from leaving out one whole line of the grid
- * after the other (delete-a-group jackknife, Efron 1982), where that is wider. */
+/* Cells that share h or k are not independent: the residuals are deterministic. So the intervals
+ * come from leaving out one whole line of the grid after the other (delete-a-group jackknife, Efron
+ * 1982), where they are wider. */
 static void widen_by_jackknife(const struct problem *problem, struct attempt *a, int axis,
                                struct br_observation *workspace)
 {
@@ -309,20 +309,20 @@ static void widen_by_jackknife(const struct problem *problem, struct attempt *a,
         const int u = kinds[problem->kind].unknown[i];
         const double spread = squares[u] - sum[u] * sum[u] / groups;
         const double deviation = sqrt((groups - 1) / groups * fmax(0, spread)) * quantiles;
-        if (!(deviation <= a->deviation[u])) /* a refit that failed tells nothing: NaN */
+        if (!(deviation <= a->deviation[u])) /* NaN: a refit failed */
             a->deviation[u] = isfinite(spread) ? deviation : INFINITY;
     }
 }
 
 double br_akaike(double sum, size_t count, size_t unknowns)
 {
-    const double n = (double)count, u = (double)unknowns + 1; /* the variance is one too */
+    const double n = (double)count, u = (double)unknowns + 1; /* the variance is an unknown, too */
     if (!(n > u + 1))
         return INFINITY;
     return n * log(fmax(sum, 1e-300) / n) + 2 * u + 2 * u * (u + 1) / (n - u - 1);
 }
 
-/* r = sin(theta), its interval by the slope of the sine, within [-1, 1]. */
+/* r = sin(theta) with its interval by the slope of the sine, within [-1, 1]. */
 static struct br_estimate correlation(double theta, double deviation, size_t freedom)
 {
     struct br_estimate e = br_estimate_of(sin(theta), fabs(cos(theta)) * deviation, freedom);
@@ -362,11 +362,11 @@ static void describe(const struct problem *problem, const struct attempt *a,
 double br_joint_model(const struct br_joint_fit *fit, const double x[BR_AXES],
                       const double ref[BR_AXES])
 {
-    double part[BR_AXES] = {0};
+    double error[BR_AXES] = {0};
     for (int a = 0; a < BR_AXES; a++)
         if (br_joint_has(fit->kind, a))
-            part[a] = signed_error(log(fit->c[a].value), fit->order[a].value, x[a], ref[a]);
-    return combine(part[0], part[1], fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
+            error[a] = signed_error(log(fit->c[a].value), fit->order[a].value, x[a], ref[a]);
+    return combine(error[0], error[1], fit->kind == BR_JOINT_BOTH ? fit->r.value : 0);
 }
 
 static struct br_joint_fit nothing_fitted(size_t points)
@@ -390,7 +390,7 @@ static bool varies(const struct problem *problem, int axis)
     return false;
 }
 
-/* An order needs three values of what it is an order in. */
+/* An order needs three sizes; the fit needs two more points than unknowns. */
 static bool enough(const struct problem *problem)
 {
     bool good = problem->count >= kinds[problem->kind].count + 2;
@@ -400,23 +400,23 @@ static bool enough(const struct problem *problem)
     return good;
 }
 
-/* Whether the orders that the model has can be told. */
-static bool is_told(const struct br_joint_fit *fit)
+/* Whether all orders of the model are determined. */
+static bool all_determined(const struct br_joint_fit *fit)
 {
-    bool told = true;
+    bool determined = true;
     for (int a = 0; a < BR_AXES; a++)
-        told &= !br_joint_has(fit->kind, a) || br_order_determined(&fit->order[a]);
-    return told;
+        determined &= !br_joint_has(fit->kind, a) || br_order_determined(&fit->order[a]);
+    return determined;
 }
 
-/* Two errors, of which one cannot be told, where nothing simpler will do. */
-static bool tells_one(const struct br_joint_fit *fit)
+/* Whether the model describes the errors and one of its orders is determined. */
+static bool one_determined(const struct br_joint_fit *fit)
 {
     return br_joint_describes(fit) &&
            (br_order_determined(&fit->order[0]) || br_order_determined(&fit->order[1]));
 }
 
-/* A problem in units of its own; own: out, its observations, count. */
+/* The scaled problem; own: out, its observations, count. */
 static struct problem problem_of(const struct br_observation *observation, size_t count,
                                  struct br_observation *own)
 {
@@ -442,12 +442,12 @@ static struct problem problem_of(const struct br_observation *observation, size_
 /* A kind of model, fitted. */
 struct candidate {
     struct attempt attempt;
-    double criterion; /* infinite: it is none */
+    double criterion; /* infinite: there is no fit */
     bool widened;
 };
 
-/* Sets the fit to a kind that is accepted, with the intervals of the jackknife, which is the dear
- * part: intervals only grow in it, so what is refused without it need not be widened. */
+/* Sets the fit to a kind that is accepted, with jackknife intervals. The jackknife is slow and only
+ * widens intervals, so it is not done for a kind that is refused without it. */
 static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct candidate *c,
                       bool (*accepts)(const struct br_joint_fit *),
                       struct br_observation *workspace, struct br_joint_fit *fit)
@@ -468,8 +468,7 @@ static bool take_kind(struct problem *problem, enum br_joint_kind kind, struct c
     return true;
 }
 
-/* The kind that is not done whose criterion is the least, of equal ones the first; BR_JOINT_SPACE +
- * 1: there is no more. */
+/* The kind with the least criterion that is not done; BR_JOINT_SPACE + 1: there is none left. */
 static int next_best(const struct candidate *candidate, const bool *done)
 {
     int best = BR_JOINT_SPACE + 1;
@@ -502,10 +501,11 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     bool done[BR_JOINT_SPACE + 1] = {false}, taken = false;
     for (int kind; !taken && (kind = next_best(candidate, done)) <= BR_JOINT_SPACE;
          done[kind] = true)
-        taken = take_kind(&problem, (enum br_joint_kind)kind, &candidate[kind], is_told,
+        taken = take_kind(&problem, (enum br_joint_kind)kind, &candidate[kind], all_determined,
                           own + count, fit);
     if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion))
-        take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], tells_one, own + count, fit);
+        take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], one_determined, own + count,
+                  fit);
     gsl_set_error_handler(handler);
     free(own);
     return BR_OK;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which orders a report claims. The error of a cell is one of space and one of time, and the larger
- * one hides the order of the other. So the order in h comes from the differences of successive
- * meshes at one time step, which have no time error in them, or from the joint fit of the grid, if
- * that tells it more sharply. The order in k comes from the joint fit, or from the errors on the
- * finest mesh where the error of space is small beside them. What does not fall, or slowly and
- * unevenly, tells no order: the sizes are too coarse. */
+/* The orders that a report claims. The error of a cell consists of one of space and one of time,
+ * and the larger one hides the order of the other. The order in h comes from the differences of
+ * successive meshes at one time step, which have no error of time, or from the joint fit of the
+ * grid, if its interval is narrower. The order in k comes from the joint fit, or from the errors on
+ * the finest mesh where the error of space is small there. Errors that do not fall, or fall slowly
+ * and unevenly, give no order: the sizes are too coarse. */
 #include "study/fit/report.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@
 
 #include "study/scene/words.h"
 
-enum { LEAST = 3, MOST = 5 }; /* errors of an order: of more, the finest count */
-/* Of the error of time: an error of space this large is in the way. */
+enum { LEAST = 3, MOST = 5 }; /* number of errors for an order; of more, the finest are used */
+/* An error of space above this share of the error of time hides its order. */
 static const double hidden = 0.1;
 static const double near = 0.1, clear = 0.02; /* of an order */
 
@@ -34,7 +34,7 @@ struct br_study *br_report_fitted(const struct br_report *r)
 
 /* ---- theory ---- */
 
-/* In L2, and one order less for each derivative; at the nodes twice what a derivative has. */
+/* In L2; one less for each derivative in the norm; at the nodes twice that of the derivative. */
 static double order_of_elements(const struct br_study *s, enum br_field_kind kind)
 {
     const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3;
@@ -44,7 +44,7 @@ static double order_of_elements(const struct br_study *s, enum br_field_kind kin
     return degree + 1 - (s->norm->energy ? derivatives : 0);
 }
 
-/* A contact force of the time level before is wrong by O(k). */
+/* The order of theory. A contact force of the time level before has an error of O(k). */
 static double theory_of(const struct br_study *s, enum br_part part, int axis)
 {
     const bool lags = s->scene->contact.modelled && !s->method.contact->at_new_step;
@@ -60,7 +60,7 @@ static double theory_of(const struct br_study *s, enum br_part part, int axis)
 
 /* ---- lines ---- */
 
-/* Along an axis at a place of the other one. */
+/* The errors along an axis, at index `at` of the other axis. */
 static struct line line_of(const struct br_study *s, enum br_part part, int axis, size_t at)
 {
     struct line l = {0};
@@ -79,7 +79,7 @@ static struct line line_of(const struct br_study *s, enum br_part part, int axis
     return l;
 }
 
-/* Over h, at the coarsest time step that has enough of them. */
+/* The errors over h at the coarsest time step that has enough of them. *column: out. */
 static struct line meshes_of(const struct br_study *s, enum br_part part, size_t *column)
 {
     for (*column = 0; *column < s->k_count; ++*column) {
@@ -90,7 +90,7 @@ static struct line meshes_of(const struct br_study *s, enum br_part part, size_t
     return line_of(s, part, BR_AXIS_SPACE, *column = 0);
 }
 
-/* The order from point i to the next; what is lost beside z^p is as in theory. */
+/* The order from point i to the next; the loss by finite references is that of theory. */
 static double rate(const struct line *l, size_t i, double theory)
 {
     const struct br_order_point *a = &l->point[i], *b = a + 1;
@@ -99,7 +99,7 @@ static double rate(const struct line *l, size_t i, double theory)
     return (log(a->error / b->error) - lost) / log(a->z / b->z);
 }
 
-/* ---- what is seen ---- */
+/* ---- observed orders ---- */
 
 static void say_rates(struct br_seen_order *o, const struct line *l)
 {
@@ -108,25 +108,25 @@ static void say_rates(struct br_seen_order *o, const struct line *l)
     REMARK(o, " from size to size");
 }
 
-/* How much nearer to theory the finest errors are than the coarsest ones, in orders of theory. */
+/* By how much the last rate is nearer to theory than the first one, relative to theory. */
 static double comes_closer(const struct br_seen_order *o, const struct line *l)
 {
     const double first = rate(l, 0, o->theory), last = rate(l, l->count - 2, o->theory);
     return (fabs(first - o->theory) - fabs(last - o->theory)) / o->theory;
 }
 
-/* line: what says more of an order that is not as in theory; NULL: nothing. */
+/* Sets order and remark. l: its rates follow where the order is not as in theory; NULL: none. */
 static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
 {
     const double off = fabs(order.value - o->theory) / o->theory;
-    const bool held = order.low <= o->theory && o->theory <= order.high;
+    const bool fits = order.low <= o->theory && o->theory <= order.high;
     o->order = order;
-    if (off <= near && (held || off <= near / 2))
+    if (off <= near && (fits || off <= near / 2))
         REMARK(o, "as in theory");
     else if (off <= near)
         REMARK(o, "near theory");
     else
-        REMARK(o, held ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
+        REMARK(o, fits ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
     if (off <= near || !l)
         return;
     REMARK(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
@@ -142,7 +142,7 @@ static void say_too_few(struct br_seen_order *o, const struct line *l)
                l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
 }
 
-/* From errors alone. */
+/* Sets the order from the errors of a line. */
 static enum br_status judge_line(struct br_seen_order *o, const struct line *l, int axis,
                                  struct br_error *err)
 {
@@ -177,8 +177,8 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
     return BR_OK;
 }
 
-/* Whether the joint fit tells an order that can be believed. */
-static bool tells(const struct br_joint_fit *fit, int axis, double theory)
+/* Whether the joint fit determines an order that can be believed. */
+static bool determines(const struct br_joint_fit *fit, int axis, double theory)
 {
     return br_joint_describes(fit) && br_order_determined(&fit->order[axis]) &&
            fit->order[axis].value > theory / 2;
@@ -218,14 +218,14 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
     }
     const struct br_estimate *p = &fit->order[BR_AXIS_SPACE];
     const double width = o->order.high - o->order.low;
-    if (tells(fit, BR_AXIS_SPACE, o->theory) && !(width <= p->high - p->low))
+    if (determines(fit, BR_AXIS_SPACE, o->theory) && !(width <= p->high - p->low))
         claim_joint(o, fit, BR_AXIS_SPACE);
     else if (!r->meshes)
         REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     return BR_OK;
 }
 
-/* The error of space on the finest mesh of the study, by the finest difference. */
+/* The error of space on the finest mesh, from the finest difference of meshes; 0: not known. */
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
     const struct br_study *s = br_report_fitted(r);
@@ -247,7 +247,7 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     const struct br_study *s = br_report_fitted(r);
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const struct line l = line_of(s, part, BR_AXIS_TIME, s->n_count - 1); /* the finest mesh */
-    if (tells(fit, BR_AXIS_TIME, o->theory)) {
+    if (determines(fit, BR_AXIS_TIME, o->theory)) {
         claim_joint(o, fit, BR_AXIS_TIME);
         return BR_OK;
     }
@@ -263,7 +263,7 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     return judge_line(o, &l, BR_AXIS_TIME, err);
 }
 
-static bool has_part(const struct br_scene *scene, enum br_part part)
+static bool is_modelled(const struct br_scene *scene, enum br_part part)
 {
     return (part != BR_PART_AXIAL || scene->axial.modelled) &&
            (part != BR_PART_BENDING || scene->bending.modelled);
@@ -275,7 +275,7 @@ enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
     const bool none = s->judge == &br_judge_none;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
-        const bool has = has_part(s->scene, part) && br_study_cells(s) > 0;
+        const bool has = is_modelled(s->scene, part) && br_study_cells(s) > 0;
         const bool asked[BR_AXES] = {has && (!none || r->meshes),
                                      has && (!none || !r->meshes) && !s->method.scheme->adaptive};
         for (int axis = 0; axis < BR_AXES && !status; axis++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is expected of a program's orders, and the verdicts on that. */
+/* The expected orders of a program, and the verdicts on them. */
 #include "study/orders/orders.h"
 
 #include <math.h>
@@ -113,8 +113,8 @@ enum br_status br_expectations_read(const char *text, size_t line,
 
 /* ---- verdicts ---- */
 
-/* What is expected of a line, with points of its own, and an order by the joint fit where that is
- * sure. */
+/* Makes the case of an expectation on a line, with a copy of its points; its order is that of the
+ * joint fit where that is determined. */
 static enum br_status observe(const struct br_quantity_orders *of,
                               const struct br_orders_line *line,
                               const struct br_order_expectation *e, struct br_case *c,

@@ -93,7 +93,7 @@ void br_numbers_clear(struct br_numbers *numbers)
     *numbers = (struct br_numbers){0};
 }
 
-/* From coarse to fine; a column that is not there is equal in all rows. */
+/* From coarse to fine. */
 static int by_size(double a, double b)
 {
     return (a < b) - (a > b);
@@ -115,34 +115,34 @@ void br_numbers_sort(struct br_numbers *numbers)
     qsort(numbers->row, numbers->rows, sizeof *numbers->row, by_resolution);
 }
 
-enum { PLACE = 400 };
+enum { SOURCE = 400 };
 
-/* Where a row is from: "file:3", or what was run. */
+/* The source of a row, for messages: "file:3", or the resolution of a run. */
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
-                     const char *path, char text[PLACE])
+                     const char *path, char text[SOURCE])
 {
     const int axis = numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
     if (row->line)
-        snprintf(text, PLACE, "%.300s:%zu", path, row->line);
+        snprintf(text, SOURCE, "%.300s:%zu", path, row->line);
     else
-        snprintf(text, PLACE, "%.300s: %s = %.6g", path, numbers->column[axis]->name,
+        snprintf(text, SOURCE, "%.300s: %s = %.6g", path, numbers->column[axis]->name,
                  row->given[axis]);
 }
 
 static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                                 const char *path, struct br_error *err)
 {
-    char place[PLACE];
-    name_row(numbers, row, path, place);
+    char source[SOURCE];
+    name_row(numbers, row, path, source);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_resolution_column *column = numbers->column[axis];
         const double given = row->given[axis], z = row->z[axis];
         if (column && !(given > 0 && isfinite(given)))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", place,
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
                            column->name, given);
         if (column && !(z >= DBL_MIN && isfinite(z)))
             return br_fail(err, BR_BAD_INPUT,
-                           "%s: %s: found %g, expected a size within the range of numbers", place,
+                           "%s: %s: found %g, expected a size within the range of numbers", source,
                            column->name, given);
     }
     for (size_t i = 0; i < numbers->quantities; i++) {
@@ -152,19 +152,19 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
             return br_fail(err, BR_BAD_INPUT,
                            "%s: %.100s: found %g, expected an error of at least 0; is it a value? "
                            "(--value %.100s)",
-                           place, q->name, number, q->name);
+                           source, q->name, number, q->name);
         if (fabs(number) > DBL_MAX / 4) /* so that differences do not overflow */
-            return br_fail(err, BR_BAD_INPUT, "%s: %.100s: found %g, expected at most %.2g", place,
+            return br_fail(err, BR_BAD_INPUT, "%s: %.100s: found %g, expected at most %.2g", source,
                            q->name, number, DBL_MAX / 4);
     }
     return BR_OK;
 }
 
-/* Sizes that differ by less than this share are one size, written in two ways. */
+/* Sizes with a relative difference below this one are one size, written in two ways. */
 static const double nearly = 1e-9;
 
-/* Makes nearly equal sizes along an axis the coarsest of them; returns how many different ones
- * there are. */
+/* Sets nearly equal sizes along an axis to the coarsest of them; returns the number of different
+ * sizes. */
 static size_t unite_sizes(struct br_numbers *numbers, int axis)
 {
     struct br_numbers_row *row = numbers->row;
@@ -202,13 +202,13 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
             equal &= !numbers->column[axis] || a->z[axis] == b->z[axis];
         if (!equal)
             continue;
-        char place[PLACE];
-        name_row(numbers, b, path, place);
+        char source[SOURCE];
+        name_row(numbers, b, path, source);
         return b->line
                    ? br_fail(err, BR_BAD_INPUT,
-                             "%s: the resolution is that of line %zu, expected each once", place,
+                             "%s: the resolution is that of line %zu, expected each once", source,
                              a->line)
-                   : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", place);
+                   : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", source);
     }
     if (most < 3)
         return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,

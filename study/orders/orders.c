@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAST_POINTS = 3 }; /* that an order with an interval needs */
+enum { LEAST_POINTS = 3 }; /* for an order with an interval */
 
 static enum br_axis other(enum br_axis axis)
 {
@@ -13,22 +13,22 @@ static enum br_axis other(enum br_axis axis)
 
 /* ---- stagnation ---- */
 
-/* Errors have stopped falling where a pair of points shows less than this share of the rate of the
- * pairs before. Beside a limit that is as small as round-off, more of it is enough: there an order
- * that falls is no order of the program any more. */
+/* Errors have stopped falling where the rate of a pair of points is below this share of the rate of
+ * the pairs before. Near a limit as small as round-off the share may be larger: there a lower rate
+ * is not the order of the program any more. */
 static const double stagnates = 0.25, stagnates_deep = 0.6;
 
-/* What is that much smaller than the coarsest error is taken for round-off. */
+/* A level below this share of the coarsest error is taken for round-off. */
 static const double deep = 1e-6;
 
-/* What is less than this many times the level at which errors stay is off by that level. */
-static const double beside = 10;
+/* Errors below this many times the level at which errors stay are changed by that level. */
+static const double level_margin = 10;
 
-/* Orders of differences are believed up to this one, of either sign. */
+/* Orders of differences are believed up to this magnitude. */
 static const double steepest = 60;
 
-/* The order that two errors show. Differences from the next finer value, where `fine` is that of
- * the value that `coarse` is compared with, are C |z^p - z_against^p|. */
+/* The order that two errors show. Differences from the next finer value are C |z^p - z_against^p|;
+ * then z_against of `coarse` is z of `fine`. */
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
     const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
@@ -40,9 +40,8 @@ static double rate(const struct br_point *coarse, const struct br_point *fine)
     return fmax(-steepest, fmin(order, steepest));
 }
 
-/* The first point that is hardly smaller than the one before it, as are all finer ones; count:
- * there is none. sorted: room for as many; it holds the rates of the pairs before a point, whose
- * median says what is hardly. */
+/* The first of the points at the fine end that are hardly smaller than the point before, by the
+ * median rate of the pairs before; count: there is none. sorted: room for `count` rates. */
 static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
 {
     size_t first = count;
@@ -51,15 +50,15 @@ static size_t find_plateau(const struct br_point *p, size_t count, double *sorte
         const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
         const bool stays = i >= LEAST_POINTS && before > stagnates && now < share * before;
         first = !stays ? count : first < count ? first : i;
-        size_t place = i - 1;
-        for (; place > 0 && sorted[place - 1] > now; place--)
-            sorted[place] = sorted[place - 1];
-        sorted[place] = now;
+        size_t at = i - 1;
+        for (; at > 0 && sorted[at - 1] > now; at--)
+            sorted[at] = sorted[at - 1];
+        sorted[at] = now;
     }
     return first;
 }
 
-/* Flags what is near the level where a line's errors stay. */
+/* Flags the points near the level at which the errors of a line stay. */
 static enum br_status flag_plateau(struct br_case *c, struct br_error *err)
 {
     struct br_point *p = c->point;
@@ -73,7 +72,7 @@ static enum br_status flag_plateau(struct br_case *c, struct br_error *err)
     for (size_t i = find_plateau(p, good, room); i < good; i++)
         level = fmax(level, p[i].error);
     for (size_t i = 0; i < good; i++)
-        if (p[i].error < beside * level)
+        if (p[i].error < level_margin * level)
             p[i].flag = level <= deep * p[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
     free(room);
     return BR_OK;
@@ -86,9 +85,9 @@ static double z_of(const struct br_numbers *numbers, size_t row, enum br_axis ax
     return numbers->row[row].z[axis];
 }
 
-/* "n = 40", as the source has it. */
-static void name_place(const struct br_numbers *numbers, size_t row, enum br_axis axis,
-                       char text[64])
+/* "n = 40", with the number as given. */
+static void name_size(const struct br_numbers *numbers, size_t row, enum br_axis axis,
+                      char text[64])
 {
     snprintf(text, 64, "%s = %.6g", numbers->column[axis]->name, numbers->row[row].given[axis]);
 }
@@ -98,20 +97,20 @@ static const char *failure_of(const struct br_numbers_row *row, double number)
     return row->failure ? row->failure : isnan(number) ? "has no number" : "";
 }
 
-/* A row among those of its line: by the size along the other axis, then along the line's. */
-struct place {
+/* A row by its size along the other axis, then by its size along the axis of the line. */
+struct line_row {
     double other, along;
     size_t row;
 };
 
 static int by_line(const void *a, const void *b)
 {
-    const struct place *x = a, *y = b;
+    const struct line_row *x = a, *y = b;
     const int order = (x->other < y->other) - (x->other > y->other);
     return order ? order : (x->along < y->along) - (x->along > y->along);
 }
 
-/* An error, or what a value differs from the next finer one by. */
+/* An error, or the difference of a value from the next finer one. */
 static struct br_point point_of(const struct br_orders *o, size_t quantity,
                                 const struct br_orders_line *line, size_t i)
 {
@@ -128,7 +127,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
     }
-    name_place(numbers, named, line->axis, p.label);
+    name_size(numbers, named, line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
     p.flag = *failure       ? BR_FLAG_FAILED
              : p.error > 0  ? BR_FLAG_NONE
@@ -158,7 +157,7 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
     return BR_OK;
 }
 
-/* What the values of a line tend to; nothing is known where there are too few. */
+/* The limit of the values of a line; not known where there are too few. */
 static enum br_status find_limit(const struct br_orders *o, size_t quantity, size_t rows,
                                  struct br_orders_line *line, struct br_error *err)
 {
@@ -183,9 +182,9 @@ static enum br_status find_limit(const struct br_orders *o, size_t quantity, siz
     return status;
 }
 
-/* Of these rows, from coarse to fine. */
+/* Adds the line of these rows, which are sorted from coarse to fine. */
 static enum br_status add_line(const struct br_orders *o, struct br_quantity_orders *of,
-                               enum br_axis axis, const struct place *place, size_t rows,
+                               enum br_axis axis, const struct line_row *sorted, size_t rows,
                                struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
@@ -196,9 +195,9 @@ static enum br_status add_line(const struct br_orders *o, struct br_quantity_ord
     of->lines++;
     line->axis = axis;
     for (size_t i = 0; i < rows; i++)
-        line->row[i] = place[i].row;
+        line->row[i] = sorted[i].row;
     if (numbers->column[other(axis)] && !o->tied)
-        name_place(numbers, line->row[0], other(axis), line->at);
+        name_size(numbers, line->row[0], other(axis), line->at);
     const enum br_status status = make_points(o, of->quantity, line, rows, err);
     if (status)
         return status;
@@ -214,23 +213,23 @@ static enum br_status add_lines(const struct br_orders *o, struct br_quantity_or
 {
     const struct br_numbers *numbers = o->numbers;
     const bool alone = o->tied || !numbers->column[other(axis)];
-    struct place *place = br_allocate(numbers->rows, sizeof *place);
+    struct line_row *sorted = br_allocate(numbers->rows, sizeof *sorted);
     of->point[axis] = br_allocate(numbers->rows, sizeof *of->point[axis]);
     enum br_status status = BR_OK;
-    if (!place || !of->point[axis])
+    if (!sorted || !of->point[axis])
         status = br_no_memory(err, "the orders");
     for (size_t i = 0; i < numbers->rows && !status; i++)
-        place[i] =
-            (struct place){alone ? 0 : z_of(numbers, i, other(axis)), z_of(numbers, i, axis), i};
+        sorted[i] =
+            (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)), z_of(numbers, i, axis), i};
     if (!status)
-        qsort(place, numbers->rows, sizeof *place, by_line);
+        qsort(sorted, numbers->rows, sizeof *sorted, by_line);
     for (size_t first = 0, end; first < numbers->rows && !status; first = end) {
-        for (end = first + 1; end < numbers->rows && place[end].other == place[first].other;)
+        for (end = first + 1; end < numbers->rows && sorted[end].other == sorted[first].other;)
             end++;
         if (end - first >= LEAST_POINTS)
-            status = add_line(o, of, axis, &place[first], end - first, err);
+            status = add_line(o, of, axis, &sorted[first], end - first, err);
     }
-    free(place);
+    free(sorted);
     return status;
 }
 
@@ -242,7 +241,7 @@ static struct br_point *point_on(const struct br_quantity_orders *of, enum br_ax
     return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
-/* Errors that stay along one axis, but fall along the other one, are that one's, and count. */
+/* An error that stays along one axis but falls along the other belongs to the other: no flag. */
 static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
 {
     for (size_t i = 0; i < o->numbers->rows; i++) {
@@ -263,21 +262,22 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
                                struct br_error *err)
 {
     const struct br_numbers *numbers = o->numbers;
-    struct br_observation *seen = br_allocate(numbers->rows, sizeof *seen);
+    struct br_observation *observation = br_allocate(numbers->rows, sizeof *observation);
     size_t count = 0;
-    if (!seen)
+    if (!observation)
         return br_no_memory(err, "the joint fit");
     for (size_t i = 0; i < numbers->rows; i++) {
         const double error = numbers->row[i].number[of->quantity];
         if (error > 0 && counts(of, i))
-            seen[count++] = (struct br_observation){
+            observation[count++] = (struct br_observation){
                 .x = {z_of(numbers, i, BR_AXIS_SPACE), z_of(numbers, i, BR_AXIS_TIME)},
                 .error = error};
     }
-    const bool same =
-        count > 0 && count == of->joint.points; /* rows are left out, never taken back */
-    const enum br_status status = same ? BR_OK : br_joint_fit_solve(seen, count, &of->joint, err);
-    free(seen);
+    /* Rows are only left out, so the same number means the same rows. */
+    const bool same = count > 0 && count == of->joint.points;
+    const enum br_status status =
+        same ? BR_OK : br_joint_fit_solve(observation, count, &of->joint, err);
+    free(observation);
     return status;
 }
 
@@ -288,8 +288,8 @@ static bool is_grid(const struct br_orders *o)
     return o->numbers->column[BR_AXIS_SPACE] && o->numbers->column[BR_AXIS_TIME] && !o->tied;
 }
 
-/* Leaves out what is at a floor. On a grid errors may stay along one axis for the other one's;
- * where the joint fit describes them all, nothing is left out. */
+/* Leaves out errors at a floor. On a grid, errors may stay along one axis since the error of the
+ * other axis is larger; where the joint fit describes all errors, none is left out. */
 static enum br_status leave_out(const struct br_orders *o, struct br_quantity_orders *of,
                                 struct br_error *err)
 {
@@ -384,7 +384,7 @@ double br_orders_rate(const struct br_orders_line *line, size_t i)
 
 /* ---- costs ---- */
 
-/* Below that a run is mostly its start, s. */
+/* A shorter run is mostly its start, s. */
 static const double least_seconds = 0.02;
 
 enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,

@@ -13,13 +13,13 @@
 
 /* ---- numbers: they come from a source (request.h) ---- */
 
-/* How a column tells a resolution; const records. z = given for a size; 1/given for a number of
- * elements or steps; given^(-1/dimension) for unknowns. */
+/* How a column states a resolution; const records. z is the number itself for a size; one over it
+ * for a number of elements or steps; number^(-1/dimension) for unknowns. */
 struct br_resolution_column {
     const char *name; /* "n", "h", "dofs", "k", "dt", "steps" */
     enum br_axis axis;
-    bool is_size;   /* z is what is given; else one over it */
-    bool is_volume; /* its root by the dimension counts */
+    bool is_size;   /* z is the number itself */
+    bool is_volume; /* z is the number^(-1/dimension); where both are false, one over the number */
 };
 extern const struct br_resolution_column br_resolution_columns[]; /* ends with a NULL name */
 const struct br_resolution_column *br_resolution_column_find(const char *name);
@@ -28,23 +28,23 @@ const struct br_resolution_column *br_resolution_column_find(const char *name);
 struct br_quantity {
     char *name;    /* owned */
     char *unit;    /* owned; NULL: none is given */
-    bool is_value; /* its limit is not known; else it is an error, whose limit is 0 */
+    bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
 };
 
-/* One run of the program that made them. */
+/* One run of the program that made the numbers. */
 struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column */
-    double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN likewise */
+    double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
     double *number;        /* by quantity; NaN: missing; owned */
-    size_t line;           /* in the file it is from; 0: none */
+    size_t line;           /* in the source file; 0: there is none */
     double seconds, bytes; /* processor time and peak memory; NaN: not measured */
-    bool kept;             /* it was not run, but found among what was kept */
+    bool kept;             /* whether its numbers were kept from an earlier run */
     char *failure;         /* why it has no numbers; NULL: it has; owned */
 };
 
 struct br_numbers {
     const struct br_resolution_column *column[BR_AXES]; /* NULL: that axis is not refined */
-    char *unit[BR_AXES];                                /* of what is given; NULL; owned */
+    char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
     size_t quantities;
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
@@ -53,8 +53,8 @@ struct br_numbers {
 
 void br_numbers_clear(struct br_numbers *numbers); /* accepts zeros */
 
-/* What a source fills zeros by: rows of NaN and so many quantities' numbers, and each quantity.
- * Fail with BR_NO_MEMORY. */
+/* A source fills zeros with them: rows of NaN with a number for each of the quantities, then each
+ * quantity. Fail with BR_NO_MEMORY. */
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
                                     struct br_error *err);
 enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *name,
@@ -63,36 +63,36 @@ enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *n
 /* From coarse to fine, first over space. */
 void br_numbers_sort(struct br_numbers *numbers);
 
-/* z of what a column gives. */
+/* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
 
-/* The first name of a list "a, b" (out: not ended by a zero; without the blanks around it); returns
- * the rest of the list, or NULL. */
+/* The first name of a list "a, b" (out; without the blanks around it, and without a zero at its
+ * end); returns the rest of the list, or NULL. */
 const char *br_list_next(const char *list, const char **name, size_t *length);
 
-/* Whether a list (NULL: an empty one) has a name. */
+/* Whether a name is in a list (NULL: an empty one). */
 bool br_lists(const char *list, const char *name);
 
-/* Brings the rows into their order, takes sizes that differ by round-off for one, and refuses
- * (BR_BAD_INPUT, beginning with `path` and the line) resolutions that are not above 0 or are there
- * twice, fewer than three of them, errors below 0, and numbers too large for their differences. */
+/* Sorts the rows, and makes sizes one that differ by round-off. Refuses (BR_BAD_INPUT, with `path`
+ * and the line first) resolutions that are not above 0 or are there twice, fewer than three
+ * resolutions, errors below 0, and numbers whose differences may overflow. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
 /* ---- orders ---- */
 
-/* What is seen of a quantity along one axis, at one size of the other. */
+/* The observed order of a quantity along one axis, at one size of the other axis. */
 struct br_orders_line {
     enum br_axis axis;
-    char at[64]; /* "k = 0.01"; "": the other axis is not refined, or goes along */
-    size_t *row; /* of the numbers, from coarse to fine; observed.points of them, and one
-                    more of a value; owned */
-    struct br_case observed; /* of a value: of its differences from the next finer one */
-    /* Of a value, by all its rows that have a number: */
-    struct br_grid_limit limit; /* method: as many rows as there are */
+    char at[64]; /* "k = 0.01"; "": the other axis is not refined, or tied to this one */
+    size_t *row; /* indices of rows, from coarse to fine: observed.points of them, for a value one
+                    more; owned */
+    struct br_case observed; /* for a value: its differences from the next finer one */
+    /* For a value, from all its rows that have a number: */
+    struct br_grid_limit limit; /* its method depends on the number of rows */
     struct br_gci gci;          /* of the three finest */
 };
 
-/* Where a row is on a line; line: NULL, it is on none. */
+/* The position of a row on a line; line: NULL, it is on none. */
 struct br_row_point {
     const struct br_orders_line *line;
     size_t index; /* of the point */
@@ -104,7 +104,7 @@ struct br_quantity_orders {
                                     the other axis to the finest; owned */
     size_t lines;
     struct br_row_point *point[BR_AXES]; /* by row; NULL: no lines; owned */
-    struct br_joint_fit joint;           /* of an error on a grid; not converged: none */
+    struct br_joint_fit joint;           /* for an error on a grid; not converged: there is none */
 };
 
 struct br_orders {
@@ -112,11 +112,11 @@ struct br_orders {
     double formal;                 /* order of values */
     struct br_quantity_orders *of; /* count; owned */
     size_t count;
-    bool tied; /* both axes are refined from each row to the next: they go along in one line */
+    bool tied; /* both axes are refined from each row to the next, along one line */
 };
 
-/* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out by name.
- * formal: the order that theory gives values, for the intervals of their limits. The numbers are
+/* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
+ * flag. formal: the order of theory for values, for the intervals of their limits. The numbers are
  * borrowed. Fails with BR_NO_MEMORY; clear it even then. */
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
@@ -126,8 +126,8 @@ void br_orders_clear(struct br_orders *orders);
 const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *of,
                                               enum br_axis axis);
 
-/* The order that point i and the coarser one before it show; NaN: none. That of values is the one
- * that their differences show, whatever the ratios of their sizes are. */
+/* The order from the coarser point before point i to point i; NaN: none. For values it is the order
+ * of their differences, whatever the ratios of their sizes are. */
 double br_orders_rate(const struct br_orders_line *line, size_t i);
 
 /* ---- costs ---- */
@@ -138,8 +138,7 @@ double br_orders_rate(const struct br_orders_line *line, size_t i);
 enum br_status br_orders_growth(const struct br_orders *orders, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err);
 
-/* The cheapest run whose error in a quantity is at most so large; NULL: none, or no run was timed.
- */
+/* The cheapest run whose error in a quantity is at most this; NULL: none, or no run was timed. */
 const struct br_numbers_row *br_orders_cheapest(const struct br_orders *orders, size_t quantity,
                                                 double error);
 
@@ -149,19 +148,20 @@ struct br_order_expectation {
     char quantity[64];
     enum br_axis axis;
     double order, tolerance;
-    double down_to; /* errors stop falling there, as is expected; 0: nowhere */
+    double down_to; /* the expected level at which errors stop falling; 0: none */
     size_t line;    /* in a study file; 0: none */
 };
 
-/* Reads "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2 down to 1e-9", on that line, and adds it to
- * a list, which is owned by the caller. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+/* Reads the expectations of a text on that line, "l2: h 2 +- 0.1, k 1 +- 0.05; drag: h 2 +- 0.2
+ * down to 1e-9", and adds them to a list, which the caller owns. Fails with BR_BAD_INPUT or
+ * BR_NO_MEMORY. */
 enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 
 /* Judges each expectation: by the joint fit where it describes the errors, else on the line at the
  * finest size of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a
- * quantity or an axis is not there, or with BR_NO_MEMORY. */
+ * quantity or an axis is missing, or with BR_NO_MEMORY. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

@@ -22,7 +22,7 @@
 #include "study/scene/quote.h"
 
 enum {
-    TAIL = 301,             /* bytes of a failed run's last lines, with the end */
+    TAIL = 301,             /* bytes of a failed run's last lines, with the zero at the end */
     MOST_PRINTED = 1 << 24, /* bytes of a run */
     GRACE = 2               /* s from SIGTERM to SIGKILL */
 };
@@ -39,16 +39,16 @@ struct job {
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH, UNSEEN };
 
 struct run {
-    char folder[PATH_MAX]; /* empty: it could not be made */
+    char folder[PATH_MAX]; /* empty: there is none */
     int printed[2];        /* files of standard output and error */
     pid_t child;
-    double own_peak; /* of this process when it began, bytes */
+    double own_peak; /* of this process when the run began, bytes */
     enum end end;
     int status; /* as of wait4 */
     struct rusage usage;
 };
 
-/* A file without a name, which the program cannot find in its folder. */
+/* Opens a file without a name, which the program cannot find in its folder. */
 static bool open_printed(struct run *r, int i)
 {
     r->printed[i] = memfd_create("printed", MFD_CLOEXEC);
@@ -62,7 +62,7 @@ static enum br_status make_folder(struct run *r, struct br_error *err)
     const int length = snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where);
     errno = ENAMETOOLONG;
     if ((size_t)length >= sizeof r->folder || !mkdtemp(r->folder))
-        r->folder[0] = '\0'; /* never remove what is another's */
+        r->folder[0] = '\0'; /* so that it is not removed */
     if (*r->folder && open_printed(r, 0) && open_printed(r, 1))
         return BR_OK;
     return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where, strerror(errno));
@@ -87,8 +87,8 @@ void br_remove_folder(const char *folder)
     }
 }
 
-/* The group is its own, and so are its signals: those that beamrate ignores would stay ignored.
- * Returns an errno. */
+/* Gives the process a group of its own, and default signals: signals that beamrate ignores would
+ * stay ignored. Returns an errno. */
 static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes,
                   const struct run *r)
 {
@@ -138,7 +138,7 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
     if (status)
         return status;
     const int failure = spawn(j, cell, r);
-    /* Until it has become another program, its memory was ours: the kernel counts that, too. */
+    /* The kernel counts memory of this process that the child had before it became the program. */
     getrusage(RUSAGE_SELF, &own);
     r->own_peak = 1024.0 * (double)own.ru_maxrss;
     if (!failure)
@@ -148,7 +148,7 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                    strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
 }
 
-/* It stays a zombie, so that nobody else gets the number of its group. */
+/* It stays a zombie, so that no other process gets the number of its group. */
 static bool has_ended(pid_t child)
 {
     siginfo_t info = {.si_pid = 0};
@@ -167,7 +167,7 @@ static bool prints_too_much(const struct run *r)
     return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
 }
 
-/* Why it must end before it does. */
+/* Why a run must be ended; BY_ITSELF: it need not be. */
 static enum end end_of(const struct br_orders_request *p, const struct run *r, double late)
 {
     if (br_observer_stops(p->observer))
@@ -186,14 +186,14 @@ static void watch(const struct br_orders_request *p, struct run *r)
         const enum end before = r->end;
         r->end = end_of(p, r, late);
         if (r->end == TOO_LONG && !before)
-            kill(-r->child, SIGTERM); /* once: a second one may mean more haste */
+            kill(-r->child, SIGTERM); /* not twice: some programs then stop without cleaning up */
         else if (r->end && (r->end != TOO_LONG || late > GRACE))
             kill(-r->child, SIGKILL);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
     }
-    kill(-r->child, SIGKILL); /* what it has left */
+    kill(-r->child, SIGKILL); /* the rest of its group */
     pid_t ended;
     do
         ended = wait4(r->child, &r->status, 0, &r->usage);
@@ -204,9 +204,9 @@ static void watch(const struct br_orders_request *p, struct run *r)
         r->end = TOO_MUCH;
 }
 
-/* ---- what it has left ---- */
+/* ---- its output ---- */
 
-/* The last three lines of a file, visible, or as much of them as has room. */
+/* The last three lines of a file, quoted, or as much of them as `shown` has room for. */
 static void last_lines(int file, char shown[TAIL])
 {
     char text[TAIL];
@@ -222,15 +222,14 @@ static void last_lines(int file, char shown[TAIL])
         if (text[i] == '\n' && begin == text && lines++ == 3)
             begin = text + i + 1;
     }
-    while ((*begin & 0xc0) == 0x80) /* the rest of a character */
+    while ((*begin & 0xc0) == 0x80) /* the end of a character whose start is cut off */
         begin++;
     br_quoted(shown, TAIL, &br_for_text, begin);
 }
 
-/* why: what was wrong with its numbers. */
-static enum br_status tell_failure(const struct br_orders_request *p, const struct run *r,
-                                   const char *why, struct br_numbers_row *row,
-                                   struct br_error *err)
+/* Sets why a run failed; why: what was wrong with its numbers. */
+static enum br_status set_failure(const struct br_orders_request *p, const struct run *r,
+                                  const char *why, struct br_numbers_row *row, struct br_error *err)
 {
     char what[sizeof err->message], tail[TAIL];
     if (r->end == TOO_LONG)
@@ -294,7 +293,7 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     }
     for (size_t i = 0; i < p->readings; i++)
         row->number[i] = (double)NAN;
-    return tell_failure(p, r, why.message, row, err);
+    return set_failure(p, r, why.message, row, err);
 }
 
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
@@ -315,16 +314,17 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
 
 /* ---- finished cells ---- */
 
-enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes that are read for a word */
+enum { LARGEST_WORD_FILE = 1 << 26 }; /* a larger file that a word names is not read */
 
-/* With what it is. */
+/* Adds a text after its kind. */
 static void add_text(struct br_sha256 *sum, const char *kind, const char *text)
 {
     br_kept_add(sum, kind);
     br_kept_add(sum, text);
 }
 
-/* What is no regular file counts by its name alone. */
+/* Adds the contents of a regular file, or, where it is larger, its size and time. Of any other
+ * file, only the name counts. */
 static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
                                struct br_error *err)
 {
@@ -350,9 +350,9 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
     return BR_OK;
 }
 
-/* Names a cell after all that its numbers follow from, as far as that can be seen: the words, the
- * contents of the program and of files that words name, also behind a "=" (of large ones their size
- * and time), and the readings. Files that the program reads without being told are not seen. */
+/* The key of a cell is a hash of what its numbers depend on: the words, the contents of the program
+ * and of the files that words name, also behind a "=" (of large files their size and time), and the
+ * readings. Other files that the program reads are not known. */
 static enum br_status key_of(const struct job *j, const struct br_command_words *cell,
                              char key[BR_SHA256_TEXT], struct br_error *err)
 {
@@ -376,8 +376,8 @@ static enum br_status key_of(const struct job *j, const struct br_command_words 
     return status;
 }
 
-/* A row that is not kept is run; where its program has changed meanwhile, it is not kept then. An
- * entry has the seconds, the bytes and the numbers. */
+/* Takes a row from its kept entry, or runs it and keeps it; it is not kept where its program has
+ * changed during the run. An entry has the seconds, the bytes and the numbers. */
 static enum br_status take_row(const struct job *j, const struct br_command_words *words,
                                struct br_numbers_row *row, struct br_error *err)
 {
@@ -462,7 +462,7 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     return status ? status : br_orders_check_lists(p, numbers, err);
 }
 
-/* What a command is refused for at any resolution, before one is run. */
+/* Refuses a command that is not valid at any resolution, before one is run. */
 static enum br_status check_commands(const struct job *j, struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -474,7 +474,7 @@ static enum br_status check_commands(const struct job *j, struct br_error *err)
     return status;
 }
 
-/* Any version of this program takes them. */
+/* Cells are kept for all versions of beamrate. */
 static enum br_status open_kept(struct job *j, struct br_error *err)
 {
     const char *folder = j->program->kept;

@@ -12,15 +12,15 @@
 
 enum {
     SHOWN = 80,  /* bytes of foreign text in a message */
-    LONGEST = 64 /* of a number, with its end */
+    LONGEST = 64 /* bytes of a number, with the zero at the end */
 };
 
-/* An output on its way to a number. */
+/* A reading of one output. */
 struct search {
     const struct br_reading *reading;
     char *output; /* owned */
     size_t length;
-    char text[LONGEST]; /* out: the number as it stands there */
+    char text[LONGEST]; /* out: the number as it is written there */
     struct br_error *err;
 };
 
@@ -46,7 +46,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Without blanks around it; what has no room is no number either. */
+/* Takes a text without the blanks around it; a text that has no room is not a number. */
 static enum br_status take_text(struct search *s, const char *from, size_t length)
 {
     char buffer[SHOWN];
@@ -72,9 +72,9 @@ static bool continues(const char *s)
            (*s == ',' && isdigit((unsigned char)s[1]));
 }
 
-/* Whether the group has a part of a number only, as ([0-9.]+) has of 1.5e-7, 1.5D-7 and 1,5: a
- * longer number ends behind it, or one that begins before it reaches into it. What the expression
- * itself names around its group is meant so. */
+/* Whether the group has only a piece of a number, as ([0-9.]+) has of 1.5e-7, 1.5D-7 and 1,5: a
+ * number that begins with it ends behind it, or one that begins before it reaches into it. Text
+ * that the expression itself matches behind its group is no piece of the number. */
 static bool is_cut(const char *line, const regmatch_t match[2])
 {
     const char *from = line + match[1].rm_so, *to = line + match[1].rm_eo;
@@ -93,7 +93,7 @@ static bool is_cut(const char *line, const regmatch_t match[2])
     return false;
 }
 
-/* Where the expression matches. */
+/* The matches of the expression. */
 struct matches {
     size_t count;
     char lines[64]; /* their numbers */
@@ -111,7 +111,7 @@ static enum br_status take_group(struct search *s, const char *line, const regma
     return take_text(s, line + match[1].rm_so, (size_t)(match[1].rm_eo - match[1].rm_so));
 }
 
-/* Takes the first match of all; counts those of the line. */
+/* Takes the first match of the output; counts those of the line. */
 static enum br_status search_line(struct search *s, const regex_t *regex, const char *line,
                                   size_t number, struct matches *m)
 {
@@ -125,7 +125,7 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
         const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
         if (failure)
             break;
-        if (empty && at > 0) { /* (.*) matches nothing behind all of the line, too */
+        if (empty && at > 0) { /* (.*) also matches the empty text behind the whole line */
             at = (size_t)match[0].rm_eo + 1;
             continue;
         }
@@ -151,7 +151,7 @@ static enum br_status search_regex(struct search *s)
         return br_no_memory(s->err, "a regular expression");
     for (size_t number = 1; rest && !status; number++) {
         const char *line = strsep(&rest, "\n");
-        if (rest || *line) /* else it is what follows the last line end */
+        if (rest || *line) /* else it is empty, behind the last line end */
             status = search_line(s, &regex, line, number, &m);
     }
     regfree(&regex);
@@ -165,7 +165,7 @@ static enum br_status search_regex(struct search *s)
 
 /* ---- JSON ---- */
 
-/* One step of RFC 6901: reads a token, which ends at a slash, and moves past it. */
+/* One step of RFC 6901: reads a token, which ends at a slash, and moves the pointer behind it. */
 static const json_t *step_into(const json_t *value, const char **pointer, char *token)
 {
     char *to = token;
@@ -216,7 +216,7 @@ static enum br_status search_json(struct search *s)
 
 /* ---- CSV ---- */
 
-/* In the last row. */
+/* The number is in the last row. */
 static enum br_status search_csv(struct search *s)
 {
     char buffer[SHOWN];
@@ -285,7 +285,7 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
                                 shown(buffer, reading->what), groups);
 }
 
-/* One whole finite number in C's notation. */
+/* Reads one finite number in C's notation, without other text. */
 static enum br_status convert(const struct search *s, double *number)
 {
     char buffer[SHOWN], *end;

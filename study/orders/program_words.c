@@ -11,11 +11,11 @@
 #include "study/scene/quote.h"
 
 enum {
-    NUMBER = 32, /* bytes of a resolution's text, with its end */
+    NUMBER = 32, /* bytes of a resolution's text, with the zero at the end */
     SHOWN = 200  /* bytes of foreign text in a message */
 };
 
-/* Counts have no point, sizes no more digits than they need. */
+/* Prints counts without a point, and sizes with as few digits as they need. */
 static void print_number(const struct br_resolution_column *column, double x, char text[NUMBER])
 {
     snprintf(text, NUMBER, "%.0f", x);
@@ -26,7 +26,7 @@ static void print_number(const struct br_resolution_column *column, double x, ch
     }
 }
 
-/* A command on its way to words. */
+/* A command that is split into words. */
 struct split {
     const struct br_orders_request *request;
     const struct br_numbers_row *row;
@@ -34,7 +34,7 @@ struct split {
     bool used[BR_AXES];
 };
 
-/* Puts what stands for a brace. */
+/* Replaces a brace by its text. */
 static enum br_status replace(struct split *s, char **to, struct br_error *err)
 {
     char shown[NUMBER], expected[2 * NUMBER] = "";
@@ -61,11 +61,10 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
                    br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
-/* The next word, with its braces replaced; there is one. What replaces braces has neither blanks
- * nor quotes. */
+/* Takes the next word; there must be one. The text for a brace has no blanks and no quotes. */
 static enum br_status take_word(struct split *s, char *to, struct br_error *err)
 {
-    char quote = '\0'; /* that is open */
+    char quote = '\0'; /* the open one; zero: none */
     while (*s->rest && (quote || !strchr(" \t\n", *s->rest))) {
         const char c = *s->rest, next = s->rest[1];
         const bool escape =
@@ -79,7 +78,7 @@ static enum br_status take_word(struct split *s, char *to, struct br_error *err)
             *to++ = next;
         else if (c == quote)
             quote = '\0';
-        else if (!quote && strchr("'\"\\", c)) /* \: the last, which has nothing to quote */
+        else if (!quote && strchr("'\"\\", c)) /* a \ comes here only as the last character */
             quote = c;
         else
             *to++ = c;
@@ -90,7 +89,8 @@ static enum br_status take_word(struct split *s, char *to, struct br_error *err)
                  : BR_OK;
 }
 
-/* A word that names a file in `here` as its whole path, since the program runs elsewhere. */
+/* The whole path of a word that names a file in `here`, since the program runs in another folder;
+ * any other word as it is. */
 static char *whole_path(const char *here, const char *word)
 {
     struct stat info;
@@ -102,7 +102,7 @@ static char *whole_path(const char *here, const char *word)
     return path;
 }
 
-/* As a shell finds it. path: in and out of `here` where it is relative. */
+/* Finds the program as a shell does; relative paths, also those in PATH, are relative to `here`. */
 static enum br_status find_program(const char *here, const char *name, char **program,
                                    struct br_error *err)
 {
@@ -128,7 +128,7 @@ static enum br_status find_program(const char *here, const char *name, char **pr
                    direct ? "" : ", no folder of PATH has it");
 }
 
-/* word: room for any. */
+/* word: a buffer for any word. */
 static enum br_status take_words(struct split *s, const char *here, char *word,
                                  struct br_command_words *c, struct br_error *err)
 {
@@ -152,7 +152,7 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 const struct br_numbers_row *row, struct br_command_words *c,
                                 struct br_error *err)
 {
-    char here[PATH_MAX]; /* where relative names are looked up */
+    char here[PATH_MAX]; /* the folder of relative names */
     if (!(request->folder ? realpath(request->folder, here) : getcwd(here, sizeof here)))
         return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
     const size_t most = strlen(request->command) + 1;

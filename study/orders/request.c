@@ -51,7 +51,7 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
                : br_numbers_check(numbers, br_orders_path(r), err);
 }
 
-/* Every name of a list is a quantity's. */
+/* Refuses a name of a list that is not the name of a quantity. */
 static enum br_status check_list(const struct br_orders_request *r, const char *option,
                                  const char *list, const struct br_numbers *numbers,
                                  struct br_error *err)
@@ -91,7 +91,7 @@ enum br_status br_orders_check_lists(const struct br_orders_request *r,
     return BR_OK;
 }
 
-/* ---- parts ---- */
+/* ---- items ---- */
 
 enum br_status br_orders_request_axis(struct br_orders_request *r, const char *column,
                                       const char *list, struct br_error *err)
@@ -140,9 +140,9 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
     return reading.name && reading.what ? BR_OK : br_no_memory(err, "what is read");
 }
 
-/* ---- what is solved ---- */
+/* ---- the problem ---- */
 
-/* NULL: as an empty text. */
+/* NULL counts as an empty text. */
 static void add_text(struct br_sha256 *sum, const char *text)
 {
     br_kept_add(sum, text ? text : "");

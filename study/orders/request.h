@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is asked of a study of any program, by options or by a study file, and the sources of its
- * numbers: a table in a file (table.c), or a program that is run (program.c; program_reading.c: the
- * numbers in what it prints). */
+/* The request of a study of any program, from options or from a study file, and the sources of its
+ * numbers: a table in a file (table.c), or a program that is run (program.c; program_reading.c
+ * reads the numbers in its output). */
 #ifndef BR_STUDY_ORDERS_REQUEST_H
 #define BR_STUDY_ORDERS_REQUEST_H
 
@@ -13,7 +13,7 @@
 /* How a number is found in standard output. */
 enum br_reading_kind {
     BR_READING_REGEX, /* POSIX extended, with one group; it must match once, within a line */
-    BR_READING_JSON,  /* a pointer (RFC 6901) into the whole output */
+    BR_READING_JSON,  /* a pointer (RFC 6901) into the output */
     BR_READING_CSV,   /* a column of the last row; the first line is the heading (RFC 4180) */
 };
 
@@ -36,29 +36,29 @@ enum { BR_PROGRAM_SECONDS = 600 };
 struct br_orders_request {
     char *path;            /* of the table or the study file, for messages */
     char *title;           /* one line; NULL: the path */
-    char *errors, *values; /* names of columns or readings, "l2,h1", with errors, and with values
-                              whose limit is not known; NULL: see below */
+    char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
+                              known limit; NULL: see the sources */
     double dimension;      /* of the mesh, for unknowns (dofs) */
-    double formal;         /* order of values that theory gives */
+    double formal;         /* the order of theory for values */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;      /* text of a table; NULL: none */
-    char *table_path; /* of a table that a study file names; NULL: it is `path` */
-    /* The command that is run; NULL: none. Words as a shell has them: blanks, '...', "...", \;
-     * nothing else has a meaning. In a word, {n} is the resolution of the column n, {{ a brace. A
-     * program's path with a slash, and words that name a file, are looked up in `folder`; the
-     * program itself runs elsewhere. */
+    char *table_path; /* of a table that a study file names; NULL: the table is in `path` */
+    /* The command that is run; NULL: none. Its words end and are quoted as in a shell: by blanks,
+     * '...', "..." and \; no other character is special. In a word, {n} is the resolution of the
+     * column n, and {{ is a brace. A program's path with a slash, and words that name a file, are
+     * relative to `folder`; the program itself runs in another one. */
     char *command;
-    char *folder; /* of the study file; NULL: the caller's */
+    char *folder; /* of the study file; NULL: the current one */
     struct br_program_axis axis[BR_AXES];
     const struct br_reading *reading; /* readings */
     size_t readings;
     double seconds; /* limit of one run */
-    /* borrowed, and not of a study file */
+    /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
     const char *kept;                   /* the folder of finished cells, made where it is missing;
                                            NULL: none */
-    bool anew;                          /* cells that are kept are run, too */
+    bool anew;                          /* whether cells that are kept are run again */
     const struct br_observer *observer; /* may be NULL */
 };
 struct br_orders_request br_orders_request_default(void);
@@ -75,53 +75,53 @@ enum br_status br_orders_read(const struct br_orders_request *request, struct br
 /* The file that the numbers come from, for messages. */
 const char *br_orders_path(const struct br_orders_request *request);
 
-/* For sources: refuses (BR_BAD_INPUT) names of errors and values that are no quantity's, or in both
+/* For sources: refuses (BR_BAD_INPUT) names of errors and values of no quantity, or in both
  * lists. */
 enum br_status br_orders_check_lists(const struct br_orders_request *request,
                                      const struct br_numbers *numbers, struct br_error *err);
 
 /* ---- tables ---- */
 
-/* More rows would take long: a grid of so many is fitted in some seconds. */
+/* A grid of this many rows is fitted in some seconds. */
 enum { BR_LONGEST_TABLE = 64 << 20 /* bytes */, BR_MOST_TABLE_ROWS = 10000 };
 
-/* Splits a text, CSV (comma) or TSV (tab), into an array of rows, the heading first; a row is an
- * array of its line and its fields, null where one is empty. Empty lines and those that begin with
- * # are left out. Fails with BR_BAD_INPUT, naming path and line, or BR_NO_MEMORY. */
+/* Splits a text, CSV (comma) or TSV (tab), into an array of rows, the heading first. A row is an
+ * array of its line and its fields; an empty field is null. Empty lines and lines that begin with #
+ * are left out. Fails with BR_BAD_INPUT, naming path and line, or BR_NO_MEMORY. */
 enum br_status br_table_split(const char *text, const char *path, json_t *table,
                               struct br_error *err);
 
-/* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, with a unit in
- * brackets if it has one: "dt [s]". Columns are told by br_resolution_columns; where an axis has
- * several, they must agree. Without errors and values every other column of numbers is an error;
- * columns of words are left alone. An empty field is a run without a number. At most
+/* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, and perhaps a unit in
+ * brackets: "dt [s]". br_resolution_columns names the columns of resolutions; where an axis has
+ * several, they must agree. Without errors and values in the request, every other column of numbers
+ * is an error; columns of words are ignored. An empty field is a run without a number. At most
  * BR_MOST_TABLE_ROWS rows. */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
                              struct br_error *err);
 
 /* ---- programs ---- */
 
-/* The source. Runs each cell of the list, or of the grid of two lists, that is not kept, in a
- * folder of its own, which is removed afterwards, with LC_ALL=C and no input, and reads its
- * numbers; no shell has a part in it. All that is left of its process group ends with it. A reading
- * is an error, unless it is listed as a value.
+/* The source. Runs each cell of the list, or of the grid of two lists, that is not kept, and reads
+ * its numbers. A cell runs without a shell, in a folder of its own, which is removed afterwards,
+ * with LC_ALL=C and no input. When it ends, the rest of its process group is killed. A reading is
+ * an error, unless it is listed as a value.
  *
  * numbers (out; zeros after a failure): the whole grid, from coarse to fine, first over space. A
  * run that fails, prints more than 16 MiB or prints a number that is not whole and finite has a
- * row with its failure. A row's seconds count all processes that the program has waited for; its
- * bytes are of the greatest one, NaN where that is not above this process's own peak, since then
- * the kernel does not tell them apart.
+ * row with its failure. A row's seconds include all processes that the program has waited for; its
+ * bytes are those of the largest one, NaN where they are not above this process's own peak, since
+ * the kernel's number includes that.
  *
- * BR_BAD_INPUT: a command, list or reading is none, the program cannot be found or begun.
- * BR_INTERRUPTED: the observer says stop; runs are killed, finished cells stay kept.
- * BR_IO: no folder to run in, a cell cannot be kept, or SIGCHLD is ignored: then no ends are told.
- */
+ * BR_BAD_INPUT: a command, list or reading is not valid, the program cannot be found or started.
+ * BR_INTERRUPTED: the observer stops it; runs are killed, finished cells stay kept.
+ * BR_IO: no folder to run in, a cell cannot be kept, or SIGCHLD is ignored: then the end of a run
+ * is not reported. */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
 /* A command at one resolution. */
 struct br_command_words {
-    char **word;   /* owned, as they are; a NULL at the end */
+    char **word;   /* owned; ends with NULL */
     char *program; /* absolute path; owned */
 };
 enum br_status br_command_split(const struct br_orders_request *request,
@@ -129,22 +129,22 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 struct br_error *err);
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
-/* BR_BAD_INPUT: it cannot find a number in any output. */
+/* BR_BAD_INPUT: the reading is not valid, so it finds no number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);
 
-/* The number in an output of so many bytes and a zero. BR_BAD_INPUT: there is none, or more than
- * one; the message begins with the reading's name. */
+/* The number in an output of `length` bytes and a zero. BR_BAD_INPUT: there is none, or more than
+ * one; the message begins with the name of the reading. */
 enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
                                double *number, struct br_error *err);
 
-/* Removes a folder with all that is in it; "": none. What has just been killed may still be there
- * for a moment, and write, so it is tried for a while. */
+/* Removes a folder with all files in it; "": none. Processes that have just been killed may still
+ * write for a moment, so it tries several times. */
 void br_remove_folder(const char *folder);
 
-/* ---- parts of a request, as options and study files write them ---- */
+/* ---- items of a request, as options and study files write them ---- */
 
-/* The list of an axis: "10,20,40", of the column n, h, dofs, k, dt or steps: positive, counts
- * whole, each once. */
+/* The list of an axis, "10,20,40", for the column n, h, dofs, k, dt or steps. Numbers are positive,
+ * and each is there once; counts are whole. */
 enum br_status br_orders_request_axis(struct br_orders_request *request, const char *column,
                                       const char *list, struct br_error *err);
 
@@ -157,12 +157,12 @@ enum br_status br_orders_request_reading(struct br_orders_request *request, cons
 /* Whether a YAML text is a study file: it has 'run' or 'table' at the top; a scene has neither. */
 bool br_is_study_file(const char *text);
 
-/* Reads a study file's text; its table is looked for in its folder. Every refusal names path, line
- * and key. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+/* Reads a study file's text; the path of its table is relative to its folder. Every refusal names
+ * path, line and key. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_orders_request_read(const char *path, const char *text,
                                       struct br_orders_request *request, struct br_error *err);
 
-/* What is run or read, and expected, as a hash (out). */
+/* A hash (out) of what is run or read, and of the expectations. */
 void br_orders_problem(const struct br_orders_request *request, char problem[40]);
 
 #endif

@@ -20,8 +20,8 @@ void br_sha256_start(struct br_sha256 *s);
 void br_sha256_add(struct br_sha256 *s, const void *bytes, size_t count);
 void br_sha256_end(struct br_sha256 *s, char text[BR_SHA256_TEXT]);
 
-/* Size and sum of an open file, from where it stands to its end. false: reading failed, see errno.
- */
+/* The size and the sum of an open file, from its position to its end. false: reading failed, see
+ * errno. */
 bool br_sha256_file(int file, long long *size, char text[BR_SHA256_TEXT]);
 
 #endif

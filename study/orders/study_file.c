@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study of any program as a YAML file: one row a key. */
+/* A study of any program in a YAML file; each key has a row in `keys`. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,23 +9,23 @@
 #include "study/scene/value.h"
 #include "study/scene/words.h"
 
-/* A text on its way into the request. */
+/* A value of the study file. */
 struct entry {
     struct br_orders_request *request;
     const struct key *of;
     const char *path;        /* of the study file */
-    const char *name, *text; /* the key's, or of one of its pairs */
+    const char *name, *text; /* of the key, or of one of its pairs */
     size_t line;
     struct br_error *err;
 };
 
 struct key {
     const char *name;
-    enum br_status (*take)(const struct entry *e); /* what it fails with is said of file and key */
-    size_t at;                                     /* of a text or a number in the request */
+    enum br_status (*take)(const struct entry *e); /* its error gets the file and the key */
+    size_t at;                                     /* offset of a text or a number in the request */
     const char *unit;                              /* of a number; NULL: none */
-    bool of_runs;
-    bool pairs; /* a mapping of names to texts; each is taken */
+    bool of_runs;                                  /* only for a command */
+    bool pairs; /* a mapping of names to texts; each pair is taken */
 };
 
 static enum br_status take_text(const struct entry *e)
@@ -35,7 +35,7 @@ static enum br_status take_text(const struct entry *e)
     return *to ? BR_OK : br_no_memory(e->err, "the study");
 }
 
-/* In the folder of the study file. */
+/* The path is relative to the folder of the study file. */
 static enum br_status take_table(const struct entry *e)
 {
     const char *slash = strrchr(e->path, '/');
@@ -111,7 +111,7 @@ static const struct key keys[] = {
 };
 enum { KEYS = sizeof keys / sizeof *keys };
 
-/* name: the key's, or of a pair. */
+/* name: of the key, or of a pair. */
 static enum br_status take_scalar(const struct br_scene_reader *r, const struct key *key,
                                   const yaml_node_t *name, const yaml_node_t *value,
                                   struct br_orders_request *request)
@@ -161,7 +161,7 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
 }
 
-/* What is said of runs alone. */
+/* Refuses keys of runs in a study of a table. */
 static enum br_status check_table(const struct br_scene_reader *r, const bool seen[KEYS])
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);

@@ -10,15 +10,15 @@
 
 /* ---- CSV and TSV (RFC 4180) ---- */
 
-/* A text on its way. */
+/* The position in a text. */
 struct cursor {
     const char *path, *at;
     char separator;
     size_t line;
-    char *field; /* room for the longest; owned */
+    char *field; /* a buffer for the longest one; owned */
 };
 
-/* Skips empty lines and comments ("# ..."); false: the text ends. */
+/* Skips empty lines and comments ("# ..."); false: the text has ended. */
 static bool next_line(struct cursor *c)
 {
     for (;;) {
@@ -33,7 +33,7 @@ static bool next_line(struct cursor *c)
     }
 }
 
-/* Takes the inside of a quoted field; returns where its next letter goes, NULL: the quote is not
+/* Takes the text of a quoted field; returns where its next letter goes; NULL: the quote is not
  * closed. */
 static char *take_quoted(struct cursor *c)
 {
@@ -46,7 +46,7 @@ static char *take_quoted(struct cursor *c)
     return *c->at++ ? to : NULL;
 }
 
-/* Takes a field without the blanks around it; *more: out, whether the line goes on. */
+/* Takes a field without the blanks around it; *more (out): whether the line goes on. */
 static enum br_status take_field(struct cursor *c, json_t *row, bool *more, struct br_error *err)
 {
     const char stop[] = {c->separator, '\n', '\0'};
@@ -165,9 +165,9 @@ static enum br_status read_objects(const char *text, const char *path, json_t *t
     return status;
 }
 
-/* ---- what the columns are ---- */
+/* ---- columns ---- */
 
-/* A table on its way to numbers. Rows and columns count from 1. */
+/* A table that is made into numbers. Rows and columns count from 1. */
 struct source {
     const struct br_orders_request *request;
     const char *path;
@@ -191,8 +191,7 @@ static size_t line_of(const struct source *s, size_t row)
     return (size_t)json_integer_value(field_at(s, row, 0));
 }
 
-/* Splits "dt [s]" or "dt (s)" in place, at the last bracket; the unit is NULL where there is none.
- */
+/* Splits "dt [s]" or "dt (s)" in place, at the last bracket; NULL: there is no unit. */
 static char *split_unit(char *heading)
 {
     const size_t length = strlen(heading);
@@ -208,7 +207,7 @@ static char *split_unit(char *heading)
     return open[1] ? open + 1 : NULL;
 }
 
-/* The number of a field; of an empty one NaN. */
+/* Reads the number of a field; an empty field is NaN. */
 static bool is_number(const json_t *field, double *value)
 {
     if (json_is_string(field)) {
@@ -219,7 +218,7 @@ static bool is_number(const json_t *field, double *value)
     return json_is_number(field) || json_is_null(field);
 }
 
-/* A column of words is not studied; one with a number has to be of numbers. */
+/* Whether a column has a number; then all its fields must be numbers. Else it is not studied. */
 static bool has_number(const struct source *s, size_t column)
 {
     double value;
@@ -240,12 +239,13 @@ static enum br_status number_at(const struct source *s, size_t row, size_t colum
                    json_is_string(field) ? json_string_value(field) : "(no number)");
 }
 
-/* A resolution; of an axis that has one before, it must say the same, to a constant factor. */
-static enum br_status take_sizes(const struct source *s, size_t place, const char *unit,
+/* Takes a column of resolutions. Where its axis has one already, both must agree, but for a
+ * constant factor. */
+static enum br_status take_sizes(const struct source *s, size_t position, const char *unit,
                                  struct br_error *err)
 {
     struct br_numbers *numbers = s->numbers;
-    const struct br_resolution_column *column = br_resolution_column_find(heading(s, place));
+    const struct br_resolution_column *column = br_resolution_column_find(heading(s, position));
     const enum br_axis axis = column->axis;
     const struct br_resolution_column *before = numbers->column[axis];
     double factor = NAN;
@@ -254,7 +254,7 @@ static enum br_status take_sizes(const struct source *s, size_t place, const cha
     for (size_t i = 0; i < s->rows; i++) {
         struct br_numbers_row *row = &numbers->row[i];
         double given;
-        if (number_at(s, i + 1, place, &given, err))
+        if (number_at(s, i + 1, position, &given, err))
             return err->status;
         const double z = br_numbers_z(column, given, s->request->dimension);
         factor = i ? factor : z / row->z[axis];
@@ -270,49 +270,49 @@ static enum br_status take_sizes(const struct source *s, size_t place, const cha
     return BR_OK;
 }
 
-static enum br_status take_quantity(const struct source *s, size_t place, const char *unit,
+static enum br_status take_quantity(const struct source *s, size_t position, const char *unit,
                                     struct br_error *err)
 {
     struct br_numbers *numbers = s->numbers;
     const size_t index = numbers->quantities;
-    const char *name = heading(s, place);
+    const char *name = heading(s, position);
     enum br_status status =
         br_numbers_add_quantity(numbers, name, unit, br_lists(s->request->values, name), err);
     for (size_t i = 0; i < s->rows && !status; i++)
-        status = number_at(s, i + 1, place, &numbers->row[i].number[index], err);
+        status = number_at(s, i + 1, position, &numbers->row[i].number[index], err);
     return status;
 }
 
-static bool is_studied(const struct source *s, size_t place)
+static bool is_studied(const struct source *s, size_t position)
 {
     const struct br_orders_request *q = s->request;
-    const char *name = heading(s, place);
+    const char *name = heading(s, position);
     if (q->errors || q->values)
         return br_lists(q->errors, name) || br_lists(q->values, name);
-    return has_number(s, place);
+    return has_number(s, position);
 }
 
-static enum br_status take_column(const struct source *s, size_t place, struct br_error *err)
+static enum br_status take_column(const struct source *s, size_t position, struct br_error *err)
 {
-    const char *given = heading(s, place);
+    const char *given = heading(s, position);
     if (!given)
         return br_fail(err, BR_BAD_INPUT, "%s:%zu: heading %zu is empty, expected a name", s->path,
-                       line_of(s, 0), place);
+                       line_of(s, 0), position);
     char *name = strdup(given);
     if (!name)
         return br_no_memory(err, "the table");
     const char *unit = split_unit(name);
     enum br_status status = BR_OK;
-    if (json_array_set_new(json_array_get(s->table, 0), place, json_string_nocheck(name)))
+    if (json_array_set_new(json_array_get(s->table, 0), position, json_string_nocheck(name)))
         status = br_no_memory(err, "the table");
-    for (size_t i = 1; i < place && !status; i++)
+    for (size_t i = 1; i < position && !status; i++)
         if (strcmp(name, heading(s, i)) == 0)
             status =
                 br_fail(err, BR_BAD_INPUT, "%s: the column '%s' is there twice", s->path, name);
     if (!status && br_resolution_column_find(name))
-        status = take_sizes(s, place, unit, err);
-    else if (!status && is_studied(s, place))
-        status = take_quantity(s, place, unit, err);
+        status = take_sizes(s, position, unit, err);
+    else if (!status && is_studied(s, position))
+        status = take_quantity(s, position, unit, err);
     free(name);
     return status;
 }
@@ -320,7 +320,7 @@ static enum br_status take_column(const struct source *s, size_t place, struct b
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
                              struct br_error *err)
 {
-    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* spreadsheets begin with it */
+    static const char byte_order_mark[] = "\xef\xbb\xbf"; /* spreadsheet programs write it first */
     const bool marked = strncmp(q->table, byte_order_mark, strlen(byte_order_mark)) == 0;
     const char *text = q->table + (marked ? strlen(byte_order_mark) : 0);
     struct source s = {.request = q, .path = br_orders_path(q), json_array(), .numbers = numbers};
