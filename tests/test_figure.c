@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures that are made up, as they are stored in golden/made: those that have everything, and
- * those pictures that the outputs in golden/ do not hold. And gnuplot draws them. */
+/* Artificial figures, compared with golden/made: figures with every element, and pictures that the
+ * outputs in golden/ lack. gnuplot must draw them. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -77,7 +77,7 @@ static struct br_figure made(size_t panels, bool cells, size_t kinds)
 
 typedef void writer(FILE *out, const struct br_figure *f);
 
-/* What it writes, to be freed. */
+/* The text that the function writes, to be freed. */
 static char *written(writer *write, const struct br_figure *f)
 {
     char *text = NULL;
@@ -89,7 +89,7 @@ static char *written(writer *write, const struct br_figure *f)
     return text;
 }
 
-/* Its lines, but for those of another text, and empty cells. */
+/* Prints the lines of a text, without those that another text has, and without empty cells. */
 static void print_lines(FILE *out, char *text, const char *other)
 {
     char *rest;
@@ -102,7 +102,7 @@ static void print_lines(FILE *out, char *text, const char *other)
     free(text);
 }
 
-/* What is stored: of its script what that of the curves has not, and its data. */
+/* Prints the figure's data, and its script without the lines that the curves' script has. */
 static void print(FILE *out, struct br_figure f)
 {
     struct br_error err = {0};
@@ -128,7 +128,7 @@ static void print_made(FILE *out)
     print(out, made(1, true, 2));
 }
 
-/* Infinity has the end's colour; no number and no kind has none. */
+/* Infinity has the colour of the range's end; NaN and no kind have none. */
 TEST(test_colours)
 {
     struct br_figure f = {.value = {1e-2, 10}};
@@ -140,25 +140,25 @@ TEST(test_colours)
     assert_true(br_colour_of(&f, NAN) == -1);
 }
 
-/* At most six hues in a figure; the same title looks the same in the next panel. */
+/* A figure has at most six hues; a title keeps its style in the next panel. */
 TEST(test_hues)
 {
     struct br_figure f = {0};
     struct br_panel *p = br_panel_add(&f, "x", "y");
     for (size_t i = 0; i < 8; i++) {
         const struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
-        assert_true(i >= BR_HUES || s->look == i + 1);
+        assert_true(i >= BR_HUES || s->style == i + 1);
         assert_int_equal(s->pen, i < BR_HUES ? BR_PEN_CURVE : BR_PEN_OTHERS);
         br_point_add(p->series[i], 1, 1, NULL);
     }
     br_panel_add(&f, "x", "y");
-    assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->look, 4);
+    assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->style, 4);
     br_figure_clear(&f);
 }
 
-/* Powers of ten are counted from a power of ten on: without a start gnuplot 5.4 puts the ticks of
- * 57.5 to 1737800 at 500, 5000, ... and the format names them 10^2, 10^3, ... The slopes of the
- * last are lines of orders 0.5 and 2; two series have no hue of their own. */
+/* Ticks start at a power of ten: without a start gnuplot 5.4 puts those of 57.5 to 1737800 at 500,
+ * 5000, ... and labels them 10^2, 10^3, ... The slopes of the last panel are lines of orders 0.5
+ * and 2; two series have no hue of their own. */
 static void print_powers(FILE *out)
 {
     struct br_figure f = {.stem = "powers"};
@@ -185,7 +185,7 @@ static void write_file(const char *folder, const char *name, const struct br_fig
     assert_int_equal(fclose(file), 0);
 }
 
-/* gnuplot takes it without a word, and all pictures are whole. */
+/* gnuplot draws it without a message, and all pictures are whole. */
 static void draw(const struct br_figure *f)
 {
     static const char *const names[] = {"made.dat", "made.gp", "made.svg", "made.png", "made.pdf"};
@@ -203,7 +203,7 @@ static void draw(const struct br_figure *f)
         fail_msg("%s", err.message);
     for (size_t i = 0; i < 5; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        const bool there = unlink(path) == 0; /* PDF where gnuplot has a terminal for it */
+        const bool there = unlink(path) == 0; /* PDF only if gnuplot has a terminal for it */
         assert_true(i == 4 || there == (i < 2 || !missing));
     }
     rmdir(folder);
@@ -332,34 +332,34 @@ static void print_map(FILE *out)
 
 /* ---- a run ---- */
 
-enum { LOOKS = 3 };
+enum { SAMPLES = 3 };
 
-/* Two elements, P1 and Hermite; as many rows as looks. */
-static void make_record(struct br_history_record *r, struct br_history_row row[LOOKS],
-                        double field[LOOKS * 18])
+/* Two elements, P1 and Hermite; as many rows as samples. */
+static void make_record(struct br_history_record *r, struct br_history_row row[SAMPLES],
+                        double field[SAMPLES * 18])
 {
-    for (size_t i = 0; i < LOOKS; i++) {
+    for (size_t i = 0; i < SAMPLES; i++) {
         const double x = (double)i + 1;
         row[i] = (struct br_history_row){i,      0.5 * x, {3 * x, 5 * x}, {7 * x, 11 * x},
                                          13 * x, 17 * x,  19 * x};
     }
     row[0].friction_force = NAN; /* as at t = 0 */
-    for (size_t i = 0; i < LOOKS * 18; i++)
+    for (size_t i = 0; i < SAMPLES * 18; i++)
         field[i] = 100 + (double)i;
     *r = (struct br_history_record){.n = 2,
                                     .unknowns = {1, 2},
                                     .row = row,
-                                    .rows = LOOKS,
+                                    .rows = SAMPLES,
                                     .at = row,
-                                    .looks = LOOKS,
+                                    .looks = SAMPLES,
                                     .field = field};
 }
 
 static void print_letters(FILE *out)
 {
     struct br_history_record r;
-    struct br_history_row row[LOOKS];
-    double field[LOOKS * 18];
+    struct br_history_row row[SAMPLES];
+    double field[SAMPLES * 18];
     struct br_scene scene = br_test_bundled("example2");
     make_record(&r, row, field);
     print(out, br_history_draw(&scene, &r));
