@@ -233,7 +233,7 @@ struct br_figure br_variation_draw(const struct br_variation *variation);
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
 /* Loss of energy per period over steps per period. */
 struct br_figure br_energy_draw(const struct br_energy_behaviour *behaviour);
-/* The lagged contact's growth over c_H and k; and the most frequent kind in each cell of the map. */
+/* The lagged contact's growth over c_H and k; and the main kind in each cell of the map. */
 struct br_figure br_stability_draw(const struct br_stability *stability);
 struct br_figure br_extreme_map_draw(const struct br_extreme_map *map);
 
