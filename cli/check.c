@@ -9,19 +9,19 @@
 #include "solver/clock.h"
 #include "study/scene/file.h"
 
-/* A scene on its way; checks point into it. */
+/* One scene or study file of the command; checks point into it. */
 struct item {
     char path[1024];
     struct br_scene scene;
     struct br_verify verify;
-    struct br_study_file study; /* of another program, instead of both */
+    struct br_study_file study; /* a study of another program, instead of scene and verify */
 };
 
 struct run {
     struct br_session session;
     bool all, fail_fast;
-    char **listed;     /* all bundled scenes; owned; NULL: those that are given */
-    struct item *item; /* most */
+    char **listed;     /* with --all: the bundled scenes; owned; NULL: the command line has them */
+    struct item *item; /* room for `most` */
     size_t most;
     struct br_check *check; /* of the items that can be checked */
     size_t count;
@@ -107,7 +107,7 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* An option that no study would heed is refused, not ignored. */
+/* An option that no study would use is refused, not ignored. */
 static enum br_status check_heeded(const struct run *r, struct br_error *err)
 {
     const struct br_method **method = br_allocate(r->count * BR_VERIFY_KINDS + 1, sizeof *method);
@@ -124,7 +124,7 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
     return status;
 }
 
-/* ---- what would be run ---- */
+/* ---- --dry-run ---- */
 
 static enum br_status foresee(const struct run *r, struct br_error *err)
 {
@@ -162,7 +162,7 @@ static bool failed_so_far(const struct run *r)
            br_check_failures(r->check, r->done, &first) > 0;
 }
 
-/* Those of other programs among the checks from `first` on. */
+/* Runs the studies of other programs among `count` checks from `first` on. */
 static enum br_status run_studies(struct run *r, size_t first, size_t count,
                                   const struct br_observer *observer, struct br_error *err)
 {
@@ -178,7 +178,7 @@ static enum br_status run_studies(struct run *r, size_t first, size_t count,
     return BR_OK;
 }
 
-/* With --fail-fast one after the other, the cheapest first, else all at once. */
+/* Runs the checks: with --fail-fast one after the other, the cheapest first; else all at once. */
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
@@ -214,7 +214,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
                               err);
 }
 
-/* What the reports need, before a long computation. */
+/* Prepares what the reports need, so that a failure comes before the long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
     bool failed = br_verdicts_open(&r->verdicts, r->session.options, r->check, r->count, err);
@@ -242,7 +242,7 @@ static void clear(struct run *r)
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 
-/* Rank 0 writes, and has the verdict. */
+/* Only rank 0 writes and gives the verdict. */
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;

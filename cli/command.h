@@ -9,15 +9,15 @@
 enum { BR_MOST_EXAMPLES = 8, BR_MOST_WORDS = 1 << 20 };
 
 struct br_command {
-    unsigned bit; /* of br_option.commands */
+    unsigned bit; /* its bit in br_option.commands */
     const char *name;
     const char *arguments; /* for the usage line */
     const char *title;     /* one line for a person */
     const char *about;     /* what it does: sentences for the help */
-    const char *more;      /* and more of them for the manual; NULL: none */
+    const char *more;      /* further sentences for the manual; NULL: none */
     const char *example[BR_MOST_EXAMPLES];
-    size_t least_words, most_words; /* that are no options */
-    const struct br_words *words;   /* what they are; NULL: scenes */
+    size_t least_words, most_words; /* number of arguments that are no options */
+    const struct br_words *words;   /* the values that these may have; NULL: scenes */
     /* The options are parsed. On failure err says why. */
     enum br_status (*run)(const struct br_options *options, struct br_error *err);
 };
@@ -28,7 +28,7 @@ extern const struct br_command *const br_commands[];
 /* NULL: there is none. */
 const struct br_command *br_find_command(const char *name);
 
-/* ---- what commands, options and registries become in other languages than a terminal's ---- */
+/* ---- the documentation and the completions, made from commands, options and registries ---- */
 
 void br_print_command_help(FILE *out, const struct br_command *command);
 
@@ -36,10 +36,10 @@ void br_print_command_help(FILE *out, const struct br_command *command);
  * "fish" with the names of scenes, separated by blanks (NULL: none). */
 void br_write_language(FILE *out, const char *name, const char *scenes);
 
-/* "elements (default 100)"; returns text (out). */
+/* The help of an option, as "elements (default 100)"; returns text (out). */
 const char *br_option_help(const struct br_option *row, char *text, size_t size);
 
-/* What may be chosen by name, with what a person reads above it; returns how many (out). */
+/* The registries whose rows are chosen by name, with their headings; returns their number. */
 enum { BR_REGISTRIES = BR_METHOD_FIELDS + 3 };
 struct br_registry {
     const char *option, *title;

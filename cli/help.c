@@ -13,7 +13,7 @@ static const char methods_hint[] =
 
 /* ---- text ---- */
 
-/* Writes words in lines up to WIDTH; the first begins where the line stands, `at` letters in. */
+/* Writes words in lines up to WIDTH. The first line has `at` letters already. */
 static void wrap(FILE *out, const char *text, size_t at, size_t indent)
 {
     for (const char *word = text; *word; word += strspn(word, " ")) {
@@ -93,8 +93,8 @@ static void print_commands(FILE *out)
 
 /* ---- registries ---- */
 
-/* "--equilibrate   --solver umfpack, cholmod": the rows that heed the field. */
-static void print_heeders(FILE *out, size_t i)
+/* "--equilibrate   --solver umfpack, cholmod": the rows that use field i of a method. */
+static void print_users(FILE *out, size_t i)
 {
     const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
@@ -127,7 +127,7 @@ static void print_methods(FILE *out)
     }
     fprintf(out, "\nOptions that some of these heed:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
-        print_heeders(out, i);
+        print_users(out, i);
     fprintf(out,
             "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
     const char *title;

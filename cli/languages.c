@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the rows of commands, options and registries become in five languages: the manual page,
- * docs/options.md, and the completions of bash, zsh and fish. One walk, and for each language the
- * patterns of what it meets.
+/* Writes the rows of commands, options and registries in five languages: the manual page,
+ * docs/options.md, and the completions of bash, zsh and fish. One function walks over all rows.
+ * Each language has a pattern for each kind of row.
  *
- * In a pattern, %n is the field n; a capital, %N, is the same field quoted for the language. What
- * stands between { and } is left out where one of its fields is empty; %?n only asks whether it
- * is. %{, %} and %% are these characters. The fields, by their letters:
+ * In a pattern, %n is the field n; a capital, %N, is the same field quoted for the language. Text
+ * between { and } is left out if one of its fields is empty; %?n prints nothing, but counts as a
+ * field there. %{, %} and %% are these characters. The fields, by their letters:
  *   c a command's name   s its arguments   t its title, or a word's   b about   m more of it
  *   e an example         o all options     g its arguments' words     p the pattern for these
  *   j "*": several arguments may be given
@@ -25,23 +25,23 @@
 
 enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };
 
-/* What is known of an option's value, and of a command's arguments. */
+/* The kinds of an option's value, and of a command's arguments. */
 enum value { FLAG, ANYTHING, FILES, FOLDERS, ONE_WORD, SOME_WORDS, VALUES };
 enum arguments { NONE, WORDS, SCENES, ARGUMENTS };
 
 struct language {
     const char *name;
-    const struct br_quoting *quoting, *words_quoting; /* of capitals; of %W */
+    const struct br_quoting *quoting, *words_quoting; /* for capitals; for %W */
     const char *head, *listed, *middle; /* before all; of each command; before the commands */
     const char *command;                /* at its start */
     const char *examples, *example, *examples_end;
-    bool examples_first; /* they follow the start, else the end */
+    bool examples_first; /* examples follow the start, else the end */
     const char *option;
     const char *value[VALUES], *arguments[ARGUMENTS];
-    const char *words, *word; /* before words; each */
+    const char *words, *word; /* before the words; for each word */
     const char *end;          /* of a command */
-    const char *method; /* instead of the options of the method, which then follow all commands */
-    const char *methods, *registry; /* before these; before each registry */
+    const char *method; /* stands for the options of the method, which then follow all commands */
+    const char *methods, *registry; /* before the registries; before each */
     const char *section, *paragraph, *next_paragraph;
     const char *foot;
 };
@@ -71,7 +71,7 @@ static const char *field(const struct fields *f, char letter)
     return text ? text : "";
 }
 
-/* Whether all fields of a group have text, but for those in groups of their own. */
+/* Whether all fields of a group have text. Fields of inner groups do not count. */
 static bool is_filled(const char *p, const char *end, const struct fields *f)
 {
     bool filled = true;
@@ -101,7 +101,7 @@ static void put(FILE *out, const struct language *l, const char *p, const char *
         const char *text = escaped ? field(f, *p) : "";
         if (question)
             continue;
-        if (escaped && (*p == 'v' || *p == 'p')) /* patterns again */
+        if (escaped && (*p == 'v' || *p == 'p')) /* these two are patterns */
             put(out, l, text, text + strlen(text), f);
         else if (escaped && isupper((unsigned char)*p))
             br_quote(out, *p == 'W' ? l->words_quoting : l->quoting, text);
@@ -135,8 +135,8 @@ size_t br_registries(struct br_registry list[BR_REGISTRIES])
     return count;
 }
 
-/* words (out): those that may be chosen, separated by blanks. A reference that wants numbers ends
- * with its colon. */
+/* words (out): the possible values, separated by blanks. A reference that needs numbers ends with
+ * its colon. */
 static enum value value_of(const struct br_option *row, char words[MOST_WORDS])
 {
     const struct br_words *names =
@@ -205,7 +205,7 @@ static void write_examples(FILE *out, const struct language *l, const struct br_
     emit(out, l, l->examples_end, &f);
 }
 
-/* A command and all that belongs to it. */
+/* Writes a command with its options, arguments and examples. */
 static void write_command(FILE *out, const struct language *l, const struct br_command *c,
                           struct fields f)
 {
@@ -239,7 +239,7 @@ static void write_command(FILE *out, const struct language *l, const struct br_c
     emit(out, l, l->end, &f);
 }
 
-/* Not what is available: that differs from machine to machine. */
+/* Writes all rows, also of solvers that this machine lacks: the text is the same everywhere. */
 static void write_methods(FILE *out, const struct language *l, struct fields f)
 {
     struct br_registry list[BR_REGISTRIES];
@@ -257,7 +257,7 @@ static void write_methods(FILE *out, const struct language *l, struct fields f)
     }
 }
 
-/* Sections of the manual page that no row has; paragraphs. */
+/* Sections of the manual page that come from no row; each line is a paragraph. */
 static const struct {
     const char *title, *text[8];
 } sections[] = {
@@ -359,7 +359,7 @@ static void write_all(FILE *out, const struct language *l, const char *scenes)
 
 /* ---- the languages ---- */
 
-/* Whatever roff, or Markdown, would take for its own. */
+/* Escapes the characters that roff, or Markdown, would take as markup. */
 static const struct br_quoting for_roff = {
     .around = "", .start = ".'", .guard = "\\&", .stead = {{'-', "\\-"}, {'\\', "\\e"}}};
 static const struct br_quoting for_page = {
@@ -456,7 +456,7 @@ static const struct language languages[] = {
     },
     {
         .name = "zsh",
-        .quoting = &br_for_zsh, /* _arguments would take brackets and colons for its own */
+        .quoting = &br_for_zsh, /* brackets and colons are syntax of _arguments */
         .words_quoting = &for_zsh_words,
         .head = "#compdef beamrate\n"
                 "# Completion of beamrate in zsh; written by 'beamrate completions zsh'.\n\n"
@@ -497,7 +497,7 @@ static const struct language languages[] = {
     },
 };
 
-/* ---- what leaves this file ---- */
+/* ---- the interface ---- */
 
 void br_write_language(FILE *out, const char *name, const char *scenes)
 {

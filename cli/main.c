@@ -74,7 +74,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     return status;
 }
 
-/* Libraries that have no memory, or no thread, end the program: popt, OpenMP. */
+/* False at exit: a library (popt, OpenMP) ended the program, for lack of memory or threads. */
 static bool returned;
 
 static void name_the_end(int code, void *self)
@@ -89,11 +89,11 @@ static void name_the_end(int code, void *self)
 
 static int run_all(int argc, const char **argv)
 {
-    /* What fails says so here. One that forgets to is a failure all the same: chains of calls
-     * return err->status. */
+    /* A failing function sets this error. One that fails without setting it still fails, since
+     * chains of calls return err->status. */
     struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
     bool failed = br_ranks_start(&err);
-    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 of several speaks */
+    if (!br_ranks_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 prints */
         failed = br_fail(&err, BR_IO, "/dev/null: %s", strerror(errno));
     failed = failed || run_command(argc, argv, &err);
     if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
@@ -102,18 +102,18 @@ static int run_all(int argc, const char **argv)
         failed = br_no_memory(&err, "a JSON document");
     const enum br_status status = br_ranks_end(failed ? err.status : BR_OK, &err);
     if (!br_ranks_first())
-        return 0; /* rank 0 tells, and ends with the exit code */
+        return 0; /* rank 0 prints the error, and ends with the exit code */
     if (status == BR_INTERRUPTED) {
         fprintf(stderr, "beamrate: interrupted; no file is half written\n");
         br_signals_raise_again();
     }
-    if (!status && br_signals_caught()) { /* a script that runs many commands must hear of it */
+    if (!status && br_signals_caught()) { /* a script must see that a signal came */
         fprintf(stderr, "beamrate: interrupted when all was written\n");
         br_signals_raise_again();
     }
     if (status) {
         fputs("beamrate: ", stderr);
-        br_quote(stderr, &br_for_text, err.message); /* it may repeat what a file says */
+        br_quote(stderr, &br_for_text, err.message); /* it may quote a file */
         fputc('\n', stderr);
     }
     return br_status_exit_code(status);
@@ -122,7 +122,7 @@ static int run_all(int argc, const char **argv)
 int main(int argc, const char **argv)
 {
     on_exit(name_the_end, NULL);
-    br_json_lacked_memory(); /* from now on it remembers */
+    br_json_lacked_memory(); /* installs its allocator */
     const int code = run_all(argc, argv);
     returned = true;
     return code;

@@ -39,8 +39,8 @@ const char *br_listed_name(const json_t *file)
     return json_string_value(json_object_get(file, "name"));
 }
 
-/* A file as a set lists it, when the disk has it if `wait`; NULL with errno: ELOOP where it is no
- * plain file, as a symbolic link. */
+/* Describes a file for the list of a set; with `wait`, after it is on the disk. NULL with errno;
+ * ELOOP: it is no plain file but, for example, a symbolic link. */
 static json_t *describe(int folder, const char *name, bool wait)
 {
     char sum[BR_SHA256_TEXT];
@@ -85,7 +85,7 @@ enum br_status br_sets_write(int folder, const char *name, json_t *sets, struct 
                    : br_fail(err, BR_IO, "the manifest could not be written: %s", strerror(errno));
 }
 
-/* A name that leads elsewhere, or to what is hidden, is none of ours. */
+/* No set lists a name with a folder, or a hidden one. */
 static bool is_listed(const json_t *file)
 {
     const char *name = br_listed_name(file);
@@ -192,8 +192,8 @@ static bool is_superseded(const json_t *old, const json_t *new)
     return false;
 }
 
-/* Copies an old set, if it shares no name with the new files; where these have the page, the copy
- * loses its own, and is no set if it has nothing else. */
+/* Copies an old set, if it shares no name with the new files. If the new files have the page, the
+ * copy loses its page, and is dropped if it has no other file. */
 static void keep(json_t *sets, const json_t *set, const json_t *new, bool page)
 {
     size_t i;

@@ -175,7 +175,7 @@ static enum br_status read_value(struct br_options *o, const struct br_option *r
     return inner.status ? br_fail(err, inner.status, "%s: %s", name, inner.message) : BR_OK;
 }
 
-/* Names and numbers of a method must be some, whatever a scene says. */
+/* Names and numbers of a method must be valid, whatever a scene says. */
 static enum br_status read_values(struct br_options *o, const struct br_option *row, size_t count,
                                   struct br_error *err)
 {
@@ -193,7 +193,7 @@ static enum br_status read_values(struct br_options *o, const struct br_option *
 
 /* ---- the command line ---- */
 
-/* One of two would be lost if an option with a value was given twice. */
+/* An option with a value that is given twice is refused: one value would be lost. */
 static enum br_status take(poptContext context, struct br_options *o, const struct br_option *row,
                            struct br_error *err)
 {

@@ -9,7 +9,7 @@
 
 #include "study/scene/method_fields.h"
 
-/* Who takes an option. */
+/* The commands that take an option. */
 enum {
     BR_FOR_TABLES = 1,
     BR_FOR_STUDY = 2,
@@ -87,10 +87,10 @@ enum br_option_id {
     BR_OPTIONS = BR_OPT_METHOD + BR_METHOD_FIELDS
 };
 
-/* What is read of its text while it is parsed; what needs a scene is read later. */
+/* How the text is read while the command line is parsed; what needs a scene is read later. */
 enum br_option_kind {
     BR_TAKES_FLAG,
-    BR_TAKES_TEXT, /* anything: whoever takes it reads it */
+    BR_TAKES_TEXT, /* any text: the command reads it */
     BR_TAKES_FILE,
     BR_TAKES_DIR,
     BR_TAKES_NUMBER,  /* a number of the range */
@@ -112,7 +112,7 @@ struct br_option {
     enum br_option_kind kind;
     struct br_number_range range;
     const struct br_words *words;
-    unsigned commands; /* who takes it */
+    unsigned commands; /* that take it */
     const char *more;  /* sentences for the manual; NULL: none */
     bool repeats;      /* it may be given several times: its text has a line for each */
 };
@@ -140,17 +140,17 @@ int br_rounding_mode(size_t row);
 /* By br_option_id. */
 struct br_options {
     const struct br_command *command;
-    const char *given[BR_OPTIONS]; /* as given, owned; NULL: not given */
-    const char *text[BR_OPTIONS];  /* that, or the default; NULL: there is none */
+    const char *given[BR_OPTIONS]; /* the text as given, owned; NULL: not given */
+    const char *text[BR_OPTIONS];  /* the same, or the default; NULL: neither */
     double *number[BR_OPTIONS];    /* count of them, owned: numbers, or rows of the registry */
     size_t *whole[BR_OPTIONS];     /* count of them, owned: BR_TAKES_COUNTS */
     size_t count[BR_OPTIONS];
-    char **word; /* words, owned: those that are no options */
+    char **word; /* arguments that are no options; owned */
     size_t words;
 };
 
 /* Parses argv (argv[0] is "beamrate COMMAND"). Fails with BR_BAD_INPUT, naming the option, what was
- * found and what was expected, or BR_NO_MEMORY. With --help nothing but it is looked at. Clear the
+ * found and what was expected, or BR_NO_MEMORY. With --help the rest is not checked. Clear the
  * options even after a failure. */
 enum br_status br_options_parse(int argc, const char **argv, const struct br_command *command,
                                 struct br_options *options, struct br_error *err);
@@ -158,15 +158,15 @@ void br_options_clear(struct br_options *options);
 
 bool br_option_given(const struct br_options *o, enum br_option_id id);
 
-/* The name of the first one that is given, of a list that ends with BR_OPTIONS; NULL: none is. */
+/* The name of the first option of the list that is given; NULL: none. BR_OPTIONS ends the list. */
 const char *br_first_given(const struct br_options *o, const enum br_option_id *list);
 
-/* Gives an option, which the command may not take, another text; NULL: it is not given. Fails as
+/* Sets the text of an option, even of one that the command does not take; NULL: not given. Fails as
  * br_options_parse. */
 enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
                              struct br_error *err);
 
-/* As given, or the default; NULL: neither. */
+/* The text as given, or the default; NULL: neither. */
 const char *br_option_text(const struct br_options *o, enum br_option_id id);
 
 /* The number, or the row; `otherwise` where there is none. */
@@ -177,16 +177,16 @@ bool br_format_wanted(const struct br_options *o, const char *name);
 
 /* ---- times: "0.1", "0.1 s", "T/20" ---- */
 
-/* Reads a time at the start of text, s, of a scene of that duration, s; returns what follows, the
- * end or a comma, or NULL. */
+/* Reads a time, s, at the start of text; duration: of the scene, s. Returns the text that follows,
+ * the end or a comma; NULL: it is no time. */
 const char *br_read_time(const char *text, double duration, double *seconds);
 
-/* The steps of a time step in the option's words. Fails with BR_BAD_INPUT, naming the option. */
+/* The number of steps for the time step in text. Fails with BR_BAD_INPUT, naming the option. */
 enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
                             size_t *steps, struct br_error *err);
 
-/* The numbers of steps by --steps, or --k, or its default: *steps (out, *count values) is owned by
- * the caller, NULL without any. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
+/* The numbers of steps by --steps, --k, or the default of --k: *steps (out, *count values) is owned
+ * by the caller; NULL: there are none. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
                                size_t **steps, size_t *count, struct br_error *err);
 

@@ -14,7 +14,7 @@ BR_WORDS(norm, br_norms)
 BR_WORDS(format, br_document_formats)
 BR_WORDS(judge, br_judges)
 
-/* With its arguments: fine:N,K. */
+/* The name with its arguments: fine:N,K. */
 static const char *judge_syntax(size_t row)
 {
     return judge_name(row) ? br_judges[row]->syntax : NULL;

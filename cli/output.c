@@ -13,7 +13,7 @@
 #include "cli/provenance.h"
 #include "study/scene/quote.h"
 
-/* Of the hidden folder: the manifests of the new set, which decides it, and of the old one. */
+/* Names in the hidden folder: the manifest of the new set, which decides it, and of the old set. */
 static const char decided[] = ".manifest", replaced[] = ".old";
 
 void br_close(int descriptor)
@@ -35,13 +35,13 @@ static enum br_status fail_with_errno(const char *name, struct br_error *err)
     return br_fail(err, BR_IO, "%s: %s", name, strerror(errno));
 }
 
-/* ---- the hidden folder: who writes in it has locked it, and is its owner ---- */
+/* ---- the hidden folder: the program that writes in it has locked it, and is its owner ---- */
 
 static const char owner_name[] = ".owner";
 
-/* Opens and locks what a program of this user left behind, or makes: a hidden folder, or a file
- * (info: out). Programs that are started do not inherit it. -1 with errno: ENOENT where it is gone,
- * EWOULDBLOCK where somebody uses it. */
+/* Opens and locks a hidden folder or file of this user, new or left behind (info: out). Child
+ * processes do not inherit it. -1 with errno; ENOENT: it is gone; EWOULDBLOCK: another program
+ * uses it. */
 static int take(int parent, const char *name, struct stat *info)
 {
     struct stat there;
@@ -84,8 +84,8 @@ static enum br_status refuse(int parent, const char *hidden, struct br_error *er
                    owner, hidden);
 }
 
-/* Removes a locked one with its files. The owner goes last: what has one is ours, and the next
- * program removes the rest. */
+/* Removes a locked hidden folder and its files; .owner goes last: a folder with that file is ours,
+ * so the next program can remove the rest. */
 static void remove_hidden(int parent, const char *name, int folder)
 {
     struct dirent **entry;
@@ -103,9 +103,9 @@ static void remove_hidden(int parent, const char *name, int folder)
         unlinkat(parent, name, AT_REMOVEDIR);
 }
 
-/* ---- putting in place: each step may have been done before ---- */
+/* ---- putting in place: an earlier program may have done some of the steps ---- */
 
-/* What is in the way must be of the old set. */
+/* A file in the way must be of the old set. */
 static enum br_status place(int parent, int folder, const char *name, bool listed,
                             struct br_error *err)
 {
@@ -117,7 +117,7 @@ static enum br_status place(int parent, int folder, const char *name, bool liste
     return failed ? fail_with_errno(name, err) : BR_OK;
 }
 
-/* What has been changed since is a person's own. */
+/* A file that was changed since belongs to a person: it stays. */
 static enum br_status remove_stale(int parent, const json_t *file, struct br_error *err)
 {
     bool same;
@@ -152,7 +152,7 @@ static enum br_status move_files(int parent, int folder, const json_t *old, cons
     return BR_OK;
 }
 
-/* name: of the manifest in the open folder `parent`. */
+/* name: that of the manifest in the open folder `parent`. */
 static enum br_status finish(int parent, int folder, const char *name, struct br_error *err)
 {
     json_t *old = NULL, *sets = NULL;
@@ -191,7 +191,7 @@ static enum br_status sweep_one(int parent, const char *hidden, struct br_error 
     if (S_ISREG(info.st_mode))
         unlinkat(parent, hidden, 0);
     else if (!is_there(found, owner_name))
-        unlinkat(parent, hidden, AT_REMOVEDIR); /* where it is empty: ended before it was signed */
+        unlinkat(parent, hidden, AT_REMOVEDIR); /* if empty: not signed yet */
     else if (!is_there(found, decided) || !finish(parent, found, name, &inner))
         remove_hidden(parent, hidden, found);
     close(found);
@@ -241,7 +241,7 @@ bool br_make_folders(const char *path, mode_t last, bool *made)
     return *made || errno == EEXIST;
 }
 
-/* Between making and locking it somebody may take it for one that was left behind: once more. */
+/* Before we lock the new folder, another program may remove it as left behind: then try again. */
 static enum br_status make_staging(struct br_output *o, struct br_error *err)
 {
     enum { TRIALS = 100 };
@@ -317,8 +317,8 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
 
 /* ---- committing ---- */
 
-/* The first file of the set in whose place there is something that no earlier run wrote; a folder
- * is nobody's. NULL: there is none. */
+/* The first file of the set whose path is taken by something that no earlier run wrote, as a
+ * folder. NULL: there is none. */
 static const char *find_foreign(const struct br_output *o, const json_t *sets, const json_t *old)
 {
     struct stat info;
@@ -334,7 +334,7 @@ static const char *find_foreign(const struct br_output *o, const json_t *sets, c
     return NULL;
 }
 
-/* Closes the folders, and the hidden one for good where nothing in it is needed. */
+/* Closes the folders; remove: nothing in the hidden one is needed, so it is removed. */
 static void close_output(struct br_output *o, bool remove)
 {
     if (remove && o->descriptor >= 0)
@@ -344,7 +344,7 @@ static void close_output(struct br_output *o, bool remove)
     o->staging[0] = '\0';
 }
 
-/* Nothing that was computed is lost: the hidden folder becomes one beside what is in the way. */
+/* If a file is in the way, the results are kept: the hidden folder becomes one beside that file. */
 static enum br_status divert(struct br_output *o, json_t *sets, const char *foreign,
                              struct br_error *err)
 {
@@ -363,7 +363,7 @@ static enum br_status divert(struct br_output *o, json_t *sets, const char *fore
                    o->folder, foreign, o->folder, name);
 }
 
-/* After the decision the hidden folder is the next program's, if this one cannot go on. */
+/* After the decision, if this program cannot go on, the next one finishes the hidden folder. */
 static enum br_status put_in_place(struct br_output *o, struct br_error *err)
 {
     struct br_error inner = {0};
@@ -397,7 +397,7 @@ void br_output_discard(struct br_output *o)
     if (!o->staging[0])
         return;
     if (o->descriptor >= 0)
-        unlinkat(o->descriptor, decided, 0); /* where it cannot go, its files must stay */
+        unlinkat(o->descriptor, decided, 0); /* if this fails, its files must stay */
     close_output(o, o->descriptor >= 0 && !is_there(o->descriptor, decided));
     if (o->made)
         rmdir(o->folder); /* fails, as it should, where there are results */

@@ -24,31 +24,31 @@
 
 #include "solver/status.h"
 
-/* What the names of all hidden folders and files begin with. Who writes in a hidden folder has
- * locked it; the lock ends with its program, however that ends. */
+/* The beginning of the names of all hidden folders and files. A program locks the hidden folder in
+ * which it writes; the lock ends with the program, however that ends. */
 #define BR_HIDDEN ".beamrate"
 
-/* The page that every run writes: it is that of the run that was last, and of no other set. */
+/* The page that every run writes: it belongs to the set of the last run only. */
 #define BR_PAGE "report.html"
 
 enum { BR_RUN_ID = 40 };
 
-/* Begins as zeros, or with a stem. */
+/* Begin with zeros, or with a stem and zeros. */
 struct br_output {
     const char *stem;       /* of the set's files, where a folder has several sets; borrowed;
                                its manifest is then <stem>.manifest.json. NULL: the only one */
-    char folder[1024];      /* where the results will be */
-    char staging[1400];     /* where they are being written; "": not open */
-    char run[BR_RUN_ID];    /* names the run */
+    char folder[1024];      /* for the results */
+    char staging[1400];     /* where they are written first; "": not open */
+    char run[BR_RUN_ID];    /* the name of the run */
     char hidden[280];       /* the name of the hidden folder, */
     char manifest[280];     /* and of the manifest */
-    int parent, descriptor; /* of the two folders, the latter with the lock */
+    int parent, descriptor; /* the open folder and hidden folder; the latter has the lock */
     bool made;              /* the folder was not there before */
 };
 
-/* Makes the folder (and its parents) and the hidden one; finishes or removes what others left
- * behind. Fails with BR_BAD_INPUT where the folder cannot be written or is in use, or the place of
- * the manifest is taken, so call it before a long computation; with BR_IO where what was left
+/* Makes the folder (and its parents) and the hidden one; finishes or removes what other programs
+ * left behind. Call it before a long computation. Fails with BR_BAD_INPUT if the folder cannot be
+ * written or is in use, or something else has the name of the manifest; with BR_IO if what was left
  * behind cannot be finished. */
 enum br_status br_output_open(struct br_output *output, const char *folder, struct br_error *err);
 
@@ -69,16 +69,16 @@ enum br_status br_output_close(FILE *file, const char *name, struct br_error *er
  * fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
-/* Removes what has not been put in place, and the folder if it was made for nothing; does
- * nothing after a commit. */
+/* Removes what has not been put in place, and the folder if br_output_open made it; does nothing
+ * after a commit. */
 void br_output_discard(struct br_output *output);
 
-/* Removes or finishes what others left behind in an open folder. Fails with BR_IO, BR_BAD_INPUT or
- * BR_NO_MEMORY where it cannot be finished. */
+/* Removes or finishes what other programs left behind in an open folder. Fails with BR_IO,
+ * BR_BAD_INPUT or BR_NO_MEMORY if it cannot finish. */
 enum br_status br_output_sweep(int folder, struct br_error *err);
 
-/* Of these permissions, those that a new file or folder of this program gets. No other thread may
- * make files meanwhile. */
+/* The wanted permissions without those that the umask takes away. No other thread may make files
+ * meanwhile. */
 mode_t br_new_permissions(mode_t wanted);
 
 /* ---- one file ---- */
@@ -87,37 +87,37 @@ mode_t br_new_permissions(mode_t wanted);
  * beside its place, then renamed into it. Begins as zeros. */
 struct br_whole_file {
     const char *path; /* as given; borrowed; NULL: not wanted, and all calls do nothing */
-    char *place;      /* where that is, symbolic links followed; owned; NULL: standard output, a
+    char *place;      /* the path with symbolic links followed; owned; NULL: standard output, a
                          device, or a pipe without a name */
-    bool renamed;     /* else it is no plain file, and written in place */
-    int folder;       /* of one that is renamed, open */
+    bool renamed;     /* else it is no plain file, and is written directly */
+    int folder;       /* open, if `renamed` */
     FILE *file;       /* to be written */
     char *text;       /* size bytes: what was written; owned */
     size_t size;
 };
 
-/* Opens a file for writing; "-", or whatever else standard output is, is standard output. Fails
- * with BR_BAD_INPUT, naming the option, where it cannot be written, so call it before a long
- * computation; with BR_NO_MEMORY. Discard it even then. */
+/* Opens a file for writing; "-", or another name of standard output, is standard output. Call it
+ * before a long computation. Fails with BR_BAD_INPUT, naming the option, if the file cannot be
+ * written; with BR_NO_MEMORY. Discard it even then. */
 enum br_status br_whole_file_open(struct br_whole_file *whole, const char *option, const char *path,
                                   struct br_error *err);
 
-/* Whether two open ones would end in the same place. */
+/* Whether two open files would be written to the same path. */
 bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b);
 
-/* Whether it would replace that file, or stand in that folder; neither need be there yet. */
+/* Whether the file would replace that of the path, or would be in that folder; none need exist. */
 bool br_whole_file_meets(const struct br_whole_file *file, const char *path);
 
-/* Puts what was written in its place. Fails with BR_IO or BR_NO_MEMORY; discard it all the same. */
+/* Puts the written text in place. Fails with BR_IO or BR_NO_MEMORY. Discard the file afterwards. */
 enum br_status br_whole_file_commit(struct br_whole_file *whole, struct br_error *err);
 
 /* Releases it; what has not been put in its place is lost. */
 void br_whole_file_discard(struct br_whole_file *whole);
 
-/* ---- among these files ---- */
+/* ---- shared by output.c, manifest.c and whole_file.c ---- */
 
 /* Writes a file of an open folder, whole or not at all: under a hidden name, which is then renamed.
- * False: errno tells why. */
+ * False: errno says why. */
 bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count);
 
 /* Whether two files have one name but for what follows its last dot. */
@@ -126,39 +126,39 @@ bool br_same_stem(const char *a, const char *b);
 /* Closes a descriptor, unless it is -1; errno is kept. */
 void br_close(int descriptor);
 
-/* Makes every folder of the path that is not there yet; *made: whether the last one was not. False:
- * errno tells why. */
+/* Makes every missing folder of the path; *made: whether the last one was missing. False: errno
+ * says why. */
 bool br_make_folders(const char *path, mode_t last, bool *made);
 
 /* ---- the list of the sets in a folder (manifest.json), for output.c ---- */
 
-/* It is kept as JSON: an array of sets, each with the run that wrote it and its files, each of
- * these with name, size and SHA-256. NULL: no set. */
+/* The list is kept as JSON: an array of sets. A set has the run that wrote it and its files. A file
+ * has a name, a size and a SHA-256. NULL: no set. */
 
 /* Fails with BR_IO where the system has no random bits. */
 enum br_status br_run_id_make(char run[BR_RUN_ID], struct br_error *err);
 
-/* *sets (out, owned by the caller): the old sets with which a new one shares no name (but for what
- * follows a name's last dot; the page does not count, they lose it), and that one: the files of an
- * open folder whose names do not begin with a dot; and waits until the disk has them. Fails with
- * BR_IO or BR_NO_MEMORY. */
+/* *sets (out, owned by the caller): the new set, that is, the files of an open folder whose names
+ * do not begin with a dot; and the old sets that share no name with it. What follows a name's last
+ * dot does not count, nor does the page, which old sets lose. Waits until the files are on the
+ * disk. Fails with BR_IO or BR_NO_MEMORY. */
 enum br_status br_sets_add(int folder, const char *run, const json_t *old, json_t **sets,
                            struct br_error *err);
 
-/* Writes them into a file of an open folder, whole or not at all. Fails with BR_IO or BR_NO_MEMORY.
- */
+/* Writes the sets into a file of an open folder, whole or not at all. Fails with BR_IO or
+ * BR_NO_MEMORY. */
 enum br_status br_sets_write(int folder, const char *name, json_t *sets, struct br_error *err);
 
-/* Reads them; *sets (out) is owned by the caller, NULL where there is no such file. Fails with
- * BR_BAD_INPUT where the program has not written it; else with BR_IO or BR_NO_MEMORY. */
+/* Reads the sets; *sets (out) is owned by the caller; NULL: there is no such file. Fails with
+ * BR_BAD_INPUT if beamrate has not written the file, or with BR_IO or BR_NO_MEMORY. */
 enum br_status br_sets_read(int folder, const char *name, json_t **sets, struct br_error *err);
 
-/* The file of that name; NULL: it is in no set. The files of the set that was written last. */
+/* The file of that name; NULL: no set has it. And the files of the set that was written last. */
 json_t *br_sets_find(const json_t *sets, const char *name);
 json_t *br_sets_newest(const json_t *sets);
 const char *br_listed_name(const json_t *file);
 
-/* *same (out): whether the file in the open folder is as listed, to the byte. Fails with BR_IO. */
+/* *same (out): whether the file in the open folder has the listed bytes. Fails with BR_IO. */
 enum br_status br_listed_compare(int folder, const json_t *file, bool *same, struct br_error *err);
 
 #endif

@@ -43,7 +43,7 @@ void br_signals_raise_again(void)
 
 enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
 
-/* Of less time a remainder cannot be told, s. */
+/* After less time, s, the time left cannot be estimated. */
 static const double least_elapsed = 1;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
@@ -51,13 +51,13 @@ static struct progress {
     const char *what;
     bool quiet, terminal;
     double start, last; /* s */
-    double fraction;    /* of the whole work */
-    size_t part, parts; /* at work is part of parts */
-    int tenths;         /* lines told so far */
-    double waits;       /* since then for an exact reference, s; 0: not yet */
+    double fraction;    /* of all parts */
+    size_t part, parts; /* it works on number `part` of `parts`, from 0 on */
+    int tenths;         /* of the work, at the last printed line */
+    double waits;       /* when it began to wait for an exact reference, s; 0: it does not */
 } progress;
 
-/* As wide as the terminal has room for beside the text; none where that is not much. */
+/* The bar fills what the text leaves of the terminal's width; a narrow terminal gets no bar. */
 static void draw_bar(void)
 {
     char bar[BAR + 1];
@@ -72,8 +72,7 @@ static void draw_bar(void)
             100 * progress.fraction);
 }
 
-/* Work is counted before it is known how long it takes: the start of all tasks at once says little.
- */
+/* Early in the work no time is printed: many tasks start at once, so an estimate would be poor. */
 static void print_left(double elapsed, double fraction)
 {
     const double left = elapsed * (1 - fraction) / fraction;
@@ -109,7 +108,7 @@ static void show(void *self, double fraction)
     pthread_mutex_unlock(&lock);
 }
 
-/* Of the most work that it may take; mostly it needs less. On a terminal short: 40 columns do. */
+/* share: of the most work that it may take; mostly it takes less. The line fits in 40 columns. */
 static void print_wait(double elapsed, double share)
 {
     const double most = elapsed * (1 - share) / share; /* s left */
@@ -125,8 +124,7 @@ static void print_wait(double elapsed, double share)
         fprintf(stderr, "%s: waits for an exact reference\n", progress.what);
 }
 
-/* Nothing is marched until the exact reference is there. Of other scenes' marches, done meanwhile,
- * show tells. */
+/* The scene's marches wait for its exact reference. `show` prints the marches of others. */
 static void show_waiting(void *self, double share)
 {
     (void)self;
@@ -160,12 +158,13 @@ const struct br_observer *br_progress_start(const char *what, bool quiet)
                                     silent = {.stop = stop};
     const bool terminal = isatty(STDERR_FILENO) == 1;
     const double t = br_seconds();
-    progress = (struct progress){.what = what,
-                                 .quiet = quiet,
-                                 .terminal = terminal,
-                                 .start = t,
-                                 .last = terminal ? 0 : t, /* a terminal shows it at once */
-                                 .parts = 1};
+    progress =
+        (struct progress){.what = what,
+                          .quiet = quiet,
+                          .terminal = terminal,
+                          .start = t,
+                          .last = terminal ? 0 : t, /* a terminal gets the first line at once */
+                          .parts = 1};
     return quiet ? &silent : &shown;
 }
 

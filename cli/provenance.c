@@ -48,7 +48,7 @@ enum br_status br_remember_command_line(int argc, const char **argv, struct br_e
     return BR_OK;
 }
 
-/* The processor's name as Linux tells it, or "". */
+/* The processor's name from Linux, or "". */
 static void find_processor(char *name, size_t size)
 {
     name[0] = '\0';

@@ -12,10 +12,10 @@ const char *br_libraries(void); /* it was built with, and their versions: "GSL 2
 /* Fails with BR_NO_MEMORY. */
 enum br_status br_remember_command_line(int argc, const char **argv, struct br_error *err);
 
-/* The whole of it, as a shell would read it. */
+/* The whole command line, quoted for a shell. */
 const char *br_command_line(void);
 
-/* Fills all but the scene. The strings are static, so one call a run. */
+/* Fills all members but the scene. The strings are static, so call it once a run. */
 void br_provenance_fill(struct br_provenance *provenance, int threads);
 
 #endif

@@ -16,14 +16,14 @@
 
 struct run {
     struct br_session session;
-    const char *out, *json, *animate; /* files and folders of the options; NULL: not given */
+    const char *out, *json, *animate; /* paths of these options; NULL: not given */
     struct br_run_plan plan;
     struct br_prediction prediction;
     struct br_warnings warnings;
     struct br_run_report report;
     struct br_provenance provenance;
     struct br_whole_file summary; /* of --json */
-    FILE *history;                /* of --out, as all of these */
+    FILE *history;                /* this and the next ones: of --out */
     const struct br_fields_format *format;
     struct br_fields_file *fields;
     char fields_path[2048];
@@ -53,25 +53,25 @@ static enum br_status open_results(struct run *r, struct br_error *err)
     return r->format->open(&r->fields, &fields, err);
 }
 
-/* What is not modelled is an empty field, not a zero. */
+/* A quantity that is not modelled is an empty field, not a zero. */
 static enum br_status write_row(void *self, const struct br_history_row *row, struct br_error *err)
 {
     struct run *r = self;
-    struct br_history_row told = *row;
+    struct br_history_row known = *row;
     if (!r->plan.marched.axial.modelled)
-        told.displacement[BR_AXIAL] = told.velocity[BR_AXIAL] = NAN;
+        known.displacement[BR_AXIAL] = known.velocity[BR_AXIAL] = NAN;
     if (!r->plan.marched.bending.modelled)
-        told.displacement[BR_BENDING] = told.velocity[BR_BENDING] = NAN;
+        known.displacement[BR_BENDING] = known.velocity[BR_BENDING] = NAN;
     if (!r->plan.marched.contact.modelled)
-        told.contact_force = NAN;
+        known.contact_force = NAN;
     if (r->plan.marched.friction.law == BR_FRICTIONLESS)
-        told.friction_force = told.friction_bound = NAN;
-    br_history_csv_row(r->history, &told);
+        known.friction_force = known.friction_bound = NAN;
+    br_history_csv_row(r->history, &known);
     return ferror(r->history) ? br_fail(err, BR_IO, "history.csv could not be written") : BR_OK;
 }
 
-static enum br_status write_look(void *self, const struct br_march *march,
-                                 const struct br_history_row *row, struct br_error *err)
+static enum br_status write_sample(void *self, const struct br_march *march,
+                                   const struct br_history_row *row, struct br_error *err)
 {
     struct run *r = self;
     return r->format->append(r->fields, march, row, err);
@@ -92,7 +92,7 @@ static enum br_status close_results(struct run *r, const char *stopped, struct b
     return status ? status : closed;
 }
 
-/* Put in place also where a march stopped early. */
+/* Results are put in place even if the march stopped early. */
 static enum br_status write_results(struct run *r, const char *stopped, struct br_error *err)
 {
     static const struct br_document_format *const formats[] = {&br_document_text, &br_document_json,
@@ -166,8 +166,8 @@ static struct br_planned_march planned(const struct br_run_plan *p)
                                      .steps = p->request.steps};
 }
 
-/* What is to be expected of the march, before anything of it is there. */
-static enum br_status look_ahead(struct run *r, struct br_error *err)
+/* Finds the warnings and the prediction before the march. */
+static enum br_status predict(struct run *r, struct br_error *err)
 {
     struct br_planned_march march = planned(&r->plan);
     march.prediction = &r->prediction;
@@ -176,7 +176,7 @@ static enum br_status look_ahead(struct run *r, struct br_error *err)
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    if (open_scene(r, err) || look_ahead(r, err) || open_files(r, err))
+    if (open_scene(r, err) || predict(r, err) || open_files(r, err))
         return err->status;
     br_print_warnings("", &r->warnings);
     return BR_OK;
@@ -191,7 +191,7 @@ static enum br_status march(struct run *r, struct br_error *err)
     size_t outputs = 0;
     if (r->out)
         output[outputs++] =
-            (struct br_history_observer){.self = r, .row = write_row, .look = write_look};
+            (struct br_history_observer){.self = r, .row = write_row, .look = write_sample};
     if (r->animate || br_option_given(o, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
     struct br_run_request request = r->plan.request;
@@ -203,8 +203,8 @@ static enum br_status march(struct run *r, struct br_error *err)
     return status;
 }
 
-/* A summary on standard output stands there alone. It is shown first: a disk that is full must not
- * hide what was computed. */
+/* A summary on standard output replaces the report there. It is printed before files are written,
+ * so that a full disk cannot hide the results. */
 static enum br_status write_all(struct run *r, double start, struct br_error *err)
 {
     const struct br_error *failure = &r->report.failure;
@@ -229,7 +229,7 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
     return failed ? err->status : BR_OK;
 }
 
-/* Results are kept also where the march stopped, or a step is beyond its certificate's limits. */
+/* Fails if the march stopped or a step exceeds its certificate's limits. Results are kept. */
 static enum br_status conclude(const struct run *r, struct br_error *err)
 {
     const struct br_run_report *p = &r->report;
@@ -306,7 +306,7 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
         value[BAD_STEPS] = (double)p->bad_steps;
 }
 
-/* What is of one march alone. */
+/* With --vary, options for one march alone are refused. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
     static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY,   BR_OPT_ROWS,
@@ -335,7 +335,7 @@ static void foresee_value(void *self, struct br_foreseen *work)
     br_foreseen_add_march(work, &march);
 }
 
-/* One march as of `run` alone, without files; the static part is large. */
+/* One march as by `run` without --vary, but without files. Large objects are static. */
 static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
                                   struct br_error *err)
 {
@@ -346,7 +346,7 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     r = (struct run){.session = v->session, .plan = *p};
     r.session.quiet = true;
     r.plan.request.levels = r.plan.request.stride = 0;
-    if (look_ahead(&r, failure))
+    if (predict(&r, failure))
         return BR_OK;
     br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
     if (march(&r, failure))
@@ -384,7 +384,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     static struct run r;
     const double start = br_seconds();
     if (!br_ranks_first())
-        return BR_OK; /* one march is the work of one rank */
+        return BR_OK; /* one rank does a single march */
     if (br_option_given(options, BR_OPT_VARY))
         return check_swept(options, err) ? err->status : br_vary_run(options, &varied, err);
     r = (struct run){.session = br_session_begin(options),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the command line of `run` says of a scene (run_plan.c), and its pictures. */
+/* The march that the options of `run` ask for (run_plan.c), and its pictures (pictures.c). */
 #ifndef BR_CLI_RUN_H
 #define BR_CLI_RUN_H
 
@@ -9,9 +9,9 @@
 
 struct br_run_plan {
     struct br_opened_scene opened;
-    struct br_scene marched;       /* borrows from that */
+    struct br_scene marched;       /* borrows from `opened` */
     struct br_run_request request; /* without outputs */
-    size_t *level;                 /* of the request; owned */
+    size_t *level;                 /* the request's levels; owned */
 };
 
 /* Checks the options against the open scene. Fails with BR_BAD_INPUT, naming the option, what was
@@ -20,10 +20,10 @@ enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_option
                                 struct br_error *err);
 void br_run_plan_clear(struct br_run_plan *plan);
 
-/* ---- what is shown of a march (pictures.c): a moving picture (--animate), and the tip's history
- * in letters (--plot) ---- */
+/* ---- pictures of a march (pictures.c): a moving picture (--animate), and the tip's history drawn
+ * with letters (--plot) ---- */
 
-/* Begins with what is wanted, the rest zeros. */
+/* Begin with the options, and zeros for the rest. */
 struct br_pictures {
     const char *animate; /* a file; NULL: not wanted */
     bool plot, quiet;
@@ -33,10 +33,10 @@ struct br_pictures {
     const struct br_movie_format *format;
     char stem[256];          /* of the movie's files */
     struct br_output output; /* its folder */
-    bool missing;            /* gnuplot */
-    size_t rows, frames;     /* steps between what is kept; 0: nothing is */
+    bool missing;            /* gnuplot is not installed */
+    size_t rows, frames;     /* steps between rows and frames that are kept; 0: none is */
     struct br_history_record record;
-    struct br_history_observer keep; /* into the record */
+    struct br_history_observer keep; /* writes into the record */
 };
 
 /* Opens the movie's files, so call it before a long march. Fails with BR_BAD_INPUT: a file of
@@ -44,11 +44,11 @@ struct br_pictures {
  * written; discard it even then. Without gnuplot scripts and data are written, with a note. */
 enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *err);
 
-/* An observer that keeps what is shown; the pictures must outlive the march. */
+/* An observer that keeps rows and frames; the pictures must outlive the march. */
 struct br_history_observer br_pictures_observer(struct br_pictures *pictures);
 
-/* Draws, and puts the movie in place: whole or not at all. letters: where --plot goes; NULL:
- * nowhere. Fails with BR_IO. */
+/* Draws, and puts the movie in place, whole or not at all. letters: the file for --plot; NULL:
+ * none. Fails with BR_IO. */
 enum br_status br_pictures_finish(struct br_pictures *pictures, FILE *letters,
                                   struct br_error *err);
 void br_pictures_discard(struct br_pictures *pictures);

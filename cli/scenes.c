@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate scenes: the bundled scenes, and what a new one may say. */
+/* beamrate scenes: lists or shows the bundled scenes, and writes a template or the schema. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +48,7 @@ static enum br_status list(struct br_error *err)
 
 /* ---- one scene ---- */
 
-/* The file to the byte, but on a terminal what can be seen of it. */
+/* Prints the file to the byte; on a terminal, control characters are escaped. */
 static enum br_status show(const char *name, struct br_error *err)
 {
     char path[1024], *text;

@@ -135,7 +135,7 @@ enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen
 
 enum br_status br_picture_failed(const struct br_error *why, const char *what, struct br_error *err)
 {
-    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: that is no failure of its own */
+    if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: the picture did not fail by itself */
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     fprintf(stderr, "beamrate: warning: ");
     br_quote(stderr, &br_for_text, what);
@@ -167,7 +167,7 @@ static enum br_status render(struct br_session *s, const char *script, struct br
     return BR_OK;
 }
 
-/* Writes a figure's data and script, and starts gnuplot on it, where there is one. */
+/* Writes a figure's data and script, and starts gnuplot on it, if gnuplot is installed. */
 static enum br_status draw(struct br_session *s, const struct br_figure *figure,
                            struct br_error *err)
 {
@@ -186,7 +186,7 @@ static enum br_status draw(struct br_session *s, const struct br_figure *figure,
     return render(s, name, err);
 }
 
-/* Waits for all pictures, and says once where gnuplot is missing. */
+/* Waits for all pictures; prints once that gnuplot is missing. */
 static enum br_status end_pictures(struct br_session *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -205,7 +205,7 @@ static enum br_status end_pictures(struct br_session *s, struct br_error *err)
 
 /* ---- files ---- */
 
-/* One file: of one table, of a report, or, as a page, of all. */
+/* Writes one file: of one table, of a report, or, as a page, of all reports. */
 static enum br_status write_file(const struct br_session *s, const struct br_document_format *f,
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err)
@@ -239,7 +239,7 @@ static enum br_status write_report(const struct br_session *s, const struct br_d
     return BR_OK;
 }
 
-/* The page has the pictures, so it waits for them. */
+/* The page contains the pictures, so it is written after them. */
 enum br_status br_session_write(struct br_session *s, const struct br_document_format *const *f,
                                 struct br_error *err)
 {
@@ -268,7 +268,7 @@ enum br_status br_session_finish(struct br_session *s, struct br_error *err)
         status = br_document_show(stdout, &s->document[i], err);
         putchar('\n');
     }
-    fflush(stdout); /* before what follows fails; that this did is found at the end */
+    fflush(stdout); /* before anything can fail; main checks standard output at the end */
     if (status || !br_output_is_open(&s->output))
         return status;
     status = br_session_write(s, br_document_formats, err);

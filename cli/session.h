@@ -18,7 +18,7 @@
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
 struct br_opened_scene {
     char path[1024]; /* of its file */
-    char *text;      /* what the file holds; owned */
+    char *text;      /* of the file; owned */
     struct br_scene scene;
 };
 
@@ -27,7 +27,7 @@ enum br_status br_opened_scene_read(struct br_opened_scene *scene, const char *n
                                     struct br_error *err);
 void br_opened_scene_clear(struct br_opened_scene *scene);
 
-/* Static strings, and the scene's; NULL: of no one scene. */
+/* Its strings are static, or the scene's. scene NULL: not of one scene. */
 struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int threads);
 
 /* Begins with br_session_begin. */
@@ -36,46 +36,47 @@ struct br_session {
     bool writes;                  /* the first rank */
     bool quiet;                   /* --quiet, or another rank */
     int threads;                  /* of --threads; 0: all cores */
-    struct br_document *document; /* documents; owned */
+    struct br_document *document; /* `documents` of them; owned */
     size_t documents;
-    struct br_output output;  /* of --out; not open where that is not given */
-    struct br_figure *figure; /* figures, on their way; owned */
+    struct br_output output;  /* of --out; not open without that option */
+    struct br_figure *figure; /* `figures` of them, to be drawn; owned */
     size_t figures;
-    bool lost;                    /* one, where there was no memory */
-    struct br_gnuplot at_work[8]; /* drawn: side by side, in order, while files are written */
+    bool lost;                    /* a figure, for lack of memory */
+    struct br_gnuplot at_work[8]; /* gnuplots that draw side by side, while files are written */
     size_t drawn;
-    bool missing; /* gnuplot */
-    bool said;    /* that it is */
+    bool missing; /* gnuplot is not installed */
+    bool said;    /* this was printed */
 };
 
 struct br_session br_session_begin(const struct br_options *options);
 
-/* Refuses several ranks (BR_BAD_INPUT), where they would disturb one another's clocks. */
+/* Refuses several ranks (BR_BAD_INPUT), for work that measures time. */
 enum br_status br_session_alone(struct br_error *err);
 
 /* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. Close
  * the session even then. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
 
-/* Where a scene's finished work is kept, in the folder of --out, which is open: out; with --resume
- * what is there is taken. text: of the scene; more: what else its work follows from, or "". Without
- * a folder, or on several ranks, nothing is kept, and --resume is refused (BR_BAD_INPUT); BR_IO. */
+/* Opens the store of a scene's finished work (out) in the folder of --out, which is open. With
+ * --resume, stored work is used. text: of the scene; more: whatever else the work depends on, or
+ * "". Without a folder, or on several ranks, nothing is stored, and --resume is refused
+ * (BR_BAD_INPUT). Fails with BR_IO, too. */
 enum br_status br_session_keep(const struct br_session *session, const char *text, const char *more,
                                struct br_kept *kept, struct br_error *err);
 
-/* Says how much was taken, and warns of what was not what it should be. */
+/* Prints how much stored work was used, and warns of stored files that are damaged. */
 void br_session_tell_kept(const struct br_session *session, const struct br_kept *kept);
 
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
 
-/* Names a picture in a report and keeps it for br_session_finish; but not where it has no panels,
- * or the options want no pictures. Takes the figure. title: NULL: its own. */
+/* Names a picture in a report and keeps it for br_session_finish, unless it has no panels or the
+ * options ask for no pictures. Takes ownership of the figure. title NULL: the figure's own. */
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
 
-/* Shows what would be marched (--dry-run), and releases it. Fails as br_document_show. */
+/* Shows what would be marched (--dry-run), and releases the list. Fails as br_document_show. */
 enum br_status br_session_foresee(const struct br_session *session, struct br_foreseen *work,
                                   struct br_error *err);
 
@@ -88,12 +89,11 @@ enum br_status br_session_write(struct br_session *session,
                                 const struct br_document_format *const *formats,
                                 struct br_error *err);
 
-/* Shows the reports on the terminal, with an empty line after each, then writes all, if there is
- * where to. Fails as br_session_write; what is shown was shown then. */
+/* Shows the reports on the terminal, with an empty line after each; then writes all if --out is
+ * given. Fails as br_session_write; the reports are shown even then. */
 enum br_status br_session_finish(struct br_session *session, struct br_error *err);
 
-/* Warns of a picture that gnuplot has not drawn (what: its name). Fails with BR_INTERRUPTED where
- * that is why. */
+/* Warns of a picture that gnuplot has not drawn (what: its name). BR_INTERRUPTED: by a signal. */
 enum br_status br_picture_failed(const struct br_error *why, const char *what,
                                  struct br_error *err);
 
@@ -109,16 +109,16 @@ enum br_status br_failed_in(struct br_error *err, const char *name);
  * "". */
 void br_print_warnings(const char *scene, const struct br_warnings *warnings);
 
-/* What is cheap to tell of the many marches of a command, scene by scene. Of the cells of studies,
- * the runs of `trade --split`, and the paper's examples as `figures` marches them: fails with
- * BR_BAD_INPUT or BR_NO_MEMORY where one is refused. */
+/* The next two functions print the warnings that are cheap to find for a command's many marches,
+ * scene by scene. This one serves cells of studies, runs of `trade --split`, and the paper's
+ * examples in `figures`. Fails with BR_BAD_INPUT or BR_NO_MEMORY if a march is refused. */
 enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
                                   struct br_error *err);
 enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err);
 enum br_status br_warn_of_paper(struct br_error *err);
 
-/* The same of the marches of checks, and of trials of a scene; a march that is refused is a result
- * of theirs. */
+/* The same for the marches of checks, and of trials of a scene: a refused march is one of their
+ * results, not a failure. */
 void br_warn_of_checks(const struct br_check *checks, size_t count);
 void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count);
 

@@ -18,25 +18,25 @@
 #include "study/scene/file.h"
 #include "tables/reports.h"
 
-/* One study: a scene, and the printed table to hold it against, if any. */
+/* One study: a scene, and the printed table to compare it with, if any. */
 struct job {
     const char *name;           /* of the result files; NULL: the scene's */
     const char *scene;          /* a file, or a bundled scene */
     const char *printed;        /* a data file below the data folder, or NULL */
     const char *caption;        /* NULL: the scene's title */
-    const struct br_vary *vary; /* of --vary, instead of `scene`: with that value */
+    const struct br_vary *vary; /* of --vary: gives the scene instead of `scene` */
     size_t value;
 };
 
 enum { MESHES = 4 }; /* an order needs three differences */
 
-/* A job on its way. Each mesh is compared with the next at one time step, and without a reference
- * each cell of the grid with its neighbours. */
+/* The data of a job while it is computed. Each mesh is compared with the next at one time step;
+ * without a reference, each cell of the grid is compared with its neighbours. */
 struct work {
     struct br_opened_scene opened;
-    size_t *steps;             /* of the grid, ascending; owned */
+    size_t *steps;             /* numbers of steps of the grid, ascending; owned */
     struct br_tips tips;       /* only without a reference */
-    size_t mesh[MESHES];       /* for differences, where those of the grid do not do */
+    size_t mesh[MESHES];       /* for differences, if those of the grid do not suffice */
     struct br_error no_meshes; /* why there are no differences */
     struct br_kept kept;
     struct br_differences apart[BR_MOST_NORMS];
@@ -55,10 +55,10 @@ struct run {
     const char *what; /* for the progress */
     bool differences; /* --reference none: cells against the next finer ones */
     size_t jobs, pages;
-    size_t heads;      /* jobs, or twice that: each job, then each against the exact solution */
-    struct work *work; /* jobs */
-    struct page *page; /* pages, those of a job together */
-    struct br_study *study; /* heads * norms, in the first norm first, which br_study_run takes */
+    size_t heads;           /* jobs, or 2 * jobs: each job, then each against the exact solution */
+    struct work *work;      /* `jobs` of them */
+    struct page *page;      /* `pages` of them, those of a job together */
+    struct br_study *study; /* heads * norms; those in the first norm, for br_study_run, first */
 };
 
 /* Study h of the heads in norm m. */
@@ -92,11 +92,11 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
     study->steps = w->steps;
     if (!study->judge->nests)
         return BR_OK;
-    study->auditor = br_judge_best(scene); /* measures the fine run's own error */
+    study->auditor = br_judge_best(scene); /* it measures the fine run's own error */
     return br_study_request_fine(q, scene, &study->reference, err);
 }
 
-/* From the job's study in the first norm: the same cells against the exact solution, and both in
+/* Copies the job's study in the first norm: the same cells against the exact solution, and both in
  * the other norms. */
 static void spread_study(struct run *r, size_t job)
 {
@@ -136,8 +136,8 @@ static enum br_status read_printed(const char *relative, struct br_report *repor
     return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
 }
 
-/* Of a job in norm m; without a reference over h, then k. Names end with the norm, but for the
- * default one, and with what is compared. */
+/* Starts report i of a job in norm m; without a reference, the first is over h, the second over k.
+ * Its name ends with the norm, unless that is the default, and with what is compared. */
 static enum br_status start_report(struct run *r, const struct job *job, size_t i, size_t m,
                                    bool over_k, struct br_error *err)
 {
@@ -189,7 +189,7 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
     return BR_OK;
 }
 
-/* with_exact: a fine reference gets the exact one beside it. */
+/* with_exact: a fine reference is followed by the exact one. */
 static enum br_status prepare(struct run *r, const struct job *job, bool with_exact,
                               struct br_error *err)
 {
@@ -253,7 +253,7 @@ static enum br_status keep(struct run *r, const char *more, struct br_error *err
     return BR_OK;
 }
 
-/* Of what marches at once: without a reference one job after the other. */
+/* Checks the memory of jobs that march at once; without a reference they march one by one. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
     const double available = br_memory_available();
@@ -264,8 +264,8 @@ static enum br_status check_memory(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* The meshes of the grid, if they are enough and each nests in the next, or else some up to about
- * the finest; at the coarsest time step that all of them can march. */
+/* The meshes for the differences, at the coarsest time step that all of them can march: those of
+ * the grid, if they suffice and each nests in the next; else meshes up to about its finest. */
 static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESHES])
 {
     struct br_study grid = {.scene = s->scene, .method = s->method, .judge = &br_judge_none};
@@ -287,8 +287,8 @@ static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESH
     return grid;
 }
 
-/* Those of meshes show the order in h, which the error in k hides in most grids. A study with a
- * reference goes on without. */
+/* Differences of meshes show the order in h, which the error in k hides in most grids. A study with
+ * a reference goes on if they fail. */
 static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
                                       struct br_error *err)
 {
@@ -434,7 +434,7 @@ static const struct br_variation_column *name_columns(const struct br_norm *norm
     return column;
 }
 
-/* An order is claimed as a study's report claims it. */
+/* Takes an order by the rule of a study's report for claiming it. */
 static void take_order(double *value, const struct br_joint_fit *fit, const struct br_estimate *e)
 {
     if (!br_joint_describes(fit) || !br_order_determined(e))

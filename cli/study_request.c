@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* "fine:N,K": `arguments` is behind the colon. */
+/* Reads "fine:N,K"; `arguments` begins after the colon. */
 static enum br_status read_fine(const char *text, const char *arguments, struct br_study_request *r,
                                 struct br_error *err)
 {
@@ -22,7 +22,7 @@ static enum br_status read_fine(const char *text, const char *arguments, struct 
     return BR_OK;
 }
 
-/* A judge's name, and for a fine run its arguments. */
+/* Reads a judge's name, and for a fine run its arguments. */
 static enum br_status read_reference(const char *text, struct br_study_request *r,
                                      struct br_error *err)
 {

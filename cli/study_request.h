@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the options say that commands share which compare marches with a solution. */
+/* Options shared by the commands that compare marches with a solution. */
 #ifndef BR_CLI_STUDY_REQUEST_H
 #define BR_CLI_STUDY_REQUEST_H
 
@@ -8,7 +8,7 @@
 #include "study/trade/named_method.h"
 
 struct br_study_request {
-    const struct br_judge *judge; /* NULL: not said */
+    const struct br_judge *judge; /* NULL: not given */
     size_t reference_n;
     const char *reference_k; /* as br_read_step takes it; borrowed from the options */
     const struct br_norm *norm[BR_MOST_NORMS];

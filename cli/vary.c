@@ -21,7 +21,7 @@ static void *point_at(const struct br_vary_command *c, void *points, size_t i)
     return (char *)points + i * c->size;
 }
 
-/* All points, so that what is refused is refused before anything marches. */
+/* Prepares all points before the first march, so that a refusal comes early. */
 static enum br_status prepare(struct br_vary *v, const struct br_vary_command *c, void **points,
                               struct br_error *err)
 {

@@ -9,7 +9,7 @@
 #include "study/verify/comparison.h"
 #include "tables/reports.h"
 
-/* A format's name is an option's; and the baseline is one more file. */
+/* The files of a command: one for each format that has an option, and the baseline. */
 enum { BR_VERDICT_FILES = 8 };
 
 /* Begins as zeros. */
@@ -20,19 +20,19 @@ struct br_verdicts {
     struct br_comparison comparison;
 };
 
-/* What the reports need, before a long computation: reads the baseline, and refuses one of other
- * problems; opens the files; no two may be one, nor the place of what is read. Fails with
- * BR_BAD_INPUT, BR_NO_MEMORY. Clear it even then. */
+/* Prepares the reports before a long computation: reads the baseline, and refuses one of other
+ * problems; opens the files. Two of them must not be the same, and none may replace a file that is
+ * read. Fails with BR_BAD_INPUT, BR_NO_MEMORY. Clear it even then. */
 enum br_status br_verdicts_open(struct br_verdicts *verdicts, const struct br_options *options,
                                 const struct br_check *checks, size_t count, struct br_error *err);
 
-/* Refuses (BR_BAD_INPUT) to write any of them in the place of this file; NULL: none. */
+/* Fails with BR_BAD_INPUT if one of them would replace this file; NULL: none. */
 enum br_status br_verdicts_spare(const struct br_verdicts *verdicts, const char *path,
                                  struct br_error *err);
 
 /* Builds the report of the verdicts, the session's last, finishes the session and writes the files;
- * where one of them is standard output, no report is shown there. findings: without comparison and
- * provenance. whole: all that there is was checked. Fails as br_session_finish, br_document_print
+ * if one of them is standard output, no report is shown there. findings: without comparison and
+ * provenance. whole: all scenes were checked (--all). Fails as br_session_finish, br_document_print
  * and br_whole_file_commit; then, when all is written, with BR_VERDICT where not all passed or the
  * comparison is serious, and BR_BAD_INPUT where something could not be verified. */
 enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_session *session,
@@ -43,7 +43,7 @@ void br_verdicts_clear(struct br_verdicts *verdicts);
 
 /* ---- study files of any program: read, trusted, and checked ---- */
 
-/* What belongs to one study: its request, numbers and orders. Begins as zeros. */
+/* One study: its request, numbers and orders. Begins as zeros. */
 struct br_study_file {
     struct br_orders_request request;
     struct br_numbers numbers;
@@ -52,13 +52,13 @@ struct br_study_file {
 void br_study_file_clear(struct br_study_file *file);
 
 /* Reads a study file's text. One that has a command is refused (BR_BAD_INPUT), with the command,
- * unless --trust is given, or was once for the same text. Clear it even then. */
+ * unless --trust is given, or was given earlier for the same text. Clear it even then. */
 enum br_status br_study_file_read(const char *path, const char *text,
                                   const struct br_options *options, struct br_study_file *file,
                                   struct br_error *err);
 
-/* Takes what the options say of its runs; returns the check that will hold its verdicts, with its
- * path, name and problem. */
+/* Applies the options for its runs; returns the check for its verdicts, with its path, name and
+ * problem. */
 struct br_check br_study_file_check(struct br_study_file *file, const struct br_options *options);
 
 /* Gets the numbers, finds the orders, and fills the check's cases. Fails as

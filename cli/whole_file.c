@@ -11,8 +11,8 @@
 
 #include "tables/json_value.h"
 
-/* Where a path leads, or will when it is there: its folder is. Symbolic links are followed; to be
- * freed; NULL with errno. */
+/* The path with symbolic links followed, to be freed. The file need not exist, but its folder. NULL
+ * with errno. */
 static char *place_of(const char *path)
 {
     struct stat link;
@@ -60,7 +60,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     if (w->renamed && can_be_replaced(w, there))
         w->file = open_memstream(&w->text, &w->size);
     else if (there && !w->renamed)
-        w->file = fopen(path, "w"); /* a pipe, a terminal: nothing to rename; a folder fails */
+        w->file = fopen(path, "w"); /* a pipe or a terminal is not renamed; a folder fails */
     if (!w->file && errno == ENOMEM)
         return br_no_memory(err, path);
     return w->file ? BR_OK
@@ -92,7 +92,7 @@ mode_t br_new_permissions(mode_t wanted)
     return wanted & ~mask;
 }
 
-/* Writes all of the bytes, and waits until the disk has them. */
+/* Writes all bytes, and waits until they are on the disk. */
 static bool write_out(int file, const char *bytes, size_t count)
 {
     while (count) {
@@ -114,7 +114,7 @@ bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, 
     const int file = openat(folder, hidden, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file < 0)
         return false;
-    flock(file, LOCK_EX | LOCK_NB); /* or the next program would sweep it away */
+    flock(file, LOCK_EX | LOCK_NB); /* else the next program would remove it */
     (void)!fchmod(file, mode);      /* some file systems have no permissions */
     const bool put = write_out(file, bytes, count) && renameat(folder, hidden, folder, name) == 0;
     const int reason = errno;

@@ -7,7 +7,7 @@
 
 #include "study/scene/quote.h"
 
-/* Room for one more in an array (in/out: *array, *room); false: no memory. */
+/* Makes room for one more element in an array (in/out: *array, *room); false: no memory. */
 static bool grow(void *array, size_t count, size_t *room, size_t size)
 {
     void **old = array;
@@ -38,27 +38,27 @@ struct br_panel *br_panel_add(struct br_figure *f, const char *x_label, const ch
     return last_panel(f);
 }
 
-/* Whether two pens take their looks from one list. */
+/* Whether series of the two pens must differ in style. */
 static bool are_akin(enum br_pen a, enum br_pen b)
 {
     return a == b || (a <= BR_PEN_LINE && b <= BR_PEN_LINE);
 }
 
-/* Looks like the series of this title, else like none before; without a title like the first. */
-static void find_look(const struct br_figure *f, enum br_pen pen, struct br_series *new)
+/* Takes the style of the series with the same title, else a new one; without a title the first. */
+static void find_style(const struct br_figure *f, enum br_pen pen, struct br_series *new)
 {
     size_t last = 0;
     for (size_t i = 0; i < f->panels; i++)
         for (size_t j = 0; j < f->panel[i].count; j++) {
             const struct br_series *s = f->panel[i].series[j];
             if (are_akin(s->pen, pen) && strcmp(s->title, new->title) == 0) {
-                new->look = s->look;
+                new->style = s->style;
                 return;
             }
-            last = are_akin(s->pen, pen) && s->look > last ? s->look : last;
+            last = are_akin(s->pen, pen) && s->style > last ? s->style : last;
         }
     new->in_key = new->title[0];
-    new->look = new->in_key ? last + 1 : 1;
+    new->style = new->in_key ? last + 1 : 1;
 }
 
 struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char *title, ...)
@@ -75,8 +75,8 @@ struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char
     va_start(arguments, title);
     vsnprintf(s->title, sizeof s->title, title, arguments);
     va_end(arguments);
-    find_look(f, pen, s);
-    s->pen = pen <= BR_PEN_LINE && s->look > BR_HUES ? BR_PEN_OTHERS : pen;
+    find_style(f, pen, s);
+    s->pen = pen <= BR_PEN_LINE && s->style > BR_HUES ? BR_PEN_OTHERS : pen;
     return p->series[p->count++] = s;
 }
 
@@ -111,8 +111,8 @@ void br_mark_add(struct br_figure *f, double x, const char *title)
     br_point_add(s, x, y.high, NULL);
 }
 
-/* A fan that rises from one point; it takes two fifths of the panel's height at most, and a fifth
- * of its width. */
+/* Adds lines that rise from one point. They take at most two fifths of the panel's height, and a
+ * fifth of its width. */
 void br_slopes_add(struct br_figure *f, size_t count, const double *order)
 {
     const struct br_range x = br_extent(last_panel(f), false), y = br_extent(last_panel(f), true);
@@ -261,7 +261,7 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
                     p->series[j]->title, p->x_label, p->y_label);
             for (const struct br_figure_point *at = s->point; at < s->point + s->count; at++) {
                 write_number(out, at->x);
-                write_number(out, br_is_drawn(p, at) ? at->y : NAN); /* or a gap */
+                write_number(out, br_is_drawn(p, at) ? at->y : NAN); /* NAN: a gap */
                 fprintf(out, "%s\n", at->flag ? at->flag : "-");
             }
             fputs("\n\n", out);

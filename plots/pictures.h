@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures: what a figure is, the fillers that make one of each report, and gnuplot, which draws
- * it.
+/* Pictures: the figure as data, the fillers that make a figure of each report, and gnuplot, which
+ * draws it.
  *
- * To add a picture: a filler, and a row of its registry or a declaration below. */
+ * To add a picture, write a filler, and a row of its registry or a declaration below. */
 #ifndef BR_PLOTS_PICTURES_H
 #define BR_PLOTS_PICTURES_H
 
@@ -32,30 +32,28 @@ struct br_trial;
 /* ---- figure.c ---- */
 
 /* A picture as data: panels of series between axes, or of coloured cells, and one key for all of
- * them. A filler fills it from a result (plots/pictures.h), and script.c alone writes it for
- * gnuplot, which lays it out.
+ * them. A filler fills it from a result. Only script.c writes it for gnuplot.
  *
- * Fillers add to the last panel, and need not look whether there was memory: the figure remembers,
- * and br_figure_check tells. Texts are in gnuplot's enhanced markup unless they are called plain;
- * plain ones may come from a scene. */
+ * Fillers add to the last panel, and need not check for lack of memory: the figure remembers it,
+ * and br_figure_check reports it. Texts are in gnuplot's enhanced markup unless they are called
+ * plain; plain ones may come from a scene. */
 
 enum {
     BR_FIGURE_PANELS = 6,
     BR_FIGURE_NOTES = 3,
     BR_FIGURE_KINDS = 8,
-    BR_HUES = 6 /* that can be told apart; each has a dash and a mark of its own */
+    BR_HUES = 6 /* that people can distinguish; each has a dash and a mark of its own */
 };
 
-/* How a series is drawn. The first two are in a hue; where none is left, they are grey, two of the
- * "others". */
+/* How a series is drawn. The first two have a hue; without a free hue they become BR_PEN_OTHERS. */
 enum br_pen {
     BR_PEN_CURVE, /* a line with marks */
     BR_PEN_LINE,  /* a line, for many points */
     BR_PEN_OTHERS,
-    BR_PEN_GUIDE, /* what is predicted or compared with: thin, dark, dashed */
+    BR_PEN_GUIDE, /* a prediction, or a line to compare with: thin, dark, dashed */
     BR_PEN_BAND,  /* wide and pale, behind the others */
-    BR_PEN_DOTS,  /* points: small and grey, */
-    BR_PEN_RINGS, /* and so on */
+    BR_PEN_DOTS,  /* points, here small and grey */
+    BR_PEN_RINGS,
     BR_PEN_SQUARES,
     BR_PEN_PLUSES,
     BR_PEN_STARS,
@@ -64,20 +62,21 @@ enum br_pen {
 };
 
 struct br_figure_point {
-    double x, y;      /* not finite: a gap */
-    const char *flag; /* a word, why it counts less: its mark is hollow; NULL: none. Borrowed */
+    double x, y; /* not finite: a gap */
+    const char
+        *flag; /* a word that says why it counts less: its mark is hollow; NULL: none. Borrowed */
 };
 
-/* Series of one pen and title look the same in all panels, and have one entry in the key. */
+/* Series of one pen and title have one style in all panels, and one entry in the key. */
 struct br_series {
     char title[80]; /* "": not in the key */
     char end[16];   /* a text beside the last point */
     enum br_pen pen;
-    size_t look; /* 1, 2, ...: the hue; of a guide its dash */
-    bool in_key; /* the first one of its title */
-    size_t mark; /* 1 to BR_HUES: another hue's mark; 0: its own */
+    size_t style; /* 1, 2, ...: the hue; of a guide its dash */
+    bool in_key;  /* the first one of its title */
+    size_t mark;  /* 1 to BR_HUES: another hue's mark; 0: its own */
     struct br_figure_point *point;
-    size_t count, room; /* no points: it stands in the key alone */
+    size_t count, room; /* no points: it is only in the key */
     bool failed;
 };
 
@@ -94,9 +93,9 @@ struct br_range {
 struct br_panel {
     char title[96], x_label[96], y_label[96], top_label[32];
     bool log_x, log_y;
-    struct br_series **series; /* count; owned */
+    struct br_series **series; /* `count` of them; owned */
     size_t count, room;
-    struct br_series top;  /* ticks of the upper axis: at x stands the number y */
+    struct br_series top;  /* ticks of the upper axis: the number y is printed at x */
     struct br_cells cells; /* 0 columns: none */
 };
 
@@ -110,8 +109,8 @@ struct br_figure {
     struct br_panel panel[BR_FIGURE_PANELS];
     size_t panels;
     bool failed;
-    struct br_series lost; /* what a filler gets where there is no memory */
-    /* Of cells: factors, by size, with white at 1; or, where they are kinds 0, 1, ..., names. */
+    struct br_series lost; /* a filler gets this one when there is no memory */
+    /* Colours of cells: by size, with white at 1, for factors; else names of the kinds 0, 1, ... */
     char value_label[96];
     struct br_range value; /* the ends of the colours: below and above 1 */
     char kind[BR_FIGURE_KINDS][64];
@@ -121,24 +120,25 @@ struct br_figure {
 /* Fills a text of a figure. */
 #define BR_SAY(text, ...) snprintf((text), sizeof(text), __VA_ARGS__)
 
-/* A new panel; there must be room. */
+/* Adds a panel; there must be room. */
 struct br_panel *br_panel_add(struct br_figure *figure, const char *x_label, const char *y_label);
 
-/* A new series of the last panel, to be filled. The title is a format. */
+/* Adds a series, to be filled, to the last panel. The title is a format. */
 __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_figure *figure,
                                                                       enum br_pen pen,
                                                                       const char *title, ...);
 void br_point_add(struct br_series *series, double x, double y, const char *flag);
 
-/* Brings the points into the order of x; of equals the least y first. */
+/* Sorts the points by x, then by y. */
 void br_series_sort(struct br_series *series);
 
-/* To the last panel, when its series are there: a line across it at one x, with a title in the key,
- * and right of all points (both axes are logarithmic) slopes to compare with, ascending. */
+/* Call these two after the panel's series are filled. br_mark_add draws a line across the last
+ * panel at one x, with a title in the key; br_slopes_add draws slopes to compare with, ascending,
+ * right of all points of a panel with logarithmic axes. */
 void br_mark_add(struct br_figure *figure, double x, const char *title);
 void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 
-/* Makes the last panel's cells, all NaN, with their edges to be filled; NULL without memory. */
+/* Makes the last panel's cells, all NaN; the caller fills their edges. NULL: no memory. */
 struct br_cells *br_cells_make(struct br_figure *figure, size_t columns, size_t rows);
 
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
@@ -147,34 +147,33 @@ bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *poi
 /* The range of the points that are drawn; low > high: there are none. */
 struct br_range br_extent(const struct br_panel *panel, bool along_y);
 
-/* What a cell is coloured by: its kind, or its value brought between the ends; -1: it is empty. */
+/* The number that colours a cell: its kind, or its value limited to the range; -1: it is empty. */
 double br_colour_of(const struct br_figure *figure, double value);
 
-/* Fails with BR_NO_MEMORY where something is missing in the figure, and with BR_BAD_INPUT where its
- * stem is not the beginning of a file's name; a figure for the terminal has none. */
+/* Fails with BR_NO_MEMORY if a part of the figure is missing, and with BR_BAD_INPUT if its stem
+ * cannot begin a file's name; a figure for the terminal has no stem. */
 enum br_status br_figure_check(const struct br_figure *figure, struct br_error *err);
 void br_figure_clear(struct br_figure *figure);
 
-/* The data: a block for each panel's cells and each series with points. */
+/* Writes the data: a block for each panel's cells and each series with points. */
 void br_figure_write_data(FILE *out, const struct br_figure *figure);
 
 /* ---- script.c ---- */
 
-/* The script that draws stem.svg, stem.png and, where gnuplot can, stem.pdf from stem.dat. */
+/* Writes the script that draws stem.svg, stem.png and, if gnuplot can, stem.pdf from stem.dat. */
 void br_figure_write_script(FILE *out, const struct br_figure *figure);
 
-/* A script that draws the panels one below the other with letters, `columns` wide, on standard
- * output; its data are in it. */
+/* Writes a script that contains its data and draws the panels one below the other with letters,
+ * `columns` wide, on standard output. */
 void br_figure_write_letters(FILE *out, const struct br_figure *figure, int columns);
 
-/* How every script begins: comments, and the variables `stem` and `data`. pictures: what it draws.
- */
+/* Writes a script's beginning: comments, variables `stem` and `data`. pictures: what it draws. */
 void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures);
 
-/* ==== what is filled ====
+/* ==== the fillers ====
  *
- * From a result: nothing is computed here but where a point stands. Clear what they return; where
- * there was no memory for all of it, br_figure_check tells. */
+ * Each makes a figure of a result, and computes only the points' positions. Clear the figure;
+ * br_figure_check reports lack of memory. */
 
 /* ---- convergence.c: a study's errors ---- */
 
@@ -187,7 +186,7 @@ struct br_convergence_picture {
 };
 extern const struct br_convergence_picture *const br_convergence_pictures[]; /* NULL-terminated */
 
-/* Ask picture->applies first. */
+/* Call picture->applies first. */
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *report);
 
@@ -197,14 +196,14 @@ struct br_figure br_convergence_draw(const struct br_convergence_picture *pictur
 struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp and so on */
     const char *title; /* one line for a person */
-    /* Which methods have a curve. */
+    /* Whether a method has a curve. */
     bool (*shows)(const struct br_trade *trade, const struct br_named_method *named);
     const char *label;                            /* of the axis of work, with its unit */
     double (*work)(const struct br_trial *trial); /* along that axis; NaN: not drawn */
 };
 extern const struct br_trade_picture *const br_trade_pictures[]; /* NULL-terminated */
 
-/* Whether it has anything to show. */
+/* Whether the picture has anything to show. */
 bool br_trade_picture_applies(const struct br_trade_picture *picture, const struct br_trade *trade);
 
 struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
@@ -212,29 +211,29 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
 
 /* ---- split.c: where the error comes from ---- */
 
-/* A panel for each of the first two methods among the runs, over what they differ by: k on the
- * finest mesh, or else h at the smallest k; no panels where no two runs differ by either. */
+/* A panel for each of the first two methods among the runs. The axis is k on the finest mesh, if
+ * the runs differ in k, or else h at the smallest k; no panels if no two runs differ in either. */
 struct br_figure br_split_draw(const struct br_split *split, size_t count);
 
 /* ---- orders.c: any program's errors ---- */
 
-/* A panel over the size of elements, and of steps; the line of each quantity at the finest size of
- * the other. */
+/* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
+ * finest size of the other kind. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
 
-/* ---- variation.c: over a scene's number that is varied ---- */
+/* ---- variation.c: results over a scene's number that --vary varies ---- */
 
-/* A panel for each axis of its columns. */
+/* One panel for all columns with the same axis. */
 struct br_figure br_variation_draw(const struct br_variation *variation);
 
 /* ---- extremes.c ---- */
 
-/* Deviation from the exact discrete solution: over n at time step number k, or, of what steps
- * gather, over their number. */
+/* Deviation from the exact discrete solution over n, at time step number k; or, for round-off that
+ * adds up, over the number of steps. */
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
-/* Loss of energy a period over steps a period. */
+/* Loss of energy per period over steps per period. */
 struct br_figure br_energy_draw(const struct br_energy_behaviour *behaviour);
-/* The lagged contact's growth over c_H and k, and what most cases of the map's cells are. */
+/* The lagged contact's growth over c_H and k; and the main kind in each cell of the map. */
 struct br_figure br_stability_draw(const struct br_stability *stability);
 struct br_figure br_extreme_map_draw(const struct br_extreme_map *map);
 
@@ -245,9 +244,9 @@ struct br_paper_figure {
     int number;
     size_t example;     /* 1 to 4 */
     const char *title;  /* the paper's caption */
-    const char *says;   /* what the paper's text says of it */
-    const char *beside; /* what we show besides; may be NULL */
-    bool bending;       /* the displacements of the beam: which they are; and NULL for fill */
+    const char *says;   /* the statement in the paper's text */
+    const char *beside; /* what we add to the paper's picture; may be NULL */
+    bool bending;       /* it shows the beam's w, not the rod's u; fill is NULL then */
     void (*fill)(const struct br_paper *paper, struct br_figure *figure);
     void (*mark)(const struct br_example *example, struct br_figure *figure); /* may be NULL */
 };
@@ -258,10 +257,10 @@ struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
 
 /* ---- run.c: the tip of a run over time ---- */
 
-/* The place of a number in struct br_history_row. */
+/* The offset of a number in struct br_history_row. */
 #define BR_ROW(member) offsetof(struct br_history_row, member)
 
-/* A line over time of a number of all rows, times `factor`. */
+/* Adds a line: a number of all rows, times `factor`, over time. */
 void br_rows_add(struct br_figure *figure, const char *title,
                  const struct br_history_record *record, size_t place, double factor);
 
@@ -277,14 +276,14 @@ struct br_movie_format {
     const char *terminal;  /* gnuplot's, with its options */
     const char *title;     /* one line for a person */
     bool frames;           /* one file each, ... */
-    bool film;             /* ... of which ffmpeg makes one */
+    bool film;             /* ... which ffmpeg joins */
 };
 extern const struct br_movie_format br_movie_formats[]; /* ends with zeros */
 
 /* The format of a file by its ending; NULL: none. */
 const struct br_movie_format *br_movie_format_of(const char *file);
 
-/* What is shown: all looks of the record. Borrowed. */
+/* A movie shows all samples of the record. Borrowed. */
 struct br_movie {
     const struct br_scene *scene;
     const struct br_history_record *record;
@@ -292,8 +291,8 @@ struct br_movie {
     const char *stem; /* of the files, without a quote; frames are stem-0001.png and so on */
 };
 
-/* The tip in all frames, then each frame's fields, and the script that draws the file from
- * stem.dat. */
+/* Write the data, that is, the tip in all frames, then each frame's fields; and the script that
+ * draws the file from stem.dat. */
 void br_movie_write_data(FILE *out, const struct br_movie *movie);
 void br_movie_write_script(FILE *out, const struct br_movie *movie);
 
@@ -302,41 +301,40 @@ void br_movie_file(const struct br_movie *movie, size_t frame, char *file, size_
 
 /* ---- render.c ---- */
 
-/* Running gnuplot, and ffmpeg. All fail with BR_IO where gnuplot does, with the line in which it
- * says why, and where it takes longer than a minute (or BEAMRATE_GNUPLOT_SECONDS); with
- * BR_INTERRUPTED when the work is to stop. A gnuplot that has not ended is killed. */
+/* Running gnuplot, and ffmpeg. All fail with BR_IO if gnuplot fails (the message is its line about
+ * the error), or takes longer than a minute (or BEAMRATE_GNUPLOT_SECONDS); with BR_INTERRUPTED when
+ * the work must stop. A gnuplot that has not ended is killed. */
 
-/* What tells all that wait for gnuplot that they shall stop. NULL, as at first: nothing. */
+/* Sets the function that says whether to stop waiting for gnuplot; NULL, as at first: never. */
 void br_gnuplot_stop_when(bool (*stop)(void));
 
-/* A script that gnuplot is at work on; several may be so side by side. */
+/* A gnuplot that works on a script; several may run side by side. */
 enum { BR_SCRIPT_NAME = 512 };
 struct br_gnuplot {
     const char *program; /* its name */
     char folder[4096], script[BR_SCRIPT_NAME];
     pid_t child;
-    FILE *said;     /* what it says */
+    FILE *said;     /* its messages */
     double started; /* s, by the monotonic clock */
-    /* of a script that says a dot a picture: who is told how many it has drawn of all; NULL: nobody
-     */
+    /* reports progress of a script that prints a dot for each picture; NULL: none */
     const struct br_observer *observer;
     size_t pictures;
 };
 
-/* Starts gnuplot on a script in its folder, or on commands (script NULL) that stand in a file.
- * *missing (out): gnuplot is not installed, and the call fails. End what has been started. */
+/* Starts gnuplot on a script in its folder, or on a file of commands (script NULL). *missing (out):
+ * gnuplot is not installed, and the call fails. After a success, call br_gnuplot_end. */
 enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
                                 FILE *commands, bool *missing, struct br_error *err);
 
 /* Waits for the end. */
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
 
-/* The same for the script of a figure. Fails, too, where a picture is not complete (a full disk);
- * after any failure none of them stays. */
+/* The same for the script of a figure. Fails, too, if a picture is incomplete (a full disk). After
+ * any failure it removes all pictures of the figure. */
 enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err);
 
-/* Runs the commands in a temporary file, which is closed (NULL: it could not be made); what gnuplot
- * says goes to `out`. */
+/* Runs the commands in a temporary file, which is closed (NULL: it could not be made); gnuplot's
+ * output goes to `out`. */
 enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err);
 
 /* Makes a film, folder/stem.mp4, of the frames folder/stem-0001.png and so on, with ffmpeg, and
@@ -347,8 +345,8 @@ enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
 /* Whether ffmpeg is installed. */
 bool br_film_can_be_made(void);
 
-/* Whether a picture that gnuplot has drawn is whole, which gnuplot does not look at: fails with
- * BR_IO where it is not there, or does not end as its kind does. */
+/* Checks that gnuplot has written a whole picture, which gnuplot itself does not check. Fails with
+ * BR_IO if the file is missing, or does not end as its kind does. */
 enum br_status br_picture_check(const char *path, struct br_error *err);
 
 #endif

@@ -23,7 +23,7 @@ void br_gnuplot_stop_when(bool (*stop)(void))
     stops = stop;
 }
 
-/* In a process group of its own, so that it can be ended with all that it has started. */
+/* Starts a program in its own process group, so that its child processes can be ended, too. */
 static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, char *const words[])
 {
     posix_spawnattr_t attributes;
@@ -37,7 +37,7 @@ static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, 
     return failure;
 }
 
-/* Starts a program without a shell; it reads `commands` (NULL: nothing), and what it says goes to
+/* Starts a program without a shell. It reads `commands` (NULL: nothing), and its output goes to
  * g->said. Returns an errno. */
 static int spawn(struct br_gnuplot *g, char *const words[], FILE *commands)
 {
@@ -58,8 +58,8 @@ static int spawn(struct br_gnuplot *g, char *const words[], FILE *commands)
     return failure;
 }
 
-/* gnuplot repeats the command first; the line that says why begins with the script's
- * name in quotes. */
+/* Finds the reason in gnuplot's output: gnuplot repeats the command first; the line with the reason
+ * begins with the script's name in quotes. */
 static const char *reason(char *text)
 {
     char *why = NULL, *rest;
@@ -72,7 +72,8 @@ static const char *reason(char *text)
     return why ? why : "it does not say why";
 }
 
-/* How whole pictures end, but for white space. A WebP and an MP4 say their lengths instead. */
+/* The last bytes of whole pictures, without white space. WebP and MP4 store their lengths instead.
+ */
 static const struct {
     const char *extension, *ending;
 } endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"},
@@ -95,7 +96,6 @@ static bool ends_with(const char *path, const char *ending)
     return got > 0 && got >= size && memcmp(tail + got - size, ending, size) == 0;
 }
 
-/* gnuplot does not look whether its files were written. */
 enum br_status br_picture_check(const char *path, struct br_error *err)
 {
     const char *dot = strrchr(path, '.');
@@ -127,7 +127,7 @@ static enum br_status start(struct br_gnuplot *g, char *const words[], FILE *com
     struct stat there;
     *missing = false;
     g->program = words[0];
-    if (stat(g->folder, &there) != 0) /* else a missing folder looks like a missing program */
+    if (stat(g->folder, &there) != 0) /* else a missing folder seems a missing program */
         return br_fail(err, BR_IO, "%s: %s", g->folder, strerror(errno));
     g->said = tmpfile();
     if (!g->said)
@@ -137,7 +137,7 @@ static enum br_status start(struct br_gnuplot *g, char *const words[], FILE *com
     if (!failure)
         return BR_OK;
     fclose(g->said);
-    *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name what is no folder */
+    *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name a file as a folder */
     return br_fail(err, BR_IO, "%s cannot be run: %s", g->program,
                    *missing ? "it is not installed" : strerror(failure));
 }
@@ -156,7 +156,7 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
     return start(g, words, commands, missing, err);
 }
 
-/* Tells how far it is: a dot and a line end a picture. */
+/* Reports progress: gnuplot prints a dot and a line end for each picture. */
 static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
     struct stat said;
@@ -171,7 +171,7 @@ static enum br_status check_time(const struct br_gnuplot *g, struct br_error *er
                    g->program, g->script, time_limit());
 }
 
-/* Waits for the end, and leaves g->said open, at its beginning. */
+/* Waits for the end. g->said stays open, at its beginning. */
 static enum br_status wait_for(struct br_gnuplot *g, struct br_error *err)
 {
     static const struct timespec soon = {.tv_nsec = 5000000};
@@ -209,8 +209,8 @@ bool br_film_can_be_made(void)
     return !start(&g, words, NULL, &missing, &why) && !br_gnuplot_end(&g, &why);
 }
 
-/* As many frames a second as a GIF has. Players want colours at half resolution, and the length of
- * a file at its start. */
+/* The film has as many frames a second as a GIF. Players need colours at half resolution, and the
+ * length of a file at its start. */
 enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
                             struct br_error *err)
 {
@@ -235,8 +235,8 @@ enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
     return status;
 }
 
-/* A script draws no PDF where gnuplot has no terminal for it; where it has one, gnuplot itself
- * fails if it cannot make the file. */
+/* The PDF may be missing: without a terminal for PDF gnuplot draws none; with one, it fails if it
+ * cannot make the file. */
 enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err)
 {
     static const char *const extensions[] = {"svg", "png", "pdf"};
@@ -266,7 +266,7 @@ enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct b
         return status;
     status = wait_for(&g, err);
     for (int c; !status && (c = getc(g.said)) != EOF;)
-        if (c != '\f') /* as a terminal for letters begins a page */
+        if (c != '\f') /* the terminal for letters begins a page with it */
             putc(c, out);
     fclose(g.said);
     return status;

@@ -82,18 +82,18 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
     fputs("# index 0, the tip: t (s) | u (m) | w (m) | dw/dt (m/s) | contact force (N) | friction "
           "force (N) | its bound (N)\n",
           out);
-    for (size_t look = 0; look < r->looks; look++) {
-        const struct br_history_row *at = &r->at[look];
+    for (size_t frame = 0; frame < r->looks; frame++) {
+        const struct br_history_row *at = &r->at[frame];
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", at->time, at->displacement[BR_AXIAL],
                 at->displacement[BR_BENDING], at->velocity[BR_BENDING], at->contact_force,
                 isnan(at->friction_force) ? 0 : at->friction_force, at->friction_bound);
     }
 
-    for (size_t look = 0; look < r->looks; look++) {
-        const double *u = br_history_field(r, look, BR_AXIAL, false);
-        const double *w = br_history_field(r, look, BR_BENDING, false);
-        fprintf(out, "\n\n# index %zu: x (m) | u (m) | w (m) at t = %.9g s\n", look + 1,
-                r->at[look].time);
+    for (size_t frame = 0; frame < r->looks; frame++) {
+        const double *u = br_history_field(r, frame, BR_AXIAL, false);
+        const double *w = br_history_field(r, frame, BR_BENDING, false);
+        fprintf(out, "\n\n# index %zu: x (m) | u (m) | w (m) at t = %.9g s\n", frame + 1,
+                r->at[frame].time);
         for (size_t i = 0;; i = i + every < r->n ? i + every : r->n) {
             fprintf(out, "%.9g %.9g %.9g\n", (double)i / (double)r->n * m->scene->length,
                     u[i * r->unknowns[BR_AXIAL]], w[2 * i]);
@@ -103,7 +103,7 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
     }
 }
 
-/* How much larger things are drawn than they are: 1, 2 or 5 times a power of ten. */
+/* Factors by which displacements and forces are magnified: 1, 2 or 5 times a power of ten. */
 static const char scales[] =
     "array time[frames]; array u[frames]; array w[frames]; array speed[frames]\n"
     "array contact[frames]; array friction[frames]; array bound[frames]\n"
@@ -148,7 +148,7 @@ static const char stage[] =
     "    set label 3 'obstacle' at edge + 0.02*length,-0.46*length left\n"
     "}\n";
 
-/* How long the beam is, and how far its displacements go, each by its own scale. */
+/* Scale bars for lengths and for displacements. */
 static const char bars[] =
     "set arrow 11 from 0,-0.55*length to x_bar,-0.55*length heads back size 0.01*length,90\n"
     "set label 11 sprintf('x: %g m', x_bar) at 0,-0.5*length left font ',11'\n"
@@ -163,8 +163,8 @@ static const char bars[] =
     "    set label 13 sprintf('w: %g m', w_bar) at 0.77*length,-0.5*length left font ',11'\n"
     "}\n";
 
-/* Arrows from the tip: the contact pushes left, friction against the slip, lambda up being -. The
- * bound stands to both sides, as far as the picture reaches. */
+/* Arrows from the tip: the contact pushes left, friction acts against the slip (lambda < 0 is drawn
+ * up). The friction bound is drawn on both sides, as far as the picture reaches. */
 static const char forces[] =
     "    tx = length + axial_scale*u[i]; ty = bending_scale*w[i]\n"
     "    set label 4 sprintf('t = %.4f s', time[i]) at screen 0.97,0.95 right font ',17'\n"

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The writer of gnuplot scripts. gnuplot places axes, ticks and texts; here is said which panel has
- * which share of the page, in pixels from its lower left, and how everything looks.
+/* Writes gnuplot scripts. gnuplot places axes, ticks and texts. This file gives each panel its
+ * share of the page, in pixels from the lower left corner, and sets all styles.
  *
- * Colours: six hues that the colour-blind can tell apart (Okabe and Ito, 2008), each with a dash
- * and a mark of its own. */
+ * Colours: six hues that colour-blind people can distinguish (Okabe and Ito, 2008), each with a
+ * dash and a mark of its own. */
 #include <math.h>
 #include <string.h>
 
@@ -13,9 +13,9 @@
 enum {
     FONT = 24,
     SMALL = 21,  /* the default of all terminals */
-    LINE = 37,   /* of small text, with the space below it */
-    LETTER = 12, /* about as wide is a small one */
-    SAMPLE = 95, /* of a key's entry, with the space beside it */
+    LINE = 37,   /* height of a line of small text, with the space below it */
+    LETTER = 12, /* about the width of a small letter */
+    SAMPLE = 95, /* width of the sample in a key's entry, with the space beside it */
     BAR = 170    /* room for a colour bar */
 };
 
@@ -23,12 +23,12 @@ enum {
 
 static const struct {
     const char *colour, *dash;
-    int mark; /* filled; hollow is one less */
+    int mark; /* the filled one; the hollow one is one less */
 } hues[BR_HUES] = {{"#0072b2", "solid", 7},   {"#d55e00", "(12,4)", 5},
                    {"#009e73", "(4,3)", 9},   {"#cc79a7", "(12,4,3,4)", 13},
                    {"#e69f00", "(20,5)", 11}, {"#56b4e9", "(8,3,2,3,2,3)", 15}};
 
-/* Of pens without a hue. */
+/* Styles of pens without a hue. */
 static const char *const styles[BR_PENS] = {
     [BR_PEN_OTHERS] = "lines lw 1.5 lc rgb '#b0b0b0' dt solid",
     [BR_PEN_BAND] = "lines lw 12 lc rgb '#dcdcdc'",
@@ -40,7 +40,7 @@ static const char *const styles[BR_PENS] = {
 };
 static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
 
-/* Verdicts: what matters is dark, what is right is pale; also in grey. */
+/* Colours of verdicts: serious ones are dark, right ones are pale, also when printed in grey. */
 static const char *const kind_colours[BR_FIGURE_KINDS] = {
     "#cce5f5", "#e69f00", "#d55e00", "#cc79a7", "#0072b2", "#f0e442", "#000000", "#009e73"};
 
@@ -48,25 +48,25 @@ static const char empty_style[] = "lc rgb '#aaaaaa' fs pattern 4 border";
 
 static int mark_of(const struct br_series *s)
 {
-    return hues[((s->mark ? s->mark : s->look) - 1) % BR_HUES].mark;
+    return hues[((s->mark ? s->mark : s->style) - 1) % BR_HUES].mark;
 }
 
-/* The pen of a series, as it stands after "with". */
+/* Writes the pen of a series, as gnuplot reads it after "with". */
 static void write_pen(FILE *out, const struct br_series *s)
 {
     if (s->pen == BR_PEN_CURVE)
-        fprintf(out, "linespoints ls %zu pt %d", s->look, mark_of(s));
+        fprintf(out, "linespoints ls %zu pt %d", s->style, mark_of(s));
     else if (s->pen == BR_PEN_LINE)
-        fprintf(out, "lines ls %zu", s->look);
+        fprintf(out, "lines ls %zu", s->style);
     else if (s->pen == BR_PEN_SIGNS)
         fprintf(out, "points pt %d ps 1.8*size lc rgb '#444444'", mark_of(s));
     else if (s->pen == BR_PEN_GUIDE)
-        fprintf(out, "lines lw 2.5 lc rgb '#333333' dt %s", guide_dashes[(s->look - 1) % 4]);
+        fprintf(out, "lines lw 2.5 lc rgb '#333333' dt %s", guide_dashes[(s->style - 1) % 4]);
     else
         fputs(styles[s->pen], out);
 }
 
-/* How many points of a series are drawn, or drawn with a flag. */
+/* The number of points that are drawn; flagged: of those with a flag. */
 static size_t count_drawn(const struct br_panel *p, const struct br_series *s, bool flagged)
 {
     size_t count = 0;
@@ -84,13 +84,13 @@ struct page {
     size_t key_rows;
 };
 
-/* The entries of the key, which are counted, and written where `out` is there. */
+/* The entries of the key: they are counted, and written if `out` is not NULL. */
 struct key {
     FILE *out;
-    size_t entries, longest; /* title */
+    size_t entries, longest; /* longest: letters of the longest title */
 };
 
-/* style: of what is no series. */
+/* style: for an entry that is no series. */
 static void add_entry(struct key *key, const char *title, const char *style,
                       const struct br_series *series)
 {
@@ -107,7 +107,7 @@ static void add_entry(struct key *key, const char *title, const char *style,
     br_quote(key->out, &br_for_gnuplot, title);
 }
 
-/* Series with a title, of the others one, and what a hollow mark means. */
+/* Adds the series with a title, one of BR_PEN_OTHERS, and the meaning of a hollow mark. */
 static void add_series(const struct br_figure *f, struct key *key)
 {
     size_t flagged = 0, others = 0;
@@ -162,7 +162,7 @@ static struct page lay_out(const struct br_figure *f)
 
 /* ---- the script: around the panels ---- */
 
-/* Plain lines below one another, each as wide as the page at most. */
+/* Writes plain lines one below the other, none wider than the page. */
 static void write_titles(FILE *out, const struct br_figure *f, const struct page *l)
 {
     double y = l->height - 35;
@@ -215,9 +215,9 @@ static void write_palette(FILE *out, const struct br_figure *f)
     fprintf(out, " font ',%d'\n", FONT);
 }
 
-/* The three terminals. They scale marks and ticks differently; marks shrink from hue to hue, so
- * that curves that lie on one another can still be told apart. pi -1: the line leaves room for
- * them. */
+/* Writes the loop over the three terminals, which scale marks and ticks differently. Marks shrink
+ * from hue to hue, so that curves on top of one another can be distinguished. pi -1: the line
+ * leaves room for the marks. */
 static void write_loop(FILE *out, const struct page *l)
 {
     fprintf(out,
@@ -253,7 +253,7 @@ static double decades(struct br_range r)
     return log10(r.high / r.low);
 }
 
-/* A little more than the points, but along a linear x, and not below 0 where they begin there. */
+/* A little more than the points, except along a linear x; not below 0 if the points begin at 0. */
 static struct br_range axis_range(const struct br_figure *f, const struct br_panel *p, bool along_y)
 {
     const struct br_cells *c = &p->cells;
@@ -276,8 +276,8 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
     return (struct br_range){r.low == 0 ? 0 : r.low - more, r.high + more};
 }
 
-/* Less than two decades have one power of ten or two: 2 and 5 times it are named, too. Of many as
- * many as have room; pixels: about the length of the axis. */
+/* Less than two decades contain one or two powers of ten, so 2 and 5 times these get labels, too.
+ * Of many decades only as many get labels as have room; pixels: about the length of the axis. */
 static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic, double pixels)
 {
     fprintf(out, "set %crange [%.9g:%.9g]\n", axis, r.low, r.high);
@@ -285,8 +285,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
         fprintf(out, "set %ctics nomirror autofreq; set format %c '%%g'\n", axis, axis);
         return;
     }
-    /* From a power of ten on: without a start gnuplot 5.4 begins at half a decade for some ranges,
-     * and names that by the power below it. */
+    /* Ticks start at a power of ten: without a start gnuplot 5.4 begins at half a decade for some
+     * ranges, and labels it with the power below it. */
     const double room = axis == 'x' ? 3.6 * SMALL : 1.8 * SMALL;
     const double step = ceil(room * decades(r) / pixels);
     fprintf(out, "set logscale %c; set %ctics nomirror 1e%g,1e%g; set format %c '10^{%%L}'\n", axis,
@@ -298,8 +298,8 @@ static void write_axis(FILE *out, char axis, struct br_range r, bool logarithmic
                 (int)floor(log10(r.low)), (int)ceil(log10(r.high)), axis);
 }
 
-/* Numbers along the top; one that has no room beside the one before it is left out. pixels: about
- * as many are in a decade. */
+/* Writes numbers along the top, without those that would overlap the one before. pixels: about the
+ * length of a decade. */
 static void write_top(FILE *out, const struct br_panel *p, struct br_range x, double pixels)
 {
     double last = INFINITY;
@@ -329,7 +329,7 @@ static void write_text(FILE *out, const char *what, const char *text)
 
 /* ---- the script: what is plotted ---- */
 
-/* Lines over cells have a white ground. */
+/* Lines over cells get a white background. */
 static void write_curve(FILE *out, const struct br_panel *p, const struct br_series *s,
                         size_t index)
 {
@@ -339,14 +339,14 @@ static void write_curve(FILE *out, const struct br_panel *p, const struct br_ser
         fprintf(out,
                 ", \\\n     data index %zu using 1:2:(mark(%d, strcol(3))) with linespoints ls %zu "
                 "pt variable",
-                index, mark_of(s), s->look);
+                index, mark_of(s), s->style);
     else {
         fprintf(out, ", \\\n     data index %zu using 1:2 with ", index);
         write_pen(out, s);
     }
 }
 
-/* Cells first, and of the curves those that stand behind. */
+/* Draws the cells first, then the curves that lie behind, then the others. */
 static void write_plot(FILE *out, const struct br_panel *p, size_t index)
 {
     fputs("plot NaN", out);
@@ -404,7 +404,7 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
     write_plot(out, p, index);
 }
 
-/* Below all panels, in a plot of its own: gnuplot fits a key to the plot. */
+/* Writes the key below all panels, as a plot of its own: gnuplot fits a key to its plot. */
 static void write_key(FILE *out, const struct br_figure *f, const struct page *l)
 {
     if (l->bottom <= 0)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was found over a scene's number that was varied. */
+/* Results over a scene's number that was varied. */
 #include <math.h>
 #include <string.h>
 
 #include "plots/pictures.h"
 #include "study/scene/vary.h"
 
-/* Columns of one axis, from the first one on, into one panel. */
+/* Adds one panel for the columns with the axis of `first`, from `first` on. */
 static void add_panel(struct br_figure *f, const struct br_variation *variation, size_t first)
 {
     const struct br_varied *v = variation->varied;

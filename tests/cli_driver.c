@@ -43,28 +43,28 @@ static void become_program(const char *const *word, const struct cli_circumstanc
     _exit(121);
 }
 
-/* Whether the program has come so far that it catches SIGINT, or has ended. */
-static bool hears(pid_t child)
+/* Whether the program catches SIGINT already, or has ended. */
+static bool catches_signals(pid_t child)
 {
     char path[64], line[256];
     unsigned long long caught;
-    bool heard = false;
+    bool caught_or_ended = false;
     snprintf(path, sizeof path, "/proc/%d/status", (int)child);
     FILE *status = fopen(path, "r");
     if (!status)
-        return true; /* not on this system */
+        return true; /* this system has no such file */
     while (fgets(line, sizeof line, status)) {
-        heard = heard || strncmp(line, "State:\tZ", 8) == 0;
+        caught_or_ended = caught_or_ended || strncmp(line, "State:\tZ", 8) == 0;
         if (sscanf(line, "SigCgt: %llx", &caught) == 1)
-            heard = heard || (caught >> (SIGINT - 1) & 1);
+            caught_or_ended = caught_or_ended || (caught >> (SIGINT - 1) & 1);
     }
     fclose(status);
-    return heard;
+    return caught_or_ended;
 }
 
 static void interrupt(pid_t child, int after)
 {
-    while (!hears(child))
+    while (!catches_signals(child))
         usleep(1000);
     usleep((useconds_t)after * 1000);
     kill(child, SIGINT);

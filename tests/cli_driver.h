@@ -9,12 +9,12 @@
 
 enum { CLI_MOST_OUTPUT = 1 << 16, CLI_MOST_WORDS = 32 };
 
-/* How the program is run besides its words. */
+/* The environment in which the program is run. */
 struct cli_circumstances {
     const char *path;    /* PATH; NULL: as it is */
     const char *data;    /* BEAMRATE_DATA; NULL: as it is */
     rlim_t file_size;    /* largest file, bytes; 0: any */
-    int interrupt_after; /* ms, from when it catches signals on; 0: never */
+    int interrupt_after; /* ms after it begins to catch signals; 0: never */
     const char *errors;  /* the file that standard error goes to; NULL: to the output */
 };
 
@@ -29,7 +29,7 @@ void cli_run(const char *const *word, const struct cli_circumstances *c, struct 
 /* Runs a line that is split at single blanks; a word of '' is empty. */
 void cli_run_line(const char *line, const struct cli_circumstances *c, struct cli_outcome *out);
 
-/* Runs a line: its exit code, and a part of what it says. */
+/* Runs a line, and checks its exit code and that its output contains the text. */
 void cli_expect(const char *line, const struct cli_circumstances *c, int exit_code,
                 const char *message);
 

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linked into the program, this makes one of its calls fail, last long, or be its last one:
- *     BR_FAULT="KIND N WHAT"
- * KIND memory: malloc and its kind, also those of libraries; disk: what changes a folder, fsync and
- * the opening of the program's own files. N: which call since main, from 1 on; 0: every one. WHAT:
- * fail (ENOMEM, EIO), from (so do all later ones), kill, stop (SIGTERM), slow. $BR_FAULT_LOG is
- * then made where the call was reached. */
+/* Linked into the program, this makes one of its calls fail or last long, or ends the program
+ * there: BR_FAULT="KIND N WHAT" KIND memory: malloc and the like, also in libraries; disk: calls
+ * that change a folder, fsync, and opening the program's own files. N: the number of the call since
+ * main, from 1 on; 0: every call. WHAT: fail (ENOMEM, EIO), from (all later calls fail, too), kill,
+ * stop (SIGTERM), slow. The file $BR_FAULT_LOG is made when the call is reached. */
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
@@ -33,7 +32,7 @@ __attribute__((constructor)) static void read_fault(void)
     record = getenv("BR_FAULT_LOG");
 }
 
-/* Whether this call is to fail. */
+/* Whether this call must fail. */
 static bool fails(const char *of)
 {
     if (which < 0 || strcmp(kind, of) != 0)

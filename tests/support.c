@@ -335,9 +335,9 @@ void br_test_rows(const char *section, void (*check)(char *row))
     fclose(file);
 }
 
-/* ---- what is stored ---- */
+/* ---- stored texts ---- */
 
-/* How many bytes of the text are as in the stored one, but for numbers within the tolerance. */
+/* The number of bytes up to the first difference; numbers may differ within the tolerance. */
 static size_t same_bytes(const char *text, const char *stored, double tolerance)
 {
     const char *at = text;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the test programs share. A check that fails ends its test with a message; none
- * of them lets a NaN through. */
+/* Functions that the test programs share. A check that fails ends its test with a message; no check
+ * passes on NaN. */
 #ifndef BR_TESTS_SUPPORT_H
 #define BR_TESTS_SUPPORT_H
 
@@ -40,7 +40,7 @@ size_t br_test_index(struct br_test_random *random, size_t count); /* 0 .. count
 /* The bundled scene of that name; to be cleared. */
 struct br_scene br_test_bundled(const char *name);
 
-/* A bare scene with both parts, unit data and no load, contact or friction: it owns nothing. */
+/* A bare scene with both fields, unit data and no load, contact or friction: it owns nothing. */
 struct br_scene br_test_bare(void);
 
 /* The function of an expression; to be freed with its scene. */
@@ -52,7 +52,7 @@ struct br_load br_test_load(const char *expression);
 /* The default method with the solver and the rules of these names; NULL: the default. */
 struct br_method br_test_method(const char *solver, const char *contact, const char *friction);
 
-/* A march, which must succeed, and its steps up to `until`. */
+/* Creates a march, and takes its steps up to `until`; both must succeed. */
 struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
                                const struct br_method *method);
 void br_test_advance(struct br_march *march, size_t until);
@@ -88,13 +88,13 @@ double br_test_deviation(const struct br_test_end *end, const struct br_test_end
 /* The path of a file, one a program, that now has this text: a scene or another input. */
 const char *br_test_scene_file(const char *text);
 
-/* Parts the first cell of a row from the rest, at " | "; returns the rest, or "". */
+/* Separates the first cell of a row from the rest, at " | "; returns the rest, or "". */
 char *br_test_part(char *row);
 
-/* Makes ends of lines of all \n in the text, in place; returns it. */
+/* Replaces each \n in the text by a line's end, in place; returns the text. */
 char *br_test_unescape(char *text);
 
-/* Calls for each row of a section of data/text_refusals.txt. */
+/* Calls `check` for each row of a section of data/text_refusals.txt. */
 void br_test_rows(const char *section, void (*check)(char *row));
 
 /* Reading the scene, with its verify part or without, is refused with a message that begins with
@@ -108,9 +108,8 @@ void br_test_scene_refused(const char *text, bool verify, const char *message);
 void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
                             const void *data, long least);
 
-/* What is printed is, to the byte, what is stored in golden/made/NAME.txt, but for numbers of a
- * relative difference up to the tolerance. With BR_TEST_UPDATE set it is stored: read the change.
- */
+/* Compares the printed text with golden/made/NAME.txt: they must agree to the byte, but numbers may
+ * differ by the relative tolerance. With BR_TEST_UPDATE set the text is stored: read the change. */
 void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance);
 
 /* Whether long tests are to be left out (BR_TEST_QUICK is set: valgrind). */
@@ -119,7 +118,7 @@ bool br_test_quick(void);
 /* Whether everything is tested, also what takes minutes: ./bootstrap test --long. */
 bool br_test_long(void);
 
-/* 1, or more where long double has no more digits than double, as under valgrind. */
+/* 1, or more if long double has no more digits than double, as under valgrind. */
 double br_test_slack(void);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Allocation 0, 1, 2, ... fails: each time the call says so and leaves nothing behind
- * (the leaks show under the address sanitizer and under valgrind). */
+/* Lets allocation 0, 1, 2, ... fail. Each time the call must fail and release everything (the
+ * address sanitizer and valgrind show leaks). */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -68,7 +68,7 @@ static enum br_status study(const void *data, struct br_error *err)
     s.reference_method = d->method;
     s.reference = (struct br_resolution){8, 10};
     enum br_status status = br_study_run(&s, 1, 1, NULL, err);
-    /* In the middle of a march it costs a cell, not the study. */
+    /* A failure during a march fails its cell, not the study. */
     for (size_t i = 0; !status && i < 4; i++)
         if (s.cell[i].failure.status) {
             *err = s.cell[i].failure;
@@ -113,7 +113,7 @@ static enum br_status run_scene(const void *data, struct br_error *err)
     return status;
 }
 
-/* The checker of every solver, too. */
+/* Every solver is checked, each with its certificate. */
 TEST(test_run)
 {
     for (const struct br_linear_solver *const *solver = br_linear_solvers; *solver; solver++) {
@@ -124,7 +124,7 @@ TEST(test_run)
     }
 }
 
-/* The hook itself: it fails the allocation it was told to, once. */
+/* The hook fails the chosen allocation, once. */
 TEST(test_hook)
 {
     br_allocation_fails_at(1);
@@ -133,7 +133,7 @@ TEST(test_hook)
     free(first);
     free(third);
     br_allocation_fails_at(-1);
-    /* Errors may be told to nobody. */
+    /* err may be NULL. */
     assert_int_equal(br_fail(NULL, BR_IO, "%d", 1), BR_IO);
     assert_int_equal(br_no_memory(NULL, "x"), BR_NO_MEMORY);
 }

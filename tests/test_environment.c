@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Marches in other surroundings: no step raises a flag that a trap would stop at; rounding up, down
- * or to zero moves nothing by more than the predicted round-off, and certificates pass; the same
- * scene in other units of length, time and mass gives the same answer, to the bit where the units
- * are powers of two. */
+/* Marches in other floating-point environments and units. No step raises a flag that could trap.
+ * Rounding up, down or to zero changes results by no more than the predicted round-off, and
+ * certificates pass. A scene in other units of length, time and mass gives the same results, to the
+ * bit if the units are powers of two. */
 #include <fenv.h>
 #include <float.h>
 #include <math.h>
@@ -54,7 +54,7 @@ static struct br_march *marched(const struct br_scene *s, size_t n, size_t steps
     return march;
 }
 
-/* And frees the march. */
+/* Frees the march, too. */
 static struct result result_of(struct br_march *march)
 {
     struct result r = {.round_off = br_march_round_off(march)};
@@ -81,7 +81,7 @@ static double largest(const double *x, size_t size)
     return most;
 }
 
-/* Largest difference of b times a factor from a, relative to the largest value of a. */
+/* Largest difference between a and b * factor, relative to the largest value of a. */
 static double apart(const struct result *a, const struct result *b, int kind, double factor)
 {
     const double *x = a->value[kind][0], *y = b->value[kind][0];
@@ -93,7 +93,7 @@ static double apart(const struct result *a, const struct result *b, int kind, do
     return scale > 0 ? most / scale : most;
 }
 
-/* Impacts magnify differences: these scenes have none that chatter. */
+/* Impacts magnify differences, so no impacts chatter in these scenes. */
 static const char *const scenes[] = {"example1", "example2", "example3",    "example4",
                                      "impact",   "release",  "moving_load", "vibration"};
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -135,9 +135,9 @@ static const struct {
     const char *name;
 } modes[] = {{FE_UPWARD, "up"}, {FE_DOWNWARD, "down"}, {FE_TOWARDZERO, "to zero"}};
 
-/* Steps that are rounded all to one side gather what else would cancel. */
+/* If all operations round to one side, errors add up that would else cancel. */
 static const double one_sided = 16;
-/* A factorisation all the more: 42 times, by umfpack in a vibration with bdf2, rounding up. */
+/* More so in a factorisation: 42 times was seen, with umfpack, a vibration, bdf2, rounding up. */
 static const double one_sided_factors = 64;
 
 static double one_sided_by(const struct br_method *method)
@@ -157,7 +157,7 @@ static void compare_modes(const struct br_scene *s, const char *name,
         fesetround(modes[i].mode);
         const struct result r = run(s, N, STEPS, method);
         fesetround(FE_TONEAREST);
-        /* Steps by a tolerance may be others, and differ by their error. */
+        /* Steps by a tolerance may have other lengths; results then differ by their error. */
         const double limit = method->scheme->adaptive ? 100 * method->tolerance
                                                       : one_sided_by(method) * nearest.round_off;
         for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
@@ -181,7 +181,7 @@ TEST(test_rounding)
     }
 }
 
-/* The method's own mode acts as a thread's does, and stays in the march. */
+/* A method's rounding mode acts like a thread's, but only inside the march. */
 TEST(test_mode_of_method)
 {
     struct br_scene s = br_test_bundled("example1");
@@ -198,7 +198,7 @@ TEST(test_mode_of_method)
         method.rounding = FE_UPWARD;
         const struct result own = run(&s, 24, 20, &method);
         assert_int_equal(fegetround(), FE_TONEAREST);
-        /* Not the same bits: a compiler may take a quotient from before the mode was set. */
+        /* The bits may differ: a compiler may compute a quotient before the mode is set. */
         const double limit = one_sided_by(&method) * nearest.round_off;
         assert_true(method.scheme->adaptive || apart(&thread, &own, BR_BENDING, 1) <= limit);
         assert_memory_not_equal(own.value[BR_BENDING][0], nearest.value[BR_BENDING][0],
@@ -247,7 +247,7 @@ TEST(test_certificates)
 
 /* ---- other units ---- */
 
-/* A soft contact and any friction: nothing that magnifies differences. */
+/* A soft contact and any friction: nothing magnifies differences. */
 static struct br_scene any_scene(struct br_test_random *r)
 {
     struct br_scene s = br_test_bare();
@@ -279,7 +279,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     MUST(br_rescale(s, u, &other, &err));
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
     br_scene_clear(&other);
-    /* The other scene's numbers are rounded, too: what that does to an assembled matrix. */
+    /* The other scene's numbers are rounded, too, which changes an assembled matrix. */
     const bool flexible = !method->solver->factoriser;
     const double numbers = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
@@ -292,7 +292,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
                      u->metre, u->second, u->kilogram, apart(&a, &b, kind, 1 / u->metre), limit);
 }
 
-/* A Cholesky factor has roots of the units, which for two are not exact. */
+/* A Cholesky factor contains square roots of the units, and that of 2 is not exact. */
 static bool takes_roots(const struct br_method *method)
 {
     return method->solver == &br_cholmod || method->solver == &br_banded;
@@ -315,7 +315,7 @@ TEST(test_units)
             struct br_method method = method_of(solver, scheme);
             method.friction = br_friction_rules[br_test_index(&r, 2)];
             if (method.scheme->adaptive && n > 10)
-                continue; /* it follows every vibration of a fine mesh: too many steps */
+                continue; /* its steps resolve every vibration of a fine mesh: too many steps */
             compare_units(&s, &method, n, &any, false);
             compare_units(&s, &method, n, &twos, !method.scheme->adaptive && !takes_roots(&method));
         }

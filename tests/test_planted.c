@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The check that judges everybody else is judged here: the program is built with one planted bug
- * after the other, and a command that passes without the bug has to end with exit code 1. A check
- * of one scene is a part of `beamrate check --all`, and cheaper. What no command can see, as where
- * the judge itself is wrong, a test program has to see: it is built with the bug, and has to fail.
- * By default a sample: the first bug of every file, and the first of every kind that these leave
- * out.
- * usage: test_planted [SHARD SHARDS | NAME], so that several can run side by side, or one alone. */
+/* Tests the checks themselves: the program is built with one planted bug after the other, and a
+ * command that passes without the bug must end with exit code 1. A check of one scene is a part of
+ * `beamrate check --all`, and cheaper. If no command can detect a bug, as one in a judge, a test
+ * program must: it is built with the bug, and must fail. By default only a sample is planted: the
+ * first bug of every file, and the first of every kind that is then missing. usage: test_planted
+ * [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or one bug. */
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,7 +17,7 @@
 #include "tests/support.h"
 
 static char folder[] = "/tmp/br_planted_XXXXXX";
-static char *commands; /* how ninja builds the programs, a line each */
+static char *commands; /* by which ninja builds the programs, a line each */
 
 static const char *environment(const char *name)
 {
@@ -55,7 +54,7 @@ __attribute__((format(printf, 1, 2))) static int run(const char *format, ...)
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
 }
 
-/* A copy of the first line of the build's commands, from some place on, that contains a word. */
+/* A copy of the first of the build's commands that contains a word, beginning at `from`. */
 static char *command_with(const char *from, const char *word)
 {
     const char *at = strstr(from, word);
@@ -67,14 +66,14 @@ static char *command_with(const char *from, const char *word)
     return strndup(begin, strcspn(begin, "\n"));
 }
 
-/* Whether a test program has to see the bug, and no command of the program. */
+/* Whether a test program must detect the bug, instead of a command. */
 static bool is_for_a_test(const struct planted_bug *bug)
 {
     return strncmp(bug->command, "tests/", strlen("tests/")) == 0;
 }
 
-/* Of a test program that names one of its tests, only that one is run: the source that is planted
- * says so before main begins. */
+/* If the bug names one test of a test program, only that test is run: code in the planted source
+ * selects it before main begins. */
 static void choose_test(const struct planted_bug *bug, FILE *source)
 {
     const char *blank = strchr(bug->command, ' ');
@@ -86,7 +85,7 @@ static void choose_test(const struct planted_bug *bug, FILE *source)
                 blank + 1);
 }
 
-/* The source with the bug in it. Fails where the text does not stand there exactly once. */
+/* Writes the source with the bug. Fails if the text is not in the source exactly once. */
 static void plant(const struct planted_bug *bug)
 {
     char path[4096];
@@ -109,7 +108,7 @@ static void plant(const struct planted_bug *bug)
 }
 
 /* Compiles the planted source as the build would by one of its commands, but with little
- * optimisation, which is quicker; returns the command's end. */
+ * optimisation, which is quicker; returns the end of the command. */
 static const char *compile(const struct planted_bug *bug, const char *from, int number)
 {
     char word[256];
@@ -127,15 +126,15 @@ static const char *compile(const struct planted_bug *bug, const char *from, int 
     return at + 1;
 }
 
-/* The row of the golden outputs that has to see the bug; NULL: something else has to. */
+/* The row of the golden outputs that must detect the bug; NULL: a command or test program must. */
 static const char *golden_row(const struct planted_bug *bug)
 {
     const size_t size = strlen("golden ");
     return strncmp(bug->command, "golden ", size) == 0 ? bug->command + size : NULL;
 }
 
-/* " -o PROGRAM ", which only the command that links the program has: a test program, or the one
- * that the bug's command is for. */
+/* Writes " -o PROGRAM ", which is only in the command that links the program: the test program, or
+ * the program of the bug's command. */
 static void output_of(const struct planted_bug *bug, char output[256])
 {
     const char *program = is_for_a_test(bug) ? bug->command
@@ -144,8 +143,8 @@ static void output_of(const struct planted_bug *bug, char output[256])
     snprintf(output, 256, " -o %.*s ", (int)strcspn(program, " "), program);
 }
 
-/* Every time the build compiles that source, for an instruction set each perhaps; and links the
- * objects before the libraries, so that they stand in for the sound ones. */
+/* Compiles the source as often as the build does (for several instruction sets, perhaps), and links
+ * the objects before the libraries, so that they replace the right ones. */
 static void build(const struct planted_bug *bug)
 {
     int objects = 0;
@@ -167,7 +166,7 @@ static void build(const struct planted_bug *bug)
     free(link);
 }
 
-/* The exit code of a command of a program; of one that takes too long it is none of its own. */
+/* The exit code of a command of a program; for one that takes too long, that of `timeout`. */
 static int run_beamrate(const char *program, const char *command)
 {
     const bool takes_threads = strncmp(command, "run ", 4) != 0;
@@ -176,7 +175,7 @@ static int run_beamrate(const char *program, const char *command)
                takes_threads ? " --threads 1" : "", folder);
 }
 
-/* Once for each command. That a check passes is seen by `check --all` in test_check_cli. */
+/* Called once for each command. Checks are not run here: another test runs `check --all`. */
 static void sound_program_passes(const char *command)
 {
     static const char *passed[PLANTED_BUGS];
@@ -202,9 +201,9 @@ static void a_command_sees(const struct planted_bug *bug)
                  bug->command, code);
 }
 
-/* cmocka aborts the program where the first of its tests fails, which saves the others' time. A
- * program that crashes, or takes too long, does not say so. That it passes without the bug is a
- * test of its own. */
+/* cmocka aborts the program at the first failing test, which saves time. A program that crashes or
+ * takes too long does not count as failing. That the test passes without the bug is another test.
+ */
 static void a_test_sees(const struct planted_bug *bug)
 {
     const int code = run("ulimit -c 0; env -u BR_TEST_LONG CMOCKA_TEST_ABORT=1 "
@@ -215,7 +214,7 @@ static void a_test_sees(const struct planted_bug *bug)
                  code);
 }
 
-/* Its exit code is 1 where something differs. That nothing does without the bug is another test. */
+/* The exit code is 1 if an output differs. That none differs without the bug is another test. */
 static void golden_outputs_see(const struct planted_bug *bug)
 {
     const char *source = environment("BEAMRATE_SOURCE");
@@ -241,7 +240,7 @@ static void bug_is_caught(void **state)
         a_command_sees(bug);
 }
 
-/* Also those that are not planted by default. */
+/* Includes bugs that are not planted by default. */
 static void all_can_be_planted(void **state)
 {
     (void)state;
@@ -262,7 +261,7 @@ static bool is_first_of_file(size_t bug)
     return true;
 }
 
-/* Whether it is the first of its file, or the first of a kind that no first of a file is of. */
+/* Whether it is the first bug of its file, or the first of a kind that no file's first bug has. */
 static bool is_in_sample(size_t bug)
 {
     if (is_first_of_file(bug))

@@ -46,7 +46,7 @@ static void check_missing(const char *folder)
     assert_true(missing);
 }
 
-/* One of those that are at work fails and says why, the others are done all the same. */
+/* One of several scripts fails and says why; the others succeed. */
 TEST(test_side_by_side)
 {
     enum { SCRIPTS = 4, BAD = 2 };

@@ -1,19 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program as a user meets it: the rows of a file, in order, each command in a process of its
- * own, in a folder of its own.
- * usage: test_rows FILE, of which a line is
- *   # REMARK
+/* Tests the program as a user runs it, by the rows of a file, in their order. Each command is a
+ * process of its own; each test has its own folder. usage: test_rows FILE, whose lines are # REMARK
  *   = NAME                      a test begins
  *   @ FILE | TEXT               the file is written
- *   COMMAND | CODE | MESSAGE    of `beamrate COMMAND`: exit code, and a part of what it says
- *   $ COMMAND | CODE            a line of sh, where $BEAMRATE is the program
- *   with NAME=VALUE ...         circumstances of the next command of the program, see there
- *   says TEXT, silent TEXT      whether the last command has said that, too
+ *   COMMAND | CODE | MESSAGE    runs `beamrate COMMAND`: its exit code, a part of its output
+ *   $ COMMAND | CODE            runs a line of sh, where $BEAMRATE is the program
+ *   with NAME=VALUE ...         circumstances of the next command, see set_circumstance
+ *   says TEXT, silent TEXT      whether the last command has printed the text
  *   has FILE | TEXT, lacks FILE | TEXT
  *   there FILE ..., gone FILE ...
  *   files FOLDER | COUNT
- * In commands of the program words are parted by single blanks, and '' is an empty one. In texts \n
- * is a line's end, and " ... " anything. */
+ * In commands of the program, single blanks separate words, and '' is an empty word. In texts, \n
+ * is a line's end, and " ... " any text. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,11 +22,11 @@
 
 enum { MOST_TESTS = 64, MOST_ROW = 4096 };
 
-/* A test: its rows, of the file. */
+/* A test, with its rows of the file. */
 struct test {
     char name[64];
     char **row;
-    size_t rows, first; /* line of the first one, from 1 */
+    size_t rows, first; /* first: line of the first row, from 1 on */
 };
 
 static struct cli_outcome out;
@@ -44,21 +42,21 @@ static void set_circumstance(char *pair)
         circumstances.file_size = strtoul(value, NULL, 10);
     else if (strcmp(pair, "interrupt") == 0) /* ms */
         circumstances.interrupt_after = atoi(value);
-    else if (strcmp(pair, "programs") == 0) { /* of this folder before the system's */
+    else if (strcmp(pair, "programs") == 0) { /* programs in this folder precede the system's */
         snprintf(path, sizeof path, "%s/%s:/usr/bin:/bin", cli_folder(), value);
         circumstances.path = path;
-    } else if (strcmp(pair, "errors") == 0) { /* the file of standard error */
+    } else if (strcmp(pair, "errors") == 0) { /* a file for standard error */
         snprintf(errors, sizeof errors, "%s", value);
         circumstances.errors = errors;
-    } else if (strcmp(pair, "path") == 0) /* none: no other program is found */
+    } else if (strcmp(pair, "path") == 0) /* empty: no other program is found */
         circumstances.path = "/nowhere";
-    else if (strcmp(pair, "data") == 0) /* here: there are no scenes but in the folder */
+    else if (strcmp(pair, "data") == 0) /* "here": only the folder has scenes */
         circumstances.data = cli_folder();
     else
         fail_msg("no circumstance '%s'", pair);
 }
 
-/* Whether the text has the part; of one with " ... " in it, what stands before, then the rest. */
+/* Whether the text contains the part; where the part has " ... ", any text may stand. */
 static bool contains(const char *text, const char *part)
 {
     const char *dots = strstr(part, " ... ");
@@ -73,7 +71,7 @@ static void check_text(const char *where, const char *text, const char *part, bo
         fail_msg("%s %s '%s':\n%s", where, expected ? "lacks" : "has", part, text);
 }
 
-/* Returns the shell's exit code; what it says is the outcome's. */
+/* Returns the shell's exit code; its output goes to out.output. */
 static int run_shell(const char *line)
 {
     char command[MOST_ROW + 100];
@@ -85,7 +83,7 @@ static int run_shell(const char *line)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-/* What concerns the options is refused before there are warnings. */
+/* Runs a row's command. A refusal of an option must come before all warnings. */
 static void run_command(char *row)
 {
     char *code = br_test_part(row), *message = br_test_unescape(br_test_part(code)), *end;
@@ -111,7 +109,7 @@ static void check_count(const char *folder, const char *count)
         fail_msg("%zu files in %s, expected %zu", found, folder, expected);
 }
 
-/* Of each word of a row: a circumstance, or whether a file is there. */
+/* Handles each word of a row: sets a circumstance, or checks whether a file exists. */
 static void take_words(char *words, bool are_files, bool there)
 {
     char *rest;
@@ -170,7 +168,7 @@ static void test_rows(void **state)
     }
 }
 
-/* The rows of the file, by tests; returns their number. */
+/* Reads the rows of the file, by tests; returns the number of tests. */
 static size_t read_tests(const char *path, struct test *test)
 {
     static char *row[MOST_ROW];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a terminal shows while somebody waits. */
+/* The text on a terminal while a user waits. */
 #include <fcntl.h>
 #include <pthread.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ struct terminal {
     char shown[1 << 16];
 };
 
-/* Keeps what a terminal shows, until nobody writes to it any more. */
+/* Keeps the terminal's text, until all writers have closed it. */
 static void *watch_terminal(void *self)
 {
     struct terminal *t = self;
@@ -30,7 +30,7 @@ static void *watch_terminal(void *self)
     return NULL;
 }
 
-/* The load is one of x and t, which the exact reference approximates first, for long. */
+/* The load is f(x, t), no product: the exact reference first approximates it for a long time. */
 TEST(test_waiting)
 {
     static struct terminal terminal;

@@ -21,7 +21,7 @@ static struct cli_outcome out;
 static const char old_line[] = "study summary.yaml --n 4 --k 0.1 --no-plots --quiet --out set",
                   new_line[] = "run example1 --n 4 --k 0.1 --quiet --out set";
 
-/* Runs a line with a fault; whether the call was reached. */
+/* Runs a line with a fault; returns whether the call was reached. */
 static bool run_with(const char *line, const char *kind, long n, const char *what)
 {
     char fault[64], record[512];
@@ -47,9 +47,9 @@ static void clear_set(void)
     shell("rm -rf set && mkdir set");
 }
 
-/* ---- what a reader does ---- */
+/* ---- the reader of a set ---- */
 
-/* The sums of the folder's files, by a program that is not ours: lines of sum, blanks, name. */
+/* Checksums of the folder's files, by another program: lines of sum, blanks, name. */
 static const char *sums(void)
 {
     static char lines[8192];
@@ -63,7 +63,7 @@ static const char *sums(void)
     return lines;
 }
 
-/* The command of the set that is there, whole and with nothing else; '-': no set. */
+/* The command that wrote the set, which must be whole and alone in the folder; '-': no set. */
 static char set_that_is_there(void)
 {
     char path[512];
@@ -93,7 +93,7 @@ static char set_that_is_there(void)
     return which;
 }
 
-/* What the next command does first. */
+/* The first thing that the next command does. */
 static enum br_status sweep(void)
 {
     struct br_error err;
@@ -120,8 +120,8 @@ static void make_old(void)
     shell("cp -r set old");
 }
 
-/* For n = 1, 1 + every... until the call is not reached: the old set, the new one, or none; and
- * after the sweep the new one wherever it was decided. */
+/* Applies the fault to call n = 1, 1 + every, ..., until no call n is reached. Each time the folder
+ * has the old set, the new one, or none; after the sweep it has the new one if that was decided. */
 static size_t try_everywhere(const char *what, long every)
 {
     size_t sets[3] = {0};
@@ -152,7 +152,7 @@ static size_t try_everywhere(const char *what, long every)
 
 TEST(test_killed)
 {
-    assert_true(try_everywhere("kill", 1) > 0); /* each of the three was seen */
+    assert_true(try_everywhere("kill", 1) > 0); /* each of the three happened */
 }
 
 TEST(test_broken_disk)
@@ -166,7 +166,7 @@ TEST(test_dead_disk)
     assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
 }
 
-/* A signal is never lost: it comes in time, or when all is written. */
+/* A signal always has an effect: it stops the work, or is reported when all is written. */
 TEST(test_stopped)
 {
     size_t in_time = 0, late = 0;
@@ -203,7 +203,7 @@ TEST(test_two_at_once)
     const pid_t first = start_slow(new_line);
     for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate/.owner"); i++)
         usleep(5000);
-    usleep(20000); /* until its words are in the file */
+    usleep(20000); /* until it has written to the file */
     cli_expect(new_line, NULL, 2, "in use by process");
     assert_int_equal(waitpid(first, &ending, 0), first);
     assert_int_equal(ending, 0);
@@ -211,7 +211,7 @@ TEST(test_two_at_once)
     assert_false(cli_is_there("set/.beamrate"));
 }
 
-/* Whatever the order: of those that begin together one at least ends well, and its set is whole. */
+/* Of commands that start together, in any order, at least one succeeds, and its set is whole. */
 TEST(test_many_at_once)
 {
     enum { PROGRAMS = 4 };

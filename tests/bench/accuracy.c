@@ -36,7 +36,7 @@ static void run_row(const struct br_test_golden *row, const struct br_method *me
                  deviation, limit);
 }
 
-/* Without refinement, and with some where the solver knows it. */
+/* Runs the solver without refinement, and with it if the solver has it. */
 static void run_solver(const struct br_test_golden *row, const struct br_linear_solver *solver)
 {
     struct br_method method = br_test_method(solver->name, "lagged", "exact");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the sections of the benchmark share: times, rows for a file, and the machine's limits. */
+/* Shared by the sections of the benchmark: times, rows for a file, and the machine's limits. */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -7,21 +7,21 @@
 
 #include "tests/support.h"
 
-/* Of some repeats; per whatever the unit is. */
+/* Times of some repeats, per unit of work. */
 struct bench_time {
     double median, least, most;
 };
 
-/* Times work(self), some repeats of it, after one that does not count; each does `amount` units.
- * The result is in ns a unit. */
+/* Times some repeats of work(self), after one that does not count; each does `amount` units. The
+ * result is in ns per unit. */
 struct bench_time bench_time(void (*work)(void *self), void *self, double amount);
 
 /* ---- rows for the file ---- */
 
-/* Adds a row; the name is what --compare matches by. */
+/* Adds a row; --compare matches rows by name. */
 __attribute__((format(printf, 1, 2))) json_t *bench_row(const char *name, ...);
 
-/* What it says: a value, the times of repeats, or why it was left out. */
+/* These put into a row: a value, the times of repeats, or why it was left out. */
 void bench_put(json_t *row, const char *unit, double value);
 void bench_put_time(json_t *row, const char *unit, const struct bench_time *time);
 void bench_put_skipped(json_t *row, const char *reason);
@@ -33,7 +33,7 @@ enum br_status bench_compare(const char *old_path, const char *new_path, struct 
 
 enum bench_fields { BENCH_BOTH, BENCH_BENDING, BENCH_AXIAL, BENCH_FIELDS };
 
-/* The solver of the registry that has kernels, by its best one. */
+/* The method of the registry's solver that has kernels, with the best kernel. */
 struct br_method bench_fast_method(void);
 
 /* One march to be timed. */
@@ -44,24 +44,24 @@ struct bench_march {
     double guess; /* ns an element-step; 0: unknown */
 };
 
-/* What it took. */
+/* Its times. */
 struct bench_march_time {
     struct bench_time step; /* ns an element-step, both fields being one */
     double set_up;          /* s */
 };
 
-/* What a march will take, s, if setting it up does. */
+/* The estimated time of a march, s, if its set-up takes set_up. */
 double bench_march_cost(const struct bench_march *march, double set_up);
 
-/* Marches with k = 1e-3 s, or less where that makes more than a second. Fails where it cannot be
- * set up: a library that cannot factorise so fine a mesh. */
+/* Marches with k = 1e-3 s, or less, so that the duration is at most 1 s. Fails if the march cannot
+ * be set up: a library that cannot factorise so fine a mesh. */
 enum br_status bench_march(const struct bench_march *march, struct bench_march_time *time,
                            struct br_error *err);
 
 /* ---- the machine ---- */
 
-/* Least time of an element-step on the fast solver's kernel, ns: by the instructions, and by
- * reading and writing the state from the level where it fits (out). Negative: not known. */
+/* Least time of an element-step by the fast solver's kernel, ns: the limit of the instructions, and
+ * that of reading and writing the state in the level of memory where it fits. Negative: unknown. */
 struct bench_least {
     double instructions, memory;
     const char *level;

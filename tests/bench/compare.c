@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Two files of the benchmark beside each other. Nothing is judged. */
+/* Prints two files of the benchmark beside each other, without a verdict. */
 #include <stdio.h>
 #include <string.h>
 
@@ -27,7 +27,7 @@ static const char *text_of(const json_t *row, const char *key)
     return text ? text : "";
 }
 
-/* The fastest repeat, or the one value; 0: there is none. */
+/* The fastest repeat, or the value; 0: neither. */
 static double number_of(const json_t *row)
 {
     const json_t *least = json_object_get(row, "min");

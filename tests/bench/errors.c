@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the errors of a study cost beside its reference's march: the printed grid of Table 2 with
- * all time steps ten times as long, on one thread. */
+/* Compares the time for the errors of a study with that of its reference's march: the printed grid
+ * of Table 2 with all time steps ten times as long, on one thread. */
 #include <math.h>
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How long the exact reference of hard scenes takes: impacts, reversals, little damping, moving
- * loads. In units of a march by `plain` in the same run, so that other machines and other work on
- * this one matter little. Run it with `meson test --benchmark exact`. It fails on wrong results
- * only: another number of switches, or an own error above what is asked for. */
+/* Measures the time of the exact reference for hard scenes: impacts, reversals, little damping,
+ * moving loads. The unit is a march by `plain` in the same run, so that the machine and its load
+ * matter little. Run it with `meson test --benchmark exact`. It fails on wrong results only:
+ * another number of switches, or an own error above the limit. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,7 +55,7 @@ static size_t count_switches(const struct br_exact *exact)
     return switches;
 }
 
-/* The larger one of both fields' displacements, relative. */
+/* The larger relative error of the two fields' displacements. */
 static double own_error(const struct br_exact *exact)
 {
     double most = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What this machine could do, and what the fast solver would take if it did. This file is
- * contracted, and not vectorised by the compiler, so that the scalar row stays scalar. */
+/* Measures the limits of this machine, and from them the least time of the fast solver. Compiled
+ * with contraction but without automatic vectors, so that the scalar row stays scalar. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,18 +13,18 @@
 /* The rate of independent fused multiply-adds of one instruction set, or of pairs of a multiply and
  * an add where it has no fused ones. */
 struct rate {
-    const char *name; /* of the kernel that uses it, or another one */
+    const char *name; /* of the kernel that uses it, if any */
     int bits;
     bool fused;
-    double per_ns; /* instructions */
+    double per_ns; /* instructions per ns */
 };
 
 /* Read and write of a working set that stays in one level of the memory. */
 struct level {
     const char *name;
-    size_t bytes;       /* what it holds; the last: SIZE_MAX */
+    size_t bytes;       /* its size; of the last: SIZE_MAX */
     size_t working_set; /* bytes */
-    double rate;        /* bytes read and written a ns */
+    double rate;        /* bytes read and written per ns */
 };
 
 enum { MOST_RATES = 8, LEVELS = 4 };
@@ -78,7 +78,7 @@ RUN(scalar, double, )
 #endif
 
 static const struct {
-    const char *name, *needs; /* the kernel that tells whether it can run */
+    const char *name, *needs; /* runs if this kernel can run */
     int bits;
     bool fused;
     void (*run)(void *self);
@@ -111,7 +111,7 @@ static void measure_rates(void)
     }
 }
 
-/* ---- memory, with the widest vectors that there are ---- */
+/* ---- memory, with the widest vectors ---- */
 
 struct set {
     double *x;
@@ -147,7 +147,7 @@ static void update(void *self)
         update_portable(self);
 }
 
-/* Bytes a ns, read and written. */
+/* Bytes read and written per ns. */
 static double rate_of(size_t bytes)
 {
     struct set s = {.bytes = bytes};

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Whether intervals of orders hold what they promise: synthetic studies with known orders, of five
- * kinds, 400 each. Prints how many of the 95 % intervals cover the order, and how many verdicts on
- * an order that is wrong by 0.3 to 1 are PASS. Run it with `meson test --benchmark orders`. */
+/* Checks the intervals of orders with synthetic studies of known orders, of five kinds, 400 each.
+ * Prints how many of the 95 % intervals contain the order, and how many verdicts on an order that
+ * is wrong by 0.3 to 1 are PASS. Run it with `meson test --benchmark orders`. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -32,7 +32,7 @@ static double normal(void)
     return sqrt(-2 * log(uniform())) * cos(2 * acos(-1) * uniform());
 }
 
-/* A study on its way: rows of one error. */
+/* A synthetic study: rows of one error. */
 struct made {
     struct br_quantity quantity;
     struct br_numbers_row row[MOST_ROWS];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time of an element-step by solver, kernel, fields and n. Nothing is asserted about it, but that
- * all solvers make the same steps: they end at the same tip. */
+/* Prints the time of an element-step by solver, kernel, fields and n. It checks only that all
+ * solvers take the same steps: they must end at the same tip. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ enum { SIZES = sizeof sizes / sizeof *sizes, FINE = 400, FINEST = 12800, STEPS =
 
 static const char *const field_names[BENCH_FIELDS] = {"both", "bending", "axial"};
 
-static const double most_seconds = 3; /* a row that would take more is left out */
+static const double most_seconds = 3; /* a row that would take longer is left out */
 
 /* Rows of one solver, kernel and scene, over n. */
 struct series {
@@ -33,9 +33,9 @@ static struct br_scene scene_with(enum bench_fields fields)
     return s;
 }
 
-/* How far the tip is from that of the fast solver after some steps of 1e-3 s, relative. The
- * condition number of the assembled form is about n^4 for bending: a wrong system is told by the
- * coarse meshes, and on the finest nothing is promised. */
+/* The relative distance of the tip from that of the fast solver after some steps of 1e-3 s. The
+ * condition number of the assembled form is about n^4 for bending: coarse meshes show a wrong
+ * system; on the finest the tip may be wrong. */
 static double check_tip(const struct series *s, size_t n)
 {
     struct br_scene scene = s->scene;
@@ -67,7 +67,7 @@ static void print_row(const struct series *s, size_t n, const struct bench_time 
     fflush(stdout);
 }
 
-/* t (in/out): what the row before took, and what this one does. */
+/* t (in/out): the time of the row before, then that of this one. */
 static void run_row(const struct series *s, size_t i, struct bench_march_time *t)
 {
     const size_t n = sizes[i];
@@ -80,7 +80,7 @@ static void run_row(const struct series *s, size_t i, struct bench_march_time *t
     printf("%-8s %-9s %-8s %8zu", name, s->kernel, fields, n);
     if (!(cost <= most_seconds)) {
         br_fail(&err, BR_BAD_INPUT, "would take about %.0f s", cost);
-        t->set_up = cost; /* the next would not take less */
+        t->set_up = cost; /* the next row would take at least as long */
     } else if (!bench_march(&march, t, &err)) {
         bench_put_time(row, "ns/element-step", &t->step);
         print_row(s, n, &t->step);
@@ -101,7 +101,7 @@ static void run_series(const struct series *s)
         run_row(s, i, &t);
 }
 
-/* All kernels of a solver that has some; a choice of solvers takes the best. */
+/* Runs all kernels of a solver that has kernels; `auto` takes the best one. */
 static void run_solver(struct series *s)
 {
     s->kernel = "-";
@@ -141,7 +141,7 @@ void bench_speed(void **state)
         }
 }
 
-/* f(x, t) is assembled every step, F(x) G(t) once. */
+/* f(x, t) is assembled in every step, F(x) G(t) once. */
 void bench_loads(void **state)
 {
     static const struct {

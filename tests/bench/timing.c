@@ -17,7 +17,7 @@ static int by_value(const void *a, const void *b)
 struct bench_time bench_time(void (*work)(void *self), void *self, double amount)
 {
     double ns[REPEATS];
-    work(self); /* warm */
+    work(self); /* fills the caches */
     for (int i = 0; i < REPEATS; i++) {
         const double start = br_seconds();
         work(self);
@@ -49,7 +49,7 @@ static void advance(void *self)
     br_test_advance(r->march, br_march_steps_done(r->march) + r->steps);
 }
 
-/* In each repeat. */
+/* The number of steps of each repeat. */
 static size_t steps_of(const struct bench_march *b)
 {
     const double guess = b->guess > 0 ? b->guess : 100;
