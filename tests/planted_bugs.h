@@ -142,6 +142,8 @@ static const struct planted_bug planted_bugs[] = {
     {"sum_of_products_kept_from_the_step_before", "stale", "solver/load.c", "check mms_slip",
      "if (load->terms > 1 && other && !status) {",
      "if (load->terms > 1 && other && !status && t < 0.5) {"},
+    {"sum_of_products_not_reported_as_changed", "stale", "solver/load.c", "check mms_slip",
+     "add_up(load, field);\n        drive->changed = true;", "add_up(load, field);"},
     {"tip_force_without_a_load_lost", "lost", "solver/load.c", "check bouncing",
      "if (br_function_is_zero(&load->tip_force) &&",
      "if (!load->terms || br_function_is_zero(&load->tip_force) &&"},
