@@ -926,7 +926,7 @@ static const struct planted_bug planted_bugs[] = {
     {"handler_of_the_host_not_put_back", "stale", "study/library/library.c",
      "tests/test_library_calls", "gsl_set_error_handler(their_handler);", ";"},
     {"handler_put_back_by_the_first", "stale", "study/library/library.c",
-     "tests/test_library_calls", "if (visitors++ == 0)", "visitors++;"},
+     "tests/test_library_calls", "if (calls_now++ == 0)", "calls_now++;"},
     {"observer_cannot_stop", "lost", "study/library/library.c", "tests/test_library_calls",
      "atomic_store(&w->stopped, true);", ";"},
     {"forces_of_the_tip_exchanged", "index", "study/library/march.c", "tests/test_library_calls",
