@@ -4,21 +4,22 @@
  * Equations in brackets are those of M. Campo, J. R. Fernandez, G. E. Stavroulakis, J. M. Viano,
  * "Dynamic frictional contact of a viscoelastic beam", ESAIM: M2AN 40, 2006.
  *
- * All quantities are in SI units. Pointers to handles and structs must not be NULL, except where it
- * is said. What is const and returned is borrowed from its handle, and lives as long.
+ * All quantities are in SI units. Pointers to handles and structs must not be NULL, unless a
+ * comment allows it. A pointer to const that a function returns is borrowed from its handle, and
+ * valid as long as the handle.
  *
  * Errors are values. A function that can fail returns a status, and fills *err (out; may be NULL)
- * with a message for a person: what was found and what was expected. A handle that a failed
- * function was to make is NULL. The library prints nothing and does not end the process.
+ * with a message for a person: what was found and what was expected. If a function fails to make a
+ * handle, the handle is NULL. The library prints nothing and does not end the process.
  *
- * Threads: different handles may be used by different threads at the same time, and one scene by
- * several calls at the same time, so that it serves many marches. Of another handle there is one
- * call at a time. The library keeps nothing between calls but handles; two things are the
- * process's. While one of its functions runs, the error handler of GSL is off; it is put back with
- * the end of the last one. And a function that takes `threads` starts OpenMP's. Results depend
- * neither on threads nor on the locale.
+ * Threads: different threads may use different handles at the same time, and several calls may use
+ * one scene at the same time, so that it serves many marches. Any other handle allows one call at a
+ * time. The library keeps no data between calls except handles. Two effects concern the whole
+ * process: while a function of the library runs, the error handler of GSL is off, and the last call
+ * that ends restores it; and a function that takes `threads` starts OpenMP's threads. Results
+ * depend neither on threads nor on the locale.
  *
- * ABI: libbeamrate.so has the major version in its name. Within a major version functions are
+ * ABI: libbeamrate.so has the major version in its name. Within a major version functions may be
  * added, but none is removed, and no struct or number below is changed. */
 #ifndef BEAMRATE_H
 #define BEAMRATE_H
@@ -31,11 +32,11 @@
 extern "C" {
 #endif
 
-/* ---- what all share ---- */
+/* ---- common types ---- */
 
 enum beamrate_status {
     BEAMRATE_OK = 0,
-    BEAMRATE_BAD_INPUT = 1,   /* the message names file, line and key where there are some */
+    BEAMRATE_BAD_INPUT = 1,   /* the message names file, line and key if there are any */
     BEAMRATE_UNSUPPORTED = 2, /* not in this build */
     BEAMRATE_NO_MEMORY = 3,
     BEAMRATE_SINGULAR = 4,   /* the system of a step is not positive definite */
@@ -52,20 +53,20 @@ struct beamrate_error {
 /* A field of the beam: u(x, t) along it, w(x, t) across it. */
 enum beamrate_field { BEAMRATE_AXIAL = 0, BEAMRATE_BENDING = 1 };
 
-/* What an error is of: both fields, or one. Index of arrays of three. */
+/* The component of an error: both fields together, or one. Index of arrays of three. */
 enum beamrate_part { BEAMRATE_TOTAL = 0, BEAMRATE_OF_AXIAL = 1, BEAMRATE_OF_BENDING = 2 };
 
 /* What is refined. */
 enum beamrate_axis { BEAMRATE_SPACE = 0, BEAMRATE_TIME = 1 };
 
-/* A number with its 95 % interval; NaN where it could not be had. */
+/* A number with its 95 % interval; NaN if it is not known. */
 struct beamrate_estimate {
     double value, low, high;
 };
 
-/* How a long call reports its progress and is stopped. `progress` gets the share of the whole work,
- * 0 to 1, from any thread, from one at a time, perhaps in the locale C; another value than 0 ends
- * the call soon, with BEAMRATE_INTERRUPTED. It may call the library. */
+/* How a long call reports its progress and is stopped. `progress` gets the completed share of the
+ * work, 0 to 1. Any thread may call it, one at a time, perhaps in the locale C. It may call the
+ * library. If it returns another value than 0, the call ends soon, with BEAMRATE_INTERRUPTED. */
 struct beamrate_observer {
     int (*progress)(void *self, double share);
     void *self;
@@ -75,7 +76,7 @@ struct beamrate_observer {
  *     const char *const method[] = {"scheme", "bdf2", "axial_degree", "2", NULL};
  * Keys and values are those of a scene's `verify` part: scheme, tolerance, axial_degree, solver,
  * kernel, scaling, refinement, contact, friction, friction_parameter, friction_tolerance,
- * friction_iterations. NULL instead of a list, and keys that are not there: the paper's scheme,
+ * friction_iterations. The default of all keys, and of a list that is NULL, is the paper's scheme:
  * implicit Euler with lagged contact, (16) and (17). Unknown keys and keys that the method does not
  * use are refused (BEAMRATE_BAD_INPUT). */
 
@@ -84,8 +85,8 @@ const char *beamrate_version(void);
 
 /* ---- scenes ---- */
 
-/* A beam, its loads, the obstacle, the friction: the problem (4) to (15). It does not change, and
- * must outlive the marches that are made of it. */
+/* A beam, its loads, the obstacle and the friction: the problem (4) to (15). It does not change,
+ * and must outlive the marches that are made from it. */
 struct beamrate_scene;
 
 enum beamrate_friction { BEAMRATE_FRICTIONLESS = 0, BEAMRATE_TRESCA = 1, BEAMRATE_COULOMB = 2 };
@@ -96,14 +97,14 @@ struct beamrate_scene_info {
     double length;                   /* L, m */
     double duration;                 /* T, s */
     double density;                  /* rho, kg/m */
-    int modelled[2];                 /* by beamrate_field: 1, the scene has it; else 0 */
+    int modelled[2];                 /* by beamrate_field: 1 if the scene has the field; else 0 */
     int contact;                     /* 1: normal compliance (10); else 0 */
     enum beamrate_friction friction; /* (12) */
 };
 
-/* Reads a scene, with its `verify` part, from a YAML file or, where `name` names no file, the
- * bundled scene of that name. *scene (out): owned by the caller. Fails with BEAMRATE_BAD_INPUT, the
- * message naming file, line and key; BEAMRATE_IO; BEAMRATE_NO_MEMORY. */
+/* Reads a scene, with its `verify` part, from a YAML file; if `name` names no file, from the
+ * bundled scene of that name. *scene (out): owned by the caller. Fails with BEAMRATE_BAD_INPUT, and
+ * the message names file, line and key; BEAMRATE_IO; BEAMRATE_NO_MEMORY. */
 enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
                                          struct beamrate_error *err);
 
@@ -113,35 +114,35 @@ enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const c
 
 void beamrate_scene_free(struct beamrate_scene *scene); /* accepts NULL */
 
-/* What a scene says of itself (out). */
+/* The data of a scene (out). */
 void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_scene_info *info);
 
 /* ---- before a march ---- */
 
 enum { BEAMRATE_MOST_WARNINGS = 16 };
 
-/* What a person should know before a march. */
+/* A warning before a march. */
 struct beamrate_warning {
     char kind[24];    /* one word: "unstable", "load-in-time", ... */
-    char text[400];   /* what will happen, with the figures */
-    char remedy[400]; /* what to do instead, a line each; "": nothing is known */
+    char text[400];   /* what will happen, with numbers */
+    char remedy[400]; /* what to do instead, one line each; "": not known */
 };
 
-/* What a march is expected to be off by. Errors are the largest L2 norm over all time levels,
- * relative to the largest of that field's solution; zeros for a field that is not modelled. */
+/* The expected errors of a march: the largest L2 norm over all time levels, relative to the largest
+ * norm of that field's solution; zeros for a field that is not modelled. */
 struct beamrate_forecast {
-    int known;                         /* 1: the errors below are predicted; else NaN */
-    char why[200];                     /* not known: why */
-    struct beamrate_estimate error[2]; /* of discretisation, by beamrate_field; high is
-                                          infinite where it may be the whole solution */
+    int known;                         /* 1: the errors below are predicted; 0: they are NaN */
+    char why[200];                     /* why the errors are not known; else "" */
+    struct beamrate_estimate error[2]; /* of discretisation, by beamrate_field; high is infinite if
+                                          the error may be as large as the solution */
     double round_off;                  /* relative to the exact discrete solution */
-    size_t warnings;                   /* how many there are */
+    size_t warnings;                   /* the number of warnings */
     struct beamrate_warning warning[BEAMRATE_MOST_WARNINGS];
 };
 
 /* Predicts the error of a march of n elements and `steps` time steps, and warns; *forecast (out).
- * It takes some ten milliseconds, and less than the march where that takes longer. Fails as
- * beamrate_march_create, and where the march is refused for what it would take. */
+ * It takes some ten milliseconds; for a march that takes longer, it takes less time than the march.
+ * Fails as beamrate_march_create, also if the march is refused for its cost. */
 enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t n, size_t steps,
                                       const char *const *method, struct beamrate_forecast *forecast,
                                       struct beamrate_error *err);
@@ -149,33 +150,33 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
 /* ---- marches ---- */
 
 /* The fully discrete problem VP^hk, (16) and (17), on n equal elements of h = L/n and `steps` equal
- * steps of k = T/steps, on its way from t = 0 to T. */
+ * steps of k = T/steps, at a time level from t = 0 to T. */
 struct beamrate_march;
 
-/* The tip x = L at a time level; what is not modelled is zero. */
+/* The tip x = L at a time level; values that are not modelled are zero. */
 struct beamrate_tip {
-    size_t step;            /* that have been done */
+    size_t step;            /* number of steps done */
     double time;            /* t_n = step k, s */
     double displacement[2]; /* u_n(L), w_n(L), m, by beamrate_field */
-    double velocity[2];     /* of the same, m/s */
+    double velocity[2];     /* of u and w, m/s */
     double contact_force;   /* c_H (u - g)_+ as the step used it, (10), N */
     double friction_force;  /* lambda = -sigma_V(L), N */
     double friction_bound;  /* h(t_n) of (12), N */
 };
 
-/* What a march is and has cost. */
+/* The size and the cost of a march. */
 struct beamrate_march_report {
     size_t n, steps, done;
     size_t accepted, rejected; /* an adaptive scheme's own steps */
-    size_t stages;             /* linear solves a field */
+    size_t stages;             /* linear solves of each field */
     double round_off;          /* predicted, relative to the exact discrete solution */
-    int unstable;              /* 1: a lagged contact is beyond its stability limit, and has been
-                                  closed: the tip chatters, and the results say little */
+    int unstable; /* 1: a lagged contact was closed beyond its stability limit: the tip chatters,
+                     and the results are not reliable */
 };
 
 /* Sets up a march at t = 0; n and steps >= 1. *march (out): owned by the caller. Fails with
- * BEAMRATE_BAD_INPUT where the method does not go with the scene or the march would take a century,
- * BEAMRATE_NO_MEMORY, also where it would not fit into what the machine has, BEAMRATE_SINGULAR or
+ * BEAMRATE_BAD_INPUT if the method does not go with the scene or the march would take a century,
+ * BEAMRATE_NO_MEMORY, also if the machine has too little memory for the march, BEAMRATE_SINGULAR or
  * BEAMRATE_NOT_FINITE. */
 enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            const struct beamrate_scene *scene, size_t n,
@@ -183,84 +184,83 @@ enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            struct beamrate_error *err);
 void beamrate_march_free(struct beamrate_march *march); /* accepts NULL */
 
-/* Takes `count` steps of (16) and (17). Fails with BEAMRATE_BAD_INPUT, and does nothing, where
- * fewer are left; with BEAMRATE_NOT_FINITE, BEAMRATE_SINGULAR, BEAMRATE_INTERRUPTED or
- * BEAMRATE_NO_MEMORY: the state is then lost, and each later step fails likewise. */
+/* Takes `count` steps of (16) and (17). Fails with BEAMRATE_BAD_INPUT if fewer are left, and then
+ * does nothing. If it fails with BEAMRATE_NOT_FINITE, BEAMRATE_SINGULAR, BEAMRATE_INTERRUPTED or
+ * BEAMRATE_NO_MEMORY, the state is lost, and each later step fails in the same way. */
 enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t count,
                                          struct beamrate_error *err);
 
 /* The tip after the last step (out). */
 void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip);
 
-/* Numbers a node of beamrate_march_get: axial 1, or 2 of quadratic elements; bending 2. */
+/* Numbers for each node in beamrate_march_get: axial 1, quadratic elements 2; bending 2. */
 size_t beamrate_march_columns(const struct beamrate_march *march, enum beamrate_field field);
 
-/* Displacement and velocity of a field after the last step at the nodes x_i = i h, i = 0 .. n:
- * (n + 1) rows of `columns` numbers each (out, m and m/s; either may be NULL). Column 0 is the
- * field itself. Column 1 of bending is the scaled slope h w_x: with it w is the cubic Hermite
+/* Displacement and velocity of a field after the last step at the nodes x_i = i h, i = 0 .. n (out,
+ * m and m/s; either may be NULL): n + 1 rows of `columns` numbers each. Column 0 is the field
+ * itself. Column 1 of bending is the scaled slope h w_x, with which w is the cubic Hermite
  * interpolant. Column 1 of quadratic axial elements is the bubble b of the element that ends at the
- * node: with xi in [0, 1] along it, u = (1 - xi) u_left + xi u_right - xi (1 - xi) b. All zero
- * where the field is not modelled. */
+ * node: with xi in [0, 1] along it, u = (1 - xi) u_left + xi u_right - xi (1 - xi) b. All numbers
+ * are zero if the field is not modelled. */
 void beamrate_march_get(const struct beamrate_march *march, enum beamrate_field field,
                         double *displacement, double *velocity);
 
-/* What a march is and has cost so far (out). */
+/* The size of a march and its cost so far (out). */
 void beamrate_march_report(const struct beamrate_march *march,
                            struct beamrate_march_report *report);
 
 /* ---- studies ---- */
 
-/* The errors of a grid of marches against one reference, and their orders: the paper's Tables 1 and
- * 2 are two of these. */
+/* The errors of a grid of marches against one reference, and their orders. The paper's Tables 1 and
+ * 2 are two studies. */
 struct beamrate_study;
 
-/* What is asked for; all borrowed. Zeros are the defaults. */
+/* The request for a study; all borrowed. Zeros are the defaults. */
 struct beamrate_study_request {
     const size_t *n; /* n_count meshes, ascending */
     size_t n_count;
     const size_t *steps; /* steps_count numbers of time steps, ascending */
     size_t steps_count;
     const char *const *method; /* of the cells and of a fine reference */
-    const char *reference;     /* "exact", "mms", "fine"; NULL: the one that knows the scene best */
-    size_t reference_n, reference_steps; /* of "fine": every n and every number of steps divides
-                                            these */
+    const char *reference;     /* "exact", "mms", "fine"; NULL: the best one for the scene */
+    size_t reference_n, reference_steps; /* of "fine": multiples of all n and all steps */
     const char *norm;                    /* "l2" of (31), "energy" of (25), "tip"; NULL: "l2" */
     int threads;                         /* 0: all cores */
-    const struct beamrate_observer *observer; /* NULL: nobody */
+    const struct beamrate_observer *observer; /* NULL: none */
 };
 
 /* A cell: the march of one n and one number of steps. Arrays of three are by beamrate_part. */
 struct beamrate_cell {
     size_t n, steps;
-    double error[3];     /* largest over its time levels, in the norm's unit; NaN: it failed */
-    const char *flag[3]; /* why it is left out of the fits: "" (it is not), "reference" or
-                            "round-off" (as small as these), "failed", "unstable", "stagnation" */
+    double error[3]; /* largest over the time levels, in the norm's unit; NaN: the march failed */
+    const char *flag[3]; /* why the fits leave it out: "" (they do not), "reference" or "round-off"
+                            (the error is as small as these), "failed", "unstable", "stagnation" */
     double tip[2];       /* u(L, T), w(L, T), m, by beamrate_field */
-    double seconds;      /* of the march, one thread */
-    const char *failure; /* why it failed; "": it went well */
+    double seconds;      /* time of the march on one thread */
+    const char *failure; /* why the march failed; "": it did not */
 };
 
-/* Orders from all cells that are not left out, e^2 = a^2 + 2 r a b + b^2 with a = C_h h^p and b =
- * C_k k^q, beside the reference's own. What belongs to an error that cannot be seen is NaN. */
+/* Orders from all cells that are not left out: e^2 = a^2 + 2 r a b + b^2, a = C_h h^p, b = C_k k^q,
+ * and the reference's own error. Numbers of an error component that is too small to see are NaN. */
 struct beamrate_fit {
-    int describes; /* 1: the model describes the errors, its misfit is at most 2 %; else 0 */
+    int describes; /* 1: the model describes the errors with a misfit of at most 2 %; else 0 */
     struct beamrate_estimate p, c_h, q, c_k, r;
     double misfit; /* root mean square of log(model/error) */
     size_t points;
 };
 
-/* What the cells were measured by. */
+/* The reference of a study. */
 struct beamrate_reference {
     const char *name;    /* "exact", "mms", "fine" */
     size_t n, steps;     /* of a fine run; else n = 0 */
-    double own_error[3]; /* its own, in the norm's unit, by beamrate_part; NaN: not known */
+    double own_error[3]; /* its own error, in the norm's unit, by beamrate_part; NaN: not known */
     double size;         /* the norm of the solution itself */
     double tip[2];       /* u(L, T), w(L, T), m */
 };
 
-/* Marches all cells beside the reference, and fits. *study (out): owned by the caller; it does not
- * need the scene any more. A cell that fails is marked. Fails with BEAMRATE_BAD_INPUT where the
- * grid does not nest in the reference's or the reference refuses the scene, BEAMRATE_NO_MEMORY,
+/* Marches all cells and the reference, and fits. *study (out): owned by the caller; it does not
+ * need the scene any more. A cell that fails is marked. Fails with BEAMRATE_BAD_INPUT if the grid
+ * does not nest in the reference's or the reference refuses the scene, BEAMRATE_NO_MEMORY,
  * BEAMRATE_INTERRUPTED, or as the reference's march does. */
 enum beamrate_status beamrate_study_run(struct beamrate_study **study,
                                         const struct beamrate_scene *scene,
@@ -272,13 +272,12 @@ void beamrate_study_free(struct beamrate_study *study); /* accepts NULL */
 void beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
                          struct beamrate_cell *cell);
 
-/* What a reader would draw (out): the slope of log(error) over log(h) at steps[at], or, over time,
- * of log(error) over log(k) at n[at]. NaN with less than two cells, its interval with less than
- * three. */
+/* The slope (out) of log(error) over log(h) at steps[at], or, for time, of log(error) over log(k)
+ * at n[at]. NaN with fewer than two cells; its interval is NaN with fewer than three. */
 void beamrate_study_slope(const struct beamrate_study *study, enum beamrate_part part,
                           enum beamrate_axis axis, size_t at, struct beamrate_estimate *order);
 
-/* The joint fit of a part (out). */
+/* The joint fit of an error component (out). */
 void beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
                         struct beamrate_fit *fit);
 
@@ -288,43 +287,42 @@ void beamrate_study_reference(const struct beamrate_study *study,
 
 /* ---- verdicts ---- */
 
-/* Orders that are expected, with what was seen, and verdicts from their 95 % intervals. */
+/* Expected and observed orders, and verdicts from their 95 % intervals. */
 struct beamrate_check;
 
 enum beamrate_verdict {
     BEAMRATE_PASS = 0,        /* the interval lies within the band */
-    BEAMRATE_FAIL = 1,        /* it lies outside; or a constant does; or an error is missing */
-    BEAMRATE_INCONCLUSIVE = 2 /* it straddles, or too few points are left: counts as failing */
+    BEAMRATE_FAIL = 1,        /* it lies outside; or the constant does; or an error is missing */
+    BEAMRATE_INCONCLUSIVE = 2 /* it straddles an end, or points are too few: fails, too */
 };
 
 /* One expectation. */
 struct beamrate_case {
     const char *study;          /* "space", "time" or "joint" (h and k together) */
-    const char *measure;        /* what the errors are of: a norm, or "error" or "value" */
+    const char *measure;        /* the norm of the errors; of numbers "error" or "value" */
     const char *part;           /* "total", "axial", "bending"; "": of numbers */
-    double expected, tolerance; /* the interval is to lie within expected -+ tolerance */
+    double expected, tolerance; /* the interval must lie within expected -+ tolerance */
     struct beamrate_estimate order;
     double
         constant;  /* C of e = C z^order with z = h/L or k/T, or numbers' own h and k; NaN: none */
-    double margin; /* from the interval to the nearer end of the band; < 0: outside */
-    size_t points, used; /* errors, and those that count */
+    double margin; /* from the interval to the nearer end of the band; < 0: it is outside */
+    size_t points, used; /* all errors, and those in the fit */
     enum beamrate_verdict verdict;
-    const char *reason; /* why it does not pass, and what would help; "": it passes */
-    const char *note;   /* what was left out; "": nothing */
+    const char *reason; /* why it does not pass, and a remedy; "": it passes */
+    const char *note;   /* which errors were left out; "": none */
 };
 
-/* Checks a scene against its `verify` part, or, where it has none, against the orders of the
- * paper's scheme, on `threads` threads (0: all cores). observer: NULL: nobody. *check (out): owned
- * by the caller; it does not need the scene any more. Fails with BEAMRATE_BAD_INPUT where the scene
- * cannot be verified, BEAMRATE_NO_MEMORY or BEAMRATE_INTERRUPTED; a march that fails is a verdict.
- */
+/* Checks a scene against its `verify` part, or, if it has none, against the orders of the paper's
+ * scheme, on `threads` threads (0: all cores). observer: NULL: none. *check (out): owned by the
+ * caller; it does not need the scene any more. Fails with BEAMRATE_BAD_INPUT if the scene cannot be
+ * verified, BEAMRATE_NO_MEMORY or BEAMRATE_INTERRUPTED; a march that fails is a verdict. */
 enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_scene *scene, int threads,
                                         const struct beamrate_observer *observer,
                                         struct beamrate_error *err);
 void beamrate_check_free(struct beamrate_check *check); /* accepts NULL */
 
-/* How many expectations there are, and expectation i of them (out). */
+/* The number of expectations, and expectation i (out). */
 size_t beamrate_check_count(const struct beamrate_check *check);
 void beamrate_check_case(const struct beamrate_check *check, size_t i, struct beamrate_case *c);
 
@@ -333,51 +331,51 @@ void beamrate_check_case(const struct beamrate_check *check, size_t i, struct be
 /* Orders of convergence of another program's numbers. */
 struct beamrate_orders;
 
-/* Numbers on finer and finer grids, in any order; copied. */
+/* Numbers on a sequence of grids, in any order; copied. */
 struct beamrate_numbers {
     const double *h;      /* count sizes of elements > 0; NULL: space is not refined */
     const double *k;      /* count time steps > 0; NULL: time is not refined */
     const double *number; /* count: errors >= 0, or values whose limit is not known; NaN: missing */
     size_t count;
     int values;    /* 1: values; 0: errors */
-    double formal; /* order that theory gives values, for the intervals of their limits; 0: 2 */
+    double formal; /* theoretical order of values, for the intervals of their limits; 0: 2 */
 };
 
-/* Along one axis, at the finest size of the other one. */
+/* The order along one axis, at the finest size of the other axis. */
 struct beamrate_order {
     struct beamrate_estimate order;
     double constant;     /* C of e = C h^order, or k^order; of values: of their differences */
-    size_t points, used; /* there are, and that are not at a floor */
+    size_t points, used; /* all points, and those that are not at a floor */
     struct beamrate_estimate limit; /* of values: the least-squares limit (Eca and Hoekstra 2014),
                                        or the grid convergence index of three (Celik et al. 2008) */
 };
 
-/* Finds the orders. *orders (out): owned by the caller. Fails with BEAMRATE_BAD_INPUT where sizes
- * are not above 0 or there twice, fewer than three, or an error is negative ("numbers:2" is the
- * second number), or BEAMRATE_NO_MEMORY. */
+/* Finds the orders. *orders (out): owned by the caller. Fails with BEAMRATE_BAD_INPUT if a size is
+ * not above 0 or given twice, if there are fewer than three, or if an error is negative
+ * ("numbers:2" is the second number), or with BEAMRATE_NO_MEMORY. */
 enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err);
 void beamrate_orders_free(struct beamrate_orders *orders); /* accepts NULL */
 
-/* The order along an axis (out). Returns 1, or 0 where no line along it has three sizes. Where both
- * axes are refined from each number to the next, the line is of space. */
+/* The order along an axis (out). Returns 1, or 0 if no line along it has three sizes. If both axes
+ * are refined from each number to the next, the line is one of space. */
 int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axis axis,
                          struct beamrate_order *order);
 
-/* The joint fit of errors on a grid of h and k (out); of others nothing but NaN. */
+/* The joint fit of errors on a grid of h and k (out); for other numbers only NaN. */
 void beamrate_orders_fit(const struct beamrate_orders *orders, struct beamrate_fit *fit);
 
-/* What is expected of an order. */
+/* The expectation of an order. */
 struct beamrate_expectation {
     enum beamrate_axis axis;
     double order, tolerance; /* 0 < tolerance < order */
-    double down_to;          /* errors stop falling there, as is expected; 0: nowhere */
+    double down_to;          /* the errors are expected to stop falling there; 0: nowhere */
 };
 
-/* A verdict on each of `count` expectations, by the joint fit where it describes the errors, else
- * by the line. *check (out): owned by the caller; it does not need the orders any more. Fails with
- * BEAMRATE_BAD_INPUT where there is no such line or an expectation makes no sense, or
+/* A verdict on each of `count` expectations, by the joint fit if it describes the errors, else by
+ * the line. *check (out): owned by the caller; it does not need the orders any more. Fails with
+ * BEAMRATE_BAD_INPUT if there is no such line or an expectation makes no sense, or with
  * BEAMRATE_NO_MEMORY. */
 enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_orders *orders,

@@ -2,8 +2,8 @@
 """beamrate in Python: scenes, marches, studies, verdicts, and orders of convergence, over libbeamrate.
 
 Arrays are numpy's; the library writes into them and reads from them without copies. All quantities
-are in SI units; beamrate.h tells each member of the results. A method is given by keywords:
-scheme="bdf2", axial_degree=2. What is wrong raises Error, or BadInput, with the library's message.
+are in SI units; beamrate.h describes each member of the results. A method is given by keywords:
+scheme="bdf2", axial_degree=2. An error raises Error, or BadInput, with the library's message.
 
 $BEAMRATE_LIBRARY names the shared library where it is not installed beside this file.
 """
@@ -17,7 +17,7 @@ from types import SimpleNamespace
 import numpy as np
 
 AXIAL, BENDING = 0, 1  # fields
-TOTAL, OF_AXIAL, OF_BENDING = 0, 1, 2  # parts of an error
+TOTAL, OF_AXIAL, OF_BENDING = 0, 1, 2  # components of an error
 SPACE, TIME = 0, 1  # what is refined
 VERDICTS = ("PASS", "FAIL", "INCONCLUSIVE")
 
@@ -27,7 +27,7 @@ class Error(Exception):
 
 
 class BadInput(Error, ValueError):
-    """What was given is refused; the message says what was found and what was expected."""
+    """The input is refused; the message states what was found and what was expected."""
 
 
 # ---- the structs of beamrate.h: each member in its order, TYPE:NAME, or TYPE:NAME:COUNT ----
@@ -110,7 +110,7 @@ def _counts(values):
 
 
 def _choice(value, count):
-    return c_int(range(count)[value])  # raises IndexError
+    return c_int(range(count)[value])  # raises IndexError where there is none
 
 
 def _method(options):
@@ -167,7 +167,7 @@ class Scene(_Handle):
         self.info = self._get("scene_info", _SceneInfo)
 
     def foresee(self, n, steps, **method):
-        """What a march is expected to be off by; warnings: what to know before it."""
+        """The expected errors of a march, and its warnings."""
         out = _Forecast()
         _call("foresee", self, _count(n), _count(steps), _method(method), byref(out))
         plain = _plain(out)
@@ -177,7 +177,7 @@ class Scene(_Handle):
 
 
 class March(_Handle):
-    """The fully discrete problem, (16) and (17), on n elements and so many steps. x: its nodes."""
+    """The fully discrete problem, (16) and (17), on n elements and `steps` steps. x: its nodes."""
 
     def __init__(self, scene, n, steps, **method):
         super().__init__()

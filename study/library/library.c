@@ -13,36 +13,36 @@ const char *beamrate_version(void)
     return BEAMRATE_VERSION;
 }
 
-/* ---- around a call ---- */
+/* ---- the beginning and end of a call ---- */
 
-/* GSL has one error handler for all threads, and the usual one ends the process. So the first call
- * takes it off, and the last one that is under way puts it back: what functions below do to it
- * meanwhile changes nothing. */
+/* GSL has one error handler for all threads, and the default one ends the process. So the first
+ * call removes the handler, and the last call that ends restores it. Changes that functions of the
+ * program make to the handler in between have no effect. */
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static size_t visitors;
+static size_t calls_now;
 static gsl_error_handler_t *their_handler;
 
-enum br_status br_visit_begin(struct br_visit *visit, const struct beamrate_scene *scene)
+enum br_status br_call_begin(struct br_call *call, const struct beamrate_scene *scene)
 {
-    *visit = (struct br_visit){.scene = scene ? scene->scene : (struct br_scene){0}};
+    *call = (struct br_call){.scene = scene ? scene->scene : (struct br_scene){0}};
     pthread_mutex_lock(&lock);
-    if (visitors++ == 0)
+    if (calls_now++ == 0)
         their_handler = gsl_set_error_handler_off();
     pthread_mutex_unlock(&lock);
-    visit->locale = uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0)); /* always there, static */
+    call->locale = uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0)); /* never fails: static */
     struct br_function *f;
-    for (size_t i = 0; (f = br_scene_function(&visit->scene, i)); i++) {
+    for (size_t i = 0; (f = br_scene_function(&call->scene, i)); i++) {
         const struct br_function theirs = *f;
         *f = (struct br_function){0};
-        if (!visit->err.status)
-            br_function_clone(&theirs, f, &visit->err);
+        if (!call->err.status)
+            br_function_clone(&theirs, f, &call->err);
     }
-    return visit->err.status;
+    return call->err.status;
 }
 
 static const enum beamrate_status statuses[] = {
     [BR_OK] = BEAMRATE_OK,
-    [BR_VERDICT] = BEAMRATE_BAD_INPUT, /* verdicts are results: no call of the library ends so */
+    [BR_VERDICT] = BEAMRATE_BAD_INPUT, /* a verdict is a result: no call returns this */
     [BR_BAD_INPUT] = BEAMRATE_BAD_INPUT,
     [BR_UNSUPPORTED] = BEAMRATE_UNSUPPORTED,
     [BR_NO_MEMORY] = BEAMRATE_NO_MEMORY,
@@ -52,25 +52,25 @@ static const enum beamrate_status statuses[] = {
     [BR_INTERRUPTED] = BEAMRATE_INTERRUPTED,
 };
 
-enum beamrate_status br_visit_end(struct br_visit *visit, enum br_status status,
-                                  struct beamrate_error *err)
+enum beamrate_status br_call_end(struct br_call *call, enum br_status status,
+                                 struct beamrate_error *err)
 {
     struct br_function *f;
-    for (size_t i = 0; (f = br_scene_function(&visit->scene, i)); i++)
+    for (size_t i = 0; (f = br_scene_function(&call->scene, i)); i++)
         br_function_free(f);
-    uselocale(visit->locale);
+    uselocale(call->locale);
     pthread_mutex_lock(&lock);
-    if (--visitors == 0)
+    if (--calls_now == 0)
         gsl_set_error_handler(their_handler);
     pthread_mutex_unlock(&lock);
     if (err) {
         err->status = statuses[status];
-        snprintf(err->message, sizeof err->message, "%s", status ? visit->err.message : "");
+        snprintf(err->message, sizeof err->message, "%s", status ? call->err.message : "");
     }
     return statuses[status];
 }
 
-/* ---- what callers give ---- */
+/* ---- from callers ---- */
 
 static enum br_status refuse_key(const char *key, struct br_error *err)
 {
@@ -102,7 +102,7 @@ enum br_status br_library_method(const char *const *list, struct br_method *meth
     return status ? status : br_method_check_heeded(text, BR_METHOD_IN_SCENE, methods, 1, err);
 }
 
-/* A call that finds another one under way is left out. */
+/* If another thread is in this function, the report is left out. */
 static void progress(void *self, double share)
 {
     struct br_library_watch *w = self;
@@ -113,7 +113,7 @@ static void progress(void *self, double share)
     pthread_mutex_unlock(&w->one_at_a_time);
 }
 
-/* While the exact reference is made, nothing is marched yet. */
+/* While the exact reference is prepared, no march has started. */
 static void preparing(void *self, double share)
 {
     (void)share;
@@ -140,7 +140,7 @@ void br_library_watch_end(struct br_library_watch *w)
     pthread_mutex_destroy(&w->one_at_a_time);
 }
 
-/* ---- what callers get ---- */
+/* ---- to callers ---- */
 
 struct beamrate_estimate br_library_estimate(struct br_estimate e)
 {

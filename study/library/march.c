@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes and their marches, from outside. */
+/* The library's functions for scenes and marches. */
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -30,10 +30,10 @@ static enum br_status read_scene(struct beamrate_scene *s, const char *path, con
 enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const char *name,
                                           const char *text, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, read_scene(*scene, name, text, &visit.err));
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, read_scene(*scene, name, text, &call.err));
 }
 
-/* "-" is a file like any other: a library leaves standard input alone. */
+/* "-" is an ordinary file name: a library does not read standard input. */
 static enum br_status open_scene(struct beamrate_scene *s, const char *name, struct br_error *err)
 {
     char path[1024], *text = NULL;
@@ -49,7 +49,7 @@ static enum br_status open_scene(struct beamrate_scene *s, const char *name, str
 enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
                                          struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, open_scene(*scene, name, &visit.err));
+    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, open_scene(*scene, name, &call.err));
 }
 
 void beamrate_scene_free(struct beamrate_scene *scene)
@@ -79,7 +79,7 @@ void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_sce
 
 /* ---- before a march ---- */
 
-/* Reads the method of a march and refuses what makes no sense. *planned (out) points to *method. */
+/* Reads the method of a march and refuses impossible marches. *planned (out) points to *method. */
 static enum br_status plan_march(const struct br_scene *scene, size_t n, size_t steps,
                                  const char *const *list, struct br_method *method,
                                  struct br_planned_march *planned, struct br_error *err)
@@ -122,23 +122,23 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
                                       const char *const *list, struct beamrate_forecast *forecast,
                                       struct beamrate_error *err)
 {
-    struct br_visit visit;
+    struct br_call call;
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
     struct br_prediction prediction = {0};
     memset(forecast, 0, sizeof *forecast);
-    enum br_status status = br_visit_begin(&visit, scene);
+    enum br_status status = br_call_begin(&call, scene);
     if (!status)
-        status = plan_march(&visit.scene, n, steps, list, &method, &planned, &visit.err);
+        status = plan_march(&call.scene, n, steps, list, &method, &planned, &call.err);
     planned.prediction = &prediction;
     if (!status)
-        status = br_look_ahead(&planned, &warnings, &visit.err);
+        status = br_look_ahead(&planned, &warnings, &call.err);
     if (!status) {
         copy_prediction(&prediction, forecast);
         copy_warnings(&warnings, forecast);
     }
-    return br_visit_end(&visit, status, err);
+    return br_call_end(&call, status, err);
 }
 
 /* ---- marches ---- */
@@ -159,7 +159,7 @@ static enum br_status create_march(struct beamrate_march *m, const struct br_sce
     m->n = n;
     m->steps = steps;
     if (!status)
-        status = br_look_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
+        status = br_look_ahead_cheaply(&planned, &warnings, err); /* may refuse the march */
     return status ? status : br_march_create(&m->march, scene, n, steps, &method, err);
 }
 
@@ -169,7 +169,7 @@ enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            struct beamrate_error *err)
 {
     BR_MAKE_HANDLE(march, beamrate_march_free, NULL,
-                   create_march(*march, &scene->scene, n, steps, method, &visit.err));
+                   create_march(*march, &scene->scene, n, steps, method, &call.err));
 }
 
 void beamrate_march_free(struct beamrate_march *march)
@@ -197,9 +197,9 @@ static enum br_status take_steps(struct beamrate_march *m, size_t count, struct 
 enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t count,
                                          struct beamrate_error *err)
 {
-    struct br_visit visit;
-    br_visit_begin(&visit, NULL);
-    return br_visit_end(&visit, take_steps(march, count, &visit.err), err);
+    struct br_call call;
+    br_call_begin(&call, NULL);
+    return br_call_end(&call, take_steps(march, count, &call.err), err);
 }
 
 void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip)

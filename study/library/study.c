@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies, verdicts and orders of numbers, from outside. */
+/* The library's functions for studies, verdicts and orders of numbers. */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -134,7 +134,7 @@ enum beamrate_status beamrate_study_run(struct beamrate_study **study,
                                         struct beamrate_error *err)
 {
     BR_MAKE_HANDLE(study, beamrate_study_free, scene,
-                   march_and_fit(*study, &visit.scene, request, &visit.err));
+                   march_and_fit(*study, &call.scene, request, &call.err));
 }
 
 void beamrate_study_free(struct beamrate_study *study)
@@ -192,7 +192,7 @@ struct beamrate_check {
     struct br_check check;
 };
 
-/* own: the scene for this call */
+/* own: the copy of the scene for this call */
 static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
                                   const struct br_scene *own, int threads,
                                   const struct beamrate_observer *observer, struct br_error *err)
@@ -215,9 +215,8 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_observer *observer,
                                         struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(
-        check, beamrate_check_free, scene,
-        check_scene(&(*check)->check, scene, &visit.scene, threads, observer, &visit.err));
+    BR_MAKE_HANDLE(check, beamrate_check_free, scene,
+                   check_scene(&(*check)->check, scene, &call.scene, threads, observer, &call.err));
 }
 
 void beamrate_check_free(struct beamrate_check *check)
@@ -255,7 +254,7 @@ void beamrate_check_case(const struct beamrate_check *check, size_t i, struct be
 
 /* ---- orders of any numbers ---- */
 
-static const char name_of_numbers[] = "numbers"; /* in messages, where files have their path */
+static const char name_of_numbers[] = "numbers"; /* in messages, instead of a file's path */
 
 struct beamrate_orders {
     struct br_numbers numbers;
@@ -296,7 +295,7 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(orders, beamrate_orders_free, NULL, find_orders(*orders, numbers, &visit.err));
+    BR_MAKE_HANDLE(orders, beamrate_orders_free, NULL, find_orders(*orders, numbers, &call.err));
 }
 
 void beamrate_orders_free(struct beamrate_orders *orders)
@@ -376,5 +375,5 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            size_t count, struct beamrate_error *err)
 {
     BR_MAKE_HANDLE(check, beamrate_check_free, NULL,
-                   check_orders(&(*check)->check, orders, expectation, count, &visit.err));
+                   check_orders(&(*check)->check, orders, expectation, count, &call.err));
 }

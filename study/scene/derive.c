@@ -5,8 +5,8 @@
 
 /* ---- rules ---- */
 
-/* The derivatives of f(x, t) by each argument, without cancellation. An operation that is not here
- * is constant between jumps, or is derived branch by branch. */
+/* The derivatives of f(x, t) with respect to each argument, without cancellation. An operation that
+ * is not listed is constant between jumps, or is handled in slope_of. */
 static const struct rule {
     enum br_operation operation;
     const char *by[2];
@@ -38,7 +38,7 @@ static const struct rule {
 
 typedef struct br_tree_builder builder;
 
-/* An argument: its node and its derivative. */
+/* The nodes of an argument and of its derivative. */
 struct argument {
     unsigned value, slope;
 };
@@ -48,7 +48,7 @@ static unsigned node(builder *b, enum br_operation operation, unsigned a, unsign
     return br_tree_node(b, operation, a, c, 0);
 }
 
-/* A rule's text of both arguments. */
+/* Parses a rule and inserts both arguments. */
 static unsigned follow(builder *b, const char *text, const struct argument a[2])
 {
     struct br_tree rule;
@@ -62,8 +62,8 @@ static unsigned follow(builder *b, const char *text, const struct argument a[2])
     return out;
 }
 
-/* By the chain rule. What does not change, as logarithms of negative numbers, is left out. The
- * order of factors decides which nodes are shared. */
+/* Applies the chain rule, without arguments of derivative 0: their factor may have no value, as the
+ * logarithm of a negative number. The order of factors decides which nodes are shared. */
 static unsigned by_rule(builder *b, enum br_operation operation, const struct argument a[2])
 {
     unsigned sum = br_tree_number(b, 0);
@@ -117,7 +117,7 @@ enum br_status br_tree_derive(const struct br_tree *tree, enum br_variable by, s
     for (size_t i = 0; i < tree->count; i++) {
         const struct br_node *n = &tree->node[i];
         const struct argument a[] = {at[n->argument[0]], at[n->argument[1]], at[n->argument[2]]};
-        b.simplifies = false; /* what a person has written */
+        b.simplifies = false; /* keeps the expression as written */
         at[i].value = n->operation == BR_OP_NUMBER
                           ? br_tree_number(&b, n->number)
                           : br_tree_node(&b, n->operation, a[0].value, a[1].value, a[2].value);
@@ -131,7 +131,7 @@ enum br_status br_tree_derive(const struct br_tree *tree, enum br_variable by, s
     return br_tree_finish(&b, root, out, err);
 }
 
-/* ---- sums of them ---- */
+/* ---- sums of derivatives ---- */
 
 static enum br_status derive_often(const struct br_tree *tree, struct br_partial order,
                                    struct br_tree *out, struct br_error *err)

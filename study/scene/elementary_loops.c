@@ -12,7 +12,7 @@
 enum { WIDTH = NAME(BR_WIDTH_) };
 
 #if !defined __x86_64__
-typedef double vector; /* one by one */
+typedef double vector; /* no vectors */
 enum { STRIDE = 1 };
 #define SLEEF(name) Sleef_cinz_##name##d1_u10purec
 #else
@@ -40,7 +40,7 @@ static double small_power(double a, double b)
 
 static void power(size_t count, const double *a, const double *b, double *restrict out)
 {
-    bool small = true; /* all of them */
+    bool small = true; /* whether all powers are small */
     for (size_t i = 0; i < count && small; i++)
         small = is_small_power(b[i]);
     for (size_t i = 0; i < count && !small; i += STRIDE)
@@ -58,10 +58,10 @@ static void power(size_t count, const double *a, const double *b, double *restri
             out[i] = (value);              \
         break;
 
-/* A truth of two numbers. */
+/* A truth value of two numbers; NaN if one of them is NaN. */
 #define TRUTH(operation, truth) LOOP(operation, isunordered(a[i], b[i]) ? NAN : (double)(truth))
 
-/* SLEEF's, and the C library's beyond a limit, where SLEEF gives up before the doubles do. */
+/* SLEEF's function; beyond a limit, where it fails on finite values, the C library's. */
 #define MENDED(operation, name, limit)                                    \
     case operation:                                                       \
         for (size_t i = 0; i < count; i += STRIDE)                        \

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Taylor coefficients of operations, by the recurrences of Moore, and what they and bounds of
- * operations make of a tree over a box. */
+/* Taylor coefficients of operations by Moore's recurrences, and with them Taylor coefficients and
+ * bounds of a tree over a box. */
 #include "study/scene/operations.h"
 
 #include <float.h>
@@ -28,23 +28,23 @@ static iv scale(double factor, iv a)
 
 struct rule;
 
-/* What the series of one operation are made of. Its own first coefficient is known, which a
- * recurrence may put another one in the place of; the others are none. */
+/* The input and output of one recurrence. out[0] is the known value of the operation, and the other
+ * coefficients start as none. A recurrence may overwrite out[0]; `apply` restores it. */
 struct recurrence {
     size_t order;
     const iv *a, *b;
     iv *out;
-    const struct rule *by; /* of the operation; NULL: needs none */
+    const struct rule *by; /* of the operation; NULL: not needed */
 };
 
-/* How an operation's series are found. */
+/* The recurrence of an operation, and its parameters. */
 struct rule {
     void (*series)(const struct recurrence *r);
     double sign;
-    double constant, slope; /* of an inverse function; slope: of a logarithm its unit */
-    enum { ITSELF, SQUARE, SLOPE } next; /* of a flow: what its second series is made of */
-    bool root;                           /* of an inverse function */
-    enum br_operation partner;           /* whose value a second series begins with */
+    double constant, slope; /* of an inverse function; slope: of a logarithm its base */
+    enum { ITSELF, SQUARE, SLOPE } next; /* of a flow: how its second series is made */
+    bool root;                           /* of an inverse function: take the square root */
+    enum br_operation partner;           /* its value begins the second series */
 };
 
 /* sum of a_j b_(k-j), j = from .. to */
@@ -56,7 +56,7 @@ static iv convolve(const iv *a, const iv *b, size_t k, size_t from, size_t to)
     return sum;
 }
 
-/* sum of j a_j b_(k-j), j = 1 .. to, over k */
+/* sum of j a_j b_(k-j), j = 1 .. to, divided by k */
 static iv convolve_slope(const iv *a, const iv *b, size_t k, size_t to)
 {
     iv sum = {0, 0};
@@ -104,7 +104,7 @@ static void product(const struct recurrence *r)
     product_series(r->order, r->a, r->b, r->out);
 }
 
-/* y' = sign a' v, and v is y' own: y (exp), 1 + slope y^2 (tan and tanh), or of v' = slope a' y
+/* y' = sign a' v, where v is y (exp) or 1 + slope y^2 (tan and tanh), or solves v' = slope a' y
  * (sin and cos, sinh and cosh) */
 static void flow(const struct recurrence *r)
 {
@@ -134,7 +134,7 @@ static void real_power_series(const struct recurrence *r, double n)
     }
 }
 
-/* s s = a; tighter than as a power */
+/* s s = a; gives tighter intervals than a power */
 static void root(const struct recurrence *r)
 {
     iv *s = r->out;
@@ -152,7 +152,7 @@ static void integral(const struct recurrence *r, const iv *w, double sign)
     }
 }
 
-/* w y' = slope a', w = constant + sign a^2 or its root */
+/* w y' = slope a', where w is constant + sign a^2 or its square root */
 static void inverse(const struct recurrence *r)
 {
     iv square[BR_TREE_WORK], w[BR_TREE_WORK];
@@ -167,7 +167,7 @@ static void inverse(const struct recurrence *r)
     integral(r, r->by->root ? w : square, r->by->slope);
 }
 
-/* log a over log slope */
+/* log(a) / log(slope); slope 0: log(a) */
 static void logarithm(const struct recurrence *r)
 {
     const iv base = br_point(r->by->slope);
@@ -176,7 +176,7 @@ static void logarithm(const struct recurrence *r)
         r->out[k] = br_interval_divide(r->out[k], br_interval_apply(BR_OP_LOG, &base, false));
 }
 
-/* a^n, n = 2, 3 ...: by squares, so that a may be 0 */
+/* a^n, n = 2, 3 ...: by repeated squares, so that a may be 0 */
 static void whole_power_series(size_t order, const iv *a, double n, iv *out)
 {
     iv square[BR_TREE_WORK], next[BR_TREE_WORK];
@@ -252,7 +252,7 @@ static void absolute(const struct recurrence *r)
         copy(r, r->a, r->a[0].low >= 0 ? 1 : -1);
 }
 
-/* The one of both that is less (sign 1) or larger (sign -1), where that is decided. */
+/* The smaller (sign 1) or larger (sign -1) argument, if the intervals decide which. */
 static void extreme(const struct recurrence *r)
 {
     const iv difference = scale(r->by->sign, br_interval_subtract(r->a[0], r->b[0]));
@@ -260,14 +260,14 @@ static void extreme(const struct recurrence *r)
         copy(r, difference.high <= 0 ? r->a : r->b, 1);
 }
 
-/* Of what is constant between jumps: none where it may jump. */
+/* Of operations that are constant between jumps; stays none where there may be a jump. */
 static void decided(const struct recurrence *r)
 {
     if (br_is_point(r->out[0]))
         memset(r->out + 1, 0, r->order * sizeof *r->out);
 }
 
-/* Those that are not here are decided, or chosen. */
+/* Operations without a row use `decided`, except ?:, which `apply` handles. */
 static const struct rule rules[BR_OP_CHOOSE + 1] = {
     [BR_OP_NEGATE] = {negative},
     [BR_OP_SIN] = {flow, .sign = 1, .next = SLOPE, .slope = -1, .partner = BR_OP_COS},
@@ -308,7 +308,7 @@ static void apply(enum br_operation o, size_t order, const iv *const argument[3]
     for (size_t k = 1; k <= order; k++)
         out[k] = br_no_interval;
     if (o == BR_OP_CHOOSE) {
-        if (!br_has_zero(first[0]) || br_is_point(first[0])) /* none is neither */
+        if (!br_has_zero(first[0]) || br_is_point(first[0])) /* decided */
             copy(&r, argument[br_has_zero(first[0]) ? 2 : 1], 1);
     } else if (!br_is_none(value)) {
         (r.by->series ? r.by->series : decided)(&r);
@@ -355,9 +355,9 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
 
 /* ---- bounds ---- */
 
-/* A node over a box: its range, its value at the box's centre, and its derivatives over the box by
- * x and by t; where these jump, all they may be between. And how far its evaluation may be from the
- * truth, which grows from node to node as a derivative does. */
+/* A node over a box: its range, its value at the centre of the box, and its derivatives with
+ * respect to x and t over the box. Where a derivative jumps, its interval covers both sides.
+ * slope[ERROR] bounds the error of evaluation, which propagates as a derivative does. */
 enum { ERROR = 2, DIRECTIONS };
 struct form {
     iv range, centre, slope[DIRECTIONS];
@@ -394,13 +394,13 @@ static void differentiate(enum br_operation o, const struct form *const argument
         f->slope[direction] = slope_of(o, argument, direction);
     if (exact)
         return;
-    /* 2.5 units, and that these sums are rounded, too */
+    /* 2.5 units in the last place, and the rounding of these sums */
     const double error = br_magnitude(f->slope[ERROR]) * (1 + 8 * DBL_EPSILON) +
                          3 * DBL_EPSILON * br_magnitude(f->range) + 8 * 0x1p-1074;
     f->slope[ERROR] = (iv){-error, error};
 }
 
-/* Cuts the range with centre + slopes * (box - middle) +- error. */
+/* Intersects the range with centre + slopes * (box - middle) +- error. */
 static void cut(struct br_box box, struct br_box middle, struct form *f)
 {
     const iv along_x = br_interval_multiply(f->slope[0], br_interval_subtract(box.x, middle.x));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formulas and where they come from: docs/scenes.md. */
+/* Formulas of derived numbers. Their sources: docs/scenes.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 
 /* ---- formulas: long double throughout, rounded once ---- */
 
-/* The two that a recipe names, the density and the length. */
+/* The two sources that a recipe names, the density and the length. */
 enum { SOURCES = 4 };
 typedef const struct br_scene_number *sources[SOURCES];
 
@@ -49,8 +49,8 @@ static long double bending_time(sources of)
     return relaxation_time(of, 1.875104068711961166445L, 2);
 }
 
-/* In an order in which each finds what it is made of, the number that is given instead first. Keys
- * are "section.name". most: of the first; 0: any. More is a unit or a % forgotten. */
+/* Each recipe comes after those that make its sources. first: given instead of `what`. Keys are
+ * "section.name". most: of `first`; 0: any. Above it a unit or a % is missing. */
 static const struct recipe {
     const char *what, *first, *second, *words;
     long double (*formula)(sources of);
@@ -75,7 +75,7 @@ static const struct recipe {
 enum { RECIPES = sizeof recipes / sizeof *recipes };
 _Static_assert((int)RECIPES < (int)BR_MOST_DERIVED, "struct br_scene has no room");
 
-/* ---- making ---- */
+/* ---- derivation ---- */
 
 static bool section_is_given(const struct br_scene_given *g, const struct br_scene_key *key)
 {
@@ -92,7 +92,7 @@ static enum br_status refuse_two(const struct br_scene_reader *r, size_t row, si
         br_scene_keys[other->origin].name, other->line, br_scene_keys[row].name);
 }
 
-/* What is made into the scene needs its sources, and what these were made of. */
+/* Marks a source of a scene's number as used, and the number that the source was made from. */
 static void use(struct br_scene_given *g, size_t row)
 {
     g->row[row].used = true;
@@ -128,7 +128,7 @@ static enum br_status make(const struct br_scene_reader *r, const struct recipe 
     return BR_OK;
 }
 
-/* Where all that a recipe needs is there. */
+/* Applies a recipe if all its sources are given. */
 static enum br_status try(const struct br_scene_reader *r, const struct recipe *p)
 {
     const struct br_scene_number *number = r->given->row;
@@ -137,7 +137,7 @@ static enum br_status try(const struct br_scene_reader *r, const struct recipe *
     const bool itself = source[0] == row,
                mode = p->formula == axial_time || p->formula == bending_time;
     if (mode && !number[br_scene_row("density")].line)
-        return BR_OK; /* check_row refuses it */
+        return BR_OK; /* check_row reports the missing density */
     if (!number[source[0]].line || !number[source[1]].line || (itself && !number[row].ratio) ||
         !section_is_given(r->given, &br_scene_keys[row]))
         return BR_OK;
@@ -146,7 +146,7 @@ static enum br_status try(const struct br_scene_reader *r, const struct recipe *
     return make(r, p, row, source);
 }
 
-/* ---- what is left ---- */
+/* ---- missing and unused numbers ---- */
 
 static enum br_status refuse_missing(const struct br_scene_reader *r, size_t row)
 {

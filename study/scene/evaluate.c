@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trees: made, and evaluated node by node over arrays of places. What does not use x is computed
- * once a call. */
+/* Makes trees and evaluates them node by node over arrays of points. Nodes that do not use x are
+ * computed once per call. */
 #include <math.h>
 #include <string.h>
 
@@ -34,7 +34,7 @@ void br_tree_clear(struct br_tree *tree)
     *tree = (struct br_tree){0};
 }
 
-/* By bits: 0 is not -0. */
+/* Compares bits: 0 differs from -0. */
 static bool are_equal(const struct br_node *a, const struct br_node *b)
 {
     return a->operation == b->operation &&
@@ -88,7 +88,7 @@ static bool is(const struct br_tree_builder *b, unsigned i, double number)
     return b->tree.node[i].operation == BR_OP_NUMBER && b->tree.node[i].number == number;
 }
 
-/* What an operation is where an argument is 0 or 1 or the like; BR_NO_NODE: it remains. */
+/* The simpler node of an operation on 0, 1 or the like; BR_NO_NODE: there is none. */
 static unsigned simplify(struct br_tree_builder *b, enum br_operation operation, unsigned a,
                          unsigned c)
 {
@@ -152,28 +152,28 @@ unsigned br_tree_graft(struct br_tree_builder *b, const struct br_tree *from, un
 unsigned br_tree_substitute(struct br_tree_builder *b, const struct br_tree *from, unsigned root,
                             unsigned x, unsigned t)
 {
-    unsigned *place = br_allocate(root + 1, sizeof *place);
-    if (!place)
+    unsigned *moved = br_allocate(root + 1, sizeof *moved);
+    if (!moved)
         return give_up(b, BR_NO_MEMORY);
-    place[root] = 1; /* first: whether it is used */
+    moved[root] = 1; /* first pass: whether each node is used */
     for (unsigned i = root + 1; i-- > 0;)
-        for (unsigned k = 0; place[i] && k < operations[from->node[i].operation].arguments; k++)
-            place[from->node[i].argument[k]] = 1;
-    for (unsigned i = 0; i <= root; i++) { /* then: where it went */
+        for (unsigned k = 0; moved[i] && k < operations[from->node[i].operation].arguments; k++)
+            moved[from->node[i].argument[k]] = 1;
+    for (unsigned i = 0; i <= root; i++) { /* second pass: its new index */
         const struct br_node *n = &from->node[i];
-        const unsigned stead = n->operation == BR_OP_X   ? x
-                               : n->operation == BR_OP_T ? t
-                                                         : BR_NO_NODE;
-        if (place[i] && stead != BR_NO_NODE)
-            place[i] = stead;
-        else if (place[i] && n->operation == BR_OP_NUMBER)
-            place[i] = br_tree_number(b, n->number);
-        else if (place[i])
-            place[i] = br_tree_node(b, n->operation, place[n->argument[0]], place[n->argument[1]],
-                                    place[n->argument[2]]);
+        const unsigned instead = n->operation == BR_OP_X   ? x
+                                 : n->operation == BR_OP_T ? t
+                                                           : BR_NO_NODE;
+        if (moved[i] && instead != BR_NO_NODE)
+            moved[i] = instead;
+        else if (moved[i] && n->operation == BR_OP_NUMBER)
+            moved[i] = br_tree_number(b, n->number);
+        else if (moved[i])
+            moved[i] = br_tree_node(b, n->operation, moved[n->argument[0]], moved[n->argument[1]],
+                                    moved[n->argument[2]]);
     }
-    const unsigned out = place[root];
-    free(place);
+    const unsigned out = moved[root];
+    free(moved);
     return out;
 }
 
@@ -230,14 +230,12 @@ double br_operation_value(enum br_operation operation, double a, double b, doubl
 
 /* ---- trees as functions ---- */
 
-/* A tree as a function: node by node over arrays of places. What does not use x is computed once a
- * call. */
-enum { CHUNK = 256 }; /* places at a time: the arrays stay in the first caches */
+enum { CHUNK = 256 }; /* points at a time: the arrays stay in the fast caches */
 
-/* A tree of which something is proved. */
+/* A tree and the workspace of its bounds. */
 struct enclosed {
     struct br_tree tree;
-    struct br_interval *work; /* of a guard that of the whole */
+    struct br_interval *work; /* a guard uses that of its expression */
 };
 
 struct guard {
@@ -246,7 +244,7 @@ struct guard {
 };
 
 struct expression {
-    struct enclosed of; /* first: it stands for the expression where something is proved */
+    struct enclosed of; /* first member: bounds take a pointer to it */
     const struct br_elementary *set;
     double *room; /* CHUNK values of each node */
     struct guard *guard;
@@ -290,8 +288,9 @@ static bool compares(enum br_operation o)
     return o >= BR_OP_MIN && o <= BR_OP_EQUAL;
 }
 
-/* Whether a change of sign of argument k, or of the difference of both that are compared, makes a
- * node jump or bend. Truths jump where their own arguments change. */
+/* Whether a node jumps or bends where argument k changes its sign; of a comparison, min or max:
+ * where the difference of both arguments does. A truth value needs no guard: it jumps where the
+ * guards of its own arguments change their signs. */
 static bool needs_guard(const struct br_tree *tree, const struct br_node *n, unsigned k)
 {
     const enum br_operation o = n->operation;
@@ -304,7 +303,7 @@ static bool needs_guard(const struct br_tree *tree, const struct br_node *n, uns
             (o == BR_OP_NOT || o == BR_OP_AND || o == BR_OP_OR || (o == BR_OP_CHOOSE && k == 0)));
 }
 
-/* Appends it; it has at most one node more than the tree. */
+/* Appends the guard, which has at most one node more than the tree. */
 static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
 {
     struct br_tree_builder b = {0};
@@ -323,7 +322,7 @@ static bool add_guard(struct expression *e, const struct br_node *n, unsigned k)
     return true;
 }
 
-/* Takes the tree over, even where it fails. */
+/* Takes the tree over, even after a failure. */
 static struct expression *create(struct br_tree *tree)
 {
     const struct br_tree own = *tree;
@@ -371,7 +370,7 @@ static void apply(const struct expression *e, size_t i, size_t count)
     e->set->apply(n->operation, count, argument, values_of(e, i));
 }
 
-/* What does not use x, in as many values as will be wanted at a time. */
+/* Evaluates the nodes that do not use x, and fills the first `count` values of each. */
 static void evaluate_once(const struct expression *e, double t, size_t count)
 {
     for (size_t i = 0; i < e->of.tree.count; i++) {
@@ -387,8 +386,8 @@ static void evaluate_once(const struct expression *e, double t, size_t count)
     }
 }
 
-/* At most CHUNK places; the vectors' last places are filled with the last one. */
-static void evaluate_places(const struct expression *e, size_t count, const double *x)
+/* At most CHUNK points. The last vector is filled up with the last point. */
+static void evaluate_points(const struct expression *e, size_t count, const double *x)
 {
     const size_t full = round_up(count, e->set->width);
     for (size_t i = 0; i < e->of.tree.count; i++) {
@@ -410,7 +409,7 @@ static void expression_evaluate(void *self, size_t count, const double *x, doubl
     evaluate_once(e, t, count < CHUNK ? round_up(count, e->set->width) : CHUNK);
     for (size_t done = 0; done < count; done += CHUNK) {
         const size_t some = count - done < CHUNK ? count - done : CHUNK;
-        evaluate_places(e, some, x + done);
+        evaluate_points(e, some, x + done);
         memcpy(value + done, root, some * sizeof *value);
     }
     br_round_as_before(rounding);
@@ -454,7 +453,7 @@ static const struct br_function_ops expression_ops = {
     .derive = expression_derive,
 };
 
-/* Nobody evaluates a guard. */
+/* A guard is never evaluated. */
 static const struct br_function_ops guard_ops = {
     .bound = expression_bound,
     .taylor = expression_taylor,

@@ -9,8 +9,8 @@
 
 #include "study/scene/words.h"
 
-/* Functions that each read what the grammar calls by their name, from `at` on, and return its node.
- * After the first fault `at` is the text's end, so that all of them come back. */
+/* A recursive descent parser. Each function is named after what it reads, from `at` on, and returns
+ * its node. After the first error `at` is the text's end, so that all functions return. */
 struct parser {
     const char *text, *at;
     struct br_tree_builder builder;
@@ -19,7 +19,7 @@ struct parser {
     struct br_error *err;
 };
 
-/* ---- faults ---- */
+/* ---- errors ---- */
 
 __attribute__((format(printf, 2, 3))) static unsigned refuse(struct parser *p, const char *format,
                                                              ...)
@@ -38,7 +38,7 @@ __attribute__((format(printf, 2, 3))) static unsigned refuse(struct parser *p, c
     return BR_NO_NODE;
 }
 
-/* In no locale: letters of others are none here. */
+/* Independent of the locale: only ASCII counts. */
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
@@ -78,7 +78,7 @@ static void skip_blanks(struct parser *p)
         p->at++;
 }
 
-/* Whether this comes next, which is then passed. */
+/* Skips `what` if it comes next; returns whether it did. */
 static bool take(struct parser *p, const char *what)
 {
     skip_blanks(p);
@@ -100,7 +100,7 @@ static unsigned node(struct parser *p, enum br_operation operation, unsigned a, 
 
 static unsigned expression(struct parser *p);
 
-/* What stands in something of its own kind. */
+/* Reads a nested expression or factor, and limits the depth. */
 static unsigned inner(struct parser *p, unsigned (*read)(struct parser *))
 {
     if (p->depth == BR_EXPRESSION_MOST_DEPTH)
@@ -119,7 +119,7 @@ static const char *skip_digits(const char *at)
     return at;
 }
 
-/* Digits, a point, an exponent: as in C, but in no other locale than C's. */
+/* Digits, a point, an exponent, as in C and always in C's locale. */
 static unsigned number(struct parser *p)
 {
     const char *end = skip_digits(p->at);
@@ -144,7 +144,7 @@ static unsigned number(struct parser *p)
     return br_tree_number(&p->builder, value);
 }
 
-/* Its arguments, behind '('. */
+/* Reads the arguments of a function, after '('. */
 static unsigned call(struct parser *p, enum br_operation operation)
 {
     const unsigned arguments = br_operation_arguments(operation);
@@ -160,7 +160,7 @@ static unsigned call(struct parser *p, enum br_operation operation)
     return take(p, ")") ? first : unexpected(p, arguments == 2 ? "',' or ')'" : "')'");
 }
 
-/* A function of the list: those have letters for words. */
+/* Finds a function: an operation whose word has letters. */
 static bool find_function(const char *word, size_t length, enum br_operation *operation)
 {
     if (length == 2 && memcmp(word, "ln", 2) == 0) {
@@ -222,7 +222,7 @@ static unsigned operand(struct parser *p)
 
 /* ---- operators ---- */
 
-/* What stands in front, and an operand with its power. */
+/* An operand with the operators in front of it and its power. */
 static unsigned factor(struct parser *p)
 {
     if (take(p, "+"))
@@ -245,7 +245,7 @@ struct binary {
 
 enum { COMPARISON = 3 };
 
-/* The operator that comes next, which is not passed; NULL: none. */
+/* The next operator, which is not skipped; NULL: none. */
 static const struct binary *next_operator(struct parser *p)
 {
     static const struct binary known[] = {
@@ -263,7 +263,7 @@ static const struct binary *next_operator(struct parser *p)
     return NULL;
 }
 
-/* Factors and the operators between them that bind at least so much. */
+/* Factors and the operators between them, of level `least` or above. */
 static unsigned chain(struct parser *p, int least)
 {
     unsigned left = factor(p);

@@ -15,7 +15,7 @@
 #include "study/scene/value.h"
 #include "study/scene/words.h"
 
-/* ---- where scenes are ---- */
+/* ---- paths and files of scenes ---- */
 
 void br_data_path(const char *relative, char *path, size_t size)
 {
@@ -25,7 +25,7 @@ void br_data_path(const char *relative, char *path, size_t size)
     snprintf(path, size, "%s/%s", folder, relative);
 }
 
-/* Names the bundled scene whose name is near, if there is one. */
+/* Suggests the bundled scene with the most similar name, if there is one. */
 static enum br_status refuse(const char *name, const char *path, struct br_error *err)
 {
     char **names;
@@ -59,7 +59,7 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
     return refuse(name, path, err);
 }
 
-/* The stream is read once, to its end: a pipe has no second time. */
+/* Reads the stream once, to its end: a pipe cannot be read again. */
 static enum br_status read_all(const char *path, FILE *file, size_t longest, const char *what,
                                char *text, struct br_error *err)
 {
@@ -93,7 +93,7 @@ enum br_status br_text_load(const char *path, size_t longest, const char *what, 
                        : errno == ENOMEM ? BR_NO_MEMORY
                                          : BR_BAD_INPUT,
                        "%s: %s", path, strerror(errno));
-    *text = br_allocate(longest + 2, 1); /* what is not read takes no memory */
+    *text = br_allocate(longest + 2, 1); /* memory that is not written is not used */
     enum br_status status =
         *text ? read_all(path, file, longest, what, *text, err) : br_no_memory(err, "a file");
     if (file != stdin)
@@ -157,7 +157,7 @@ void br_scene_list_free(char **names, size_t count)
     free(names);
 }
 
-/* ---- what they say ---- */
+/* ---- contents of scenes ---- */
 
 /* "one, two, three": the keys of a section, for a message. */
 static void list_keys(const char *section, char *text, size_t size)
@@ -178,7 +178,7 @@ static size_t line_of(const struct br_scene_reader *r, const struct br_scene_key
     return r->given->row[key - br_scene_keys].line;
 }
 
-/* The text that is to stand there instead comes from a node of its own. */
+/* The text that replaces the value of the varied key gets a node of its own. */
 static enum br_status read_key(const struct br_scene_reader *r, const struct br_scene_key *key,
                                const yaml_node_t *at, const yaml_node_t *value)
 {
@@ -191,7 +191,7 @@ static enum br_status read_key(const struct br_scene_reader *r, const struct br_
         return read_section(r, key->name, value);
     }
     if (key->kind == BR_KEY_VERIFY)
-        return BR_OK; /* when the scene is whole */
+        return BR_OK; /* read_document reads it after the scene */
     if (key != r->varied)
         return br_scene_read_value(r, key, value);
     varied.type = YAML_SCALAR_NODE;
@@ -256,7 +256,7 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
     return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
-/* What a solution determines (manufactured.c). */
+/* Derives loads, tip forces and initial data from a solution (manufactured.c). */
 static enum br_status apply_solutions(const struct br_scene_reader *r)
 {
     struct br_error inner = {0};
@@ -273,8 +273,8 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
     return br_scene_pass_on(r, r->given->row[row].line, "solution", &inner);
 }
 
-/* The scene's name is its file's, without folder and ending; the names of all files that are
- * written for it begin with it. */
+/* The scene's name is its file's name without folder and extension. All output files of the scene
+ * have names that begin with it. */
 static enum br_status set_name(const struct br_scene_reader *r)
 {
     const char *slash = strrchr(r->path, '/');
@@ -289,7 +289,7 @@ static enum br_status set_name(const struct br_scene_reader *r)
     return BR_OK;
 }
 
-/* The value of a key at the top; NULL: not given. */
+/* The value of a key outside of sections; NULL: not given. */
 static const yaml_node_t *top_value(const struct br_scene_reader *r, const char *key)
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
@@ -306,7 +306,7 @@ static enum br_status read_verify(const struct br_scene_reader *r, struct br_ver
     return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
 }
 
-/* Every function that is given is finite, and the initial ones respect the clamp. */
+/* Checks that every given function is finite and that initial data respect the clamp. */
 static enum br_status check_functions(const struct br_scene_reader *r, size_t line)
 {
     struct br_error inner = {0};
@@ -319,7 +319,7 @@ static enum br_status check_functions(const struct br_scene_reader *r, size_t li
         if ((k->kind == BR_KEY_INITIAL || k->kind == BR_KEY_HISTORY) && k->offset == culprit &&
             line_of(r, k))
             return br_scene_pass_on(r, line_of(r, k), k->name, &inner);
-    return br_scene_pass_on(r, line, "scene", &inner); /* from a solution */
+    return br_scene_pass_on(r, line, "scene", &inner); /* derived from a solution */
 }
 
 static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
@@ -348,7 +348,7 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
     return status;
 }
 
-/* Where libyaml's loader has no memory it fails, and says nothing. */
+/* libyaml's loader states no error when it has no memory. */
 static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
 {
     if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR)
@@ -357,9 +357,9 @@ static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parse
                    parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
 }
 
-/* What the loader does not see. Deep nests take it a time that grows with the square of the depth;
- * a second document would be read by nobody; and a zero byte, which YAML can write as \0 in quotes,
- * would end a text early. */
+/* Checks what the loader does not. The loader's time grows with the square of the nesting depth. A
+ * second document would be ignored. A zero byte, which YAML can write as \0 in quotes, would end a
+ * text early. */
 static enum br_status check_event(const struct br_scene_reader *r, const yaml_event_t *event,
                                   int depth, int documents)
 {
@@ -423,7 +423,7 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
     return status;
 }
 
-/* What a scene's file is read into, and what is asked of it. */
+/* The scene that a file is read into, and further requests. */
 struct target {
     struct br_scene *scene;
     const struct br_scene_asked *asked;

@@ -13,7 +13,7 @@ static const iv all_signs = {-1, 1}, either = {0, 1};
 
 /* ---- rounding outward ---- */
 
-/* The neighbouring number above; of -infinity the least finite one. */
+/* The next double above a; after -infinity the lowest finite one. */
 static double next_up(double a)
 {
     if (a == 0)
@@ -32,7 +32,7 @@ static double next_down(double a)
     return -next_up(-a);
 }
 
-/* By so many neighbours, but not through zero: the value's sign is right. */
+/* Lowers a value by some neighbours, but not through zero: its sign is right. */
 static double lower(double a, int neighbours)
 {
     const bool positive = !signbit(a);
@@ -55,7 +55,7 @@ static bool is_sum(double s, double a, double b)
     return (a - (s - other)) + (b - other) == 0;
 }
 
-/* Whether p = a b without error; underflow is one. */
+/* Whether p = a b without error; underflow counts as an error. */
 static bool is_product(double p, double a, double b)
 {
     return a == 0 || b == 0 || (fabs(p) > 1e-290 && fma(a, b, -p) == 0);
@@ -66,7 +66,7 @@ iv br_interval_add(iv a, iv b)
     const double low = a.low + b.low, high = a.high + b.high;
     if (br_is_none(a) || br_is_none(b) || a.low + b.high != a.low + b.high ||
         a.high + b.low != a.high + b.low)
-        return br_no_interval; /* infinity less infinity, too */
+        return br_no_interval; /* also for infinity minus infinity */
     return (iv){is_sum(low, a.low, b.low) ? low : next_down(low),
                 is_sum(high, a.high, b.high) ? high : next_up(high)};
 }
@@ -81,11 +81,11 @@ iv br_interval_subtract(iv a, iv b)
     return br_interval_add(a, negate(b));
 }
 
-/* The C library's functions are right to 2 units, SLEEF's to 1; and 1 where the exponent changes.
- */
+/* Errors in units in the last place: at most 2 of the C library's functions, 1 of SLEEF's, and 1
+ * more where the exponent changes. */
 enum { NEIGHBOURS = 4 };
 
-/* a * b, a / b or a ^ b of a pair of ends, and by how many neighbours it may be off. */
+/* *value (out): a * b, a / b or a ^ b of two ends. Returns by how many neighbours it may be off. */
 static inline int at_corner(enum br_operation o, double a, double b, double *value)
 {
     if (o == BR_OP_MULTIPLY) {
@@ -100,7 +100,7 @@ static inline int at_corner(enum br_operation o, double a, double b, double *val
     return a == 0 || a == 1 || b == 0 || b == 1 ? 0 : NEIGHBOURS;
 }
 
-/* Of an operation whose values lie between those of the four pairs of ends. */
+/* For an operation whose values lie between its values at the four pairs of ends. */
 static inline iv hull_of_corners(enum br_operation o, iv a, iv b)
 {
     iv out = {INFINITY, -INFINITY};
@@ -147,12 +147,12 @@ iv br_interval_hull(iv a, iv b)
 
 /* ---- elementary functions ---- */
 
-/* Functions that rise, or fall, where they are defined. */
+/* Functions that increase, or decrease, on their whole domain. */
 static const struct monotone {
     double (*f)(double);
-    double from, to; /* where it is defined, but for the ends of an open interval */
+    double from, to; /* the domain; `open`: without its ends */
     bool open, falls;
-    double exact_at; /* there it is 0 or 1 exactly */
+    double exact_at; /* the argument at which the value is exactly 0 or 1 */
     double least, most;
 } monotone[] = {
 #define EVERYWHERE -INFINITY, INFINITY
@@ -184,7 +184,7 @@ static iv clip(iv a, double low, double high)
     return (iv){fmax(a.low, low), fmin(a.high, high)};
 }
 
-/* An infinite end of the domain is none of its own: the function has a limit or grows there. */
+/* An infinite end always belongs to the domain: the function has a limit there or grows. */
 static iv value_of(const struct monotone *m, iv a)
 {
     const bool left = m->open && isfinite(m->from) ? a.low > m->from : a.low >= m->from;
@@ -203,7 +203,7 @@ static bool has_phase(iv a, double phase, double period)
     return phase + k * period <= a.high + slack;
 }
 
-/* sin or cos, which is 1 at `top` and -1 half a turn later. */
+/* sin or cos, which is 1 at `top` and -1 half a period later. */
 static iv wave(double (*f)(double), iv a, double top)
 {
     if (!br_is_finite(a))
@@ -261,7 +261,7 @@ static iv power(iv a, iv b)
     return a.low > 0 || (a.low == 0 && b.low >= 0) ? positive_power(a, b) : br_no_interval;
 }
 
-/* ---- truths ---- */
+/* ---- truth values ---- */
 
 static iv truth(bool certain, bool impossible)
 {

@@ -41,7 +41,7 @@ NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
 NUMBER(friction_iterations, iteration.most, size_t)
 
-/* Words that are no rows: their place in the list is the value. */
+/* Words that are not rows of a registry: their index in the list is the value. */
 #define LIST(list, ...)                                           \
     static const char *const list##_list[] = {__VA_ARGS__, NULL}; \
     static const char *list##_name(size_t row)                    \
@@ -87,7 +87,7 @@ static bool kernel_available(size_t row)
 }
 static const struct br_words kernels = {kernel_name, NULL, kernel_available};
 
-/* Not chosen: the one that is taken. */
+/* If no kernel is chosen: the best one, which is then used. */
 static double get_kernel(const struct br_method *m)
 {
     const struct br_kernel *kernel = m->linear.kernel ? m->linear.kernel : br_kernel_best();
@@ -265,7 +265,7 @@ enum br_status br_method_field_read(const struct br_method_field *f, const char 
 
 /* ---- a method ---- */
 
-/* As the user has written it. */
+/* The name of a field as the user writes it. */
 static const char *name_of(const struct br_method_field *f, enum br_method_style style,
                            char name[BR_METHOD_VALUE])
 {
@@ -327,10 +327,10 @@ enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
                                       struct br_error *err)
 {
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        bool heeded = !text[i];
-        for (size_t j = 0; j < count && !heeded; j++)
-            heeded = br_method_field_heeded(&br_method_fields[i], method[j]);
-        if (!heeded)
+        bool used = !text[i];
+        for (size_t j = 0; j < count && !used; j++)
+            used = br_method_field_heeded(&br_method_fields[i], method[j]);
+        if (!used)
             return refuse(&br_method_fields[i], style, method, count, err);
     }
     return BR_OK;
@@ -347,7 +347,7 @@ static bool is_default(const struct br_method_field *f, const struct br_method *
                                                     : f->get(m) == f->get(&standard);
 }
 
-/* The solver of a mesh: "plain", "plain and riccati". Returns word (out). */
+/* Writes the solver of a mesh: "plain", "plain and riccati". Returns word (out). */
 static const char *taken_at(const struct br_meshes *on, const struct br_method *m, size_t n,
                             char word[2 * BR_METHOD_VALUE])
 {
@@ -388,8 +388,8 @@ const char *br_method_taken(const struct br_meshes *on, const struct br_method *
     return text;
 }
 
-/* The method with the solver that all meshes take, where they take one: what it uses is then
- * known. */
+/* The method, with the solver that is used on all meshes if there is only one. The fields that it
+ * uses are then known. */
 static struct br_method with_taken(const struct br_method *m, const char *taken)
 {
     const struct br_linear_solver *solver = br_linear_solver_find(taken);
@@ -426,7 +426,7 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
     text[0] = '\0';
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        const bool always = i == BR_METHOD_TOLERANCE; /* what a plan has chosen is to be seen */
+        const bool always = i == BR_METHOD_TOLERANCE; /* a plan's choice must be visible */
         if ((f->in && !f->in(scene)) || !br_method_field_heeded(f, m) || f->unsaid ||
             (is_default(f, m) && !always))
             continue;

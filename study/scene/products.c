@@ -11,7 +11,7 @@ struct sum {
     } term[BR_LOAD_TERMS];
 };
 
-/* Where they are made: a copy of the expression, whose places remain, and what is added. */
+/* The builder begins with a copy of the expression, whose indices do not change. */
 struct work {
     struct br_tree_builder builder;
     unsigned one;
@@ -37,7 +37,7 @@ static bool uses_t(const struct work *w, unsigned node)
     return node != BR_NO_NODE && w->builder.tree.node[node].uses_t;
 }
 
-/* Adds a product, to one of the same space or time where there is one. False: they are too many. */
+/* Adds a product, or merges it with one of equal space or time factor. False: too many. */
 static bool append(struct work *w, struct sum *s, unsigned space, unsigned time)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -80,7 +80,7 @@ static bool add_all(struct work *w, struct sum *to, const struct sum *from)
     return fits;
 }
 
-/* a * b or a / b, where one of them is a single product. */
+/* a * b, where one of them is a single product, or a / b, where b is one. */
 static bool combine(struct work *w, const struct sum *a, const struct sum *b, bool quotient,
                     struct sum *out)
 {
@@ -119,7 +119,7 @@ static bool of_product(struct work *w, const struct br_node *n, struct sum *out)
     return true;
 }
 
-/* As a sum of products; false: it is none. */
+/* Writes a node as a sum of products; false: it is not one. */
 static bool multiply_out(struct work *w, const struct br_node *n, struct sum *out)
 {
     struct sum other;
@@ -180,7 +180,7 @@ enum br_status br_products(struct br_function *f, struct br_load *load, struct b
     w.one = br_tree_number(&w.builder, 1);
     const struct br_tree *tree = br_tree_of(f);
     const struct sum sum = split(&w, br_tree_graft(&w.builder, tree, (unsigned)tree->count - 1));
-    if (w.builder.status == BR_BAD_INPUT) { /* too long, multiplied out */
+    if (w.builder.status == BR_BAD_INPUT) { /* too many nodes when multiplied out */
         br_tree_clear(&w.builder.tree);
         load->term[0] = (struct br_product){*f, one};
         return BR_OK;

@@ -9,8 +9,8 @@
 
 const struct br_quoting br_for_text = {.around = ""};
 
-/* Between single quotes nothing is special, but gnuplot 5.4 does not keep to its own rule for a
- * single quote there. Octal codes mean the same in blocks and out of them, and start nothing. */
+/* Nothing is special between single quotes, but gnuplot 5.4 breaks its own rule for a single quote
+ * there. Octal codes mean the same in blocks and outside, and have no other effect. */
 const struct br_quoting br_for_gnuplot = {
     .around = "\"",
     .bare = "'",
@@ -47,7 +47,7 @@ const struct br_quoting br_for_xml = {
     .stead = {{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}},
 };
 
-/* Spreadsheets compute what begins like a formula. */
+/* Spreadsheets evaluate a text that begins like a formula. */
 const struct br_quoting br_for_csv = {
     .around = "\"",
     .bare = "",
@@ -88,7 +88,7 @@ const struct br_quoting br_for_zsh = {
 
 /* ---- characters ---- */
 
-/* The bytes of the first character, and its number; 0: no UTF-8. */
+/* Returns the bytes of the first character, 0: not UTF-8. *code (out): its number. */
 static size_t decode(const unsigned char *text, unsigned long *code)
 {
     static const unsigned long least[] = {0, 0, 0x80, 0x800, 0x10000};
@@ -115,7 +115,7 @@ bool br_is_utf8(const char *text)
     return true;
 }
 
-/* What shows nothing, or changes how its neighbours are shown. */
+/* Whether a character is invisible or changes how its neighbours are shown. */
 static bool is_hidden(unsigned long code)
 {
     static const unsigned long ranges[][2] = {
@@ -130,9 +130,9 @@ static bool is_hidden(unsigned long code)
 
 enum { PIECE = 32 };
 
-/* A character, of so many bytes, as the target has it. */
-static void write_seen(const struct br_quoting *target, const char *text, size_t length,
-                       char piece[PIECE])
+/* Writes a visible character of `length` bytes for the target. */
+static void write_visible(const struct br_quoting *target, const char *text, size_t length,
+                          char piece[PIECE])
 {
     const bool escaped = *text && target->escaped && strchr(target->escaped, *text);
     snprintf(piece, PIECE, "%s%.*s", escaped ? "\\" : "", (int)length, text);
@@ -141,7 +141,7 @@ static void write_seen(const struct br_quoting *target, const char *text, size_t
             snprintf(piece, PIECE, "%s", s->stead);
 }
 
-/* What the first character of a text becomes; how many bytes of it are done. */
+/* Writes the first character of a text for the target; returns its number of bytes. */
 static size_t next_piece(const struct br_quoting *target, const char *text, char piece[PIECE])
 {
     unsigned long code;
@@ -149,9 +149,9 @@ static size_t next_piece(const struct br_quoting *target, const char *text, char
     if (strchr("\n\r\t", *text))
         snprintf(piece, PIECE, " ");
     else if (length && !is_hidden(code))
-        write_seen(target, text, length, piece);
+        write_visible(target, text, length, piece);
     else {
-        write_seen(target, "\\", 1, piece);
+        write_visible(target, "\\", 1, piece);
         const size_t used = strlen(piece);
         snprintf(piece + used, PIECE - used, length && code > 0xff ? "u%04lx" : "x%02lx",
                  length ? code : (unsigned char)*text);
@@ -159,7 +159,7 @@ static size_t next_piece(const struct br_quoting *target, const char *text, char
     return length ? length : 1;
 }
 
-/* What stands before a text and after it. */
+/* The quotes before and after a text. */
 static const char *quotes(const struct br_quoting *target, const char *text)
 {
     const bool rough = !target->bare || (!*text && target->nothing) || strpbrk(text, target->rough);
@@ -206,7 +206,7 @@ char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, cons
     return buffer;
 }
 
-/* A backslash at its end would make the next line a part of the comment. */
+/* A backslash at the end would continue the comment on the next line. */
 void br_write_comment(FILE *out, const char *text)
 {
     const size_t length = strlen(text);
@@ -214,8 +214,8 @@ void br_write_comment(FILE *out, const char *text)
     fputs(length && text[length - 1] == '\\' ? ".\n" : "\n", out);
 }
 
-/* The length of a name's first character; *kept (out): whether it may stand there. */
-static size_t look_at_name(const char *c, bool first, bool *kept)
+/* The number of bytes of the next character of a name. *kept (out): whether a name may have it. */
+static size_t check_character(const char *c, bool first, bool *kept)
 {
     unsigned long code;
     const size_t length = decode((const unsigned char *)c, &code);
@@ -229,7 +229,7 @@ bool br_is_name(const char *text)
 {
     bool kept = *text;
     for (const char *c = text; *c && kept;)
-        c += look_at_name(c, c == text, &kept);
+        c += check_character(c, c == text, &kept);
     return kept;
 }
 
@@ -239,7 +239,7 @@ void br_make_name(char *text)
     char *to = text;
     for (const char *c = text; *c;) {
         bool kept;
-        const size_t length = look_at_name(c, to == text, &kept);
+        const size_t length = check_character(c, to == text, &kept);
         if (to + length > text + MOST)
             break;
         memmove(to, kept ? c : "_", kept ? length : 1);

@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Strings that others have written (titles, remarks, names of files, messages that repeat them) on
- * their way into a text. Everything that the program writes passes one of these targets; JSON is
- * jansson's.
+/* Quotes strings that do not come from the program itself (titles, remarks, names of files,
+ * messages that repeat them). All output of such strings uses one of these targets; only JSON is
+ * written by jansson.
  *
- * In all targets a text stays on its line: line ends and tabs become blanks. What cannot be seen
- * becomes visible: control characters, marks that turn the direction of writing, and bytes that are
- * no UTF-8 are written as \x1b, \u202e, \xff.
+ * In all targets a text stays on one line: line ends and tabs become blanks. Invisible characters
+ * become visible: control characters, marks that change the direction of writing, and bytes that
+ * are not UTF-8 are written as \x1b, \u202e, \xff.
  *
- * To add a target: one record. */
+ * To add a target: add one record. */
 #ifndef BR_STUDY_SCENE_QUOTE_H
 #define BR_STUDY_SCENE_QUOTE_H
 
 #include <stdbool.h>
 #include <stdio.h>
 
-/* What a text becomes. */
+/* How a target quotes a text. */
 struct br_quoting {
-    const char *around; /* stands before and after it, ... */
-    const char *bare;   /* or this, where it has none of the `rough` characters */
+    const char *around; /* quotes before and after the text, ... */
+    const char *bare;   /* or these, if it has none of the `rough` characters */
     const char *rough;
-    bool nothing;        /* an empty text needs to be seen, too */
-    const char *start;   /* a text that begins with one of these, and is no number, ... */
-    const char *guard;   /* gets this before it */
+    bool nothing;        /* an empty text gets `around`, too */
+    const char *start;   /* a text that begins with one of these and is not a number ... */
+    const char *guard;   /* gets this prefix */
     const char *escaped; /* characters that get a backslash before them */
     struct br_stead {
         char character;
         const char *stead;
-    } stead[20]; /* what is written for other characters; ends with zeros */
+    } stead[20]; /* replacements of other characters; ends with zeros */
 };
 
 extern const struct br_quoting br_for_text;     /* a terminal, a text file */
@@ -47,22 +47,21 @@ extern const struct br_quoting br_for_zsh;        /* the same within the bracket
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);
 
-/* The same into a buffer, which it returns; what has no room is left out, whole characters of it.
- */
+/* The same into a buffer, which it returns. Characters that do not fit are left out as a whole. */
 char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, const char *text);
 
-/* A comment of a gnuplot script or a data file, to the end of its line. */
+/* Writes a comment of a gnuplot script or a data file, and the end of its line. */
 void br_write_comment(FILE *out, const char *text);
 
 /* Whether a text is UTF-8 throughout. */
 bool br_is_utf8(const char *text);
 
-/* Whether a text may be a file's name, or begin one: letters, digits, blanks, _ . - + and what is
- * not ASCII and can be seen, with no blank and none of . - + at the start. Such a name is no
- * command, no option and no pattern to anybody. */
+/* Whether a text may be a file's name, or the beginning of one: letters, digits, blanks, _ . - +
+ * and visible characters that are not ASCII, without a blank or . - + at the start. No program
+ * reads such a name as a command, an option or a pattern. */
 bool br_is_name(const char *text);
 
-/* Makes one of a text, in place: what may not stand there becomes _. At most 100 bytes. */
+/* Makes such a name of a text, in place: other characters become _. At most 100 bytes. */
 void br_make_name(char *text);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A reproducible generator: SplitMix64 (Steele, Lea and Flood 2014). */
+/* A reproducible generator of random numbers: SplitMix64 (Steele, Lea and Flood 2014). */
 #ifndef BR_STUDY_SCENE_RANDOM_H
 #define BR_STUDY_SCENE_RANDOM_H
 
@@ -19,7 +19,7 @@ static inline uint64_t br_random_bits(struct br_random *r)
     return z ^ (z >> 31);
 }
 
-/* A generator for item `index` of a seed, whatever was drawn for others. */
+/* A generator for item `index` of a seed, independent of the draws for other items. */
 static inline struct br_random br_random_of(uint64_t seed, size_t index)
 {
     struct br_random r = {seed};
@@ -46,7 +46,7 @@ static inline size_t br_random_index(struct br_random *r, size_t count)
     return (size_t)(br_random_bits(r) % count);
 }
 
-/* True once in so many times. */
+/* True with probability 1/times. */
 static inline int br_random_once_in(struct br_random *r, size_t times)
 {
     return br_random_index(r, times) == 0;

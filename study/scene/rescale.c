@@ -12,7 +12,7 @@
 
 /* ---- the scene ---- */
 
-/* That of a member of the scene, by the key that gives it. */
+/* The dimension of a member of the scene, by the key that gives it. */
 static struct br_dimension dimension_of(const struct br_scene *s, const void *member)
 {
     const size_t offset = (size_t)((const char *)member - (const char *)s);
@@ -24,7 +24,7 @@ static struct br_dimension dimension_of(const struct br_scene *s, const void *me
     return unit.of;
 }
 
-/* What is done to a scene: other units, or noise. */
+/* A change of a scene: other units, or noise. */
 struct change {
     struct br_units_change to;
     double noise;
@@ -33,7 +33,7 @@ struct change {
     struct br_error *err;
 };
 
-/* 1, or nearly. */
+/* 1, or with noise a random number near 1. */
 static double noisy(struct change *c)
 {
     return 1 + c->noise * br_random_uniform(&c->random, -1, 1);
@@ -88,8 +88,8 @@ static void scale_function(struct change *c, struct br_function *f, struct br_di
     c->status = c->status ? c->status : status;
 }
 
-/* Every number and function with its unit. The load's factor goes to its history, and its form in
- * space has none. */
+/* Changes every number and function by its unit. The history of a load has its unit, and its shape
+ * has none. */
 static void change_all(struct change *c, struct br_scene *s)
 {
     double *const numbers[] = {

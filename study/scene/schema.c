@@ -116,17 +116,17 @@ size_t br_scene_row(const char *path)
     return row;
 }
 
-/* An initial function, for messages and its checks. */
+/* An initial function and how to check it. */
 struct initial {
     const char *name;
     const struct br_function *value;
-    const char *slope_name; /* NULL: needs none */
+    const char *slope_name; /* NULL: no slope is needed */
     const struct br_function *slope;
     double length;
-    bool continuous; /* it must be, as its slope: strains are squared */
+    bool continuous; /* it and its slope must be continuous: strains are squared */
 };
 
-/* Of a function of x or of t. */
+/* The value of a function of x alone or of t alone. */
 static double value_of(const struct br_function *f, double at)
 {
     double value;
@@ -172,7 +172,7 @@ static enum br_status check_slope(const struct initial *d, double scale, struct 
     return BR_OK;
 }
 
-/* The most that a function may change within a place that is so wide, where it bends. */
+/* The largest change of a function without a jump over an interval of this small width. */
 static double usual_change(double scale, double width, double length)
 {
     return (1e-9 + 100 * width / length) * scale;
@@ -189,10 +189,10 @@ static enum br_status refuse_jumps(const struct initial *d, const struct br_func
     status = status == BR_NO_MEMORY ? br_no_memory(err, "initial data") : BR_OK;
     for (size_t i = 0; i < breaks.count && !status; i++) {
         const struct br_interval at = breaks.at[i];
-        const struct br_box place = {{nextafter(at.low, -INFINITY), nextafter(at.high, INFINITY)},
-                                     {0, 0}};
+        const struct br_box around = {{nextafter(at.low, -INFINITY), nextafter(at.high, INFINITY)},
+                                      {0, 0}};
         struct br_interval v;
-        const bool bounded = br_function_bound(f, place, &v);
+        const bool bounded = br_function_bound(f, around, &v);
         if (!bounded || !(v.high - v.low <= usual_change(scale, at.high - at.low, d->length)))
             status = br_fail(err, BR_BAD_INPUT,
                              "initial %s jumps by %g at x = %.10g m, expected a continuous one",
@@ -202,7 +202,7 @@ static enum br_status refuse_jumps(const struct initial *d, const struct br_func
     return status;
 }
 
-/* *fault: out, whose fault it is. */
+/* *fault (out): the wrong function. */
 static enum br_status check_initial(const struct initial *d, const struct br_function **fault,
                                     struct br_error *err)
 {
@@ -266,23 +266,23 @@ enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
     return BR_OK;
 }
 
-/* ---- functions that are numbers everywhere ---- */
+/* ---- functions that are finite everywhere ---- */
 
-/* By how much a value at a place may differ from those beside it, one number farther: by a jump,
- * and, where the function bends or is zero, by round-off of its values nearby. */
-static double usual_difference(const struct br_function *f, const struct br_interval *place,
+/* By how much a value at a break may differ from the values at the next doubles beside it: by a
+ * jump and, where the function bends or is zero, by round-off of its values nearby. */
+static double usual_difference(const struct br_function *f, const struct br_interval *at,
                                struct br_interval all)
 {
     const double near = 1e-9 * (all.high - all.low);
-    const double before = value_of(f, nextafter(place->low, -INFINITY));
-    const double after = value_of(f, nextafter(place->high, INFINITY));
-    const double size = fabs(value_of(f, fmax(all.low, place->low - near))) +
-                        fabs(value_of(f, fmin(all.high, place->high + near)));
+    const double before = value_of(f, nextafter(at->low, -INFINITY));
+    const double after = value_of(f, nextafter(at->high, INFINITY));
+    const double size = fabs(value_of(f, fmax(all.low, at->low - near))) +
+                        fabs(value_of(f, fmin(all.high, at->high + near)));
     return 1e-6 * (fabs(before) + fabs(after) + size) + 4 * fabs(after - before);
 }
 
-/* A value that a function of x or of t has at one place alone, as t == 0.5 ? 1 : 0 has: no integral
- * sees it, but a time level or a node may. */
+/* Refuses a value that a function of x or of t has at one point alone, as t == 0.5 ? 1 : 0 has: no
+ * integral depends on it, but a time level or a node may be there. */
 static enum br_status refuse_single_values(const struct br_function *f, enum br_variable along,
                                            struct br_box box, struct br_error *err)
 {
@@ -292,16 +292,16 @@ static enum br_status refuse_single_values(const struct br_function *f, enum br_
     if (status == BR_NO_MEMORY)
         br_fail(err, status, "%s", failure.message);
     else
-        status = BR_OK; /* too many: each user of the function reports it */
+        status = BR_OK; /* too many breaks: each user of the function reports it */
     for (size_t i = 0; i < breaks.count && !status; i++) {
-        const double places[] = {breaks.at[i].low, breaks.at[i].high};
-        const double before = value_of(f, nextafter(places[0], -INFINITY));
+        const double ends[] = {breaks.at[i].low, breaks.at[i].high};
+        const double before = value_of(f, nextafter(ends[0], -INFINITY));
         const double usual = usual_difference(f, &breaks.at[i], along == BR_X ? box.x : box.t);
         for (size_t k = 0; k < 2 && !status; k++)
-            if (!(fabs(value_of(f, places[k]) - before) <= usual))
+            if (!(fabs(value_of(f, ends[k]) - before) <= usual))
                 status =
                     br_fail(err, BR_BAD_INPUT, "found %g at %s = %.17g %s alone, and %g beside it",
-                            value_of(f, places[k]), along == BR_X ? "x" : "t", places[k],
+                            value_of(f, ends[k]), along == BR_X ? "x" : "t", ends[k],
                             along == BR_X ? "m" : "s", before);
     }
     br_breaks_free(&breaks);

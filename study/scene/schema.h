@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene format: one row a key. The reader, its messages, the template and the JSON schema of
- * tables/scene_format.h walk this list. */
+/* The scene format: one row for each key. The reader, its messages, the template and the JSON
+ * schema of tables/scene_format.h use this list. */
 #ifndef BR_STUDY_SCENE_SCHEMA_H
 #define BR_STUDY_SCENE_SCHEMA_H
 
@@ -17,16 +17,16 @@ enum br_key_kind {
     BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
     BR_KEY_LAW,          /* tresca or coulomb */
     BR_KEY_SHAPE,        /* "rectangle 20 mm x 5 mm": a cross-section */
-    BR_KEY_VERIFY,       /* read by verify_file.c, and only where somebody asks for it */
+    BR_KEY_VERIFY,       /* read by verify_file.c, and only on request */
 };
 
-/* Whether a key must be given where its section is. */
+/* Whether a key must be given if its section is given. */
 enum br_need {
     BR_OPTIONAL,
     BR_REQUIRED,
-    BR_OR_DERIVED, /* it, or what makes it (engineering.c) */
-    BR_OR_RATIO,   /* it, or a number without unit that makes it */
-    BR_MAKES,      /* optional: makes another one, and is in no struct br_scene */
+    BR_OR_DERIVED, /* required, or derived from other keys (engineering.c) */
+    BR_OR_RATIO,   /* required; a number without unit is accepted as a ratio */
+    BR_MAKES,      /* optional: another number is derived from it; it is not in struct br_scene */
 };
 
 struct br_scene_key {
@@ -34,47 +34,47 @@ struct br_scene_key {
     const char *name;
     enum br_key_kind kind;
     enum br_need need;
-    enum br_friction_law law; /* the law it belongs to; BR_FRICTIONLESS: any */
-    const char *unit;         /* "" for none; one of those of its dimension */
-    size_t offset;            /* into struct br_scene; of a section: whether it is modelled */
+    enum br_friction_law law; /* the law that has this key; BR_FRICTIONLESS: any */
+    const char *unit;         /* one unit of its dimension; "": none */
+    size_t offset;            /* in struct br_scene; of a section: of its flag `modelled` */
     const char *help;         /* what is expected */
-    const char *example;      /* a value, for templates; the required ones make a scene together */
+    const char *example;      /* a value for templates; the required keys together make a scene */
 };
 
 enum { BR_MOST_SCENE_KEYS = 64 };
 
-/* What a file gives, row by row of br_scene_keys. */
+/* The numbers that a file gives, by rows of br_scene_keys. */
 struct br_scene_given {
     struct br_scene_number {
-        size_t line;               /* 0: not given; of what makes it, where it is derived */
-        size_t origin;             /* the row that was given */
-        bool ratio;                /* of BR_OR_RATIO: the number without unit */
-        bool used;                 /* it has made another one */
+        size_t line;               /* 0: not given; of a derived number: the line of its source */
+        size_t origin;             /* the row of the key that the file gives */
+        bool ratio;                /* the file gives a ratio (BR_OR_RATIO) */
+        bool used;                 /* another number was derived from it */
         long double value, second; /* in m, s and kg; of a section: area and inertia */
     } row[BR_MOST_SCENE_KEYS];
 };
 
-/* The names of the friction laws, by enum br_friction_law; NULL where none is written. */
+/* The names of the friction laws, by enum br_friction_law; NULL: a law without a name. */
 enum { BR_FRICTION_LAWS = 3 };
 extern const char *const br_friction_law_names[BR_FRICTION_LAWS];
 
 /* Ends with a row whose name is NULL. */
 extern const struct br_scene_key br_scene_keys[];
 
-/* The row of "axial.stiffness", or of "density", which is there. */
+/* The row of a key, as "axial.stiffness" or "density", which must exist. */
 size_t br_scene_row(const char *path);
 
-/* Refuses (BR_BAD_INPUT) initial data that break the clamp, that are not finite,
- * or whose slope is missing or is not the derivative. *culprit (out): where in struct br_scene the
- * function at fault is. */
+/* Refuses (BR_BAD_INPUT) initial data that move the clamped end, that are not finite, or whose
+ * slope is missing or is not the derivative. *culprit (out): the offset of the wrong function in
+ * struct br_scene. */
 enum br_status br_scene_check_initial(const struct br_scene *scene, size_t *culprit,
                                       struct br_error *err);
 
-/* ---- functions that are numbers everywhere ---- */
+/* ---- functions that are finite everywhere ---- */
 
-/* Whether the function of a key (an initial one, a history or a load) is proved to be finite
+/* Checks that the function of a key (initial data, a history or a load) is proved to be finite
  * everywhere in [0, L] and [0, T] (solver/proof.h). Fails with BR_BAD_INPUT, naming value, x and t,
- * also where that cannot be proved; BR_OK for other keys. */
+ * also if there is no proof. BR_OK for other keys. */
 enum br_status br_scene_scan(const struct br_scene *scene, const struct br_scene_key *key,
                              struct br_error *err);
 

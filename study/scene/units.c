@@ -9,7 +9,7 @@
 
 #include "study/scene/words.h"
 
-/* ---- what is known ---- */
+/* ---- tables ---- */
 
 /* All are exact: SI Brochure (2019), tables 4, 7 and 8, and NIST Special Publication 811 (2008),
  * appendix B. A pound-force is 0.45359237 kg times 9.80665 m/s^2. */
@@ -41,8 +41,8 @@ static const struct known {
 };
 enum { UNITS = sizeof units / sizeof *units };
 
-/* The first is none: "min" are minutes, and no milli-inches. The micro sign and the Greek letter
- * look alike. */
+/* The empty prefix is first: "min" is a minute, not a milli-inch. Both the micro sign and the Greek
+ * letter mu are micro-. */
 static const struct prefix {
     const char *word;
     int ten;
@@ -99,7 +99,7 @@ const char *br_unit_words(char text[BR_UNIT_WORDS])
 
 /* ---- reading ---- */
 
-/* A word with its prefix. */
+/* Finds a word, with a prefix or without. */
 static bool find(const char *text, size_t length, struct br_unit *unit)
 {
     for (const struct prefix *p = prefixes; p < prefixes + PREFIXES; p++) {
@@ -127,7 +127,7 @@ static void multiply(struct br_unit *unit, const struct br_unit *by, int power)
         unit->factor = power > 0 ? unit->factor * by->factor : unit->factor / by->factor;
 }
 
-/* "mm^4", "mm4", "s^-1": to the power `sign` into the unit; *at passes it. */
+/* Multiplies the unit by "mm^4", "mm4" or "s^-1" to the power `sign`; moves *at behind it. */
 static bool read_word(const char **at, int sign, struct br_unit *unit)
 {
     struct br_unit word;
@@ -183,7 +183,7 @@ bool br_unit_read(const char *text, struct br_unit *unit)
 bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length,
                      struct br_quantity *q)
 {
-    enum { MOST = 400, FARTHEST = 100000 /* more is 0 or infinite, too */ };
+    enum { MOST = 400, FARTHEST = 100000 /* beyond it a number is 0 or infinite */ };
     char moved[MOST + 16];
     if (length >= MOST)
         return false;
@@ -202,7 +202,7 @@ bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length
     return true;
 }
 
-/* Powers of ten that a double is exactly multiply or divide: 5*x [mm] is 5*x/1000. */
+/* Divides by 1000 for milli-, since 0.001 is no double: 5*x [mm] is 5*x/1000. */
 bool br_unit_apply(const struct br_unit *unit, const char *expression, char *out, size_t size)
 {
     const bool divides = unit->factor == 1 && unit->ten < 0;

@@ -20,7 +20,7 @@ enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, con
     va_end(args);
     if (length < 0)
         return br_no_memory(r->err, "a message");
-    /* A long value must not hide what was expected: that stands at the end. */
+    /* A long value must not hide what was expected, which is at the end of the text. */
     enum { HEAD = 200, TAIL = 400 };
     if (length > HEAD + TAIL)
         br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %.*s ... %s", r->path, line, key, HEAD, text,
@@ -49,18 +49,18 @@ const char *br_yaml_text(const yaml_node_t *node)
     return (const char *)node->data.scalar.value;
 }
 
-/* What is being read. */
+/* The value that is read. */
 struct value {
     const struct br_scene_reader *r;
     const struct br_scene_key *key;
     const yaml_node_t *node;
-    const char *unit; /* that is expected */
-    bool ratio;       /* found instead, where the key takes one */
+    const char *unit; /* the expected unit */
+    bool ratio;       /* a number without unit was found, and the key accepts it */
 };
 
 #define REFUSE(v, ...) br_scene_refuse((v)->r, br_yaml_line((v)->node), (v)->key->name, __VA_ARGS__)
 
-/* The place of the key in the scene. */
+/* The key's member of the scene. */
 static void *target(const struct value *v)
 {
     return (char *)v->r->scene + v->key->offset;
@@ -83,7 +83,7 @@ static enum br_status refuse_unit(const struct value *v, bool known, const struc
                   br_yaml_text(v->node), v->unit, ratio, expected, br_unit_words(words));
 }
 
-/* Any unit of the dimension. */
+/* Reads any unit of the expected dimension. */
 static enum br_status read_unit(struct value *v, const char *text, struct br_unit *unit)
 {
     struct br_unit wanted;
@@ -96,7 +96,7 @@ static enum br_status read_unit(struct value *v, const char *text, struct br_uni
     return v->ratio ? BR_OK : refuse_unit(v, known && *text, unit, &wanted);
 }
 
-/* "value unit", as far as `end` (a place in the text; NULL: the text's). */
+/* Reads "value unit", as far as `end`, which points into the text; NULL: to the end of the text. */
 static enum br_status read_quantity(struct value *v, const char *text, const char *end,
                                     struct br_quantity *q)
 {
@@ -140,9 +140,9 @@ static enum br_status read_number(struct value *v)
 
 /* ---- cross-sections ---- */
 
-/* Area and second moment of area about the axis across w. a, b: width and height of a rectangle,
- * diameter and wall of a tube; b is 0 for a circle. Those of a tube are without a difference of
- * powers: (D^4 - d^4)/64 = (D^2 - d^2)/4 (D^2 + d^2)/16, with D - d = 2 b. */
+/* Area and second moment of area for bending in the direction of w. a, b: width and height of a
+ * rectangle, diameter and wall of a tube; b is 0 for a circle. The formulas of a tube avoid a
+ * difference of powers: (D^4 - d^4)/64 = (D^2 - d^2)/4 (D^2 + d^2)/16, with D - d = 2 b. */
 static void set_shape(struct br_scene_number *to, bool rectangle, long double a, long double b)
 {
     const long double pi = 3.141592653589793238463L, inner = b > 0 ? a - 2 * b : 0;
@@ -179,10 +179,10 @@ static enum br_status read_shape(struct value *v)
 
 /* ---- expressions ---- */
 
-/* Of an expression, and of one in m, s and kg. */
+/* Room for the text of an expression, and for the text in m, s and kg. */
 enum { MOST_TEXT = 1024, MOST_APPLIED = MOST_TEXT + 64 };
 
-/* Splits "expression [unit]": the expression goes into text. */
+/* Splits "expression [unit]". text (out): the expression. */
 static enum br_status split_unit(struct value *v, char text[MOST_TEXT], struct br_unit *found)
 {
     const char *whole = br_yaml_text(v->node), *bracket = strrchr(whole, '[');
@@ -214,8 +214,8 @@ static enum br_status parse_expression(const struct value *v, const char *text,
     return br_scene_pass_on(v->r, br_yaml_line(v->node), v->key->name, &inner);
 }
 
-/* "expression [unit]" into a function. applied: out, the expression in m, s and kg. It must be one
- * before brackets stand around it: "1) + (2" is none. */
+/* Reads "expression [unit]" as a function. applied (out): the expression in m, s and kg. The
+ * expression is parsed before brackets are put around it, so that "1) + (2" is refused. */
 static enum br_status read_expression(struct value *v, struct br_function *out,
                                       char applied[MOST_APPLIED])
 {
@@ -255,7 +255,7 @@ static enum br_status keep_text(const struct value *v, const char *text)
     return BR_OK;
 }
 
-/* An expression that is kept as text, too. */
+/* Reads an expression, and keeps its text, too. */
 static enum br_status read_solution(struct value *v)
 {
     char text[MOST_APPLIED];
@@ -274,10 +274,10 @@ static enum br_status read_product(const struct value *v, struct br_load *load)
     const yaml_node_pair_t *end = v->node->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = v->node->data.mapping.pairs.start; p < end; p++) {
         const yaml_node_t *name = yaml_document_get_node(v->r->document, p->key);
-        struct value part = *v, at = *v;
-        part.node = yaml_document_get_node(v->r->document, p->value);
+        struct value factor = *v, at = *v;
+        factor.node = yaml_document_get_node(v->r->document, p->value);
         at.node = name;
-        if (name->type != YAML_SCALAR_NODE || part.node->type != YAML_SCALAR_NODE)
+        if (name->type != YAML_SCALAR_NODE || factor.node->type != YAML_SCALAR_NODE)
             return REFUSE(&at, "%s", expected);
         const bool shape = strcmp(br_yaml_text(name), "shape") == 0;
         if (!shape && strcmp(br_yaml_text(name), "history") != 0)
@@ -285,16 +285,16 @@ static enum br_status read_product(const struct value *v, struct br_load *load)
         if (seen[shape])
             return REFUSE(&at, "'%s' is given twice", br_yaml_text(name));
         seen[shape] = true;
-        part.unit = shape ? "1" : v->unit;
+        factor.unit = shape ? "1" : v->unit;
         const enum br_status status =
-            read_function(&part, shape, shape ? &load->term[0].space : &load->term[0].time);
+            read_function(&factor, shape, shape ? &load->term[0].space : &load->term[0].time);
         if (status)
             return status;
     }
     return seen[0] && seen[1] ? BR_OK : REFUSE(v, "%s", expected);
 }
 
-/* A load: one expression, as the sum of products that it is. */
+/* A load: a product, or an expression, which is split into a sum of products. */
 static enum br_status read_load(struct value *v)
 {
     char applied[MOST_APPLIED];
@@ -339,7 +339,7 @@ enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct
     case BR_KEY_SHAPE:
         return read_shape(&v);
     case BR_KEY_TEXT:
-    case BR_KEY_SECTION: /* read_entry has taken these */
+    case BR_KEY_SECTION: /* read_key handles sections and `verify` */
     case BR_KEY_VERIFY:
         break;
     }

@@ -15,7 +15,7 @@ static bool is_number(const struct br_scene_key *k)
     return k->kind == BR_KEY_POSITIVE || k->kind == BR_KEY_NOT_NEGATIVE;
 }
 
-/* As on the command line. */
+/* The name of a key on the command line. */
 static const char *full_name(const struct br_scene_key *k, char name[64])
 {
     snprintf(name, 64, "%s%s%s", k->section, *k->section ? "." : "", k->name);
@@ -44,14 +44,14 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
                    (int)(length < 100 ? length : 100), text, known);
 }
 
-/* Of the unit 1, which nobody prints. */
+/* Whether its unit is 1, which is never printed. */
 static bool is_bare(const struct br_scene_key *key)
 {
     return strcmp(key->unit, "1") == 0;
 }
 
-/* "210 GPa": a number, and perhaps (*given) the unit of all. False: it is none, or has another one.
- */
+/* Reads "210 GPa": a number and perhaps (*given) the unit of all values. False: it is not a number,
+ * or has a different unit. */
 static bool read_value(struct br_varied *v, const char *text, const char *end, double *value,
                        bool *given)
 {
@@ -94,7 +94,7 @@ static enum br_status check_count(const struct br_varied *v, double count, doubl
                    count, least, BR_MOST_VARIED);
 }
 
-/* Of a key that takes numbers without unit, too, all values have one or none. */
+/* If the key accepts numbers without unit, either all values have a unit or none has. */
 static enum br_status read_list(struct br_varied *v, const char *text, struct br_error *err)
 {
     size_t most = 1;
@@ -120,7 +120,7 @@ static enum br_status read_list(struct br_varied *v, const char *text, struct br
     }
 }
 
-/* 15 digits: 1000, not 1000.0000000000001. */
+/* Rounds to 15 digits: 1000, not 1000.0000000000001. */
 static double rounded(double value)
 {
     char text[40];
@@ -129,7 +129,7 @@ static double rounded(double value)
     return value;
 }
 
-/* Ends that are too near each other leave no room for values between them. */
+/* Refuses ends that are too near each other: the values between them must differ. */
 static enum br_status check_rise(const struct br_varied *v, struct br_error *err)
 {
     for (size_t i = 1; i < v->count; i++)
@@ -142,7 +142,7 @@ static enum br_status check_rise(const struct br_varied *v, struct br_error *err
     return BR_OK;
 }
 
-/* "LOW..HIGH log 9", with its dots. */
+/* Reads "LOW..HIGH log 9". dots: its "..". */
 static enum br_status read_range(struct br_varied *v, const char *text, const char *dots,
                                  struct br_error *err)
 {
@@ -162,10 +162,10 @@ static enum br_status read_range(struct br_varied *v, const char *text, const ch
     if (check_count(v, count, 2, err))
         return err->status;
     for (v->count = 0; (double)v->count < count; v->count++) {
-        const double part = (double)v->count / (count - 1);
+        const double fraction = (double)v->count / (count - 1);
         v->value[v->count] =
-            rounded(v->logarithmic ? pow(10, log10(low) + part * (log10(high) - log10(low)))
-                                   : low + part * (high - low));
+            rounded(v->logarithmic ? pow(10, log10(low) + fraction * (log10(high) - log10(low)))
+                                   : low + fraction * (high - low));
     }
     v->value[0] = low;
     v->value[v->count - 1] = high;
@@ -205,7 +205,7 @@ enum br_status br_varied_scene(const struct br_varied *v, size_t i, const char *
     return br_scene_parse(path, text, &asked, scene, err);
 }
 
-/* ---- what is found ---- */
+/* ---- results ---- */
 
 const char *br_varied_text(const struct br_varied *v, size_t i, char text[BR_VARIED_TEXT])
 {

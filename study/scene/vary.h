@@ -7,41 +7,42 @@
 
 enum { BR_MOST_VARIED = 1000 };
 
-/* Begins as zeros. */
+/* Starts as zeros. */
 struct br_varied {
     const struct br_scene_key *key;
     char name[64];    /* "contact.stiffness" */
-    bool logarithmic; /* its values are spaced so */
-    char unit[32];    /* of the values; "": of a key that takes numbers without unit, as Coulomb's
-                         coefficient, which they then make */
+    bool logarithmic; /* the spacing of its values */
+    char unit[32];    /* of the values; "": none, where the key accepts a number without unit, like
+                         Coulomb's coefficient */
     double *value;    /* count, in that unit, in the order given; owned */
     size_t count;
 };
 
-/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,... A unit behind a value is that of all;
- * without one they have the key's, or none where the key takes numbers without, whose list has it
- * behind each or none. The scene's reader judges it. Fails with BR_BAD_INPUT, naming the key, what
- * was found and what was expected, or with BR_NO_MEMORY; clear it even then. */
+/* Reads KEY=LOW..HIGH log|lin COUNT, or KEY=VALUE,VALUE,... A unit after one value is that of all;
+ * without one they have the key's unit. If the key accepts ratios, values without unit are ratios,
+ * and in a list all values have the unit or none has. The scene's reader checks the unit. Fails
+ * with BR_BAD_INPUT, naming the key, what was found and expected, or BR_NO_MEMORY; clear it even
+ * then. */
 enum br_status br_varied_read(const char *text, struct br_varied *varied, struct br_error *err);
 void br_varied_clear(struct br_varied *varied);
 
-/* Reads the scene of a text (path: for messages) as if value i stood in it, with all checks. Fails
- * as br_scene_read_text does; clear the scene even then. */
+/* Reads a scene from a text in which value i replaces that of the key, with all checks. path: for
+ * messages. Fails as br_scene_read_text does; clear the scene even then. */
 enum br_status br_varied_scene(const struct br_varied *varied, size_t i, const char *path,
                                const char *text, struct br_scene *scene, struct br_error *err);
 
-/* ---- what a command finds at each value ---- */
+/* ---- results at each value ---- */
 
 /* Numbers by columns, for one table and one picture. */
 struct br_variation_column {
     const char *key, *heading, *unit, *format; /* as those of a document's columns */
-    bool for_programs;                         /* people do not see it */
-    const char *axis; /* its panel's, in gnuplot's markup; columns with the same one are drawn
-                         together; NULL: not drawn */
-    bool logarithmic; /* that axis */
+    bool for_programs;                         /* not in tables for people */
+    const char *axis; /* label of its panel's axis, in gnuplot's markup; columns with the same label
+                         share a panel; NULL: not drawn */
+    bool logarithmic; /* of that axis */
 };
 
-/* Borrowed, but for what br_variation_create makes. */
+/* Borrowed, except what br_variation_create allocates. */
 struct br_variation {
     const struct br_varied *varied;
     const char *format; /* of the document: "beamrate study variation" */
@@ -49,21 +50,20 @@ struct br_variation {
     char caption[400];
     const struct br_variation_column *column;
     size_t columns;
-    double *value;            /* varied->count rows of `columns` numbers; NaN: none; owned */
-    const char **remark;      /* varied->count static texts: why it counts less; NULL: it does not;
-                                 owned */
-    bool *unstable;           /* varied->count: beyond the lagged contact's stability limit; such a
-                                 row is in the tables alone; owned */
+    double *value;       /* varied->count rows of `columns` numbers; NaN: none; owned */
+    const char **remark; /* varied->count static texts: why it is flagged; NULL: not; owned */
+    bool *unstable; /* varied->count: lagged contact beyond its stability limit; in tables only;
+                       owned */
     struct br_error *failure; /* varied->count; status BR_OK: none; owned */
 };
 
-/* Makes room for all values, all NaN, of a scene, and the name and caption from it; varied, format,
- * column and columns are set. Fails with BR_NO_MEMORY. */
+/* Allocates all values, as NaN, and makes name and caption from the scene. The caller has set
+ * varied, format, column and columns. Fails with BR_NO_MEMORY. */
 enum br_status br_variation_create(struct br_variation *sweep, const struct br_scene *scene,
                                    struct br_error *err);
 void br_variation_clear(struct br_variation *sweep);
 
-/* "contact.stiffness = 100 N/m": returns the text. */
+/* Writes "contact.stiffness = 100 N/m"; returns text (out). */
 enum { BR_VARIED_TEXT = 120 };
 const char *br_varied_text(const struct br_varied *varied, size_t i, char text[BR_VARIED_TEXT]);
 

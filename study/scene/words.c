@@ -60,7 +60,7 @@ enum br_status br_words_read(const struct br_words *w, const char *text, size_t 
     return refuse(w, word, false, err);
 }
 
-/* ---- what was meant ---- */
+/* ---- similar names ---- */
 
 enum { MOST_LETTERS = 32 };
 
@@ -69,7 +69,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Insertions, deletions, changes and swaps of neighbours that make b of a. */
+/* The number of insertions, deletions, changes and swaps of neighbours that turn a into b. */
 static size_t distance(const char *a, const char *b)
 {
     size_t d[MOST_LETTERS + 1][MOST_LETTERS + 1];
@@ -93,7 +93,7 @@ static size_t distance(const char *a, const char *b)
 const char *br_nearest(const char *word, const char *const *names, size_t count)
 {
     const char *nearest = NULL;
-    size_t best = strlen(word) / 3 + 1; /* more is another word */
+    size_t best = strlen(word) / 3 + 1; /* more differences make another word */
     for (size_t i = 0; i < count; i++) {
         const size_t letters = distance(word, names[i]);
         if (letters < best + !nearest && letters < strlen(word)) {
