@@ -167,16 +167,16 @@ static struct br_planned_march planned(const struct br_run_plan *p)
 }
 
 /* What is to be expected of the march, before anything of it is there. */
-static enum br_status look_ahead(struct run *r, struct br_error *err)
+static enum br_status check_ahead(struct run *r, struct br_error *err)
 {
     struct br_planned_march march = planned(&r->plan);
     march.prediction = &r->prediction;
-    return br_look_ahead(&march, &r->warnings, err);
+    return br_check_ahead(&march, &r->warnings, err);
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    if (open_scene(r, err) || look_ahead(r, err) || open_files(r, err))
+    if (open_scene(r, err) || check_ahead(r, err) || open_files(r, err))
         return err->status;
     br_print_warnings("", &r->warnings);
     return BR_OK;
@@ -346,7 +346,7 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     r = (struct run){.session = v->session, .plan = *p};
     r.session.quiet = true;
     r.plan.request.levels = r.plan.request.stride = 0;
-    if (look_ahead(&r, failure))
+    if (check_ahead(&r, failure))
         return BR_OK;
     br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
     if (march(&r, failure))

@@ -133,7 +133,7 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
         status = plan_march(&visit.scene, n, steps, list, &method, &planned, &visit.err);
     planned.prediction = &prediction;
     if (!status)
-        status = br_look_ahead(&planned, &warnings, &visit.err);
+        status = br_check_ahead(&planned, &warnings, &visit.err);
     if (!status) {
         copy_prediction(&prediction, forecast);
         copy_warnings(&warnings, forecast);
@@ -159,7 +159,7 @@ static enum br_status create_march(struct beamrate_march *m, const struct br_sce
     m->n = n;
     m->steps = steps;
     if (!status)
-        status = br_look_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
+        status = br_check_ahead_cheaply(&planned, &warnings, err); /* for what it refuses */
     return status ? status : br_march_create(&m->march, scene, n, steps, &method, err);
 }
 
