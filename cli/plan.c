@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate plan SCENE --error E | --seconds S: the cheapest way, proposed and tried. */
+/* beamrate plan SCENE --error E | --seconds S: proposes and tries the cheapest trial. */
 #include <math.h>
 
 #include "cli/command.h"

@@ -171,7 +171,7 @@ static enum br_status predict(struct run *r, struct br_error *err)
 {
     struct br_planned_march march = planned(&r->plan);
     march.prediction = &r->prediction;
-    return br_look_ahead(&march, &r->warnings, err);
+    return br_check_ahead(&march, &r->warnings, err);
 }
 
 static enum br_status prepare(struct run *r, struct br_error *err)

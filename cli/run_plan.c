@@ -6,19 +6,19 @@
 
 /* ---- times ---- */
 
-/* The time level at t, s; the option names where it was found. */
+/* The time level (out) at t, s. The option is named in a failure. */
 static enum br_status read_level(const char *option, double t, const struct br_scene *scene,
                                  size_t steps, size_t *level, struct br_error *err)
 {
-    const double T = scene->duration, place = t / T * (double)steps;
+    const double T = scene->duration, position = t / T * (double)steps;
     if (!(t >= 0 && t <= T))
         return br_fail(err, BR_BAD_INPUT, "%s: found %g s, expected a time of [0, %g] s", option, t,
                        T);
-    const double nearest = round(place);
+    const double nearest = round(position);
     *level = (size_t)nearest;
-    if (fabs(place - nearest) <= 1e-6)
+    if (fabs(position - nearest) <= 1e-6)
         return BR_OK;
-    const double below = floor(place);
+    const double below = floor(position);
     return br_fail(
         err, BR_BAD_INPUT,
         "%s: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and "

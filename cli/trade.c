@@ -13,7 +13,7 @@
 #include "study/trade/trade.h"
 #include "tables/reports.h"
 
-/* A scene on its way; not to be moved once its trade is laid out. */
+/* A scene and its trials; must not be moved after br_trade_lay_out. */
 struct item {
     struct br_opened_scene opened;
     struct br_printed printed; /* the paper's table of it; empty: none */
@@ -36,7 +36,7 @@ struct run {
 static enum br_status set_request(const struct run *r, struct item *item, struct br_error *err)
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
-                                               BR_OPTIONS}; /* what the user says is tried */
+                                               BR_OPTIONS}; /* given lists are tried as they are */
     const struct br_options *o = r->session.options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
@@ -57,7 +57,7 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
-/* Only the bundled scene itself is what the paper printed a table of. */
+/* The paper's printed tables are of the bundled scenes only. */
 static enum br_status read_printed(struct item *item, struct br_error *err)
 {
     static const char *const tables[][2] = {
@@ -99,8 +99,8 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     return br_trade_lay_out(&item->trade, &grid, err);
 }
 
-/* A list that no method heeds is refused. */
-static enum br_status check_heeded(const struct run *r, bool split, struct br_error *err)
+/* Refuses a list that no method uses. */
+static enum br_status check_used(const struct run *r, bool split, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     const struct br_named_methods *methods = &r->study.methods;
@@ -150,31 +150,31 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 
 /* ---- computing ---- */
 
-/* Less is not worth a word, s. */
-static const double worth_telling = 3;
+/* A shorter forecast is not printed, s. */
+static const double worth_printing = 3;
 
-static enum br_status hold_one(struct run *r, struct item *item, struct br_error *err)
+static enum br_status run_one(struct run *r, struct item *item, struct br_error *err)
 {
     struct br_trade *trade = &item->trade;
-    const struct br_trial_outlook *o = &trade->outlook;
+    const struct br_trial_forecast *o = &trade->forecast;
     const char *name = item->opened.scene.name;
     trade->request.observer = br_progress_start(name, r->session.quiet);
     enum br_status status = br_trade_foresee(trade, err);
-    if (!status && !r->session.quiet && (o->seconds >= worth_telling || o->left > 0)) {
-        fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->held, o->seconds);
+    if (!status && !r->session.quiet && (o->seconds >= worth_printing || o->left > 0)) {
+        fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->planned, o->seconds);
         if (o->left)
             fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
                     br_trade_seconds_of_all(o));
         fputc('\n', stderr);
     }
     if (!status)
-        status = br_trade_hold(trade, err);
+        status = br_trade_run(trade, err);
     br_progress_end();
     br_session_tell_kept(&r->session, &item->kept);
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
-static enum br_status hold(struct run *r, struct br_error *err)
+static enum br_status run_all(struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         struct item *item = &r->item[i];
@@ -185,7 +185,7 @@ static enum br_status hold(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->items; i++)
         br_warn_of_trials(&r->item[i].opened.scene, r->item[i].trade.trial, r->item[i].trade.count);
     for (size_t i = 0; i < r->items; i++)
-        if (hold_one(r, &r->item[i], err))
+        if (run_one(r, &r->item[i], err))
             return err->status;
     return BR_OK;
 }
@@ -242,7 +242,7 @@ static enum br_status check(const struct run *r, struct br_error *err)
 
 /* ---- --split: where the error of each of some runs comes from ---- */
 
-/* Clocks do not matter to where errors come from, nor does who judges. */
+/* Refuses options that --split does not use. */
 static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
     static const enum br_option_id others[] = {BR_OPT_REPEATS,   BR_OPT_TIME_LIMIT, BR_OPT_SECONDS,
@@ -256,7 +256,7 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
     return BR_OK;
 }
 
-/* Of a method on a mesh: time steps, then tolerances. */
+/* Adds the runs of a method on a mesh: by time steps or by tolerances. */
 static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
 {
     enum { DEFAULT_STEPS = 1000 };
@@ -286,9 +286,9 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
     const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
     size_t steps;
     if (check_split(o, err) || br_study_request_read(o, &r->study, err) ||
-        (r->study.methods.count == 0 && /* the first scheme marches */
+        (r->study.methods.count == 0 && /* default: the first scheme */
          br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
-        check_heeded(r, true, err) || read_scenes(r, err) ||
+        check_used(r, true, err) || read_scenes(r, err) ||
         br_option_steps(o, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
@@ -338,14 +338,14 @@ static bool split(struct run *r, struct br_error *err)
 static bool trade(struct run *r, struct br_error *err)
 {
     if (br_session_alone(err) || br_study_request_read(r->session.options, &r->study, err) ||
-        check_judge(r, err) || check_heeded(r, false, err) || read_scenes(r, err))
+        check_judge(r, err) || check_used(r, false, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))
             return true;
     return br_option_given(r->session.options, BR_OPT_DRY_RUN)
                ? foresee(r, err)
-               : br_session_open(&r->session, err) || hold(r, err) || write_all(r, err) ||
+               : br_session_open(&r->session, err) || run_all(r, err) || write_all(r, err) ||
                      check(r, err);
 }
 

@@ -31,27 +31,28 @@ void br_print_warnings(const char *scene, const struct br_warnings *warnings)
 
 /* ---- the marches of a scene ---- */
 
-struct look {
+struct scene_check {
     const struct br_scene *scene;
     struct br_warnings warnings;
     struct br_planned_march finest; /* the march with most elements and steps; n = 0: none */
 };
 
-static enum br_status look_at(struct look *l, const struct br_method *method, size_t n,
-                              size_t steps, struct br_error *err)
+static enum br_status check_march(struct scene_check *check, const struct br_method *method,
+                                  size_t n, size_t steps, struct br_error *err)
 {
-    const struct br_planned_march o = {.scene = l->scene, .method = method, .n = n, .steps = steps};
-    if ((double)n * (double)steps > (double)l->finest.n * (double)l->finest.steps)
-        l->finest = o;
-    return br_look_ahead_cheaply(&o, &l->warnings, err);
+    const struct br_planned_march o = {
+        .scene = check->scene, .method = method, .n = n, .steps = steps};
+    if ((double)n * (double)steps > (double)check->finest.n * (double)check->finest.steps)
+        check->finest = o;
+    return br_check_ahead_cheaply(&o, &check->warnings, err);
 }
 
-/* The loads as the finest march sees them; then all is printed. */
-static enum br_status end(struct look *l, enum br_status status, struct br_error *err)
+/* Checks the loads at the finest march, then prints all warnings. */
+static enum br_status end(struct scene_check *check, enum br_status status, struct br_error *err)
 {
-    if (!status && l->finest.n)
-        status = br_look_at_loads(&l->finest, &l->warnings, err);
-    br_print_warnings(l->scene->name, &l->warnings);
+    if (!status && check->finest.n)
+        status = br_check_loads(&check->finest, &check->warnings, err);
+    br_print_warnings(check->scene->name, &check->warnings);
     return status;
 }
 
@@ -60,25 +61,25 @@ enum br_status br_warn_of_studies(const struct br_study *studies, size_t count,
 {
     enum br_status status = BR_OK;
     for (const struct br_study *s = studies; s < studies + count && !status; s++) {
-        struct look look = {.scene = s->scene};
+        struct scene_check check = {.scene = s->scene};
         for (size_t i = 0; i < s->n_count; i++)
             for (size_t j = 0; j < s->k_count && !status; j++)
-                status = look_at(&look, &s->method, s->n[i], s->steps[j], err);
-        status = end(&look, status, err);
+                status = check_march(&check, &s->method, s->n[i], s->steps[j], err);
+        status = end(&check, status, err);
     }
     return status;
 }
 
 enum br_status br_warn_of_splits(const struct br_split *splits, size_t count, struct br_error *err)
 {
-    struct look look = {.scene = splits->scene};
+    struct scene_check check = {.scene = splits->scene};
     enum br_status status = BR_OK;
     for (const struct br_split *s = splits; s < splits + count && !status; s++)
-        status = look_at(&look, &s->method, s->at.n, s->at.steps, err);
-    return end(&look, status, err);
+        status = check_march(&check, &s->method, s->at.n, s->at.steps, err);
+    return end(&check, status, err);
 }
 
-/* Loads are not looked at: these scenes are known. */
+/* Loads are not checked: these scenes are known. */
 enum br_status br_warn_of_paper(struct br_error *err)
 {
     const struct br_paper_request request = br_paper_request_default();
@@ -87,11 +88,11 @@ enum br_status br_warn_of_paper(struct br_error *err)
     for (size_t i = 0; i < BR_EXAMPLES && !status; i++) {
         struct br_scene scene;
         status = br_paper_scene(i, &scene, err);
-        struct look look = {.scene = &scene};
+        struct scene_check check = {.scene = &scene};
         const size_t steps = status ? 0 : request.per_second * (size_t)lround(scene.duration);
         if (!status)
-            status = look_at(&look, &method, request.n, steps, err);
-        br_print_warnings(status ? "" : scene.name, &look.warnings);
+            status = check_march(&check, &method, request.n, steps, err);
+        br_print_warnings(status ? "" : scene.name, &check.warnings);
         br_scene_clear(&scene);
     }
     return status;
@@ -100,25 +101,25 @@ enum br_status br_warn_of_paper(struct br_error *err)
 void br_warn_of_checks(const struct br_check *checks, size_t count)
 {
     for (const struct br_check *c = checks; c < checks + count; c++) {
-        struct look look = {.scene = c->scene};
+        struct scene_check check = {.scene = c->scene};
         struct br_error refusal = {0};
         for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
             const struct br_verify_study *v = &c->verify->study[kind];
-            look.finest = (struct br_planned_march){0};
+            check.finest = (struct br_planned_march){0};
             for (size_t i = 0; i < v->count; i++)
-                look_at(&look, &v->method, v->n[i], v->steps[i], &refusal);
-            if (look.finest.n)
-                br_look_at_loads(&look.finest, &look.warnings, &refusal);
+                check_march(&check, &v->method, v->n[i], v->steps[i], &refusal);
+            if (check.finest.n)
+                br_check_loads(&check.finest, &check.warnings, &refusal);
         }
-        br_print_warnings(c->name, &look.warnings);
+        br_print_warnings(c->name, &check.warnings);
     }
 }
 
 void br_warn_of_trials(const struct br_scene *scene, const struct br_trial *trials, size_t count)
 {
-    struct look look = {.scene = scene};
+    struct scene_check check = {.scene = scene};
     struct br_error refusal = {0};
     for (const struct br_trial *t = trials; t < trials + count; t++)
-        look_at(&look, &t->named->method, t->at.n, t->at.steps, &refusal);
-    end(&look, BR_OK, &refusal);
+        check_march(&check, &t->named->method, t->at.n, t->at.steps, &refusal);
+    end(&check, BR_OK, &refusal);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of the error over the time step, or over the mesh: where one of them takes over. */
+/* Components of the error over the time step, or over the mesh width. */
 #include <math.h>
 
 #include "plots/pictures.h"
@@ -15,7 +15,7 @@ struct line {
     bool over_k;
 };
 
-/* What the runs of a line share beside their method. */
+/* The number of elements or steps that all runs of a line share. */
 static size_t fixed(const struct line *line, const struct br_split *s)
 {
     return line->over_k ? s->at.n : s->at.steps;
@@ -26,7 +26,7 @@ static bool is_on(const struct line *line, const struct br_split *s)
     return br_methods_equal(&s->method, &line->first->method) && fixed(line, s) == line->finest;
 }
 
-/* Part i of the runs; past the last, the whole. A gap where it cannot be told. */
+/* Component i of the runs; past the last, the whole. A gap where it is below its floor. */
 static void add_points(const struct line *line, size_t part, struct br_series *series)
 {
     for (size_t i = 0; i < line->count; i++) {
@@ -37,7 +37,7 @@ static void add_points(const struct line *line, size_t part, struct br_series *s
         br_point_add(
             series,
             line->over_k ? br_time_step(s->scene, s->at.steps) : br_mesh_size(s->scene, s->at.n),
-            br_share_told(share, 0, BR_PART_TOTAL) ? share->error[0][BR_PART_TOTAL] : (double)NAN,
+            br_share_known(share, 0, BR_PART_TOTAL) ? share->error[0][BR_PART_TOTAL] : (double)NAN,
             NULL);
     }
     br_series_sort(series);
@@ -45,14 +45,14 @@ static void add_points(const struct line *line, size_t part, struct br_series *s
 
 static bool is_anywhere(const struct line *line, size_t part)
 {
-    bool told = false;
+    bool known = false;
     for (size_t i = 0; i < line->count; i++)
-        told |= is_on(line, &line->split[i]) &&
-                br_share_told(&line->split[i].share[part], 0, BR_PART_TOTAL);
-    return told;
+        known |= is_on(line, &line->split[i]) &&
+                 br_share_known(&line->split[i].share[part], 0, BR_PART_TOTAL);
+    return known;
 }
 
-/* The method, as far as it is not the default, and what all runs of the line share. */
+/* The method, as far as it is not the default, and the elements or steps that the runs share. */
 static void name_panel(const struct line *line, struct br_panel *p)
 {
     const struct br_split *s = line->first;
@@ -71,7 +71,7 @@ static void name_panel(const struct line *line, struct br_panel *p)
            at);
 }
 
-/* The whole is a band behind its parts. */
+/* The whole is a band behind its components. */
 static void fill_panel(const struct line *line, struct br_figure *f)
 {
     const struct br_split *first = line->first;

@@ -5,7 +5,8 @@
 #include "plots/pictures.h"
 #include "study/trade/trade.h"
 
-/* With the exact law and the default solver: what is left are time schemes and elements. */
+/* Whether a method has the exact law and the default solver: such methods differ in scheme, contact
+ * and elements. */
 static bool is_plain(const struct br_named_method *c)
 {
     return c->method.friction == br_friction_rules[0] && c->method.solver == br_linear_solvers[0];
@@ -17,7 +18,7 @@ static bool shows_schemes(const struct br_trade *t, const struct br_named_method
     return is_plain(c);
 }
 
-/* Others, and what they are to be held against: the same scheme without. */
+/* The other methods, and the plain methods of the same scheme, to compare with. */
 static bool shows_rules(const struct br_trade *t, const struct br_named_method *c)
 {
     bool compared = !is_plain(c);
@@ -57,8 +58,8 @@ bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_
     return applies;
 }
 
-/* Errors beyond 10 say nothing, and widen no axis. */
-static bool has_place(const struct br_trade_picture *p, const struct br_trial *t)
+/* Errors above 10 are left out: they would only widen the axis. */
+static bool has_position(const struct br_trade_picture *p, const struct br_trial *t)
 {
     const double error = br_trial_relative(t);
     return error > 0 && error <= 10 && p->work(t) > 0;
@@ -70,8 +71,7 @@ static void add_trial(const struct br_trade_picture *p, const struct br_trial *t
     br_point_add(s, p->work(t), br_trial_relative(t), NULL);
 }
 
-/* The trials that count of a method, or of all that are shown (NULL), but those that another one
- * beats: they are as good for no more work. */
+/* Adds the Pareto front of a method's trials, or of all that are shown (NULL). */
 static void add_front(const struct br_trade_picture *p, const struct br_trade *t,
                       const struct br_named_method *only, struct br_series *s)
 {
@@ -79,7 +79,7 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
         if ((only ? trial->named == only : p->shows(t, trial->named)) &&
-            isfinite(br_trial_bound(trial)) && has_place(p, trial))
+            isfinite(br_trial_bound(trial)) && has_position(p, trial))
             add_trial(p, trial, s);
     }
     br_series_sort(s);
@@ -99,7 +99,7 @@ static const struct {
     {"near the judge's own error", BR_PEN_STARS},
 };
 
-/* Who gets a hue first: the paper's own method, then those with most trials on the front of all. */
+/* The order of hues: the paper's method first, then those with most trials on the common front. */
 static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
                     const struct br_named_method *c, const struct br_series *front)
 {
@@ -132,7 +132,7 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
         for (const struct br_trial *t = trade->trial; t < trade->trial + trade->count; t++) {
             const bool in[] = {t->end != BR_TRIAL_UNSTABLE, t->end == BR_TRIAL_UNSTABLE, t->printed,
                                t->end == BR_TRIAL_DOUBTFUL}; /* by clouds */
-            if (!picture->shows(trade, t->named) || !in[i] || !has_place(picture, t))
+            if (!picture->shows(trade, t->named) || !in[i] || !has_position(picture, t))
                 continue;
             if (!s)
                 s = br_series_add(f, clouds[i].pen, "%s", clouds[i].title);

@@ -72,7 +72,7 @@ static const char *remark_on(const struct br_plan *p, size_t i)
     return i == p->first ? "first" : NULL;
 }
 
-/* All of them, or those that were proposed, after the cheap trials of round 0. */
+/* All trials, or only the proposed ones, which come after the cheap trials of round 0. */
 static void put_trials(struct br_document *d, const struct br_plan *p, bool proposed)
 {
     if (proposed)
@@ -105,7 +105,7 @@ static void put_trials(struct br_document *d, const struct br_plan *p, bool prop
     }
 }
 
-/* A root mean square of logarithms, which people see in per cent; NaN: not known. */
+/* A root mean square of logarithms; the table for people has it in per cent. NaN: not known. */
 static void put_scatter(struct br_document *d, const char *key, const char *heading, double scatter)
 {
     BR_PUT(d, br_number(scatter), .key = key, .heading = heading);
@@ -186,15 +186,15 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     BR_TABLE(d, "curves", "Knots of the models", BR_FOR_PROGRAMS, curves_columns);
     for (size_t i = 0; i < p->methods.count; i++) {
         const struct br_plan_model *m = &p->model[i];
-        const struct br_plan_curve *const curves[] = {&m->part[BR_PLAN_X], &m->part[BR_PLAN_Y],
-                                                      &m->solves};
+        const struct br_plan_curve *const curves[] = {&m->component[BR_PLAN_X],
+                                                      &m->component[BR_PLAN_Y], &m->solves};
         for (size_t c = 0; c < 3 && m->known; c++)
             for (size_t j = 0; j < curves[c]->count; j++)
                 BR_PUT_ROW(d, br_text(p->methods.list[i].name), br_text(names[c]),
                            br_number(curves[c]->at[j]), br_number(curves[c]->value[j]));
     }
 
-    const struct br_plan_parts parts = br_plan_chosen_parts(p);
+    const struct br_plan_components components = br_plan_chosen_components(p);
     br_hide_fact(d, br_text(scene->name), NULL, "scene.name");
     br_hide_fact(d, br_number(p->goal.error), NULL, "goal_error");
     br_hide_fact(d, br_number(p->goal.seconds), NULL, "goal_seconds");
@@ -206,20 +206,20 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     br_hide_fact(d, br_if(p->chosen < p->count, br_count(p->chosen)), NULL, "chosen");
     br_hide_fact(d, br_number(br_plan_spent(p)), NULL, "marched_seconds");
     br_hide_fact(d, br_number(p->wall_seconds), NULL, "wall_seconds");
-    br_hide_fact(d, br_number(parts.error[BR_PLAN_X]), NULL, "space_error");
-    br_hide_fact(d, br_number(parts.error[BR_PLAN_Y]), NULL, "time_error");
-    br_hide_fact(d, br_number(parts.order[BR_PLAN_X]), NULL, "space_order");
-    br_hide_fact(d, br_number(parts.order[BR_PLAN_Y]), NULL, "time_order");
+    br_hide_fact(d, br_number(components.error[BR_PLAN_X]), NULL, "space_error");
+    br_hide_fact(d, br_number(components.error[BR_PLAN_Y]), NULL, "time_error");
+    br_hide_fact(d, br_number(components.order[BR_PLAN_X]), NULL, "space_order");
+    br_hide_fact(d, br_number(components.order[BR_PLAN_Y]), NULL, "time_order");
 
     br_put_section(d, "What is measured");
-    if (isfinite(parts.error[BR_PLAN_X]))
+    if (isfinite(components.error[BR_PLAN_X]))
         br_put_note(
             d,
             "By the model, the proposal has a space error of %.2e and a time error of %.2e, "
             "both relative. The observed order in h is %.2f, in %s it is %.2f.",
-            parts.error[BR_PLAN_X], parts.error[BR_PLAN_Y], parts.order[BR_PLAN_X],
+            components.error[BR_PLAN_X], components.error[BR_PLAN_Y], components.order[BR_PLAN_X],
             p->trial[p->chosen].named->method.scheme->adaptive ? "the tolerance" : "k",
-            parts.order[BR_PLAN_Y]);
+            components.order[BR_PLAN_Y]);
     br_put_note(d, "%s", p->request.norm->title);
     br_put_note(d,
                 "Relative errors are over the norm of the solution; the judge's own error, %.1e, "

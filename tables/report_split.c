@@ -22,9 +22,9 @@ static const char *share_format(double share)
     return share > 0 && share < 1e-3 ? "%.2g %%" : "%.1f %%";
 }
 
-static bool is_told(const struct br_share *share, size_t norm)
+static bool is_known(const struct br_share *share, size_t norm)
 {
-    return !share->none && br_share_told(share, norm, BR_PART_TOTAL);
+    return !share->none && br_share_known(share, norm, BR_PART_TOTAL);
 }
 
 /* "n = 100, ... Error 7.437e-04 m^(3/2), by parts: lag 99.6 %, time 0.2 %, space 0.2 %." */
@@ -35,7 +35,7 @@ static void answer_run(struct br_document *d, const struct br_split *s)
     br_put_answer(d, "%s. Error %.3e %s, by parts: ", describe(s, run),
                   s->whole.error[0][BR_PART_TOTAL], s->norm[0]->unit);
     for (size_t i = 0; i < s->shares; i++)
-        if (is_told(&s->share[i], 0)) {
+        if (is_known(&s->share[i], 0)) {
             const double share = br_share_of_sum(s, &s->share[i], 0, BR_PART_TOTAL);
             br_put_more(d, "%s%s ", between, s->share[i].source->name);
             br_put_more(d, share_format(share), 100 * share);
@@ -53,7 +53,7 @@ static bool models(const struct br_split *s, enum br_part part)
            (part == BR_PART_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled);
 }
 
-/* The lines of a run: its parts, then their sum and the whole. */
+/* The lines of a run: its components, then their sum and the whole. */
 enum { OTHERS = 2 };
 
 /* People see "< 3.4e-16" for an error below its floor. */
@@ -63,7 +63,7 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
     const bool is_sum = i == s->shares, is_whole = i > s->shares;
     const struct br_share *l = is_sum ? &s->sum : is_whole ? &s->whole : &s->share[i];
-    const bool told = is_sum || (!is_whole && is_told(l, norm));
+    const bool known = is_sum || (!is_whole && is_known(l, norm));
     const double share =
         is_sum ? l->error[norm][BR_PART_TOTAL] > 0 : br_share_of_sum(s, l, norm, BR_PART_TOTAL);
     br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
@@ -80,10 +80,10 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
         if (isfinite(error) && floor > 0 && !(error > floor))
             br_put_shown(d, "< %.1e", floor);
     }
-    BR_PUT(d, br_number(told ? share : NAN), .key = "share", .heading = "of the sum");
-    if (told)
+    BR_PUT(d, br_number(known ? share : NAN), .key = "share", .heading = "of the sum");
+    if (known)
         br_put_shown(d, share_format(share), 100 * share);
-    BR_PUT(d, br_if(told || is_whole, br_number(l->error[norm][BR_PART_TOTAL] / s->scale[norm])),
+    BR_PUT(d, br_if(known || is_whole, br_number(l->error[norm][BR_PART_TOTAL] / s->scale[norm])),
            .key = "relative", .heading = "of the solution", .format = "%.2e");
     BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])), .key = "axial_tip",
            .heading = "axial tip", .unit = "m", .format = "%+.3e");
@@ -107,7 +107,7 @@ static void put_run(struct br_document *d, const struct br_split *s, size_t run)
         br_text(br_method_taken(&(struct br_meshes){s->scene, &s->at.n, 1}, &s->method, taken)));
 }
 
-/* For people: a table a run and norm, with the parts that there are. */
+/* For people: a table for each run and norm, with the existing components. */
 static void put_run_for_people(struct br_document *d, const struct br_split *s)
 {
     char title[TEXT + 64], run[TEXT];

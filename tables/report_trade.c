@@ -63,7 +63,7 @@ static void answer_front(struct br_document *d, const struct br_trade *t)
         br_put_answer(d, "Most accurate: %s.", describe(t, best, text));
 }
 
-/* What the paper's way costs to the smallest error that it reaches. */
+/* The cost of the paper's method to the smallest target that it reaches. */
 static void answer_paper(struct br_document *d, const struct br_trade *t)
 {
     for (size_t c = 0; c < t->methods.count; c++) {
@@ -87,7 +87,7 @@ static void answer_paper(struct br_document *d, const struct br_trade *t)
     }
 }
 
-/* A trial and what came of it. */
+/* A trial and its results. */
 static void put_outcome(struct br_document *d, const struct br_trade *t, size_t i)
 {
     const struct br_trial *trial = &t->trial[i];
@@ -120,8 +120,8 @@ static void put_outcome(struct br_document *d, const struct br_trade *t, size_t 
     br_hide(d, "failure", NULL, br_failure_text(&trial->failure));
 }
 
-/* A row for each target. Without a trial that is good enough only the target is there. scene: of
- * the rows; NULL: no such column. */
+/* A row for each target; without a trial that reaches it, all cells but the target are blank.
+ * scene: the value of a column of scenes; NULL: no such column. */
 static void put_targets(struct br_document *d, const struct br_trade *t, const char *scene)
 {
     for (size_t digit = 0; digit < BR_TRADE_DIGITS; digit++) {
@@ -132,7 +132,7 @@ static void put_targets(struct br_document *d, const struct br_trade *t, const c
         BR_PUT(d, br_number(br_trade_target(digit)), .key = "target", .heading = "to error",
                .format = "%.0e");
         br_put_blank(d, best == t->count);
-        /* its place in the list of all trials, which begins with 0 */
+        /* its index in the list of all trials, from 0 */
         br_hide(d, "trial", NULL, br_count(best));
         put_outcome(d, t, best < t->count ? best : 0);
     }
@@ -153,7 +153,7 @@ static void put_trials(struct br_document *d, const struct br_trade *t, bool fro
     }
 }
 
-/* The first trial that has an error: it knows the solution and the judge's own error. */
+/* The first trial with an error has the norm of the solution and the judge's own error. */
 static void note_judge(struct br_document *d, const struct br_trade *t)
 {
     const struct br_trial *known = t->trial;
@@ -190,12 +190,12 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
             between = ", ";
         }
     br_put_more(d, ".");
-    if (t->outlook.left)
+    if (t->forecast.left)
         br_put_answer(d,
                       "Left out for time, the dearest first: %zu of %zu trials, about %.0f s; "
                       "--seconds %.0f has all.",
-                      t->outlook.left, t->count, t->outlook.left_seconds,
-                      br_trade_seconds_of_all(&t->outlook));
+                      t->forecast.left, t->count, t->forecast.left_seconds,
+                      br_trade_seconds_of_all(&t->forecast));
 
     br_put_table(d, "cheapest", "Cheapest way to an error",
                  t->best[0] < t->count ? 0 : BR_FOR_PROGRAMS);

@@ -40,7 +40,7 @@ static bool is_warned(const struct br_scene *scene, const char *contact, size_t 
     struct br_error err;
     method.contact = br_contact_rule_find(contact);
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = 40, .steps = steps};
-    MUST(br_look_ahead_cheaply(&o, &w, &err));
+    MUST(br_check_ahead_cheaply(&o, &w, &err));
     return br_warnings_find(&w, BR_WARN_BOUNCE);
 }
 

@@ -185,7 +185,7 @@ static bool warns(const struct br_scene *scene, size_t n, size_t steps,
     struct br_warnings warnings = {0};
     const struct br_planned_march planned = {
         .scene = scene, .method = method, .n = n, .steps = steps};
-    br_look_at_contact(&planned, &warnings);
+    br_check_contact(&planned, &warnings);
     if (warnings.count)
         *first = warnings.list[0];
     return warnings.count > 0;

@@ -207,7 +207,7 @@ TEST(forecasts_are_the_programs)
     struct br_error err = {0};
     const struct br_planned_march planned = {
         .scene = &expected, .method = &method, .n = 10, .steps = 50, .prediction = &prediction};
-    MUST(br_look_ahead(&planned, &warnings, &err));
+    MUST(br_check_ahead(&planned, &warnings, &err));
     WORKS(beamrate_foresee(scene, 10, 50, NULL, &forecast, &failure));
     assert_int_equal(forecast.known, prediction.known);
     assert_string_equal(forecast.why, prediction.known ? "" : prediction.why);

@@ -13,7 +13,7 @@ static struct br_warnings warnings_of(const struct br_scene *scene, size_t n, si
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = n, .steps = steps};
     struct br_warnings w = {0};
     struct br_error err;
-    MUST(br_look_at_loads(&o, &w, &err));
+    MUST(br_check_loads(&o, &w, &err));
     return w;
 }
 

@@ -67,11 +67,11 @@ TEST(test_model)
             CLOSE(p.log[BR_PLAN_SECONDS], log(made_seconds(at[j][0], at[j][1])), 1e-6);
         }
         const double coarse[] = {log(8), log(100)};
-        const struct br_plan_parts parts = br_plan_model_parts(model, coarse);
-        CLOSE(parts.order[BR_PLAN_X], all[i].p, 0.1);
-        CLOSE(parts.order[BR_PLAN_Y], all[i].q, 0.1);
-        CLOSE(log(parts.error[BR_PLAN_X]), log(200 * pow(8, -all[i].p)), 0.1);
-        CLOSE(log(parts.error[BR_PLAN_Y]), log(5 * pow(100, -all[i].q)), 0.1);
+        const struct br_plan_components components = br_plan_model_components(model, coarse);
+        CLOSE(components.order[BR_PLAN_X], all[i].p, 0.1);
+        CLOSE(components.order[BR_PLAN_Y], all[i].q, 0.1);
+        CLOSE(log(components.error[BR_PLAN_X]), log(200 * pow(8, -all[i].p)), 0.1);
+        CLOSE(log(components.error[BR_PLAN_Y]), log(5 * pow(100, -all[i].q)), 0.1);
         free(model);
     }
 }
@@ -165,7 +165,7 @@ static double exhaustive(const struct br_plan *plan, double most)
                                                          .tolerance = pow(0.1, 0.5 + (double)j)}
                                      : (struct br_trial){.named = one, .at = {n[i], k[j]}};
             }
-    MUST(br_trials_hold(trial, count, &plan->request, &err));
+    MUST(br_trials_run(trial, count, &plan->request, &err));
     double least = INFINITY;
     for (size_t i = 0; i < count; i++)
         if (br_trial_bound(&trial[i]) <= plan->goal.error)

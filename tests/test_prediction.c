@@ -243,7 +243,7 @@ static struct br_warnings warnings_of(const struct br_scene *scene, const struct
     const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
     struct br_warnings w = {0};
     struct br_error err = {0};
-    MUST(br_look_ahead(&o, &w, &err));
+    MUST(br_check_ahead(&o, &w, &err));
     return w;
 }
 
@@ -408,7 +408,7 @@ TEST(test_hard)
                                            .n = hard[i].n,
                                            .steps = hard[i].steps,
                                            .prediction = &p};
-        MUST(br_look_ahead(&o, &w, &err));
+        MUST(br_check_ahead(&o, &w, &err));
         const bool warned = br_warnings_find(&w, hard[i].kind);
         const bool right =
             hard[i].why ? !p.known && strstr(p.why, hard[i].why) && warned &&

@@ -94,12 +94,12 @@ TEST(test_refused)
 
     struct br_warnings w = {0};
     o.n = 100000000000000;
-    REFUSED(br_look_ahead(&o, &w, &err), BR_NO_MEMORY, "elements take about");
+    REFUSED(br_check_ahead(&o, &w, &err), BR_NO_MEMORY, "elements take about");
     o.n = 3000000;
     o.steps = 1000000000000;
-    REFUSED(br_look_ahead(&o, &w, &err), BR_BAD_INPUT, "years, expected at most a hundred");
+    REFUSED(br_check_ahead(&o, &w, &err), BR_BAD_INPUT, "years, expected at most a hundred");
     o.n = 10000;
     o.steps = 10000000000;
-    MUST(br_look_ahead(&o, &w, &err));
+    MUST(br_check_ahead(&o, &w, &err));
     assert_non_null(br_warnings_find(&w, BR_WARN_LONG));
 }

@@ -128,15 +128,15 @@ TEST(test_whole)
         assert_true(split.scale[m] == study.reference_scale);
         br_study_clear(&study);
     }
-    assert_true(br_share_told(share_of(&split, "space"), 0, BR_PART_TOTAL));
-    assert_true(br_share_told(share_of(&split, "lag"), 0, BR_PART_TOTAL));
+    assert_true(br_share_known(share_of(&split, "space"), 0, BR_PART_TOTAL));
+    assert_true(br_share_known(share_of(&split, "lag"), 0, BR_PART_TOTAL));
     AT_MOST(share_of(&split, "lag")->floor[0][BR_PART_TOTAL], 1e-13);
     AT_MOST(share_of(&split, "time")->floor[0][BR_PART_TOTAL], 1e-9);
     AT_MOST(share_of(&split, "space")->floor[0][BR_PART_TOTAL], 1e-9);
     struct br_share share = {.error = {{NAN}}, .floor = {{1e-15}}};
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    assert_false(br_share_known(&share, 0, BR_PART_TOTAL));
     share.error[0][0] = 1e-15;
-    assert_false(br_share_told(&share, 0, BR_PART_TOTAL));
+    assert_false(br_share_known(&share, 0, BR_PART_TOTAL));
     br_scene_clear(&scene);
 }
 
@@ -222,7 +222,7 @@ TEST(test_orders)
                          orders[i].steps * (orders[i].over == IN_TIME ? 1u << j : 1), method);
             check_sums(&split[j]);
             const struct br_share *fine = share_of(&split[j], orders[i].name);
-            assert_true(orders[i].over != IN_MU || br_share_told(fine, 0, BR_PART_BENDING));
+            assert_true(orders[i].over != IN_MU || br_share_known(fine, 0, BR_PART_BENDING));
             for (int part = 0; part < BR_PARTS && j > 0; part++)
                 if (orders[i].part == BR_PARTS || (int)orders[i].part == part)
                     check_order(i, share_of(&split[j - 1], orders[i].name)->error[0][part],
@@ -249,7 +249,7 @@ TEST(test_iteration)
             const struct br_share *share = share_of(&split, "iteration");
             assert_null(share->none);
             AT_MOST(share->error[0][BR_PART_BENDING], last / 5);
-            assert_true(br_share_told(share, 0, BR_PART_BENDING));
+            assert_true(br_share_known(share, 0, BR_PART_BENDING));
             check_sums(&split);
             last = share->error[0][BR_PART_BENDING];
         }

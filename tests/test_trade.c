@@ -158,7 +158,7 @@ TEST(test_errors_are_a_study_s)
     request.repeats = 1;
     for (size_t m = 0; m < 2; m++) {
         request.norm = norm[m];
-        MUST(br_trials_hold(trial, COUNT, &request, &err));
+        MUST(br_trials_run(trial, COUNT, &request, &err));
         for (size_t i = 0; i < COUNT; i++) {
             struct br_study study =
                 br_test_study(&scene, &br_judge_exact, 1, &trial[i].at.n, 1, &trial[i].at.steps);
@@ -203,7 +203,7 @@ TEST(test_ends)
     };
     struct br_trial_request request = br_trial_request_default(&scene);
     request.time_limit = 0.02;
-    MUST(br_trials_hold(trial, 3, &request, &err));
+    MUST(br_trials_run(trial, 3, &request, &err));
     assert_int_equal(trial[0].end, BR_TRIAL_FAILED);
     assert_non_null(strstr(trial[0].failure.message, "mu > 0"));
     assert_int_equal(trial[1].end, BR_TRIAL_OVER);
@@ -215,7 +215,7 @@ TEST(test_ends)
     }
     assert_true(br_trial_bound(&trial[2]) > 0);
     request.observer = &(const struct br_observer){.stop = stop_at_once};
-    REFUSED(br_trials_hold(trial, 3, &request, &err), BR_INTERRUPTED, "interrupted");
+    REFUSED(br_trials_run(trial, 3, &request, &err), BR_INTERRUPTED, "interrupted");
     br_scene_clear(&scene);
 }
 
@@ -286,7 +286,7 @@ TEST(test_lists_are_tried)
 
 /* By the steps of each: whether the seconds are right as well is a question for a quiet machine.
  * The dearest are left out, and have no result. */
-TEST(test_outlook)
+TEST(test_forecast)
 {
     static const size_t n[] = {40, 160}, steps[] = {10, 100, 10000};
     static const double tolerance[] = {1e-2, 1e-4};
@@ -302,22 +302,22 @@ TEST(test_outlook)
     double held = 0, dearest = 0;
     t->request.threads = 1;
     MUST(br_trade_foresee(t, &err));
-    assert_int_equal(t->outlook.held, t->count);
-    assert_int_equal(t->outlook.left, 0);
+    assert_int_equal(t->forecast.planned, t->count);
+    assert_int_equal(t->forecast.left, 0);
     for (size_t i = 0; i + 2 < 4 * 3; i += 3) /* two methods on two meshes */
         assert_true(t->trial[i + 2].foreseen > 2 * t->trial[i].foreseen);
-    t->request.seconds = 0.3 * t->outlook.seconds;
+    t->request.seconds = 0.3 * t->forecast.seconds;
     MUST(br_trade_foresee(t, &err));
-    assert_true(t->outlook.left > 0 && t->outlook.held > 1);
-    assert_int_equal(t->outlook.left + t->outlook.held, t->count);
+    assert_true(t->forecast.left > 0 && t->forecast.planned > 1);
+    assert_int_equal(t->forecast.left + t->forecast.planned, t->count);
     for (size_t i = 0; i < t->count; i++)
         if (t->trial[i].end != BR_TRIAL_LEFT) {
             held += t->trial[i].foreseen;
             dearest = fmax(dearest, t->trial[i].foreseen);
         }
     assert_true(held <= t->request.seconds);
-    MUST(br_trade_hold(t, &err));
-    assert_int_equal(br_trade_tally(t, BR_TRIAL_LEFT), t->outlook.left);
+    MUST(br_trade_run(t, &err));
+    assert_int_equal(br_trade_tally(t, BR_TRIAL_LEFT), t->forecast.left);
     for (size_t i = 0; i < t->count; i++) {
         const bool left = t->trial[i].end == BR_TRIAL_LEFT;
         assert_true(!left || t->trial[i].foreseen >= dearest);

@@ -350,7 +350,7 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
                                              .steps = t->one->steps,
                                              .prediction = &t->prediction};
     if (!status)
-        status = br_look_ahead(&planned, &t->warnings, &said);
+        status = br_check_ahead(&planned, &t->warnings, &said);
     for (size_t i = 0; i < t->warnings.count; i++)
         t->verdict->warned |= 1u << t->warnings.list[i].kind;
     t->verdict->known = t->prediction.known;

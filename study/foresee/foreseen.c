@@ -48,7 +48,7 @@ void br_foreseen_add_march(struct br_foreseen *w, const struct br_planned_march 
     add(w, &row);
 }
 
-/* A march that warms up, then repeats as long as they are allowed. */
+/* A warm-up, the repeats that the request allows, and a march for the error. */
 void br_foreseen_add_trial(struct br_foreseen *w, const struct br_trial *t,
                            const struct br_trial_request *request)
 {
@@ -57,7 +57,7 @@ void br_foreseen_add_trial(struct br_foreseen *w, const struct br_trial *t,
         .scene = request->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
     struct br_foreseen_march row = row_of("trial", &planned);
     const double repeats = ceil(request->repeat_seconds / row.seconds);
-    row.seconds *= 2 + fmin(repeats, (double)request->repeats); /* and once beside the judge */
+    row.seconds *= 2 + fmin(repeats, (double)request->repeats);
     add(w, &row);
 }
 

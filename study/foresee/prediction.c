@@ -8,11 +8,11 @@
 #include "solver/laws.h"
 #include "study/foresee/prediction_probes.h"
 
-/* What an error that was extrapolated is unsure by: a factor. */
+/* The uncertainty of an extrapolated error: a factor. */
 static const double doubt = 3;
 
-/* The same of a distance from a reference that is surer than that: the norm sees it at levels and
- * in elements of the run alone. */
+/* The same of a distance from a surer reference: the norm samples only the levels and elements of
+ * the run. */
 static const double measured_doubt = 2;
 
 static bool can_switch(const struct br_scene *scene)
@@ -21,35 +21,35 @@ static bool can_switch(const struct br_scene *scene)
            scene->friction.law != BR_FRICTIONLESS;
 }
 
-/* A reference of order one is off by at most so many times what its check differs from it. */
+/* The error of a reference of order one over its distance from its check, at most. */
 static const double of_check = 1.5;
 
-/* Orders in space that are told apart. */
+/* The range of orders that reference_error distinguishes. */
 static const double lowest_order = 0.25, highest_order = 1;
 
-/* Round-off that is found may be so many times what is predicted. */
+/* The largest ratio of true to predicted round-off. */
 static const double of_round_off = 4;
 
-/* An interval is of use if its ends differ by at most this factor, or its upper end is below the
- * solution itself or near to the error that is expected. */
+/* An interval is useful if its ends differ by at most the factor `widest`, or if its upper end is
+ * below the solution (`all`) or within the factor `near` of the expected error. */
 static const double widest = 300, all = 1, near = 10;
 
 /* Exponents of the tolerance: least, expected, most. */
 static const double by_tolerance[] = {0.6, 0.9, 1.2};
 
-/* Orders below are no convergence. */
+/* A lower observed order counts as no convergence. */
 static const double least_order = 0.5;
 
-/* What a run is compared with sees loads and initial data as so many times its levels and elements
- * do; what is less than this share of one is no loss. */
+/* The references sample loads and initial data with so many times the levels and elements of the
+ * run. A share below `least_share` that they miss is ignored. */
 enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
 static const double least_share = 1e-3;
 
 static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
 
-/* How large a field becomes: at least, and at most, by the marches that go to the end; a coarse
- * mesh may sway far more than a fine one. Where the field rests in one of them, the other field's.
- */
+/* The smallest and the largest size of a field's solution, among the marches up to t = T: a coarse
+ * mesh may move far more than a fine one. If the field is at rest in a march, the size of the other
+ * field counts. */
 struct size {
     double least, most;
 };
@@ -59,7 +59,7 @@ static struct size solution_size(const struct br_probe_set *s, int kind)
     struct size size = {INFINITY, 0};
     for (int i = 0; i < BR_PROBES; i++) {
         const double *seen = s->probe[i].study.reference_size;
-        if (!s->probe[i].held || i == BR_PROBE_START)
+        if (!s->probe[i].active || i == BR_PROBE_START)
             continue;
         const double one = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
         size.least = fmin(size.least, one);
@@ -73,8 +73,8 @@ static double cell_error(const struct br_probe *p, size_t cell, int kind)
     return p->study.cell[cell].error[part_of[kind]];
 }
 
-/* What e, which is beyond its cell, may be elsewhere: by the least order, the expected one and the
- * most. */
+/* Extrapolates the error e of a cell to a resolution that is `beyond` times finer, by the least,
+ * the expected and the highest order. */
 static struct br_predicted by_orders(double e, double beyond, const double order[3])
 {
     return (struct br_predicted){
@@ -85,8 +85,8 @@ static struct br_predicted by_orders(double e, double beyond, const double order
     };
 }
 
-/* Orders between which the run's lies, when so much was observed and theory says q; and, if it
- * is spoilt, at least `spoilt`. */
+/* The least, the expected and the highest order of the run, from the observed order and the order q
+ * of theory; the least is at most `spoilt`. */
 static void bracket(double observed, double q, double spoilt, double order[3])
 {
     const bool trusted = observed >= least_order;
@@ -97,7 +97,7 @@ static void bracket(double observed, double q, double spoilt, double order[3])
 
 /* ---- the run itself ---- */
 
-/* How deep what happens at an end reaches into a field by t = T, by waves and by diffusion, m. */
+/* The depth to which an event at an end reaches by t = T, by waves and by diffusion, m. */
 static double layer(const struct br_scene *s, int kind)
 {
     const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, s->duration);
@@ -108,19 +108,19 @@ static double layer(const struct br_scene *s, int kind)
     return kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
 }
 
-/* What a force at the tip moves on elements of h far wider than the layer weighs as much as an
- * element: by how much the layer itself moves further, in L2. The worst is a force on a rod, whose
- * tip moves by 1/h, and a moment on a beam, by 1/h^2. */
+/* A factor, in L2, by which a layer at the tip moves more than elements that are wider than the
+ * layer: these move the mass of a whole element. The worst cases are a force on a rod, whose tip
+ * moves by 1/h, and a moment on a beam, by 1/h^2. */
 static double unresolved(const struct br_scene *s, int kind, size_t n)
 {
     const double wide = br_mesh_size(s, n) / layer(s, kind);
     return pow(fmax(1, wide), kind == BR_AXIAL ? 0.5 : 1.5);
 }
 
-/* How far a reference may be off, of whose elements or steps two cells have 1/a and 1/b and these
- * distances from it: by the order q with (a^q - 1) / (b^q - 1) as their ratio. Where a layer is
- * narrower than all of them, finer ones change little, or ever more, and nothing converges: then
- * the layer may be off by `unseen` times that. */
+/* A bound of the error of a reference. Two cells have 1/a and 1/b of its elements or steps, and the
+ * distances `coarse` and `finer` from it; the order q solves coarse/finer = (a^q - 1)/(b^q - 1).
+ * If a layer is narrower than all elements, nothing converges: then the bound is `unseen` times
+ * larger. */
 static double reference_error(double coarse, double a, double finer, double b, double unseen)
 {
     double low = lowest_order, high = highest_order;
@@ -134,12 +134,12 @@ static double reference_error(double coarse, double a, double finer, double b, d
     return of_check * finer / (pow(b, low) - 1) * (low > lowest_order ? 1 : unseen);
 }
 
-/* What steps by a tolerance gather, in tolerances, where no switch is in the way. */
+/* The accumulated error of steps by a tolerance, in tolerances, without switching. */
 static const double gathered = 10;
 
-/* The same of the run's own reference: in time by its check's steps and the run's, in space by
- * three meshes. Two tolerances may choose the same steps, which differ by nothing: so one is not
- * surer than what it may gather. */
+/* A bound of the error of the run's own reference: in time from the steps of its check and of the
+ * run, in space from three meshes. Two tolerances may choose the same steps, with no difference: so
+ * the bound is at least the accumulated error of steps by a tolerance. */
 static double whole_reference_error(const struct br_probe *p, int kind)
 {
     const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
@@ -156,7 +156,8 @@ static double whole_reference_error(const struct br_probe *p, int kind)
            reference_error(coarse, a, finer, 2, unresolved(&p->scene, kind, p->study.reference.n));
 }
 
-/* A distance from a reference that may be off by so much, and is unsure by a factor beside that. */
+/* An error from a distance e to a reference with an error of at most `unsure`; `factor` widens the
+ * interval. */
 static struct br_predicted around(double e, double unsure, double factor)
 {
     return (struct br_predicted){
@@ -167,22 +168,22 @@ static struct br_predicted around(double e, double unsure, double factor)
     };
 }
 
-/* A cell's distance from the reference, and how sure that is. Where a tip comes to rest decides
- * more than a finer reference can tell. */
+/* A cell's error from its distance to the reference. The interval is wider if the tip can switch: a
+ * finer reference does not show how far off the point is where the tip comes to rest. */
 static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
 {
     return around(cell_error(p, cell, kind), whole_reference_error(p, kind),
                   can_switch(&p->scene) ? doubt : measured_doubt);
 }
 
-/* The probe whose reference is surer of the run's error; but one of equal steps may have missed
- * what dies away within a step, and is not believed where the other one contradicts it. NULL: the
- * run itself was not marched. */
+/* The probe with the surer reference for the run's error. Equal steps may miss what decays within a
+ * step: their probe is not used if BR_PROBE_TIGHT contradicts it. NULL: the run itself was not
+ * marched. */
 static const struct br_probe *whole_probe(const struct br_probe_set *s, int kind)
 {
     const struct br_probe *tight = &s->probe[BR_PROBE_TIGHT], *whole = &s->probe[BR_PROBE_WHOLE];
-    if (!whole->held || !tight->held)
-        return whole->held ? whole : tight->held ? tight : NULL;
+    if (!whole->active || !tight->active)
+        return whole->active ? whole : tight->active ? tight : NULL;
     const struct br_predicted a = distance(tight, BR_WHOLE_RUN, kind);
     const struct br_predicted b = distance(whole, BR_WHOLE_RUN, kind);
     return b.high < a.low || a.high <= b.high ? tight : whole;
@@ -197,14 +198,14 @@ static struct br_predicted measured_time(const struct br_probe *p, int kind)
     return around(e, reference_error(e, p->ratio, finer, 3, 1), doubt);
 }
 
-/* And what the steps of an iteration leave: it adds up, if it always points the same way. */
+/* Adds the error of an iteration: it accumulates over the steps if its sign stays the same. */
 static struct br_predicted extrapolated_time(const struct br_probe_set *s, int kind)
 {
     const struct br_planned_march *o = s->planned;
     const struct br_probe *p = &s->probe[BR_PROBE_TIME], *iterated = &s->probe[BR_PROBE_ITERATION];
     const double q = o->method->contact->at_new_step ? o->method->scheme->order : 1;
     const double fine = cell_error(p, 1, kind), observed = log2(cell_error(p, 0, kind) / fine);
-    const double left = iterated->held ? iterated->beyond * cell_error(iterated, 0, kind) : 0;
+    const double left = iterated->active ? iterated->beyond * cell_error(iterated, 0, kind) : 0;
     double order[3];
     bracket(observed, q, can_switch(o->scene) ? fmin(1, q) : q, order);
     struct br_predicted e = by_orders(fine, p->beyond, order);
@@ -214,12 +215,12 @@ static struct br_predicted extrapolated_time(const struct br_probe_set *s, int k
     return e;
 }
 
-/* What the run's first steps are off by, it is off by somewhere. */
+/* The error of the run is at least that of its first steps. */
 static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_predicted e,
                                         int kind)
 {
     const struct br_probe *start = &s->probe[BR_PROBE_START];
-    const double first = start->held ? cell_error(start, 0, kind) : 0;
+    const double first = start->active ? cell_error(start, 0, kind) : 0;
     e.error = fmax(e.error, first);
     e.low = fmax(e.low, first / doubt);
     e.high = fmax(e.high, first * doubt);
@@ -270,13 +271,13 @@ static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
     const struct br_predicted time = time_error(s, kind), space = space_error(s, kind);
     return (struct br_predicted){
         .error = time.error + space.error,
-        .low = fmax(time.low, space.low), /* they may point against each other */
+        .low = fmax(time.low, space.low), /* they may have opposite signs */
         .high = time.high + space.high,
         .order = NAN,
     };
 }
 
-/* Of a field that rests in every march, 0. */
+/* An error relative to the solution; 0 if the field is at rest in every march. */
 static struct br_predicted relative(struct br_predicted e, struct size size)
 {
     if (e.high == 0)
@@ -290,16 +291,16 @@ static bool is_modelled(const struct br_scene *scene, int kind)
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
-/* Whether a march has followed what happens at t = 0, however quick that is: one by a tolerance. */
+/* Whether a march with a tolerance has resolved the start, however quick it is. */
 static bool start_is_seen(const struct br_probe_set *s)
 {
     const struct br_probe *start = &s->probe[BR_PROBE_START];
-    return s->probe[BR_PROBE_TIGHT].held ||
-           (start->held && start->study.reference_method.scheme->adaptive);
+    return s->probe[BR_PROBE_TIGHT].active ||
+           (start->active && start->study.reference_method.scheme->adaptive);
 }
 
-/* Whether a field's slowest vibration, by the first mode of a clamped and free one, is quicker than
- * steps of k, s, and more than one swing. */
+/* Whether the slowest vibration of a field, the first clamped-free mode, is quicker than steps of
+ * k, s, and is not overdamped. */
 static bool swings_within(const struct br_scene *s, int kind, double k)
 {
     const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, k);
@@ -311,12 +312,12 @@ static bool swings_within(const struct br_scene *s, int kind, double k)
 static double finest_step(const struct br_probe_set *s)
 {
     const enum br_probe_kind finest =
-        s->probe[BR_PROBE_WHOLE].held ? BR_PROBE_WHOLE : BR_PROBE_TIME;
+        s->probe[BR_PROBE_WHOLE].active ? BR_PROBE_WHOLE : BR_PROBE_TIME;
     return s->planned->scene->duration / (double)s->probe[finest].study.reference.steps;
 }
 
-/* Whether the tip starts pressed into a contact that throws it back within the steps of every
- * march: what energy that gives the rod, no march knows. */
+/* Whether the tip starts pressed into a contact that releases it within one step of every march: no
+ * march then resolves the energy that the rod receives. */
 static bool release_unseen(const struct br_probe_set *s)
 {
     const struct br_scene *scene = s->planned->scene;
@@ -329,7 +330,7 @@ static bool release_unseen(const struct br_probe_set *s)
            scene->contact.stiffness > br_contact_limit_stiffness(&field);
 }
 
-/* Whether swings that no march follows may open, close or slip where the marches do not. */
+/* Whether vibrations that no march resolves may open or close the contact, or slip. */
 static bool switches_unseen(const struct br_probe_set *s)
 {
     const struct br_scene *scene = s->planned->scene;
@@ -339,9 +340,8 @@ static bool switches_unseen(const struct br_probe_set *s)
             (scene->bending.modelled && swings_within(scene, BR_BENDING, k)));
 }
 
-/* What a peak of the load between two steps of the finest march may have left, relative to the
- * solution: friction keeps the most that was reached, and steps over a peak miss the square of
- * these, over T, of it. */
+/* The error by a peak of the load between two steps of the finest march, relative to the solution:
+ * friction keeps the largest displacement, and steps over a peak miss a share of (k/T)^2 of it. */
 static double unseen_peak(const struct br_probe_set *s)
 {
     static const double curved = 10; /* a peak: how much more than the load's mean curvature */
@@ -385,8 +385,8 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
         snprintf(p->why, sizeof p->why, "no march follows %s",
                  release_unseen(s) ? "how the contact, pressed at t = 0, throws the tip back"
                                    : "the swings from t = 0 on, in which the tip may switch");
-    /* Where an error may be as large as the solution itself, nothing of the answer need be right,
-     * and by how much more it may be off is not told by marches that are as far off. */
+    /* If an error may be as large as the solution, the marches may be as wrong, too: they give no
+     * upper bound. */
     struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
                                          &p->whole};
     for (size_t i = 0; i < sizeof each / sizeof *each && p->bounded && useful; i++)
@@ -428,7 +428,7 @@ double br_predict_round_off(const struct br_planned_march *o)
     return largest;
 }
 
-/* What is so short that even what the run is compared with steps over it; NULL: nothing. */
+/* Names loads or initial data that are too short even for the references; NULL: none. */
 static const char *too_short(const struct br_planned_march *o)
 {
     struct br_planned_march finer = *o;
@@ -436,7 +436,7 @@ static const char *too_short(const struct br_planned_march *o)
     struct br_error err;
     finer.steps *= FINER_LEVELS;
     finer.n *= FINER_ELEMENTS;
-    if (br_look_at_loads(&finer, &unseen, &err))
+    if (br_check_loads(&finer, &unseen, &err))
         return "a load is";
     if (unseen.unseen[BR_WARN_INITIAL] > least_share)
         return "the initial data are";
@@ -451,7 +451,7 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
     const double begun = br_seconds();
     struct br_probe_set set;
     *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
-    const enum br_status status = br_probes_hold(&set, planned, err);
+    const enum br_status status = br_probes_march(&set, planned, err);
     if (!status)
         judge(p, &set);
     const char *unseen = !status && p->known ? too_short(planned) : NULL;

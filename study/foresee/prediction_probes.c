@@ -7,13 +7,13 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* A solve costs as much as so many elements more than it has; an element whose load must be
- * evaluated anew at each time, as so many others. */
+/* The overhead of a solve, in elements; and the cost of an element whose load must be evaluated at
+ * each time level, in elements. */
 static const double overhead = 700, evaluated = 30;
 
-/* Elements times solves of all probes together: at least, at most, and as a share of the run's. */
+/* Work (elements times solves) of all probes: at least, at most, and as a share of the run's. */
 static const double least_work = 1e7, most_work = 5e7, most_share = 0.5;
-static const double chosen_work = 6e7; /* where the run chooses its steps */
+static const double chosen_work = 6e7; /* for an adaptive run */
 static const double chosen_stages = 12;
 static const double time_share = 0.5, start_share = 0.2, space_share = 0.3;
 
@@ -29,15 +29,15 @@ enum {
     FIRST_REFINED = 1024
 };
 
-/* A reference is sure enough where its check differs from it by so much of the run's error, or of
- * the solution. */
+/* A reference is sure enough if its check differs from it by at most these shares of the run's
+ * error or of the solution. */
 static const double sure = 0.2, negligible = 1e-5;
 
-/* By a tolerance: that of extrapolating probes is at least `loosest`; a reference's is smaller than
- * the run's by `tighter`, its check's by the root of that. */
+/* Tolerances: a probe for extrapolation has at least `loosest`; a reference divides the run's by
+ * `tighter`, and its check by the square root of `tighter`. */
 static const double loosest = 1e-4, tighter = 25, tightest = 1e-12;
 
-/* That of a reference for equal steps; its check's is larger by the same. */
+/* The tolerance of a reference for a run with equal steps. */
 static const double tight = 1e-6;
 
 static double stages(const struct br_method *m)
@@ -53,7 +53,7 @@ static bool is_evaluated(const struct br_load *load)
     return anew;
 }
 
-/* A solve on so many elements. */
+/* The work of a solve on so many elements. */
 static double solve(const struct br_planned_march *o, double n)
 {
     const bool anew = (o->scene->axial.modelled && is_evaluated(&o->scene->axial.load)) ||
@@ -100,13 +100,13 @@ struct br_method br_accurate_method(const struct br_method *own, const char *sch
     return m;
 }
 
-/* By equal steps: of the highest order where that is reached. */
+/* The most accurate method with equal steps. */
 static struct br_method best_method(const struct br_planned_march *o)
 {
     return br_accurate_method(o->method, follows_at_once(o) ? "euler" : "esdirk4");
 }
 
-/* The same by a tolerance, smaller than the run's, or than that of a check. */
+/* The accurate method with adaptive steps: divides the run's tolerance by `times`. */
 static struct br_method tight_method(const struct br_method *own, double times)
 {
     const double from = own->scheme->adaptive ? own->tolerance : tight * tighter;
@@ -115,12 +115,12 @@ static struct br_method tight_method(const struct br_method *own, double times)
     return m;
 }
 
-/* Of the whole scene, against a fine run. */
+/* A study of the whole scene against a fine run. */
 static void set_study(struct br_probe *p, const struct br_planned_march *o,
                       const struct br_method *method, const struct br_method *reference,
                       struct br_resolution fine)
 {
-    p->held = true;
+    p->active = true;
     p->scene = *o->scene;
     p->study = (struct br_study){
         .scene = &p->scene,
@@ -143,7 +143,7 @@ struct finer {
     size_t elements, steps;
 };
 
-/* On a check's mesh, too, where that is not very fine. */
+/* The refinement in space; unless n is large, the check's mesh is finer than the run's, too. */
 static size_t refinement(size_t n)
 {
     size_t ratio = n < MANY_N ? 4 : 2;
@@ -178,7 +178,7 @@ static void set_whole_cells(struct br_probe *p, const struct br_planned_march *o
     p->study.cell_method = p->method;
 }
 
-/* Work of the run, its steps on the fine mesh, and marches of the reference's method. */
+/* Work of the run, of its steps on the fine mesh, and of the marches by the reference's method. */
 static double whole_work(const struct br_planned_march *o, const struct br_method *best,
                          struct finer by)
 {
@@ -195,13 +195,13 @@ static bool is_affordable(const struct br_planned_march *o, struct finer by)
     return whole_work(o, &best, by) <= budget(o);
 }
 
-/* Steps that a scheme may choose within a share of the budget. */
+/* The most steps of an adaptive scheme, within a share of the budget. */
 static size_t most_steps(const struct br_planned_march *o, double n)
 {
     return 1 + (size_t)(budget(o) / 4 / (solve(o, n) * chosen_stages));
 }
 
-/* Where there are not so many time levels that a tolerance decides little. */
+/* Sets nothing if there are so many time levels that a tolerance has little effect. */
 static void set_tight(struct br_probe *p, const struct br_planned_march *o)
 {
     const size_t finer = refinement(o->n), most = most_steps(o, (double)(o->n * finer));
@@ -216,7 +216,7 @@ static void set_tight(struct br_probe *p, const struct br_planned_march *o)
         set_whole_cells(p, o, &check, &reference, (struct finer){finer, 1});
 }
 
-/* Against equal steps; where the run chooses its own, against as many as there is room for. */
+/* Against equal steps; for an adaptive run, against as many as the budget allows. */
 static void set_whole(struct br_probe *p, const struct br_planned_march *o, struct finer by)
 {
     struct br_method best = best_method(o);
@@ -231,8 +231,8 @@ static void set_whole(struct br_probe *p, const struct br_planned_march *o, stru
 
 /* ---- time ---- */
 
-/* The run's few steps against many times as many; a second cell between them is there for the
- * levels at which the solution's size is seen. */
+/* The few steps of the run against many times as many. A second cell between them has more levels,
+ * at which the size of the solution is sampled. */
 static void measure_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
     const struct br_method best = best_method(o);
@@ -255,7 +255,7 @@ static bool is_prime(size_t a)
     return a > 1 && divisor * divisor > a;
 }
 
-/* a, 2a against 8a steps, a prime: their levels are not those at which a periodic load is zero or
+/* a and 2a steps against 8a steps. A prime a avoids levels at which a periodic load is zero or
  * largest. */
 static void extrapolate_time(struct br_probe *p, const struct br_planned_march *o, double most)
 {
@@ -298,8 +298,8 @@ static void set_time(struct br_probe *p, const struct br_planned_march *o)
         extrapolate_time(p, o, most);
 }
 
-/* What an iteration leaves in a step adds up over the steps, and is lost among the errors of the
- * few steps of an extrapolation. */
+/* The error of an iteration accumulates over the steps; in an extrapolation from few steps other
+ * errors would hide it. */
 static void set_iteration(struct br_probe *p, const struct br_probe *time,
                           const struct br_planned_march *o)
 {
@@ -314,9 +314,9 @@ static void set_iteration(struct br_probe *p, const struct br_probe *time,
     set_study(p, o, o->method, &direct, (struct br_resolution){p->n[0], p->steps[0]});
 }
 
-/* The run's first steps against steps by a tolerance, which find what dies away within a step; if
- * `equal`, and more of them, against smaller equal ones. Where the beam follows its load at once,
- * few against far smaller ones: what slips at t = 0 may stick soon after. */
+/* The first steps of the run against adaptive steps, which resolve what decays within a step; if
+ * `equal`, more first steps against smaller equal steps. If the beam follows its load at once, few
+ * steps against far smaller ones: a tip that slips at t = 0 may stick soon after. */
 static void set_start(struct br_probe *p, const struct br_planned_march *o, bool equal)
 {
     const bool at_once = follows_at_once(o);
@@ -355,7 +355,7 @@ static void set_space(struct br_probe *p, const struct br_planned_march *o)
     const double a_step =
         (solve(o, (double)finest) + solve(o, (double)p->n[0]) + solve(o, (double)p->n[1])) *
         stages(&best);
-    /* Where a tolerance chooses, the levels say nothing of the steps that are needed. */
+    /* For an adaptive run, the levels say nothing about the number of steps. */
     p->steps[0] = least(o->method->scheme->adaptive ? SIZE_MAX : o->steps,
                         (size_t)(space_share * budget(o) / a_step) + 1);
     set_study(p, o, &best, &best, (struct br_resolution){finest, p->steps[0]});
@@ -368,9 +368,9 @@ bool br_probe_failed(const struct br_probe *p, char why[200])
 {
     const struct br_study *s = &p->study;
     const struct br_error *failure = &s->failure;
-    for (size_t i = 0; p->held && !failure->status && i < br_study_cells(s); i++) {
+    for (size_t i = 0; p->active && !failure->status && i < br_study_cells(s); i++) {
         if (s->path && (i == BR_WHOLE_TIME || i == BR_WHOLE_SPACE))
-            continue; /* these only tell what the error comes from */
+            continue; /* these only split the error into time and space */
         if (s->cell[i].unstable) {
             snprintf(why, 200, "the lagged contact is beyond its stability limit%s",
                      p->measured ? "" : " at the steps of a cheap march");
@@ -378,7 +378,7 @@ bool br_probe_failed(const struct br_probe *p, char why[200])
         }
         failure = &s->cell[i].failure;
     }
-    if (!p->held || !failure->status)
+    if (!p->active || !failure->status)
         return false;
     snprintf(why, 200, "a march to compare with failed: %.150s", failure->message);
     return true;
@@ -390,16 +390,17 @@ static void forget(struct br_probe *p)
     *p = (struct br_probe){0};
 }
 
-/* Marches a probe that is held. That a reference has made too many steps is its failure, not the
- * call's. */
+/* Marches a probe if it is active. A reference with too many steps is a failure of the probe, not
+ * of the call. */
 static enum br_status march(struct br_probe *p, struct br_error *err)
 {
     struct br_error failure = {0};
-    const bool lost = p->held && br_study_run_each(&p->study, 1, 1, NULL, &failure) == BR_NO_MEMORY;
+    const bool lost =
+        p->active && br_study_run_each(&p->study, 1, 1, NULL, &failure) == BR_NO_MEMORY;
     return lost ? br_fail(err, BR_NO_MEMORY, "%s", failure.message) : BR_OK;
 }
 
-/* The same, and forgets one that fails. */
+/* Marches a probe, and clears it if it fails. */
 static enum br_status try_probe(struct br_probe *p, struct br_error *err)
 {
     char why[200];
@@ -412,7 +413,7 @@ static enum br_status try_probe(struct br_probe *p, struct br_error *err)
 /* Whether the check is near enough to the reference. */
 static bool is_sure(const struct br_probe *p)
 {
-    bool all = p->held;
+    bool all = p->active;
     for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++) {
         const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
         const double error = p->study.cell[BR_WHOLE_RUN].error[part];
@@ -431,8 +432,8 @@ static double off(const struct br_probe *p, enum br_whole_cell cell)
     return fmax(axial, bending);
 }
 
-/* Elements and steps of the next reference; where there is no room for both, of what the last one
- * was less sure of. False: no room. */
+/* Refines the elements and steps of the reference; if the budget does not allow both, the one of
+ * which the last reference was less sure. False: the budget allows none. */
 static bool refine(const struct br_planned_march *o, const struct br_probe *last, struct finer *by)
 {
     const struct finer both = {4 * by->elements, 4 * by->steps}, space = {both.elements, by->steps},
@@ -447,8 +448,9 @@ static bool refine(const struct br_planned_march *o, const struct br_probe *last
     return false;
 }
 
-/* How much finer the first reference is. Where friction keeps what peaks of the load have left, two
- * references that both step over one agree: so it has as many steps as there is room for. */
+/* The refinement of the first reference. Two references that both step over a peak of the load
+ * agree, but friction keeps the effect of the peak: a beam that follows its load at once therefore
+ * gets as many steps as the budget allows. */
 static struct finer first_refinement(const struct br_planned_march *o)
 {
     struct finer by = {refinement(o->n), 4};
@@ -457,7 +459,7 @@ static struct finer first_refinement(const struct br_planned_march *o)
     return by;
 }
 
-/* By ever finer references until one is sure, or there is no room for more. */
+/* Refines the reference until it is sure or the budget is used up. */
 static enum br_status march_whole(struct br_probe *whole, const struct br_planned_march *o,
                                   struct br_error *err)
 {
@@ -468,7 +470,7 @@ static enum br_status march_whole(struct br_probe *whole, const struct br_planne
         forget(whole);
         set_whole(whole, o, by);
         status = try_probe(whole, err);
-        more = whole->held && !is_sure(whole) && refine(o, whole, &by);
+        more = whole->active && !is_sure(whole) && refine(o, whole, &by);
     }
     return status;
 }
@@ -483,13 +485,13 @@ static enum br_status march_itself(struct br_probe *probe, const struct br_plann
         return status;
     if (!o->method->scheme->adaptive)
         return march_whole(whole, o, err);
-    if (chosen->held)
+    if (chosen->active)
         return BR_OK;
     set_whole(whole, o, (struct finer){.elements = refinement(o->n)});
     return try_probe(whole, err);
 }
 
-/* What happens at t = 0, where no steps by a tolerance have seen it. */
+/* The start of the run, by adaptive steps where possible. */
 static enum br_status march_start(struct br_probe *probe, const struct br_planned_march *o,
                                   struct br_error *err)
 {
@@ -500,21 +502,21 @@ static enum br_status march_start(struct br_probe *probe, const struct br_planne
         set_start(start, o, false);
         status = try_probe(start, err);
     }
-    if (status || start->held || (probe[BR_PROBE_WHOLE].held && !at_once))
+    if (status || start->active || (probe[BR_PROBE_WHOLE].active && !at_once))
         return status;
     set_start(start, o, true);
     return march(start, err);
 }
 
-enum br_status br_probes_hold(struct br_probe_set *set, const struct br_planned_march *o,
-                              struct br_error *err)
+enum br_status br_probes_march(struct br_probe_set *set, const struct br_planned_march *o,
+                               struct br_error *err)
 {
     *set = (struct br_probe_set){.planned = o};
     struct br_probe *probe = set->probe;
     enum br_status status = march_itself(probe, o, err);
-    if (status || probe[BR_PROBE_TIGHT].held)
+    if (status || probe[BR_PROBE_TIGHT].active)
         return status;
-    if (!probe[BR_PROBE_WHOLE].held) {
+    if (!probe[BR_PROBE_WHOLE].active) {
         set_time(&probe[BR_PROBE_TIME], o);
         set_iteration(&probe[BR_PROBE_ITERATION], &probe[BR_PROBE_TIME], o);
         set_space(&probe[BR_PROBE_SPACE], o);

@@ -33,7 +33,7 @@ double br_march_seconds(const struct br_planned_march *o)
     return 1e-9 * (double)o->steps * br_method_cost(o->method, o->scene, o->n);
 }
 
-/* The number behind a word in a file, in so many bytes; INFINITY: it is not there. */
+/* The number after a word in a file, times its unit in bytes; INFINITY: not found. */
 static double read_bytes(const char *path, const char *word, double unit)
 {
     char line[256];
@@ -57,7 +57,7 @@ static double group_limit(void)
     return isfinite(most) && isfinite(used) ? fmax(most - used, 0) : most;
 }
 
-/* What is left of the address space. */
+/* The free part of the address space. */
 static double address_space(void)
 {
     struct rlimit limit;
@@ -101,8 +101,8 @@ static enum br_status check_time(const struct br_planned_march *o, struct br_war
     return BR_OK;
 }
 
-enum br_status br_look_at_resources(const struct br_planned_march *o, struct br_warnings *w,
-                                    struct br_error *err)
+enum br_status br_check_resources(const struct br_planned_march *o, struct br_warnings *w,
+                                  struct br_error *err)
 {
     const enum br_status status = br_fits_memory(o, br_memory_available(), err);
     return status ? status : check_time(o, w, err);

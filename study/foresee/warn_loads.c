@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Warns of loads and initial data that time levels, elements or nodes do not see. What they do see
- * is compared with integrals on meshes on which the function is proved to be resolved, so that
- * nothing of it can hide between the places. */
+/* Warns of loads and initial data that the time levels, elements or nodes miss. The discrete values
+ * are compared with integrals on meshes that are proved to resolve the function, so that no feature
+ * between the points is lost. */
 #include "study/foresee/warnings.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 
 #include "solver/proof.h"
 
-/* A load or initial data: one of load, force and data. */
-struct thing {
+/* A load or initial data: exactly one of load, force and data is set. */
+struct input {
     const char *name;
     bool modelled;
     const struct br_load *load;
@@ -18,43 +18,43 @@ struct thing {
     const struct br_function *slope; /* of data; NULL: linear between the nodes */
 };
 
-/* What is seen of a thing. */
-struct sight {
+/* What the discretisation misses of an input. */
+struct loss {
     const struct br_planned_march *planned;
-    const struct thing *thing;
-    double missed, size; /* what is not seen, and all: impulses, forces, or squares of data */
-    double worst, place; /* the step that misses most, and its middle, s; or the node's, m */
-    bool unknown;        /* not all of it could be resolved */
+    const struct input *input;
+    double missed, size;    /* impulses, forces, or squares of data */
+    double worst, position; /* the step that misses most, and its middle, s; or the node's, m */
+    bool unknown;           /* not all of it could be resolved */
 };
 
 /* ---- meshes ---- */
 
 /* Gauss's rule on [0, 1], exact for degree 9. */
-enum { PLACES = 5 };
-#define NEAR 0.26923465505284155 /* of the middle: half of the zeros of Legendre's polynomial */
+enum { POINTS = 5 };
+#define NEAR 0.26923465505284155 /* from 0.5: half of the zeros of Legendre's polynomial */
 #define FAR 0.45308992296933200
 
-static const double load_place[PLACES] = {0.5 - FAR, 0.5 - NEAR, 0.5, 0.5 + NEAR, 0.5 + FAR};
-static const double load_weight[PLACES] = {0.11846344252809454, 0.23931433524968324, 64.0 / 225,
+static const double load_point[POINTS] = {0.5 - FAR, 0.5 - NEAR, 0.5, 0.5 + NEAR, 0.5 + FAR};
+static const double load_weight[POINTS] = {0.11846344252809454, 0.23931433524968324, 64.0 / 225,
                                            0.23931433524968324, 0.11846344252809454};
 
-/* The rule's places in a piece along one variable, its weights, and the values of f there, at the
- * other's lower end in a box. */
-struct places {
-    double at[PLACES], weight[PLACES], value[PLACES];
+/* The rule's points in a piece along one variable, its weights, and the values of f at the points,
+ * where the other variable is at its lower end in a box. */
+struct points {
+    double at[POINTS], weight[POINTS], value[POINTS];
 };
 
-static struct places places_of(const struct br_function *f, enum br_variable along,
+static struct points points_of(const struct br_function *f, enum br_variable along,
                                struct br_box box, struct br_interval piece)
 {
-    struct places p;
-    for (int i = 0; i < PLACES; i++) {
-        p.at[i] = piece.low + (piece.high - piece.low) * load_place[i];
+    struct points p;
+    for (int i = 0; i < POINTS; i++) {
+        p.at[i] = piece.low + (piece.high - piece.low) * load_point[i];
         p.weight[i] = (piece.high - piece.low) * load_weight[i];
     }
     if (along == BR_X)
-        br_function_evaluate(f, PLACES, p.at, box.t.low, p.value);
-    for (int i = 0; i < PLACES && along == BR_T; i++)
+        br_function_evaluate(f, POINTS, p.at, box.t.low, p.value);
+    for (int i = 0; i < POINTS && along == BR_T; i++)
         br_function_evaluate(f, 1, &box.x.low, p.at[i], &p.value[i]);
     return p;
 }
@@ -64,17 +64,17 @@ static double integral_of_size(const struct br_function *f, enum br_variable alo
 {
     double sum = 0;
     for (size_t i = 0; i < m->count; i++) {
-        const struct places p =
-            places_of(f, along, box, (struct br_interval){m->at[i], m->at[i + 1]});
-        for (int k = 0; k < PLACES; k++)
+        const struct points p =
+            points_of(f, along, box, (struct br_interval){m->at[i], m->at[i + 1]});
+        for (int k = 0; k < POINTS; k++)
             sum += p.weight[k] * fabs(p.value[k]);
     }
     return sum;
 }
 
-/* Resolves f along one variable, where the other is one point, until what is not resolved is no
- * more than 1 % of *size: out, the integral of |f|, and rough cells no more than `rough` of it.
- * *mesh: out. Fails as br_resolve. */
+/* Resolves f along one variable; the other is one point. *mesh (out) leaves at most 1 % of *size
+ * unresolved, and rough cells have at most the share `rough` of *size; *size (out) is the integral
+ * of |f|. Fails as br_resolve. */
 static enum br_status load_mesh(const struct br_function *f, enum br_variable along,
                                 struct br_box box, double rough, struct br_mesh *mesh, double *size,
                                 struct br_error *err)
@@ -105,12 +105,12 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
 
 static const double usual_rough = 0.01, rough_data = 1e-4;
 
-/* Who looks at the pieces of a mesh's cells, each within one of equal parts: steps or elements.
- * ends: the part ends with the piece. Where a cell spans several whole parts they are handed over
- * at once, if somebody takes them. */
+/* Functions that get the pieces of a mesh's cells. The length is divided into equal parts, which
+ * are steps or elements; each piece lies in one part. ends: the part ends with the piece. If a cell
+ * contains several whole parts, take_several gets them in one call. */
 struct walker {
     void (*take)(void *self, size_t part, struct br_interval piece, bool ends);
-    void (*take_several)(void *self, size_t part, size_t count); /* NULL: nobody */
+    void (*take_several)(void *self, size_t part, size_t count); /* NULL: none */
     void *self;
 };
 
@@ -155,7 +155,7 @@ static double largest(const struct br_function *f, const struct br_scene *s, str
                : INFINITY;
 }
 
-/* Of a solution that was given nothing is proved. */
+/* Whether f comes from a given solution: such a function has no bounds. */
 static bool is_given(const struct br_function *f)
 {
     return f->ops && !f->ops->bound;
@@ -164,42 +164,42 @@ static bool is_given(const struct br_function *f)
 /* ---- loads between the time levels ---- */
 
 /* Over each step the impulse of a function of time is compared with that of the straight line
- * between its values at the levels, which all that a scheme with few stages sees resembles: for
- * smooth functions they differ by O(k^2), for a blow that is shorter than the step by all of it.
- * The impulse is that on a mesh on which the function is proved to be resolved; where one of its
- * cells spans several steps, the difference is bounded by the second derivative instead:
- * |c_2| k^3 / 6 a step. */
+ * between its values at the levels, which is close to what a scheme with few stages uses. For
+ * smooth functions they differ by O(k^2), for a blow shorter than the step by the whole impulse.
+ * The exact impulse is integrated on a mesh that is proved to resolve the function; where one of
+ * its cells spans several steps, the difference is bounded by the second derivative: |c_2| k^3 / 6
+ * a step. */
 
-/* A function of t on its way through the steps. */
+/* The state of the comparison for one function of t. */
 struct passage {
     const struct br_function *f;
-    struct br_box box; /* the place, and all times */
+    struct br_box box; /* one position, and all times */
     double k, weight;
     double impulse; /* in this step, so far */
-    struct sight *sight;
+    struct loss *loss;
 };
 
-static void miss(struct sight *s, double missed, double place)
+static void miss(struct loss *s, double missed, double position)
 {
     s->missed += missed;
     if (missed > s->worst) {
         s->worst = missed;
-        s->place = place;
+        s->position = position;
     }
 }
 
 static void pass_piece(void *self, size_t step, struct br_interval piece, bool ends)
 {
     struct passage *p = self;
-    const struct places places = places_of(p->f, BR_T, p->box, piece);
+    const struct points points = points_of(p->f, BR_T, p->box, piece);
     double before, after;
-    for (int i = 0; i < PLACES; i++)
-        p->impulse += places.weight[i] * places.value[i];
+    for (int i = 0; i < POINTS; i++)
+        p->impulse += points.weight[i] * points.value[i];
     if (!ends)
         return;
     br_function_evaluate(p->f, 1, &p->box.x.low, (double)step * p->k, &before);
     br_function_evaluate(p->f, 1, &p->box.x.low, (double)(step + 1) * p->k, &after);
-    miss(p->sight, p->weight * fabs(p->impulse - p->k * (before + after) / 2),
+    miss(p->loss, p->weight * fabs(p->impulse - p->k * (before + after) / 2),
          ((double)step + 0.5) * p->k);
     p->impulse = 0;
 }
@@ -216,12 +216,12 @@ static void pass_steps(void *self, size_t step, size_t count)
         most = fmax(fabs(c[2].low), fabs(c[2].high)) * p->k * p->k * p->k / 6;
     if (br_function_bound(p->f, box, &value))
         most = fmin(most, (value.high - value.low) * p->k);
-    miss(p->sight, p->weight * most, from + p->k / 2);
-    p->sight->missed += p->weight * most * (double)(count - 1);
+    miss(p->loss, p->weight * most, from + p->k / 2);
+    p->loss->missed += p->weight * most * (double)(count - 1);
 }
 
-/* Adds what is missed of weight times a function with t. */
-static enum br_status measure_times(const struct br_function *f, double weight, struct sight *s,
+/* Adds the missed impulse of weight times a function of t. */
+static enum br_status measure_times(const struct br_function *f, double weight, struct loss *s,
                                     struct br_error *err)
 {
     const struct br_planned_march *o = s->planned;
@@ -252,15 +252,15 @@ static enum br_status measure_times(const struct br_function *f, double weight, 
 
 /* The terms of a load, each with the largest value of its other factor; one without t has an
  * impulse, too. */
-static enum br_status look_at_times(struct sight *s, struct br_error *err)
+static enum br_status check_times(struct loss *s, struct br_error *err)
 {
-    const struct thing *thing = s->thing;
+    const struct input *input = s->input;
     const struct br_scene *scene = s->planned->scene;
     enum br_status status = BR_OK;
-    if (thing->force && thing->force->uses_t)
-        status = measure_times(thing->force, 1, s, err);
-    for (size_t i = 0; thing->load && i < BR_LOAD_TERMS && !status; i++) {
-        const struct br_product *p = &thing->load->term[i];
+    if (input->force && input->force->uses_t)
+        status = measure_times(input->force, 1, s, err);
+    for (size_t i = 0; input->load && i < BR_LOAD_TERMS && !status; i++) {
+        const struct br_product *p = &input->load->term[i];
         const struct br_function *changing = p->space.uses_t ? &p->space : &p->time,
                                  *other = p->space.uses_t ? &p->time : &p->space;
         struct br_box peak;
@@ -277,10 +277,10 @@ static enum br_status look_at_times(struct sight *s, struct br_error *err)
 
 /* ---- loads inside of the elements ---- */
 
-/* The load vector of hat functions by the rule that is marched with is compared with their
+/* The load vector of hat functions, by the quadrature of the march, is compared with the exact
  * integrals. */
 
-enum { TIMES = 5 }; /* at which a load with t is looked at, beside that of its peak */
+enum { TIMES = 5 }; /* at which a load with t is sampled, beside that of its peak */
 
 /* A load whose exact vector is subtracted from that of the rule. */
 struct exact {
@@ -294,17 +294,17 @@ struct exact {
 static void subtract_piece(void *self, size_t e, struct br_interval piece, bool ends)
 {
     const struct exact *exact = self;
-    const struct places p = places_of(exact->f, BR_X, exact->box, piece);
+    const struct points p = points_of(exact->f, BR_X, exact->box, piece);
     (void)ends;
-    for (int i = 0; i < PLACES; i++) {
+    for (int i = 0; i < POINTS; i++) {
         const double part = p.weight[i] * p.value[i], right = p.at[i] / exact->h - (double)e;
         exact->vector[e] -= (1 - right) * part;
         exact->vector[e + 1] -= right * part;
     }
 }
 
-/* weight * f at one time */
-static enum br_status compare(struct sight *s, const struct br_function *f, double weight, double t,
+/* Adds what the quadrature misses of weight * f at one time. */
+static enum br_status compare(struct loss *s, const struct br_function *f, double weight, double t,
                               struct br_error *err)
 {
     const size_t n = s->planned->n;
@@ -328,12 +328,13 @@ static enum br_status compare(struct sight *s, const struct br_function *f, doub
     s->size += weight * size;
     br_mesh_free(&mesh);
     free(exact.vector);
-    return status == BR_NO_MEMORY ? status : BR_OK; /* what is not finite, the march tells */
+    return status == BR_NO_MEMORY ? status
+                                  : BR_OK; /* the march reports a load that is not finite */
 }
 
 /* One term, at times inside of [0, T] and that of its peak or, where its shape does not change, at
  * one time. */
-static enum br_status measure_shape(struct sight *s, const struct br_product *p,
+static enum br_status measure_shape(struct loss *s, const struct br_product *p,
                                     struct br_error *err)
 {
     const struct br_scene *scene = s->planned->scene;
@@ -350,9 +351,9 @@ static enum br_status measure_shape(struct sight *s, const struct br_product *p,
     return status;
 }
 
-static enum br_status look_at_elements(struct sight *s, struct br_error *err)
+static enum br_status check_elements(struct loss *s, struct br_error *err)
 {
-    const struct br_load *load = s->thing->load;
+    const struct br_load *load = s->input->load;
     bool uses_x = false;
     for (size_t i = 0; load && i < BR_LOAD_TERMS; i++)
         uses_x |= !br_product_is_zero(&load->term[i]) && load->term[i].space.uses_x;
@@ -365,7 +366,7 @@ static enum br_status look_at_elements(struct sight *s, struct br_error *err)
 
 /* ---- initial data between the nodes ---- */
 
-/* What is interpolated from the nodes is compared with the data in L2. */
+/* The interpolation from the nodes is compared with the data in L2. */
 
 static double at(const struct br_function *f, double x)
 {
@@ -374,34 +375,34 @@ static double at(const struct br_function *f, double x)
     return value;
 }
 
-/* Adds the squares over one piece of an element: of what is off, and of the data. */
+/* Adds the squares of the difference and of the data over one piece of an element. */
 static void add_piece(void *self, size_t e, struct br_interval piece, bool ends)
 {
-    struct sight *sight = self;
-    const struct thing *d = sight->thing;
-    const double length = sight->planned->scene->length, n = (double)sight->planned->n;
+    struct loss *loss = self;
+    const struct input *d = loss->input;
+    const double length = loss->planned->scene->length, n = (double)loss->planned->n;
     const double h = length / n, end[2] = {(double)e * h, e + 1 < n ? (double)(e + 1) * h : length};
-    const struct places p = places_of(d->data, BR_X, (struct br_box){{0, length}, {0, 0}}, piece);
+    const struct points p = points_of(d->data, BR_X, (struct br_box){{0, length}, {0, 0}}, piece);
     double value[2], slope[2];
     (void)ends;
     for (int i = 0; i < 2; i++) {
         value[i] = at(d->data, end[i]);
         slope[i] = d->slope ? h * at(d->slope, end[i]) : 0;
     }
-    for (int i = 0; i < PLACES; i++) {
+    for (int i = 0; i < POINTS; i++) {
         const double s = p.at[i] / h - (double)e, r = 1 - s;
         const double line = r * value[0] + s * value[1];
         const double cubic = r * r * (1 + 2 * s) * value[0] + s * s * (1 + 2 * r) * value[1] +
                              r * s * (r * slope[0] - s * slope[1]);
         const double off = p.value[i] - (d->slope ? cubic : line);
-        sight->missed += p.weight[i] * off * off;
-        sight->size += p.weight[i] * p.value[i] * p.value[i];
+        loss->missed += p.weight[i] * off * off;
+        loss->size += p.weight[i] * p.value[i] * p.value[i];
     }
 }
 
-static enum br_status look_at_nodes(struct sight *s, struct br_error *err)
+static enum br_status check_nodes(struct loss *s, struct br_error *err)
 {
-    const struct br_function *f = s->thing->data;
+    const struct br_function *f = s->input->data;
     const double length = s->planned->scene->length;
     struct br_mesh mesh = {0};
     double size;
@@ -419,54 +420,54 @@ static enum br_status look_at_nodes(struct sight *s, struct br_error *err)
 
 /* ---- all of them ---- */
 
-/* What looks, and how it is told. */
-static const struct eye {
+/* The checks, and the words of their warnings. */
+static const struct check {
     enum br_warning_kind kind;
-    enum br_status (*look)(struct sight *s, struct br_error *err);
-    double large; /* a share that is warned of */
+    enum br_status (*measure)(struct loss *s, struct br_error *err);
+    double large; /* a larger missed share is warned of */
     const char *not_seen, *part, *changes, *not_known, *remedy;
     bool in_time;
-} eyes[] = {
-    {BR_WARN_LOAD_TIME, look_at_times, 0.05, "between the time levels what they do not see",
+} checks[] = {
+    {BR_WARN_LOAD_TIME, check_times, 0.05, "between the time levels what they do not see",
      "its impulse", "", "happens between the time levels",
      "time steps that are shorter than what happens there", true},
-    {BR_WARN_LOAD_SPACE, look_at_elements, 0.02,
+    {BR_WARN_LOAD_SPACE, check_elements, 0.02,
      "inside of elements what their quadrature does not see", "it", " in x",
      "the elements' quadrature sees", "more elements, as short as what happens there", false},
-    {BR_WARN_INITIAL, look_at_nodes, 0.05, "between the nodes what they do not see", "its norm", "",
+    {BR_WARN_INITIAL, check_nodes, 0.05, "between the nodes what they do not see", "its norm", "",
      "lies between the nodes", "more elements, as short as what happens there", false},
 };
 
-static void report(const struct sight *s, const struct eye *eye, struct br_warnings *w)
+static void report(const struct loss *s, const struct check *check, struct br_warnings *w)
 {
     const struct br_planned_march *o = s->planned;
-    const char *share = br_unseen(w, eye->kind, s->missed, s->size, eye->large);
+    const char *share = br_unseen(w, check->kind, s->missed, s->size, check->large);
     char with[40], near[60] = "";
     if (!share)
         return;
-    if (eye->in_time)
+    if (check->in_time)
         snprintf(with, sizeof with, "k = %.4g s", o->scene->duration / (double)o->steps);
     else
         snprintf(with, sizeof with, "n = %zu", o->n);
-    if (eye->kind != BR_WARN_INITIAL)
-        snprintf(near, sizeof near, ", most of it near %s = %.4g %s", eye->in_time ? "t" : "x",
-                 s->place, eye->in_time ? "s" : "m");
+    if (check->kind != BR_WARN_INITIAL)
+        snprintf(near, sizeof near, ", most of it near %s = %.4g %s", check->in_time ? "t" : "x",
+                 s->position, check->in_time ? "s" : "m");
     if (s->unknown)
-        br_warn(w, eye->kind, eye->remedy,
+        br_warn(w, check->kind, check->remedy,
                 "%s changes so often%s that it is not known how much of it %s, with %s",
-                s->thing->name, eye->changes, eye->not_known, with);
+                s->input->name, check->changes, check->not_known, with);
     else
-        br_warn(w, eye->kind, eye->remedy, "%s does %s: with %s %s of %s%s", s->thing->name,
-                eye->not_seen, with, share, eye->part, near);
+        br_warn(w, check->kind, check->remedy, "%s does %s: with %s %s of %s%s", s->input->name,
+                check->not_seen, with, share, check->part, near);
 }
 
-enum br_status br_look_at_loads(const struct br_planned_march *o, struct br_warnings *w,
-                                struct br_error *err)
+enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,
+                              struct br_error *err)
 {
     const struct br_axial *a = &o->scene->axial;
     const struct br_bending *b = &o->scene->bending;
     const bool rod = a->modelled, beam = b->modelled;
-    const struct thing things[] = {
+    const struct input inputs[] = {
         {"the axial tip force", rod, .force = &a->tip_force},
         {"the bending tip force", beam, .force = &b->tip_force},
         {"the tip moment", beam, .force = &b->tip_moment},
@@ -479,14 +480,15 @@ enum br_status br_look_at_loads(const struct br_planned_march *o, struct br_warn
          .slope = &b->velocity_slope},
     };
     enum br_status status = BR_OK;
-    for (const struct eye *eye = eyes; eye < eyes + sizeof eyes / sizeof *eyes; eye++)
-        for (size_t i = 0; i < sizeof things / sizeof *things && !status; i++) {
-            struct sight s = {.planned = o, .thing = &things[i]};
-            if (!things[i].modelled)
+    for (const struct check *check = checks; check < checks + sizeof checks / sizeof *checks;
+         check++)
+        for (size_t i = 0; i < sizeof inputs / sizeof *inputs && !status; i++) {
+            struct loss s = {.planned = o, .input = &inputs[i]};
+            if (!inputs[i].modelled)
                 continue;
-            status = eye->look(&s, err);
+            status = check->measure(&s, err);
             if (!status)
-                report(&s, eye, w);
+                report(&s, check, w);
         }
     return status;
 }

@@ -69,7 +69,7 @@ double br_round_steps(double least)
     return INFINITY;
 }
 
-/* The first digits of x, cut. */
+/* Rounds x down to four digits. */
 static double cut(double x)
 {
     const double unit = pow(10, floor(log10(x)) - 3);
@@ -89,7 +89,7 @@ static void contact_remedy(const struct br_planned_march *o, const struct br_fie
              cut(br_contact_limit_stiffness(field)));
 }
 
-void br_look_at_contact(const struct br_planned_march *o, struct br_warnings *warnings)
+void br_check_contact(const struct br_planned_march *o, struct br_warnings *warnings)
 {
     const struct br_scene *scene = o->scene;
     const double k = scene->duration / (double)o->steps;
@@ -111,17 +111,17 @@ void br_look_at_contact(const struct br_planned_march *o, struct br_warnings *wa
 
 /* ---- lagged contact that may gain energy ---- */
 
-/* Warns of a lagged contact that may gain energy as it opens and closes: within the limit of a
- * closed one, but beyond that without inertia, below which none is gained. Whether it does is
- * looked up in a march of the same steps on a coarse mesh: the limit does not depend on the mesh.
- */
+/* Warns of a lagged contact that may gain energy as it opens and closes: its stiffness is below the
+ * stability limit of a closed contact, but above the limit without inertia, below which no energy
+ * is gained. A march with the same steps on a coarse mesh measures the gain: the limit does not
+ * depend on the mesh. */
 
 enum { MOST_ELEMENTS = 4, MOST_STEPS = 4000 };
 
-static const double little = 0.01; /* of what was put in */
+static const double little = 0.01; /* share of the energy that was put in */
 
-/* The largest share, of the energy that was put into the axial field until then, that the scheme
- * has added; NaN: not known. */
+/* The largest ratio, over all steps, of the energy that the scheme has added to the axial field to
+ * the energy that was put into it; NaN: not known. */
 static double gain(const struct br_planned_march *o)
 {
     struct br_scene axial;
@@ -152,7 +152,7 @@ static double gain(const struct br_planned_march *o)
     return failed ? (double)NAN : share;
 }
 
-static void look_at_bounces(const struct br_planned_march *o, struct br_warnings *w)
+static void check_bounces(const struct br_planned_march *o, struct br_warnings *w)
 {
     const struct br_scene *s = o->scene;
     struct br_field field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
@@ -182,8 +182,8 @@ static void look_at_bounces(const struct br_planned_march *o, struct br_warnings
 
 static const double large_error = 0.05; /* relative to the solution */
 static const double doubtful = 0.2;     /* the same of an upper bound */
-static const double aim = 0.02;         /* what a remedy is to reach */
-static const double negligible = 1e-12; /* round-off that nobody minds */
+static const double aim = 0.02;         /* the error that a remedy should reach */
+static const double negligible = 1e-12; /* round-off that is not worth a warning */
 
 /* ---- round-off ---- */
 
@@ -210,7 +210,7 @@ static void warn_of_round_off(const struct br_planned_march *o, const struct br_
                               struct br_warnings *w)
 {
     char remedy[400];
-    /* Of marches without that round-off. */
+    /* The discretisation error, from marches without that round-off. */
     const double parts = p->time.error + p->space.error;
     const double error = p->known ? fmin(p->whole.error, parts) : p->whole.high;
     if (p->round_off <= fmax(p->bounded ? error : aim, negligible))
@@ -227,14 +227,14 @@ static void warn_of_round_off(const struct br_planned_march *o, const struct br_
 
 /* ---- accuracy ---- */
 
-/* The least of 1, 2 and 5 times a power of ten that is not less. */
+/* The least number >= x of the form 1, 2 or 5 times a power of ten. */
 static double round_up(double x)
 {
     const double power = pow(10, floor(log10(x)));
     return power * (x <= power ? 1 : x <= 2 * power ? 2 : x <= 5 * power ? 5 : 10);
 }
 
-/* Steps with which the time error reaches the aim, by an order of at most the scheme's. */
+/* The number of steps for a time error of `aim`; the order is at most the scheme's. */
 static double steps_needed(const struct br_planned_march *o, const struct br_prediction *p)
 {
     const double order = p->time.order >= 0.5 ? fmin(p->time.order, o->method->scheme->order) : 1;
@@ -246,7 +246,7 @@ static double elements_needed(const struct br_planned_march *o, const struct br_
     return round_up((double)o->n * sqrt(p->space.error / aim));
 }
 
-/* Whether contact at u_n would do. */
+/* Whether implicit contact would make the error small. */
 static bool lag_is_to_blame(const struct br_planned_march *o)
 {
     struct br_method method = *o->method;
@@ -307,8 +307,8 @@ static void warn_of_ignorance(const struct br_planned_march *o, const struct br_
             br_time_step(o->scene, o->steps), most, p->why);
 }
 
-static enum br_status look_at_prediction(const struct br_planned_march *o, struct br_warnings *w,
-                                         struct br_error *err)
+static enum br_status check_prediction(const struct br_planned_march *o, struct br_warnings *w,
+                                       struct br_error *err)
 {
     struct br_prediction p;
     const enum br_status status = br_predict(o, &p, err);
@@ -324,21 +324,21 @@ static enum br_status look_at_prediction(const struct br_planned_march *o, struc
 
 /* ---- all sources ---- */
 
-enum br_status br_look_ahead_cheaply(const struct br_planned_march *o, struct br_warnings *w,
-                                     struct br_error *err)
+enum br_status br_check_ahead_cheaply(const struct br_planned_march *o, struct br_warnings *w,
+                                      struct br_error *err)
 {
-    const enum br_status status = br_look_at_resources(o, w, err);
+    const enum br_status status = br_check_resources(o, w, err);
     if (status)
         return status;
-    br_look_at_contact(o, w);
-    look_at_bounces(o, w);
+    br_check_contact(o, w);
+    check_bounces(o, w);
     return BR_OK;
 }
 
-enum br_status br_look_ahead(const struct br_planned_march *o, struct br_warnings *w,
-                             struct br_error *err)
+enum br_status br_check_ahead(const struct br_planned_march *o, struct br_warnings *w,
+                              struct br_error *err)
 {
-    const bool refused = br_look_ahead_cheaply(o, w, err) || br_look_at_loads(o, w, err) ||
-                         look_at_prediction(o, w, err);
+    const bool refused = br_check_ahead_cheaply(o, w, err) || br_check_loads(o, w, err) ||
+                         check_prediction(o, w, err);
     return refused ? err->status : BR_OK;
 }

@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a person should know before a march begins, with what to do about it; and what is refused
- * then: what is to be marched is looked at, and little or nothing is marched. */
+/* Checks a march before it begins: warnings with remedies, and refusals. Little or nothing is
+ * marched for this. */
 #ifndef BR_STUDY_FORESEE_WARNINGS_H
 #define BR_STUDY_FORESEE_WARNINGS_H
 
 #include "solver/method.h"
 
-/* Of each kind a list keeps the first; others are counted. */
+/* A list keeps the first warning of each kind and counts the others. */
 enum br_warning_kind {
     BR_WARN_UNSTABLE,   /* lagged contact beyond its limit */
     BR_WARN_BOUNCE,     /* lagged contact that may gain energy */
     BR_WARN_ROUND_OFF,  /* above the discretisation error */
     BR_WARN_INACCURATE, /* the discretisation error is large */
     BR_WARN_UNKNOWN,    /* the discretisation error is not known */
-    BR_WARN_LOAD_TIME,  /* the time levels miss some of a load */
-    BR_WARN_LOAD_SPACE, /* the elements' quadrature misses some */
+    BR_WARN_LOAD_TIME,  /* the time levels miss a share of a load */
+    BR_WARN_LOAD_SPACE, /* the elements' quadrature misses a share */
     BR_WARN_INITIAL,    /* initial data between the nodes */
     BR_WARN_LONG,       /* the march takes days */
     BR_WARNINGS
@@ -23,7 +23,7 @@ extern const char *const br_warning_words[BR_WARNINGS]; /* for programs */
 
 struct br_warning {
     enum br_warning_kind kind;
-    char text[400];   /* what will happen, with the figures; no full stop */
+    char text[400];   /* the problem, with the figures; no full stop */
     char remedy[400]; /* what to do instead: alternatives, a line each, options that can be typed
                          where there are some, with "  # why"; "": nothing known */
     size_t more;      /* marches of the same study with a warning of this kind */
@@ -42,9 +42,9 @@ __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
                                                    enum br_warning_kind kind, const char *remedy,
                                                    const char *format, ...);
 
-/* Notes that levels, elements or nodes miss so much of a load or of initial data of that size;
- * INFINITY: it is not known how much. Where that is a larger share than `large` it returns it as
- * "31 %", "all" or "more than all", else NULL. */
+/* Records that levels, elements or nodes miss so much of a load or of initial data of this size;
+ * missed = INFINITY: not known. Returns the missed share as "31 %", "all" or "more than all" if it
+ * is larger than `large`, else NULL. */
 const char *br_unseen(struct br_warnings *warnings, enum br_warning_kind kind, double missed,
                       double size, double large);
 
@@ -54,57 +54,56 @@ const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
 
 struct br_prediction;
 
-/* What is to be marched. All borrowed; the scene is the part of it that is marched
+/* A march that is planned. All borrowed. The scene has only the fields that are marched
  * (study/run/run.h). */
 struct br_planned_march {
     const struct br_scene *scene;
     const struct br_method *method;
     size_t n, steps;
-    struct br_prediction *prediction; /* out: the errors to expect; NULL: nobody asks */
-    double budget; /* elements times solves that a prediction may take; 0: as prediction.h says */
+    struct br_prediction *prediction; /* out: the predicted errors; NULL: not wanted */
+    double budget; /* work of a prediction, elements times solves; 0: as prediction.h says */
 };
 
-/* Looks at a march before it begins, and adds what it has to say. What it cannot tell is no
- * failure. Fails with BR_BAD_INPUT or BR_NO_MEMORY where the march is refused, the message with the
- * figures. To add a source of warnings: a function, and a call in warnings.c. */
-enum br_status br_look_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
-                             struct br_error *err);
+/* Runs all checks on a march before it begins, and adds their warnings. An unknown error is no
+ * failure. Fails with BR_BAD_INPUT or BR_NO_MEMORY if the march is refused; the message has the
+ * figures. To add a check: a function, and a call in warnings.c. */
+enum br_status br_check_ahead(const struct br_planned_march *planned, struct br_warnings *warnings,
+                              struct br_error *err);
 
-/* The same by the sources that are cheap alone: for marches that are many. */
-enum br_status br_look_ahead_cheaply(const struct br_planned_march *planned,
-                                     struct br_warnings *warnings, struct br_error *err);
+/* Runs only the cheap checks: for many marches. */
+enum br_status br_check_ahead_cheaply(const struct br_planned_march *planned,
+                                      struct br_warnings *warnings, struct br_error *err);
 
-/* At the loads and initial data alone: what of them the time levels and the elements do not see.
- * For the finest of many marches; that takes milliseconds, or a second for loads with thousands of
+/* Checks only the loads and initial data: how much of them the time levels and the elements miss.
+ * For the finest of many marches; takes milliseconds, or a second for loads with thousands of
  * jumps. */
-enum br_status br_look_at_loads(const struct br_planned_march *planned,
-                                struct br_warnings *warnings, struct br_error *err);
+enum br_status br_check_loads(const struct br_planned_march *planned, struct br_warnings *warnings,
+                              struct br_error *err);
 
-/* ---- parts of these ---- */
+/* ---- single checks ---- */
 
-/* At memory and time. */
-enum br_status br_look_at_resources(const struct br_planned_march *planned,
-                                    struct br_warnings *warnings, struct br_error *err);
+/* Checks memory and time. */
+enum br_status br_check_resources(const struct br_planned_march *planned,
+                                  struct br_warnings *warnings, struct br_error *err);
 
-/* Warns of a lagged contact beyond its stability limit (solver/laws.h), with what would be within
- * it. */
-void br_look_at_contact(const struct br_planned_march *planned, struct br_warnings *warnings);
+/* Warns of a lagged contact beyond its stability limit (solver/laws.h); the remedies are within the
+ * limit. */
+void br_check_contact(const struct br_planned_march *planned, struct br_warnings *warnings);
 
 /* The least round number of steps, 1, 2, 4, 5, 8, 10, 16, 20, 25, ... of `least` or more, so that a
  * duration with few digits has time steps with few digits; INFINITY above 8e12. */
 double br_round_steps(double least);
 
-/* ---- what a march takes, memory and time (resources.c) ---- */
+/* ---- memory and time of a march (resources.c) ---- */
 
-/* Bytes that a march needs at most, from what elements were measured to take. */
+/* An upper bound of the bytes of a march, from measured bytes an element. */
 double br_march_bytes(const struct br_planned_march *planned);
 
-/* Seconds that a march takes, about, in one thread; those of steps by a tolerance are not known:
- * 0. */
+/* Approximate seconds of a march in one thread; 0 for an adaptive scheme: not known. */
 double br_march_seconds(const struct br_planned_march *planned);
 
-/* Bytes that may still be had: the least of what the machine has (MemAvailable of /proc/meminfo),
- * of the limit of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
+/* Bytes that are still available: the least of MemAvailable of /proc/meminfo and of the remaining
+ * limits of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
 double br_memory_available(void);
 
 /* Refuses (BR_NO_MEMORY) a march that does not fit into a memory of so many bytes, with the

@@ -133,7 +133,7 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
         status = plan_march(&call.scene, n, steps, list, &method, &planned, &call.err);
     planned.prediction = &prediction;
     if (!status)
-        status = br_look_ahead(&planned, &warnings, &call.err);
+        status = br_check_ahead(&planned, &warnings, &call.err);
     if (!status) {
         copy_prediction(&prediction, forecast);
         copy_warnings(&warnings, forecast);
@@ -159,7 +159,7 @@ static enum br_status create_march(struct beamrate_march *m, const struct br_sce
     m->n = n;
     m->steps = steps;
     if (!status)
-        status = br_look_ahead_cheaply(&planned, &warnings, err); /* may refuse the march */
+        status = br_check_ahead_cheaply(&planned, &warnings, err); /* may refuse the march */
     return status ? status : br_march_create(&m->march, scene, n, steps, &method, err);
 }
 

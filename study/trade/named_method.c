@@ -9,7 +9,7 @@
 
 /* ---- the words of a name ---- */
 
-/* Rows of the registries, and the words that a field has for its values. */
+/* The fields of a method whose words may stand in a name. */
 static const struct br_method_field *const kinds[] = {
     &br_method_fields[BR_METHOD_SCHEME],    &br_method_fields[BR_METHOD_CONTACT],
     &br_method_fields[BR_METHOD_FRICTION],  &br_method_fields[BR_METHOD_SOLVER],
@@ -17,7 +17,7 @@ static const struct br_method_field *const kinds[] = {
     &br_method_fields[BR_METHOD_REFINEMENT]};
 enum { CONTACT = 1, KINDS = sizeof kinds / sizeof *kinds };
 
-/* Word i of a kind; NULL: behind the last. */
+/* Word i of a kind and its value (out); NULL: i is behind the last word. */
 static const char *word_of(const struct br_method_field *f, size_t i, double *value)
 {
     *value = f->word ? f->word[i].value : (double)i;
@@ -74,7 +74,7 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     return BR_OK;
 }
 
-/* A word that no march would use is refused. */
+/* Refuses a word that the method would not use. */
 static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
 {
@@ -149,7 +149,7 @@ const struct br_time_scheme *br_highest_scheme(void)
     return highest;
 }
 
-/* Whether a march of the scene begins with it. */
+/* Whether a march of the scene can be created with the method. */
 static bool begins(const struct br_scene *scene, const struct br_method *method)
 {
     struct br_march *march = NULL;
@@ -158,7 +158,7 @@ static bool begins(const struct br_scene *scene, const struct br_method *method)
     return !status;
 }
 
-/* Adds the method of that name, unless the scene or the list has no use for it. */
+/* Adds the method of that name, unless the scene refuses it or the list has it already. */
 __attribute__((format(printf, 3, 4))) static void add(const struct br_scene *scene,
                                                       struct br_named_methods *all,
                                                       const char *format, ...)
@@ -187,7 +187,7 @@ static void add_scheme(const struct br_scene *scene, const struct br_time_scheme
 
 void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
 {
-    /* The first scheme of order two: what the other friction rules and solvers are held with. */
+    /* The first scheme of order two: the other friction rules and solvers are tried with it. */
     const struct br_time_scheme *const *second = br_time_schemes;
     while (second[1] && (*second)->order != 2)
         second++;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Methods that are compared, each by its name. The name is made of rows of the registries,
- * "euler+lagged", "bdf2+uzawa", "bdf3+p2": a time scheme, and what is not the default for it. */
+/* Methods that are compared, each with a name: "euler+lagged", "bdf2+uzawa", "bdf3+p2". A name is
+ * the time scheme and the choices that are not the default for that scheme. */
 #ifndef BR_STUDY_TRADE_NAMED_METHOD_H
 #define BR_STUDY_TRADE_NAMED_METHOD_H
 
@@ -31,16 +31,17 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *na
 enum br_status br_named_methods_read(const char *option, const char *text,
                                      struct br_named_methods *methods, struct br_error *err);
 
-/* Who a scene is marched by where nobody is named (out): every time scheme with every contact rule
- * that it takes; elements of degree 2 where the scheme's order is worth them; and the first scheme
- * of order two with every other friction rule and every other linear solver. Left out is what is
- * the same as another one in this scene, and what br_march_create refuses. */
+/* The methods (out) for a scene when the user names none: every time scheme with every contact rule
+ * that it accepts; elements of degree 2 for the first scheme of order two and for higher orders;
+ * and the first scheme of order two with every other friction rule and every other linear solver.
+ * Methods that are listed already, and those that br_march_create refuses, are left out. */
 void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *methods);
 
-/* The scheme of the highest order among those that do not choose their steps: a fine run's. */
+/* The scheme of the highest order among those with equal steps; for fine runs. */
 const struct br_time_scheme *br_highest_scheme(void);
 
-/* The words of names as lines of help: a kind, then its words (out); NULL: behind the last. */
+/* For the help text: the title of a kind of words, and its words (out); NULL: behind the last kind.
+ */
 const char *br_named_method_kind(size_t kind, char *words, size_t size);
 
 #endif

@@ -34,8 +34,8 @@ void br_plan_default(struct br_plan *plan, const struct br_scene *scene)
 
 /* ---- the list of trials ---- */
 
-/* Where a trial is in the model of its method. */
-static void place_of(const struct br_trial *t, double at[BR_PLAN_AXES])
+/* The point of a trial in the model of its method. */
+static void position_of(const struct br_trial *t, double at[BR_PLAN_AXES])
 {
     at[BR_PLAN_X] = log((double)t->at.n);
     at[BR_PLAN_Y] =
@@ -51,7 +51,7 @@ static bool has(const struct br_plan *p, const struct br_trial *trial, bool chea
     return false;
 }
 
-/* Adds a trial without an outcome, unless it was added before. */
+/* Adds a trial that is still to be run, unless it was added before. */
 static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_forecast forecast)
 {
     if (has(p, trial, forecast.round == 0))
@@ -64,8 +64,8 @@ static void add(struct br_plan *p, const struct br_trial *trial, struct br_plan_
 
 static const size_t probe_meshes[BR_PLAN_MESHES] = {2, 4, 12, 36, 108, 324, 972, 2916};
 
-/* All of them on one mesh, every other one on the rest: probe_steps that happen to end where the
- * solution switches are better than their neighbours. Many time levels in common spare the judge
+/* One mesh takes all of these, the other meshes every other one: steps that happen to end where the
+ * solution switches are more accurate than their neighbours. Time levels in common save the judge
  * work. */
 static const size_t probe_steps[BR_PLAN_PROBES] = {10, 15, 20, 30, 40, 60, 80, 120, 160, 240};
 static const size_t mesh_of_all_steps = 108;
@@ -73,11 +73,11 @@ static const size_t mesh_of_all_steps = 108;
 static const double probe_tolerances[BR_PLAN_PROBES] = {1e-1, 1e-2, 1e-3, 1e-4, 1e-5,
                                                         1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
 
-/* A solve costs as much as so many elements more than it has; a cheap trial's solves times elements
- * at most; solves of an adaptive scheme where they are not known yet. */
+/* The overhead of a solve, in elements; the largest work of a cheap trial, solves times elements;
+ * and the assumed solves of an adaptive scheme before it has marched. */
 static const double overhead = 700, most_work = 5e5, guessed_solves = 150;
 
-/* Those of one method on one mesh. */
+/* Adds the cheap trials of one method on one mesh. */
 static void add_column(struct br_plan *plan, const struct br_named_method *named, size_t n)
 {
     const bool adaptive = named->method.scheme->adaptive;
@@ -91,7 +91,7 @@ static void add_column(struct br_plan *plan, const struct br_named_method *named
     }
 }
 
-/* With room for as many rounds as there may be. */
+/* Allocates for the largest possible number of rounds. */
 enum br_status br_plan_lay_out(struct br_plan *p, struct br_error *err)
 {
     const size_t most =
@@ -114,8 +114,7 @@ static struct br_plan_model *model_of(const struct br_plan *p, const struct br_n
     return &p->model[named - p->methods.list];
 }
 
-/* By what is seen of the trials. The space error's order is 2 for elements of degree 1; of more it
- * is measured. */
+/* Fits the model of every method to its trials. */
 static enum br_status fit_all(struct br_plan *p, struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -127,7 +126,7 @@ static enum br_status fit_all(struct br_plan *p, struct br_error *err)
         struct br_plan_point *point = &m->point[m->points];
         *point = (struct br_plan_point){.value = {error, seconds},
                                         .solves = (double)t->cost.counts.stages};
-        place_of(t, point->at);
+        position_of(t, point->at);
         m->points += error > 0 && isfinite(error) && seconds > 0 && point->solves > 0;
     }
     for (size_t c = 0; c < p->methods.count && status != BR_NO_MEMORY; c++) {
@@ -135,16 +134,17 @@ static enum br_status fit_all(struct br_plan *p, struct br_error *err)
         status = br_plan_model_fit(&p->model[c], 1.0 + method->axial_degree,
                                    method->scheme->adaptive ? 1 : method->scheme->order, err);
     }
-    return status == BR_NO_MEMORY ? status : BR_OK; /* else it is not known */
+    return status == BR_NO_MEMORY ? status : BR_OK; /* a model that failed is marked as not known */
 }
 
 /* ---- what was found ---- */
 
-/* Between E/3 and E something may cost this much more than the cheapest that is at most E. */
+/* A trial with an error between E/3 and E is chosen even if it costs this factor more than one with
+ * a smaller error. */
 static const double worth_the_band = 1.25;
 
-/* What a plan makes least, of what meets its goal: seconds, and dearer where the error is less than
- * it need be; or the error. INFINITY: misses it. */
+/* What a plan minimises over the trials that meet its goal: the error or, for a goal of error, the
+ * seconds, which count more where the error is below E/3. INFINITY: it misses the goal. */
 static double price(const struct br_plan *p, double error, double seconds)
 {
     const double goal = p->goal.error;
@@ -153,7 +153,7 @@ static double price(const struct br_plan *p, double error, double seconds)
     return error <= goal ? seconds * (error < goal / br_plan_band ? worth_the_band : 1) : INFINITY;
 }
 
-/* The trial that meets the goal best so far, *least (out) its price; count: none. */
+/* The proposed trial with the least price so far, *least (out); count: none. */
 static size_t best_of(const struct br_plan *p, double *least)
 {
     size_t best = p->count;
@@ -179,14 +179,14 @@ static void choose(struct br_plan *p)
         p->end = p->trial[p->chosen].at.n == BR_PLAN_LEAST_N ? BR_PLAN_COARSEST : BR_PLAN_BETTER;
 }
 
-struct br_plan_parts br_plan_chosen_parts(const struct br_plan *p)
+struct br_plan_components br_plan_chosen_components(const struct br_plan *p)
 {
     double at[BR_PLAN_AXES];
     const struct br_trial *t = &p->trial[p->chosen];
     if (p->chosen == p->count || !model_of(p, t->named)->known)
-        return (struct br_plan_parts){{NAN, NAN}, {NAN, NAN}};
-    place_of(t, at);
-    return br_plan_model_parts(model_of(p, t->named), at);
+        return (struct br_plan_components){{NAN, NAN}, {NAN, NAN}};
+    position_of(t, at);
+    return br_plan_model_components(model_of(p, t->named), at);
 }
 
 double br_plan_spent(const struct br_plan *p)
@@ -200,29 +200,29 @@ double br_plan_spent(const struct br_plan *p)
 
 /* ---- what to try next, by the models, in all resolutions of all named methods ---- */
 
-/* Neighbouring candidates: n, steps and tolerances are so far apart, as factors. */
+/* Ratios of neighbouring candidates in n, steps and tolerances. */
 static const double n_factor = 1.06, step_factor = 1.08, tolerance_factor = 1.6;
 
-/* Beyond the trials of its named method a candidate may be by so much, as factors. */
+/* A candidate exceeds the trials of its method at most by this factor in each variable. */
 static const double most_beyond = 8;
 
-/* A trial costs at most so many times what one has cost so far: models err. */
+/* A trial may cost at most this factor more than the dearest trial so far: models err. */
 static const double most_growth = 16;
 
-/* Where the goal is reached, a candidate has to promise so much: the logarithm of what it saves,
- * times how likely that is. */
+/* Once the goal is reached, the least promise of a candidate: the logarithm of the factor that it
+ * saves, times the probability that it meets the goal. */
 static const double least_promise = 0.1;
 
-/* Where it is not reached, any promise will do; of what is less likely than this, hardly any. */
+/* Until the goal is reached, any promise is enough. Below the least chance, the promise is tiny. */
 static const double least_chance = 0.01, next_to_nothing = 1e-4;
 
 /* A promise is at least this share of the best one of the round. */
 static const double least_share = 0.2;
 
-/* What any relative error is less than. */
+/* An upper bound of all relative errors. */
 static const double any_error = 1e9;
 
-/* A resolution that might do. */
+/* A resolution that might meet the goal. */
 struct candidate {
     struct br_trial trial;
     struct br_plan_prediction expected;
@@ -232,19 +232,19 @@ struct candidate {
 /* The most promising candidate of each named method, by its index. */
 struct search {
     const struct br_plan *plan;
-    double least; /* the price of the best so far, or of what is dearer than anything allowed */
+    double least; /* the price of the best so far, or one above all that is allowed */
     double most;  /* s */
     struct candidate best[BR_MOST_NAMED_METHODS];
 };
 
-/* Whether the nearest trial did not come to a good end. */
+/* Whether the nearest trial of the same method has no error that counts. */
 static bool is_near_failure(const struct br_plan *p, const struct br_trial *trial)
 {
     double nearest = INFINITY, here[BR_PLAN_AXES], there[BR_PLAN_AXES];
     bool failed = false;
-    place_of(trial, here);
+    position_of(trial, here);
     for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
-        place_of(t, there);
+        position_of(t, there);
         const double distance =
             hypot(there[BR_PLAN_X] - here[BR_PLAN_X], 2 * (there[BR_PLAN_Y] - here[BR_PLAN_Y]));
         if (t->named == trial->named && distance < nearest) {
@@ -255,8 +255,8 @@ static bool is_near_failure(const struct br_plan *p, const struct br_trial *tria
     return failed;
 }
 
-/* The price is that of what just meets the goal where it is expected to miss it. What hardly may
- * meet it promises next to nothing, and the more the nearer it surely comes. */
+/* If a candidate is expected to miss the goal, its price is that of just meeting the goal. A
+ * candidate below the least chance promises next to nothing, more the nearer it is to the goal. */
 static double promise_of(const struct search *s, const struct br_plan_prediction *e)
 {
     const struct br_plan_goal *goal = &s->plan->goal;
@@ -269,7 +269,7 @@ static double promise_of(const struct search *s, const struct br_plan_prediction
                                          fmin(exp(e->log[BR_PLAN_SECONDS]), goal->seconds)));
 }
 
-/* What was a cheap trial is tried anew, with all repeats. */
+/* A cheap trial may be proposed again: it then gets all repeats. */
 static void consider(struct search *s, const struct candidate *c)
 {
     struct candidate *best = &s->best[c->trial.named - s->plan->methods.list];
@@ -299,7 +299,7 @@ static void consider_column(struct search *s, const struct br_named_method *name
             continue;
         before = n;
         struct candidate c = {.trial = br_trial_at(named, n, steps, tolerance)};
-        place_of(&c.trial, at);
+        position_of(&c.trial, at);
         c.expected = br_plan_model_predict(m, at);
         if (!(exp(c.expected.log[BR_PLAN_SECONDS]) <= s->most))
             return;
@@ -308,8 +308,8 @@ static void consider_column(struct search *s, const struct br_named_method *name
     }
 }
 
-/* Columns that were tried are known best. */
-static void look_through(struct search *s, const struct br_named_method *named)
+/* Searches the steps of the trials first: their models are the surest. */
+static void search_method(struct search *s, const struct br_named_method *named)
 {
     const struct br_plan_model *m = model_of(s->plan, named);
     double most[BR_PLAN_AXES] = {0, 0};
@@ -332,7 +332,7 @@ static void search_all(struct search *s)
     const struct br_plan *p = s->plan;
     const bool reached = best_of(p, &s->least) < p->count;
     for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++)
-        s->most = fmax(s->most, most_growth * p->seconds(t)); /* NaN is passed over */
+        s->most = fmax(s->most, most_growth * p->seconds(t)); /* fmax ignores NaN */
     if (p->request.time_limit > 0)
         s->most = fmin(s->most, p->request.time_limit);
     if (isnan(p->goal.error)) {
@@ -345,17 +345,17 @@ static void search_all(struct search *s)
     for (size_t c = 0; c < p->methods.count; c++) {
         s->best[c] = (struct candidate){.promise = reached ? least_promise : 0};
         if (p->model[c].known)
-            look_through(s, &p->methods.list[c]);
+            search_method(s, &p->methods.list[c]);
     }
 }
 
 /* ---- rounds ---- */
 
-/* After so many rounds without anything better there is none more. */
+/* The plan ends after so many rounds without an improvement. */
 static const size_t most_idle_rounds = 3;
 
-/* Whether the rounds have gone on for long without anything better than the best or, where nothing
- * meets the goal, without anything nearer to it; or the judge could not say what is better. */
+/* Whether the last rounds have found nothing better than the best trial or, if none meets the goal,
+ * nothing nearer to the goal; or the judge cannot tell which trial is better. */
 static bool is_idle(const struct br_plan *p)
 {
     const bool by_error = isfinite(p->goal.error);
@@ -372,7 +372,7 @@ static bool is_idle(const struct br_plan *p)
     return best < p->count && p->rounds >= p->forecast[best].round + most_idle_rounds;
 }
 
-/* One round: whether anything was tried (*tried, out). */
+/* One round; *tried (out): whether a trial was run. */
 static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *err)
 {
     const size_t from = p->count;
@@ -399,7 +399,7 @@ static enum br_status go_round(struct br_plan *p, bool *tried, struct br_error *
     free(s);
     *tried = p->count > from;
     if (!status && *tried)
-        status = br_trials_hold(&p->trial[from], p->count - from, &p->request, err);
+        status = br_trials_run(&p->trial[from], p->count - from, &p->request, err);
     if (!status && *tried && ++p->rounds == 1)
         p->first = from;
     return status;
@@ -456,7 +456,7 @@ enum br_status br_plan_make(struct br_plan *p, struct br_error *err)
     const size_t repeats = p->request.repeats;
     p->request.repeats = 1;
     if (!status)
-        status = br_trials_hold(p->trial, p->count, &p->request, err);
+        status = br_trials_run(p->trial, p->count, &p->request, err);
     p->request.repeats = repeats;
     if (!status)
         status = check_probes(p, err);

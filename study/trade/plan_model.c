@@ -6,23 +6,23 @@
 #include <gsl/gsl_sort.h>
 #include <math.h>
 
-/* Weights beside that of a trial's log error: of a change of slope at a knot, of a slope's distance
- * from theory's order, and of atanh r. */
+/* Weights relative to a trial's log error: of a change of slope at a knot, of a slope's distance
+ * from the order of theory, and of atanh r. */
 static const double smoothness = 0.03, theory = 0.003, uncorrelated = 0.003;
 
-/* A fit begins from one that is as good as straight, lest a knot gets caught on the wrong side of a
+/* The smoothness of a first, almost straight fit: without it a knot may stay on the wrong side of a
  * cancellation. */
 static const double straight = 1;
 
-/* Fields of errors are never quite opposite; |r| = 1 would let the model vanish. */
+/* Error fields are never exactly opposite; with |r| = 1 the modelled error could be 0. */
 static const double most_r = 0.95;
 
-/* Knots nearer than this are one: factors of 1.5 in n, 1.15 in k. */
+/* Knots nearer than this are merged: factors of 1.5 in n, 1.15 in k. */
 static const double least_gap[BR_PLAN_AXES] = {0.4, 0.14};
 
 /* ---- curves ---- */
 
-/* The piece that `at` lies in, or the one nearest to it. */
+/* The piece that contains `at`, or the nearest one. */
 static size_t piece_of(const struct br_plan_curve *c, double at)
 {
     size_t i = 0;
@@ -44,10 +44,10 @@ static double curve_value(const struct br_plan_curve *c, double at)
     return c->value[i] - curve_order(c, at) * (at - c->at[i]);
 }
 
-/* Knots of the model at its trials, near ones merged. */
+/* Places the knots of the model at its trials, and merges near ones. */
 static void lay_knots(struct br_plan_model *m, int axis)
 {
-    struct br_plan_curve *c = &m->part[axis];
+    struct br_plan_curve *c = &m->component[axis];
     double at[BR_PLAN_POINTS];
     for (size_t i = 0; i < m->points; i++)
         at[i] = m->point[i].at[axis];
@@ -79,13 +79,13 @@ static double log_seconds(const struct br_plan_model *m, const double at[BR_PLAN
 
 static double log_error(const struct br_plan_model *m, const double at[BR_PLAN_AXES])
 {
-    const double a = curve_value(&m->part[BR_PLAN_X], at[BR_PLAN_X]);
-    const double b = curve_value(&m->part[BR_PLAN_Y], at[BR_PLAN_Y]);
+    const double a = curve_value(&m->component[BR_PLAN_X], at[BR_PLAN_X]);
+    const double b = curve_value(&m->component[BR_PLAN_Y], at[BR_PLAN_Y]);
     const double ratio = exp(-fabs(a - b)), square = 1 + 2 * m->r * ratio + ratio * ratio;
     return fmax(a, b) + 0.5 * log(fmax(square, 1e-6));
 }
 
-/* The model's own value, its logarithm. */
+/* The logarithm of the modelled value. */
 static double model_value(const struct br_plan_model *m, int quantity,
                           const double at[BR_PLAN_AXES])
 {
@@ -114,15 +114,15 @@ struct fit {
 /* The unknowns: the knots' values, and atanh of r. */
 static size_t unknowns(const struct br_plan_model *m)
 {
-    return m->part[BR_PLAN_X].count + m->part[BR_PLAN_Y].count + 1;
+    return m->component[BR_PLAN_X].count + m->component[BR_PLAN_Y].count + 1;
 }
 
 static void take_unknowns(struct br_plan_model *m, const gsl_vector *v)
 {
     size_t next = 0;
     for (int axis = 0; axis < BR_PLAN_AXES; axis++)
-        for (size_t i = 0; i < m->part[axis].count; i++)
-            m->part[axis].value[i] = gsl_vector_get(v, next++);
+        for (size_t i = 0; i < m->component[axis].count; i++)
+            m->component[axis].value[i] = gsl_vector_get(v, next++);
     m->r = most_r * tanh(gsl_vector_get(v, next));
 }
 
@@ -131,7 +131,7 @@ static size_t rows_of(const struct br_plan_model *m)
 {
     size_t rows = m->points + 1;
     for (int axis = 0; axis < BR_PLAN_AXES; axis++)
-        rows += m->part[axis].count < 2 ? 0 : 2 * m->part[axis].count - 3;
+        rows += m->component[axis].count < 2 ? 0 : 2 * m->component[axis].count - 3;
     return rows;
 }
 
@@ -148,7 +148,7 @@ static int residuals(const gsl_vector *v, void *self, gsl_vector *out)
         gsl_vector_set(out, row, f);
     }
     for (int axis = 0; axis < BR_PLAN_AXES; axis++) {
-        const struct br_plan_curve *c = &m->part[axis];
+        const struct br_plan_curve *c = &m->component[axis];
         for (size_t i = 0; i + 1 < c->count; i++) {
             const double order = curve_order(c, c->at[i + 1]);
             gsl_vector_set(out, row++, theory * (order - fit->order[axis]));
@@ -160,7 +160,7 @@ static int residuals(const gsl_vector *v, void *self, gsl_vector *out)
     return GSL_SUCCESS;
 }
 
-/* The least error near a knot is all that its part can be. */
+/* The logarithm of the least error at a knot: an upper bound of the knot's component. */
 static double least_error_near(const struct br_plan_model *m, int axis, double at)
 {
     double least = INFINITY;
@@ -174,13 +174,13 @@ static void start(const struct br_plan_model *m, double atanh_r, gsl_vector *v)
 {
     size_t next = 0;
     for (int axis = 0; axis < BR_PLAN_AXES; axis++)
-        for (size_t i = 0; i < m->part[axis].count; i++)
-            gsl_vector_set(v, next++, least_error_near(m, axis, m->part[axis].at[i]) - 0.35);
+        for (size_t i = 0; i < m->component[axis].count; i++)
+            gsl_vector_set(v, next++, least_error_near(m, axis, m->component[axis].at[i]) - 0.35);
     gsl_vector_set(v, next, atanh_r);
 }
 
-/* Where the parts are about to cancel there is more than one minimum: several starts, of which the
- * best fit counts. One that did not converge is the best so far: its residuals show its quality. */
+/* Where the components nearly cancel there is more than one minimum: the best fit of several starts
+ * counts, converged or not, since its residuals show its quality. */
 static enum br_status fit_errors(struct fit *fit, struct br_error *err)
 {
     static const double starts[] = {0, 0.7, -0.7};
@@ -219,10 +219,10 @@ static enum br_status fit_errors(struct fit *fit, struct br_error *err)
 
 /* ---- costs ---- */
 
-/* At the knots in y: the mean of the logarithms. */
+/* The mean logarithm of the solves at each knot in y. */
 static void average_solves(struct br_plan_model *m)
 {
-    m->solves = m->part[BR_PLAN_Y];
+    m->solves = m->component[BR_PLAN_Y];
     for (size_t i = 0; i < m->solves.count; i++) {
         double sum = 0, members = 0;
         for (const struct br_plan_point *p = m->point; p < m->point + m->points; p++)
@@ -234,8 +234,7 @@ static void average_solves(struct br_plan_model *m)
     }
 }
 
-/* Least squares of model/seconds - 1. No term is a saving: each in turn is the best that it can be
- * beside the others, and not below 0, until all are. */
+/* Least squares of model/seconds - 1 with all terms >= 0, by coordinate descent. */
 static void fit_costs(struct br_plan_model *m)
 {
     enum { TURNS = 20000 };
@@ -282,10 +281,10 @@ enum br_status br_plan_model_fit(struct br_plan_model *m, double p, double q, st
 
 /* ---- resolutions that were not tried ---- */
 
-/* Distances, as logarithms, at which a residual has lost 1/e of its say. */
+/* Distances, as logarithms, at which the weight of a residual is 1/e. */
 static const double reach[BR_PLAN_AXES] = {0.7, 0.25};
 
-/* What a prediction is unsure by at least, and more for each unit beyond the knots. */
+/* The least deviation of a prediction, and what each unit beyond the knots adds. */
 static const double least_deviation = 0.03, beyond[BR_PLAN_AXES] = {0.5, 0.3};
 
 struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m,
@@ -303,7 +302,7 @@ struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m,
         }
     }
     for (int axis = 0; axis < BR_PLAN_AXES; axis++) {
-        const struct br_plan_curve *c = &m->part[axis];
+        const struct br_plan_curve *c = &m->component[axis];
         const double outside = fmax(c->at[0] - at[axis], at[axis] - c->at[c->count - 1]);
         excess += beyond[axis] * fmax(0, outside);
     }
@@ -316,13 +315,13 @@ struct br_plan_prediction br_plan_model_predict(const struct br_plan_model *m,
     return predicted;
 }
 
-struct br_plan_parts br_plan_model_parts(const struct br_plan_model *m,
-                                         const double at[BR_PLAN_AXES])
+struct br_plan_components br_plan_model_components(const struct br_plan_model *m,
+                                                   const double at[BR_PLAN_AXES])
 {
-    struct br_plan_parts parts;
+    struct br_plan_components components;
     for (int axis = 0; axis < BR_PLAN_AXES; axis++) {
-        parts.error[axis] = exp(curve_value(&m->part[axis], at[axis]));
-        parts.order[axis] = curve_order(&m->part[axis], at[axis]);
+        components.error[axis] = exp(curve_value(&m->component[axis], at[axis]));
+        components.order[axis] = curve_order(&m->component[axis], at[axis]);
     }
-    return parts;
+    return components;
 }

@@ -8,7 +8,7 @@
 #include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 
-/* ---- the sources of error, in the order in which the chain takes them away ---- */
+/* ---- the sources of error, in the order in which the chain removes them ---- */
 
 static const char *without_friction(const struct br_scene *scene)
 {
@@ -29,7 +29,7 @@ static const char *round_off(const struct br_scene *scene, const struct br_refin
     return NULL;
 }
 
-/* The rule that gives at once what another one iterates towards. */
+/* The rule that gives directly the result of an iterating rule. */
 static const struct br_friction_rule *direct(const struct br_friction_rule *rule)
 {
     for (const struct br_friction_rule *const *r = br_friction_rules; *r; r++)
@@ -122,7 +122,7 @@ static void distances_free(struct distances *d)
     free(d);
 }
 
-/* Adds the distance of one stand from the next; returns its index. */
+/* Adds the distance of two links; returns its index. */
 static size_t add_distance(struct distances *d, const struct br_stand *from,
                            const struct br_stand *to)
 {
@@ -160,10 +160,10 @@ static bool failed(const struct distances *d, size_t head)
 
 /* ---- the refinement in time ---- */
 
-/* An adaptive scheme's error a step: a digit or two above the round-off of strains. */
+/* The finest tolerance of a step: a digit or two above the round-off of strains. */
 static const double finest_tolerance = 1e-11;
 
-/* Steps of a fixed length, at least; and of the run's, at least so many to one. */
+/* The least number of equal steps, and the least number of them for one step of the run. */
 enum { FINE_STEPS = 20000, LEAST_RATIO = 8 };
 
 static const double good_enough = 1e-8; /* relative to the solution */
@@ -173,7 +173,7 @@ static struct br_stand start(const struct br_split *split)
     return (struct br_stand){.method = split->method, .steps = split->at.steps};
 }
 
-/* The run with all sources but the elements taken away, by a scheme. */
+/* The run without any source but the elements, marched by this scheme. */
 static struct br_refinement refined_by(const struct br_split *split,
                                        const struct br_time_scheme *scheme)
 {
@@ -199,13 +199,13 @@ static struct br_refinement refined_by(const struct br_split *split,
     return r;
 }
 
-/* By norm and part. */
+/* By norm and component. */
 typedef double by_norm[BR_MOST_NORMS][BR_PARTS];
 
 struct refining {
     int threads;
     struct br_observer observer;
-    by_norm error;           /* of the best refinement, at most */
+    by_norm error;           /* bounds for the best refinement */
     double least;            /* the same, relative, in the first norm */
     struct br_error failure; /* the first */
 };
@@ -216,9 +216,9 @@ static void take_errors(const struct distances *d, size_t head, by_norm error)
         memcpy(error[m], d->study[m][head].cell[0].error, sizeof error[m]);
 }
 
-/* How far a march refined by a scheme is from one with ten times the tolerance, or half as many
- * steps, in the first norm and relative to the solution; infinite where one of them fails. Such
- * errors are kept where they are the least yet. */
+/* Measures how far a march refined by a scheme is from one with ten times the tolerance, or half as
+ * many steps, in the first norm and relative to the solution. Keeps the refinement and its errors
+ * if they are the least so far; the first failure is kept in `failure`. */
 static enum br_status try_refinement(struct br_split *split, const struct br_time_scheme *scheme,
                                      struct refining *r, struct br_error *err)
 {
@@ -248,8 +248,8 @@ static enum br_status try_refinement(struct br_split *split, const struct br_tim
     return status;
 }
 
-/* The first refinement that is good enough, or the best: by schemes that choose their steps, then
- * by the one of the highest order. */
+/* The first refinement that is good enough, or the best: tries the adaptive schemes, then the one
+ * of the highest order. */
 static enum br_status refine(struct br_split *split, struct refining *r, struct br_error *err)
 {
     const struct br_time_scheme *highest = br_highest_scheme();
@@ -270,13 +270,14 @@ static enum br_status refine(struct br_split *split, struct refining *r, struct 
 
 struct chain {
     struct distances *d;
-    size_t whole;                 /* head: the run and the solution */
-    size_t audit[2];              /* heads: riccati and plain, as given and before `in_time` */
+    size_t whole;    /* head: the run and the solution */
+    size_t audit[2]; /* heads: riccati against plain, for the run and before the first source in
+                        time */
     size_t link[BR_MOST_SOURCES]; /* heads, by share */
     struct refining refining;
 };
 
-/* Two forms of the same step: what they differ by is round-off, and what the march makes of it. */
+/* Two solvers of the same step: their difference is round-off, as the march amplifies it. */
 static size_t add_audit(struct chain *c, const struct br_stand *stand)
 {
     struct br_stand plain = *stand, riccati = *stand;
@@ -307,7 +308,7 @@ static void add_links(struct br_split *split, struct chain *c)
     }
 }
 
-/* Any link that fails breaks the chain. */
+/* Fails if any link has failed. */
 static enum br_status check_links(const struct br_split *split, const struct chain *c,
                                   struct br_error *err)
 {
@@ -325,8 +326,8 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     return BR_OK;
 }
 
-/* What a march's linear solver leaves open, measured or, where the audit fails, predicted; what the
- * refined march and the judge are off by. */
+/* The round-off of a march, measured or, where the audit fails, predicted; and the errors of the
+ * refined march and of the judge. */
 static double floor_of(const struct br_split *split, const struct chain *c,
                        const struct br_study *s, bool in_time, size_t norm, int part)
 {
@@ -420,7 +421,7 @@ enum br_status br_split_run(struct br_split *split, int threads, const struct br
     return status;
 }
 
-bool br_share_told(const struct br_share *share, size_t norm, enum br_part part)
+bool br_share_known(const struct br_share *share, size_t norm, enum br_part part)
 {
     return share->error[norm][part] > share->floor[norm][part];
 }

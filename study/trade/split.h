@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the error of one run comes from. A chain of marches leads from the run to the solution:
- * each takes one source of error away and keeps the rest, so that the differences of neighbours,
- * as functions of x and t, add up to the whole error. Where a source acts differently beside
- * another one, its share is what goes when the sources are taken away in this order.
+ * each march removes one more source of error. The differences of neighbours, as functions of x and
+ * t, add up to the whole error. Sources may interact; then their components depend on this order.
  *
- * To add a source: one row in split.c, where the chain has it. */
+ * To add a source: one row of br_sources in split.c, at its position in the chain. */
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
@@ -14,39 +13,39 @@
 
 enum { BR_MOST_SOURCES = 8 };
 
-/* How far a run has been taken towards the solution. */
+/* A link of the chain from a run to the solution. */
 struct br_stand {
     struct br_method method;
     size_t steps;    /* time levels; a multiple of the run's */
-    bool continuous; /* the continuous problem: the rest means nothing */
+    bool continuous; /* the continuous problem; the other fields are unused */
 };
 
-/* A way to have no time error, or nearly none: the same mesh and laws. */
+/* A march with next to no time error, on the same mesh and with the same laws. */
 struct br_refinement {
-    struct br_stand stand; /* scheme, tolerance and steps count */
+    struct br_stand stand; /* its scheme, tolerance and steps are used */
     char name[64];         /* "adaptive, tolerance 1e-11" */
 };
 
 struct br_source {
     const char *name;  /* as in the tables and in JSON */
     const char *title; /* a few words for a person */
-    /* Takes this source away from a run of the scene, where it is there at all; otherwise returns
-     * why not, a few words. */
+    /* Removes this source from a run of the scene and returns NULL; or returns, in a few words, why
+     * the run has no such source. */
     const char *(*remove)(const struct br_scene *scene, const struct br_refinement *refined,
                           struct br_stand *stand);
-    bool in_time; /* its share comes from the refined march alone */
+    bool in_time; /* its component needs the refined march */
 };
 
 /* The chain, in its order; ends with a NULL name. */
 extern const struct br_source br_sources[];
 
-/* One part of the error, the sum of the parts' norms, or the whole. */
+/* One component of the error, the sum of the components' norms, or the whole. */
 struct br_share {
-    const struct br_source *source;        /* NULL: no part */
-    const char *none;                      /* why there is no such part; NULL: there is */
+    const struct br_source *source;        /* NULL: the sum or the whole */
+    const char *none;                      /* why there is no such component; NULL: there is */
     double error[BR_MOST_NORMS][BR_PARTS]; /* its norm, in the norm's unit; 0 where there is none */
-    double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the part cannot be separated from what else
-                                              the two marches differ by; same unit */
+    double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the component cannot be separated from
+                                              other differences of the marches; same unit */
     double tip[2]; /* signed, at x = L and t = T, by br_field_kind, m; these add up */
 };
 
@@ -58,7 +57,7 @@ struct br_split {
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
     /* out */
-    const struct br_judge *judge;           /* who knows the solution */
+    const struct br_judge *judge;           /* of the whole and of the last component */
     struct br_share share[BR_MOST_SOURCES]; /* in the order of br_sources */
     size_t shares;
     struct br_share whole;
@@ -71,15 +70,15 @@ struct br_split {
 };
 
 /* Marches the chain, all its links at once on `threads` threads (0: all cores). Fails with
- * BR_NOT_FINITE where the run fails or nobody can promise a solution of the scene, and as
+ * BR_NOT_FINITE where the run fails or no judge can promise a solution of the scene, and as
  * br_study_run does. */
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
                             struct br_error *err);
 
-/* Whether a part is above its floor. */
-bool br_share_told(const struct br_share *share, size_t norm, enum br_part part);
+/* Whether a component is above its floor. */
+bool br_share_known(const struct br_share *share, size_t norm, enum br_part part);
 
-/* Its norm over the sum of all parts' norms; NaN where that is 0. */
+/* The norm of a component over the sum of all components' norms; NaN where that sum is 0. */
 double br_share_of_sum(const struct br_split *split, const struct br_share *share, size_t norm,
                        enum br_part part);
 

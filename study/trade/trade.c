@@ -17,7 +17,7 @@ double br_trade_digits_per_second(const struct br_trial *trial)
     return -log10(br_trial_relative(trial)) / br_trial_seconds(trial);
 }
 
-double br_trade_seconds_of_all(const struct br_trial_outlook *o)
+double br_trade_seconds_of_all(const struct br_trial_forecast *o)
 {
     return ceil(1.3 * (o->seconds + o->left_seconds));
 }
@@ -32,7 +32,7 @@ size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end)
 
 /* ---- choosing ---- */
 
-/* Whether a trial took less; NaN takes more than any number. */
+/* Whether a took less than b; of equal seconds fewer solves are cheaper. */
 static bool is_cheaper(const struct br_trial *a, const struct br_trial *b)
 {
     const double x = br_trial_seconds(a), y = br_trial_seconds(b);
@@ -54,10 +54,11 @@ size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double tar
     return best;
 }
 
-/* Errors that differ by less are equal: two linear solvers' differ in their last bits. */
+/* Errors that differ by less count as equal: those of two linear solvers differ in the last bits.
+ */
 static const double tie = 1e-6;
 
-/* Whether `a` loses to `b`; of equals the later one does. */
+/* Whether b is better than a; of equals the earlier is better. */
 static bool is_beaten(const struct br_trial *a, const struct br_trial *b)
 {
     const double error = br_trial_bound(a), other_error = br_trial_bound(b);
@@ -87,7 +88,8 @@ static void choose(struct br_trade *t)
     }
 }
 
-/* The judge's work is done by then, and counts: of a busy machine as of an idle one. */
+/* The judge's set-up and the forecast itself count: as seconds of this thread, which do not depend
+ * on other work of the machine. */
 enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds(), begin = br_thread_seconds(), seconds = t->request.seconds;
@@ -95,17 +97,17 @@ enum br_status br_trade_foresee(struct br_trade *t, struct br_error *err)
     if (seconds > 0)
         t->request.seconds = fmax(seconds - (br_thread_seconds() - begin), seconds / 10);
     if (!status)
-        status = br_trials_foresee(t->trial, t->count, &t->request, &t->outlook, err);
+        status = br_trials_foresee(t->trial, t->count, &t->request, &t->forecast, err);
     t->request.seconds = seconds;
     t->wall_seconds = br_seconds() - start;
-    t->outlook.seconds += br_thread_seconds() - begin;
+    t->forecast.seconds += br_thread_seconds() - begin;
     return status;
 }
 
-enum br_status br_trade_hold(struct br_trade *t, struct br_error *err)
+enum br_status br_trade_run(struct br_trade *t, struct br_error *err)
 {
     const double start = br_seconds();
-    const enum br_status status = br_trials_hold(t->trial, t->count, &t->request, err);
+    const enum br_status status = br_trials_run(t->trial, t->count, &t->request, err);
     if (!status)
         choose(t);
     t->wall_seconds += br_seconds() - start;
@@ -125,14 +127,13 @@ void br_trade_clear(struct br_trade *t)
 
 /* ---- the grid ---- */
 
-/* Roots of ten apart in time and factors of four in space, which nest. */
+/* Factors of about the square root of ten in time, and factors of four in space, which nest. */
 static const size_t default_n[] = {25, 100, 400, 1600, 6400};
 static const size_t default_steps[] = {10, 30, 100, 300, 1000, 3000, 10000};
 static const double default_tolerance[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10};
 
-/* Element-stages of a trial in a default grid at most, by the default solver, and by the others,
- * which are some 20 times slower; steps of an adaptive scheme where they are not known yet, and of
- * one that marches by itself and solves for more than a step. */
+/* The most element-stages of a trial in a default grid, by the default solver and by the others,
+ * which are some 20 times slower; and the assumed steps of an adaptive scheme. */
 static const double most_work = 4e6, most_slow_work = 4e5, guessed_steps = 100;
 
 enum {
@@ -141,7 +142,7 @@ enum {
     DEFAULT_TOLERANCES = sizeof default_tolerance / sizeof *default_tolerance
 };
 
-/* A grid with its defaults filled in, which leave out what is heavy. */
+/* A grid with its defaults filled in. */
 static struct br_trade_grid fill_in(struct br_trade_grid g)
 {
     if (!g.n_count)
@@ -160,7 +161,7 @@ bool br_trade_is_printed_method(const struct br_named_method *c)
            m->friction == paper.friction && m->axial_degree == paper.axial_degree;
 }
 
-/* Whether a default grid has it. */
+/* Whether a trial is light enough for a default grid. */
 static bool is_light(const struct br_named_method *c, size_t n, double steps)
 {
     const double work = (double)n * steps * (double)br_time_scheme_stages(c->method.scheme);
@@ -168,7 +169,7 @@ static bool is_light(const struct br_named_method *c, size_t n, double steps)
     return work <= (quick ? most_work : most_slow_work);
 }
 
-/* Marks what the paper prints and, if `all`, adds what is not there. */
+/* Marks the trials that the paper prints and, if `all`, adds those that are missing. */
 static void add_printed(struct br_trade *t, const struct br_trade_grid *g,
                         const struct br_named_method *c, bool all)
 {

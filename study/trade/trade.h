@@ -12,7 +12,7 @@
 enum { BR_TRADE_FIRST_DIGIT = 2, BR_TRADE_LAST_DIGIT = 10, BR_TRADE_DIGITS = 9 };
 double br_trade_target(size_t digit); /* 0 .. BR_TRADE_DIGITS - 1 */
 
-/* What is tried. Lists are borrowed; an empty one means the default. */
+/* The resolutions to try. Lists are borrowed; an empty one means the default. */
 struct br_trade_grid {
     const size_t *n, *steps;
     const double *tolerance; /* of adaptive schemes */
@@ -29,22 +29,22 @@ struct br_trade {
     size_t best[BR_TRADE_DIGITS]; /* the cheapest trial to each target; `count`: none */
     /* Likewise of each named method. */
     size_t best_of[BR_MOST_NAMED_METHODS][BR_TRADE_DIGITS];
-    struct br_trial_outlook outlook;
-    void *judge;         /* kept from the outlook on; owned */
+    struct br_trial_forecast forecast;
+    void *judge;         /* kept since br_trade_foresee; owned */
     double wall_seconds; /* of all of it */
 };
 
-/* Lays out the trials of the named methods, which are set. Without lists of its own a grid is
- * coarse, leaves out what would be heavy, and has the printed table's cells for the paper's method.
+/* Lists the trials of trade->methods. A default list is coarse and leaves out heavy trials; if both
+ * lists are the defaults, the paper's method also gets the printed table's cells.
  * Fails with BR_NO_MEMORY, BR_BAD_INPUT (no trial at all). */
 enum br_status br_trade_lay_out(struct br_trade *trade, const struct br_trade_grid *grid,
                                 struct br_error *err);
 
-/* Foresees what the trials take; `request` is set. Fails as br_trials_foresee does. */
+/* Forecasts the seconds of the trials by `request`. Fails as br_trials_foresee does. */
 enum br_status br_trade_foresee(struct br_trade *trade, struct br_error *err);
 
-/* Holds the trials and chooses. Fails as br_trials_hold does. */
-enum br_status br_trade_hold(struct br_trade *trade, struct br_error *err);
+/* Runs the trials and chooses the best. Fails as br_trials_run does. */
+enum br_status br_trade_run(struct br_trade *trade, struct br_error *err);
 void br_trade_clear(struct br_trade *trade);
 
 /* Whether a named method is the paper's own method. */
@@ -53,10 +53,10 @@ bool br_trade_is_printed_method(const struct br_named_method *named);
 /* -log10 of the relative error, over the seconds; NaN: no trial that counts. */
 double br_trade_digits_per_second(const struct br_trial *trial);
 
-/* What --seconds would have to be for all trials, with some to spare. */
-double br_trade_seconds_of_all(const struct br_trial_outlook *outlook);
+/* The value of --seconds that is enough for all trials, with a margin. */
+double br_trade_seconds_of_all(const struct br_trial_forecast *forecast);
 
-/* How many trials ended like that. */
+/* The number of trials with this end. */
 size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 
 /* ---- choosing ---- */
@@ -67,8 +67,9 @@ size_t br_trade_tally(const struct br_trade *trade, enum br_trial_end end);
 size_t br_trials_cheapest(const struct br_trial *trial, size_t count, double target,
                           const struct br_named_method *only);
 
-/* Marks (out, count) the trials that no other one beats in error or seconds without losing in the
- * other; of equals the first. A slower one must be better by more than a millionth. */
+/* Marks (out, count) the trials of the Pareto front: no other trial is better in error or seconds
+ * and at least as good in the other; of equals the first is marked. The error of a slower trial
+ * must be smaller by more than a millionth. */
 void br_trials_front(const struct br_trial *trial, size_t count, bool *front);
 
 #endif

@@ -73,26 +73,26 @@ double br_trial_bound(const struct br_trial *trial)
 /* ---- seconds ---- */
 
 /* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
-static const double between_looks = 1e5;
+static const double between_readings = 1e5;
 
-/* A march is ended early where its first steps predict that it takes this many times the limit. The
- * first steps of an adaptive scheme predict nothing. */
+/* A march is ended early where its first steps predict that it takes this many times the limit.
+ * The first steps of an adaptive scheme predict nothing. */
 static const double sure_excess = 1.5;
 static const double least_evidence = 0.05; /* s of steps that an extrapolation is made from */
 
-/* A trial at work. */
+/* A trial that is being marched. */
 struct clocked {
     struct br_trial *trial;
     const struct br_trial_request *request;
     struct br_march *march;
     double set_up; /* s */
     double start;  /* of its steps, s of this thread */
-    size_t every;  /* steps between two looks at the clock */
-    size_t asked;  /* steps since the last one, within those of an adaptive scheme */
+    size_t every;  /* steps between two readings of the clock */
+    size_t asked;  /* steps of an adaptive scheme since the last reading */
 };
 
-/* The seconds that the march surely takes to its end if it goes on like this; only those so far
- * where its steps predict nothing. */
+/* A sure lower estimate of the march's seconds to its end; only the seconds so far where its steps
+ * predict nothing. */
 static double foreseen(const struct clocked *c, double spent)
 {
     const double done = (double)br_march_steps_done(c->march);
@@ -108,7 +108,7 @@ static bool is_over(const struct clocked *c)
     return limit > 0 && !(c->set_up + steps <= limit && foreseen(c, steps) <= limit);
 }
 
-/* Within the steps of an adaptive scheme. */
+/* Asked by br_march_step within the steps of an adaptive scheme. */
 static bool stops(void *self)
 {
     struct clocked *c = self;
@@ -119,7 +119,7 @@ static bool stops(void *self)
 }
 
 /* Ends a march that takes too long. */
-static enum br_status look_at_clock(struct clocked *c, struct br_error *err)
+static enum br_status check_clock(struct clocked *c, struct br_error *err)
 {
     if (br_observer_stops(c->request->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
@@ -136,11 +136,11 @@ static enum br_status make_steps(struct clocked *c, struct br_error *err)
 {
     const size_t steps = c->trial->at.steps;
     const bool adaptive = c->trial->named->method.scheme->adaptive;
-    enum br_status status = look_at_clock(c, err);
+    enum br_status status = check_clock(c, err);
     for (size_t i = 1; i <= steps && !status; i++) {
         const enum br_status step = br_march_step(c->march, &c->trial->failure);
-        const bool looks = !step && (i % c->every == 0 || i == steps || adaptive);
-        status = looks || step == BR_INTERRUPTED ? look_at_clock(c, err) : BR_OK;
+        const bool reads = !step && (i % c->every == 0 || i == steps || adaptive);
+        status = reads || step == BR_INTERRUPTED ? check_clock(c, err) : BR_OK;
         status = status ? status : step;
     }
     return status;
@@ -150,7 +150,7 @@ enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request 
                               struct br_trial_cost *cost, struct br_error *err)
 {
     struct clocked c = {
-        .trial = t, .request = r, .every = 1 + (size_t)(between_looks / (double)t->at.n)};
+        .trial = t, .request = r, .every = 1 + (size_t)(between_readings / (double)t->at.n)};
     const struct br_method method = br_trial_method(t);
     const struct br_planned_march planned = {
         .scene = r->scene, .method = &method, .n = t->at.n, .steps = t->at.steps};
@@ -201,7 +201,7 @@ static enum br_status repeat(struct br_trial *t, const struct br_trial_request *
 
 /* ---- kept ---- */
 
-/* What is kept of a trial's clock: it came to its end, or was over the limit. */
+/* The kept timing of a trial that is complete or over the limit. */
 struct kept_trial {
     struct br_trial_cost cost;
     struct br_error failure;
@@ -245,34 +245,34 @@ static void keep_trial(const struct br_trial *t, const struct br_trial_request *
     br_kept_write(r->kept, key, &k, sizeof k);
 }
 
-/* Trials that are held together. */
-struct held {
+/* Trials that are run in one call. */
+struct batch {
     struct br_trial *trial;
     const struct br_trial_request *request;
 };
 
-/* Sets `cost` and, where a trial does not come to its end, `end` and `failure`. A failure of the
- * march is a result of the trial; an interruption ends the call. */
+/* Times one trial: sets `cost` and, if the march is not complete, `end` and `failure`. A failure of
+ * the march is a result of the trial; an interruption ends the call. */
 static enum br_status time_one(void *self, size_t i, struct br_error *err)
 {
-    const struct held *held = self;
-    struct br_trial *t = &held->trial[i];
-    if (t->end == BR_TRIAL_LEFT || take_kept(t, held->request))
+    const struct batch *batch = self;
+    struct br_trial *t = &batch->trial[i];
+    if (t->end == BR_TRIAL_LEFT || take_kept(t, batch->request))
         return BR_OK;
-    const enum br_status status = repeat(t, held->request, err);
+    const enum br_status status = repeat(t, batch->request, err);
     if (status == BR_INTERRUPTED)
         return status;
     if (status && t->end != BR_TRIAL_OVER)
         t->end = BR_TRIAL_FAILED;
-    keep_trial(t, held->request);
+    keep_trial(t, batch->request);
     return BR_OK;
 }
 
-/* What a trial costs, about, for the observer. */
+/* The approximate cost of a trial, for the observer. */
 static double work_of(const void *self, size_t i)
 {
-    const struct held *held = self;
-    const struct br_trial *t = &held->trial[i];
+    const struct batch *batch = self;
+    const struct br_trial *t = &batch->trial[i];
     if (t->end == BR_TRIAL_LEFT)
         return 0;
     if (t->foreseen > 0)
@@ -293,18 +293,17 @@ static void begin(struct br_trial *t)
 
 /* ---- errors ---- */
 
-/* Trials that came to their end, as cells of studies: one study for each mesh and degree, whose
- * cells are marched by as many methods, so that the judge looks at that mesh once. Arrays are all
- * owned. */
+/* Complete trials as cells of studies: one study for each mesh and degree, so that the judge
+ * samples that mesh once. Each cell has its own method. All arrays are owned. */
 struct groups {
     size_t count, cells;
     struct br_study *study;
-    struct br_trial **member; /* by cell, those of one study behind those of another; borrowed */
+    struct br_trial **member; /* by cell, study after study; borrowed */
     size_t *steps;
     struct br_method *method;
 };
 
-/* By elements, then as they are listed. */
+/* By elements, by degree, then in the order of the list. */
 static int by_elements(const void *a, const void *b)
 {
     const struct br_trial *x = *(struct br_trial *const *)a, *y = *(struct br_trial *const *)b;
@@ -345,12 +344,12 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
     }
 }
 
-/* The judge's own error and round-off. */
+/* The judge's own error and its round-off. */
 static double own_error(const struct br_study *s)
 {
-    const double told =
+    const double known =
         br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
-    return isfinite(told) ? told + s->judged_by.round_off * s->reference_scale : NAN;
+    return isfinite(known) ? known + s->judged_by.round_off * s->reference_scale : NAN;
 }
 
 static void take_cell(struct br_trial *t, const struct br_study *s, const struct br_cell *cell)
@@ -399,7 +398,7 @@ const struct br_judge *br_trials_judge(const struct br_trial_request *r)
     return r->judge ? r->judge : br_judge_best(r->scene);
 }
 
-/* Judges the trials that came to their end. */
+/* Judges the complete trials. */
 static enum br_status judge_all(struct br_trial *trial, size_t count,
                                 const struct br_trial_request *request, struct br_error *err)
 {
@@ -428,9 +427,9 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
 
 /* ---- both ---- */
 
-/* Seconds take about three quarters of the time. */
-enum br_status br_trials_hold(struct br_trial *trial, size_t count,
-                              const struct br_trial_request *request, struct br_error *err)
+/* Timing takes about three quarters of the work. */
+enum br_status br_trials_run(struct br_trial *trial, size_t count,
+                             const struct br_trial_request *request, struct br_error *err)
 {
     struct br_observer_share share = {.whole = request->observer, .length = 0.75};
     struct br_observer part;
@@ -446,7 +445,7 @@ enum br_status br_trials_hold(struct br_trial *trial, size_t count,
                                  .observer = own.observer,
                                  .turn = time_one,
                                  .work = work_of,
-                                 .self = &(struct held){trial, &own}};
+                                 .self = &(struct batch){trial, &own}};
     enum br_status status = br_each(&each, err);
     share = (struct br_observer_share){request->observer, 0.75, 0.25};
     return status ? status : judge_all(trial, count, &own, err);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What trials will take. Each method marches a few steps on two meshes, the judge looks at a few
- * time levels on one; costs elsewhere are linear in elements and in time levels. */
+/* The seconds that trials will take. Each method marches a few steps on two meshes, and the judge
+ * samples a few time levels on one mesh. Costs are assumed linear in elements and in time levels.
+ */
 #include <math.h>
 
 #include "solver/clock.h"
@@ -11,17 +12,17 @@
 /* ---- a method ---- */
 
 static const size_t probe_mesh[2] = {25, 400};
-enum { LEVELS = 100 };                    /* of the duration, for steps that do not choose */
+enum { LEVELS = 100 };                    /* time levels of a probe with equal steps */
 static const double longest_probe = 0.02; /* s of steps */
 
-/* What a march takes on the two meshes: s, and s a time level. */
+/* Seconds of a march on the two meshes: of its set-up, and of one time level. */
 struct pace {
     double set_up[2], level[2];
 };
 
-/* Marches until that has taken long enough. A march that fails takes nothing more; only
- * BR_NO_MEMORY and BR_INTERRUPTED fail the call. Trials of one method, and of one tolerance, have
- * the same. */
+/* Marches until that has taken `longest_probe`. A march that fails costs nothing more; only
+ * BR_NO_MEMORY and BR_INTERRUPTED fail the call. Trials with the same method and the same tolerance
+ * have the same pace. */
 static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
                                 size_t i, struct pace *pace, struct br_error *err)
 {
@@ -44,13 +45,13 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
             return br_fail(err, status, "%s", probe.failure.message);
         pace[i].set_up[mesh] = isnan(cost.set_up) ? 0 : cost.set_up;
         pace[i].level[mesh] = 0;
-        if (!status || status == BR_VERDICT) /* the level that it is in counts by half */
+        if (!status || status == BR_VERDICT) /* an unfinished first level counts as half of one */
             pace[i].level[mesh] = cost.march / fmax(0.5, (double)cost.levels);
     }
     return BR_OK;
 }
 
-/* Linear in n, and growing. */
+/* The value at n elements, linear in n; it never decreases and is never negative. */
 static double at_mesh(const double on[2], size_t n)
 {
     const double slope = (on[1] - on[0]) / (double)(probe_mesh[1] - probe_mesh[0]);
@@ -65,7 +66,7 @@ static double march_seconds(const struct br_trial *t, const struct pace *pace)
 
 /* ---- the judge ---- */
 
-/* What it takes: s for each mesh, and s for a time level and an element. */
+/* Seconds of the judge: for each mesh, and for one element at one time level. */
 struct judging {
     double mesh, level;
 };
@@ -99,7 +100,7 @@ void br_trials_forget_judge(const struct br_trial_request *r, void *self)
         br_trials_judge(r)->free(self);
 }
 
-/* Looks at all levels of a field. */
+/* Samples a field at all levels. */
 static enum br_status sample(const struct br_judge *judge, void *self,
                              const struct br_judge_request *request, enum br_field_kind kind,
                              double *values, struct br_error *err)
@@ -117,9 +118,9 @@ static enum br_status sample(const struct br_judge *judge, void *self,
     return status;
 }
 
-/* It looks at a few levels of one mesh; a fine run marches anew for each mesh. */
-static enum br_status look_at_judge(const struct br_trial_request *r, struct judging *judging,
-                                    struct br_error *err)
+/* Times the judge at a few levels of one mesh; a judge that nests marches anew for each mesh. */
+static enum br_status time_judge(const struct br_trial_request *r, struct judging *judging,
+                                 struct br_error *err)
 {
     enum { N = 100, FEW = 10 };
     static const size_t mesh = N;
@@ -153,10 +154,10 @@ static enum br_status look_at_judge(const struct br_trial_request *r, struct jud
 
 /* ---- a trial ---- */
 
-/* An early end of a march that is over the limit, s. */
+/* A march that is far over the limit ends after this time, s. */
 static const double soon = 0.1;
 
-/* Of the marches for its seconds, and of the one for its error. */
+/* Seconds of a trial's timed marches and of the march for its error. */
 static double marches(const struct br_trial_request *r, const struct br_trial *t, double march)
 {
     const bool adaptive = t->named->method.scheme->adaptive;
@@ -169,7 +170,7 @@ static double marches(const struct br_trial_request *r, const struct br_trial *t
     return march * (1 + repeats) + march / br_threads(r->threads);
 }
 
-/* The judge looks at a mesh once, and at its time levels that several trials have. */
+/* Seconds of the judge for trial i. A mesh, or a number of steps on it, costs only once. */
 static double judged(const struct br_trial *trial, size_t i, const struct judging *judging)
 {
     bool mesh = true, levels = true;
@@ -185,41 +186,41 @@ static double judged(const struct br_trial *trial, size_t i, const struct judgin
 
 /* ---- all of them ---- */
 
-/* Leaves out the dearest until the others take no longer than allowed; one is always held. */
+/* Leaves out the dearest trials until the others take no longer than allowed; one always remains.
+ */
 static void leave_out(struct br_trial *trial, size_t count, double allowed,
-                      struct br_trial_outlook *outlook)
+                      struct br_trial_forecast *forecast)
 {
-    while (outlook->held > 1 && outlook->seconds > allowed) {
+    while (forecast->planned > 1 && forecast->seconds > allowed) {
         struct br_trial *dearest = NULL;
         for (size_t i = 0; i < count; i++)
             if (trial[i].end != BR_TRIAL_LEFT &&
                 (!dearest || trial[i].foreseen > dearest->foreseen))
                 dearest = &trial[i];
         dearest->end = BR_TRIAL_LEFT;
-        outlook->seconds -= dearest->foreseen;
-        outlook->left_seconds += dearest->foreseen;
-        outlook->held--;
-        outlook->left++;
+        forecast->seconds -= dearest->foreseen;
+        forecast->left_seconds += dearest->foreseen;
+        forecast->planned--;
+        forecast->left++;
     }
 }
 
 enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
-                                 const struct br_trial_request *r, struct br_trial_outlook *outlook,
-                                 struct br_error *err)
+                                 const struct br_trial_request *r,
+                                 struct br_trial_forecast *forecast, struct br_error *err)
 {
-    *outlook = (struct br_trial_outlook){.held = count};
+    *forecast = (struct br_trial_forecast){.planned = count};
     struct judging judging;
     struct pace *pace = br_allocate(count, sizeof *pace);
-    enum br_status status =
-        pace ? look_at_judge(r, &judging, err) : br_no_memory(err, "the trials");
+    enum br_status status = pace ? time_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
         status = find_pace(r, trial, i, pace, err);
         trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
-        outlook->seconds += trial[i].foreseen;
+        forecast->seconds += trial[i].foreseen;
     }
     free(pace);
     if (!status && r->seconds > 0)
-        leave_out(trial, count, r->seconds, outlook);
+        leave_out(trial, count, r->seconds, forecast);
     return status;
 }
