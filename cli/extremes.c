@@ -14,8 +14,7 @@ enum { MOST_EXPERIMENTS = 16 };
 
 struct run {
     struct br_session session;
-    const struct br_extremes_experiment
-        *experiment[MOST_EXPERIMENTS]; /* experiments, in the registry's order */
+    const struct br_extremes_experiment *experiment[MOST_EXPERIMENTS]; /* in registry order */
     struct br_error verdict[MOST_EXPERIMENTS];
     size_t experiments;
     struct br_extremes_job job; /* as the options have it */
@@ -44,9 +43,9 @@ static const char *accepting(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_extremes_experiment *p = br_extremes_experiments; p->name; p++)
-        if (accepts(p, option))
-            br_append(text, sizeof text, "%s%s", *text ? ", " : "", p->name);
+    for (const struct br_extremes_experiment *e = br_extremes_experiments; e->name; e++)
+        if (accepts(e, option))
+            br_append(text, sizeof text, "%s%s", *text ? ", " : "", e->name);
     return *text ? text : "no part";
 }
 
@@ -74,8 +73,8 @@ static enum br_status check_options(const struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
         bool wanted = !br_option_given(r->session.options, own_options[i].id);
-        for (size_t p = 0; p < r->experiments; p++)
-            wanted |= accepts(r->experiment[p], own_options[i].id);
+        for (size_t e = 0; e < r->experiments; e++)
+            wanted |= accepts(r->experiment[e], own_options[i].id);
         if (!wanted)
             return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
                            own_options[i].option, accepting(own_options[i].id));
@@ -87,14 +86,14 @@ static enum br_status check_options(const struct run *r, struct br_error *err)
 static enum br_status choose_experiments(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    for (const struct br_extremes_experiment *p = br_extremes_experiments; p->name; p++) {
+    for (const struct br_extremes_experiment *e = br_extremes_experiments; e->name; e++) {
         size_t times = 0;
         for (size_t i = 0; i < o->words; i++)
-            times += strcmp(o->word[i], p->name) == 0;
+            times += strcmp(o->word[i], e->name) == 0;
         if (times > 1)
-            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", p->name);
+            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", e->name);
         if ((times || !o->words) && r->experiments < MOST_EXPERIMENTS)
-            r->experiment[r->experiments++] = p;
+            r->experiment[r->experiments++] = e;
     }
     return BR_OK;
 }

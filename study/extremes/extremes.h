@@ -62,15 +62,14 @@ struct br_function br_nodal_function(struct br_nodal *nodal);
 struct br_floor {
     const struct br_scene *scene; /* borrowed */
     const struct br_named_method *by;
-    size_t n, of;        /* elements; steps of the duration */
-    size_t steps;        /* steps of these that are taken; 0: not marched */
-    double k;            /* s */
-    double deviation[2]; /* by br_field_kind: at the end, largest of all nodal displacements,
-                            relative to the largest displacement of the field */
-    double tip[2];       /* of the tip's, relative to the same */
-    double predicted;    /* br_march_round_off */
-    double
-        time_error; /* largest error of the march's times against n T/N, relative to the duration */
+    size_t n, of;            /* elements; steps of the duration */
+    size_t steps;            /* steps of these that are taken; 0: not marched */
+    double k;                /* s */
+    double deviation[2];     /* by br_field_kind: at the end, largest of all nodal displacements,
+                                relative to the largest displacement of the field */
+    double tip[2];           /* of the tip's, relative to the same */
+    double predicted;        /* br_march_round_off */
+    double time_error;       /* largest error of the march's times, relative to the duration */
     struct br_error refused; /* status BR_OK where it marched */
 };
 
@@ -184,10 +183,10 @@ struct br_stability {
     double excess;         /* how far above 1 the measured eigenvalue is where none is predicted */
 };
 
-/* The largest relative difference between measured and predicted limits and growths, and the
- * largest excess over 1 of an eigenvalue where stability is predicted. At a measured limit an
- * eigenvalue is outside the unit circle by 1e-11. That is at most 1e-11 beyond the limit, since the
- * eigenvalue grows faster than c_H. The rest is for the round-off of eigenvalues. */
+/* The largest allowed relative difference of measured and predicted limits and growths, and the
+ * largest allowed excess over 1 of an eigenvalue where stability is predicted. At a measured limit
+ * an eigenvalue is outside the unit circle by 1e-11. That is at most 1e-11 beyond the limit, since
+ * the eigenvalue grows faster than c_H. The rest is for the round-off of eigenvalues. */
 extern const double br_stability_tolerance; /* 1e-9 */
 
 /* Of the job: n is one number, at most BR_STABILITY_MOST_ELEMENTS, by default 8; k is by default

@@ -86,8 +86,7 @@ static struct br_track_request request_of(const struct trial *t)
 
 static const double accurate = 0.05;    /* relative, of displacements */
 static const double refined_work = 3e6; /* elements times linear solves */
-static const double of_distance =
-    1.5; /* times the distance of a judge from a finer one: its error */
+static const double of_distance = 1.5;  /* from a judge to a finer one, times this: its error */
 
 /* Compares the distance of the march from the judge with the stated error. */
 static void compare(struct trial *t)
@@ -98,10 +97,8 @@ static void compare(struct trial *t)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
-        const double stated_divisor =
-            t->judging->stated_divisor > 0 ? t->judging->stated_divisor : 1;
-        const double stated =
-            br_predicted_most(&t->prediction, (enum br_field_kind)kind) / stated_divisor;
+        const double divisor = t->judging->stated_divisor > 0 ? t->judging->stated_divisor : 1;
+        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / divisor;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
         if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
@@ -246,8 +243,7 @@ static enum br_status march_in_other_units(struct trial *t, bool *exist, struct 
     if (!status)
         status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
     br_scene_clear(&changed);
-    return status == BR_BAD_INPUT ? BR_OK
-                                  : status; /* a number cannot be represented in these units */
+    return status == BR_BAD_INPUT ? BR_OK : status; /* a number is out of range in these units */
 }
 
 /* The largest effect of small noise on the answer. Where a last bit decides between stick and slip,

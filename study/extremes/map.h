@@ -81,7 +81,7 @@ void br_extreme_command(const struct br_extreme_case *one, const char *name,
 
 /* Tests for one case that a march is right, or that the program says that it is not.
  *
- * A case is read, warned of, and marched as `run --check` does. Then
+ * A case is read, checked for warnings, and marched as `run --check` does. Then
  *   - the certificate of every step, the energy balance and the numbers themselves must be sound;
  *   - the exact solution, or where that cannot be had in time another scheme on a finer mesh by
  *     shorter steps, measures the error of the displacements, which is compared with the error
@@ -116,12 +116,11 @@ extern const char *const br_extreme_judges[];
 struct br_extreme_verdict {
     enum br_extreme_class which;
     enum br_extreme_by by;
-    bool known;    /* the run states its error */
-    double error;  /* of displacements, over the largest; NaN: not known */
-    double stated; /* the stated bound of the error, of the field that is nearest to its bound or
-                      furthest beyond it; INFINITY: no bound; NaN: not compared */
-    double
-        units; /* difference between two systems of units, relative as `error`; NaN: not compared */
+    bool known;       /* the run states its error */
+    double error;     /* of displacements, over the largest; NaN: not known */
+    double stated;    /* the stated bound of the error, of the field that is nearest to its bound or
+                         furthest beyond it; INFINITY: no bound; NaN: not compared */
+    double units;     /* error between two systems of units; NaN: not compared */
     double round_off; /* predicted */
     unsigned warned;  /* bits: 1 << br_warning_kind */
     char why[200];    /* the reason why it is not right; one line */

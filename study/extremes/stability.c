@@ -53,8 +53,7 @@ struct br_scene br_stability_scene(const struct br_field *field, double duration
 
 /* ---- a row: one rod, one time step ---- */
 
-/* Finds the c_H at which the largest eigenvalue leaves the unit circle, by bisection between a
- * stable and an unstable c_H. */
+/* Finds by bisection the c_H at which the largest eigenvalue leaves the unit circle. */
 static enum br_status find_limit(const struct br_field *field, double low, double high,
                                  double *limit, struct br_error *err)
 {
@@ -118,8 +117,7 @@ static enum br_status measure_planes(struct br_stability *s, const struct br_ext
 
 static const double tip_shares[BR_STABILITY_TIPS] = {0.5, 0.9, 0.99, 1.01, 1.1, 2, 10, 1e3, 1e6};
 
-/* c_H over the limit of a contact that closes and opens; from the fifth on, over that of a closed
- * one. */
+/* c_H over the limit of a contact that closes and opens; from the fifth on, of a closed one. */
 static const double bounce_shares[BR_STABILITY_BOUNCES] = {0.1, 0.5, 0.9, 1, 0.1, 0.5, 0.9, 0.99};
 enum { OF_BOUNCING = 4, TIP_STEPS = 4000, BOUNCE_STEPS = 20000 };
 
@@ -143,8 +141,7 @@ static double energy_of(const struct br_march *march, const struct br_contact *c
            contact->stiffness / 2 * depth * depth;
 }
 
-/* Records a step. A pressed rod has no energy at the start, so that only a thrown one has an energy
- * ratio. */
+/* Records a step. Only a thrown rod has energy at the start. */
 static void record(struct watch *w, const struct br_march *march, size_t step)
 {
     struct br_stability_tip *t = w->tip;

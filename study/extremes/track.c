@@ -257,8 +257,8 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
 /* ---- errors ---- */
 
 /* The mean square of a field, or of its difference from another one, at a level: by the trapezoidal
- * rule from the clamped end, where it is 0. The last interval, at the tip, takes the lower value of
- * its two ends: a layer there may be far narrower than the interval. */
+ * rule from the clamped end, where it is 0. The last interval, at the tip, counts with its first
+ * value where that is lower: a layer there may be far narrower than the interval. */
 static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
 {
     const struct br_track_samples *at = &a->samples;
@@ -283,8 +283,7 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
     return sqrt(most);
 }
 
-/* The mean at all times: larger than that of the sampled levels by the factor by which the largest
- * value is. */
+/* The mean at all times: scaled by the largest value of all times over the largest sampled one. */
 static double mean_size(const struct br_track *t, enum br_field_kind kind)
 {
     const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind, 1);

@@ -116,8 +116,7 @@ static enum br_status gather(const struct pairs *p, bool over_h, size_t m, struc
     return BR_OK;
 }
 
-/* Every cell of the grid is the first of a pair, except the one of the finest mesh and the smallest
- * step. */
+/* Every cell of the grid is the first of a pair, except that of finest mesh and smallest step. */
 static void collect_tips(const struct pairs *p, struct br_tips *tips)
 {
     const size_t rows = tips->n_count, columns = tips->k_count;

@@ -71,8 +71,7 @@ static enum br_status fill_transfers(struct level *level, size_t modes, struct b
     return level->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
 }
 
-/* Finds the parent of r: the coarsest mesh that r divides, among the finer levels and the root
- * levels. */
+/* Finds the parent of r: the coarsest finer level, or root level, that r divides. */
 static bool find_parent(const struct br_ladder *ladder, size_t meshes, struct level *r)
 {
     const struct level *mesh = ladder->level;

@@ -28,10 +28,10 @@ struct br_measured {
 struct br_bench {
     const struct br_judge *judge;
     void *self;
-    struct br_sample
-        *sample; /* buffered_levels: norms of the reference, or its distances from the auditor */
-    struct br_norm_sum *sum; /* norms, of the same */
-    double time;             /* of the last sample, s */
+    struct br_sample *sample; /* buffered_levels: norms of the reference, or its distances from the
+                                 auditor */
+    struct br_norm_sum *sum;  /* norms, of the same */
+    double time;              /* of the last sample, s */
 };
 
 /* A cell's march, with a buffer to sample it. */
@@ -51,10 +51,9 @@ struct br_lockstep {
     struct br_error failure;    /* and why; status BR_OK while all is well */
     size_t *root_mesh;          /* on which the reference is sampled */
     size_t root_meshes;
-    size_t audit_every;     /* of the levels, so that there are not too many audits */
-    struct br_runner *cell; /* br_study_cells */
-    size_t *task_cell,
-        tasks; /* the first cell of each task, whose cells march together; then the end */
+    size_t audit_every;           /* of the levels, so that there are not too many audits */
+    struct br_runner *cell;       /* br_study_cells */
+    size_t *task_cell, tasks;     /* the first cell that each task marches; then the end */
     struct br_norm_sum *cell_sum; /* norms for each cell */
     size_t *level;                /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;

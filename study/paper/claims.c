@@ -220,8 +220,7 @@ static void measure_cell(const struct br_paper *p, size_t which, struct br_findi
 
 /* ---- Example 2 ---- */
 
-/* The time of the steps in which the tip rests, s; *slowest: the least |w_t(L)| after t = 0,
- * m/s. */
+/* The time of the steps at rest, s; *slowest: the least |w_t(L)| after t = 0, m/s. */
 static double resting(const struct br_history_record *record, double *slowest)
 {
     size_t steps = 0;

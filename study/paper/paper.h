@@ -83,8 +83,9 @@ void br_paper_clear(struct br_paper *paper);
 /* ---- claims ---- */
 
 /* What the paper says there, as far as it can be checked: a registry. Each claim measures its value
- * from the marches above, and from the exact solution where that has it. To add a claim: a function
- * and a row in claims.c. */
+ * from the marches above, and from the exact solution where that has it.
+ *
+ * To add a claim: a function and a row in claims.c. */
 
 enum br_agreement {
     BR_AGREES,

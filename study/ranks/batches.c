@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cuts studies into slices of some cells, and deals slices into batches. Marches a batch, and turns
- * its results into bytes. */
+/* Cuts studies into slices of some cells, deals these into batches, marches a batch, and turns its
+ * results into bytes. */
 #include "study/ranks/batches.h"
 
 #include <math.h>
@@ -14,15 +14,14 @@
 /* ---- costs ---- */
 
 /* ns, measured on one core, both fields, n = 1600 and 3200, 1e4 time levels, scaled to the 3 GHz of
- * the solvers' costs. They decide which rank does what, not the results: a wrong value costs
- * time. */
+ * the solvers' costs. They decide who does what, not the results: a wrong one costs time. */
 static const double measure_ns = 33;      /* to sample an element of a cell, and to project there */
 static const double sample_fine_ns = 30;  /* to sample an element of a fine run */
 static const double sample_other_ns = 73; /* of a judge that evaluates a solution; mms: 100 */
 static const double create_ns = 3.3e7;    /* a solution of the continuous problem */
 
-/* The reference is sampled at every time level of a cell: about as often as the cell of most steps
- * has levels. */
+/* The reference is sampled at every time level of a cell: about as often as the cell of most
+ * steps. */
 double br_reference_cost(const struct br_study *s)
 {
     size_t levels = 0, n = 0;

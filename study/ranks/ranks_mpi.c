@@ -31,8 +31,7 @@
 
 static const double beat_every = 0.25;    /* s */
 static const double default_timeout = 60; /* s without a heartbeat; $BEAMRATE_SILENCE replaces it */
-static const double longest_gap =
-    0.05; /* s; after a longer time between two watches this process was not running */
+static const double longest_gap = 0.05;   /* s between two watches of a process that runs */
 
 /* The window: the number of the next batch, a mark of failure, and two numbers of each rank. */
 enum { NEXT_BATCH, FAILED, OF_RANKS };
@@ -61,7 +60,7 @@ static struct {
     bool sending, marked;   /* whether those have begun */
     int64_t *known_beats;   /* of each rank */
     double *since_beat;     /* of each rank, s since the last heartbeat */
-    double watched, beat;   /* when this rank did so last, s */
+    double watched, beat;   /* times of the last watch and heartbeat, s */
 
     const struct br_observer *observer; /* of the call; may be NULL */
     double before, total;               /* the job's work before this call, and of it, ns */
