@@ -4,19 +4,19 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "cli/extremes_part.h"
+#include "cli/extremes_experiment.h"
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/words.h"
 
-enum { MOST_PARTS = 16 };
+enum { MOST_EXPERIMENTS = 16 };
 
 struct run {
     struct br_session session;
-    const struct br_extremes_part *part[MOST_PARTS]; /* parts, in the registry's order */
-    struct br_error verdict[MOST_PARTS];
-    size_t parts;
+    const struct br_extremes_experiment *experiment[MOST_EXPERIMENTS]; /* in registry order */
+    struct br_error verdict[MOST_EXPERIMENTS];
+    size_t experiments;
     struct br_extremes_job job; /* as the options have it */
 };
 
@@ -25,75 +25,75 @@ struct run {
 static const struct {
     const char *option;
     enum br_option_id id;
-} heeded[] = {{"--n", BR_OPT_N},
-              {"--k", BR_OPT_K},
-              {"--cases", BR_OPT_CASES},
-              {"--seed", BR_OPT_SEED},
-              {"--rounding", BR_OPT_ROUNDING},
-              {"--resume", BR_OPT_RESUME}};
-enum { HEEDED = sizeof heeded / sizeof *heeded };
+} own_options[] = {{"--n", BR_OPT_N},
+                   {"--k", BR_OPT_K},
+                   {"--cases", BR_OPT_CASES},
+                   {"--seed", BR_OPT_SEED},
+                   {"--rounding", BR_OPT_ROUNDING},
+                   {"--resume", BR_OPT_RESUME}};
+enum { OPTIONS = sizeof own_options / sizeof *own_options };
 
-static bool heeds(const struct br_extremes_part *part, enum br_option_id option)
+static bool accepts(const struct br_extremes_experiment *experiment, enum br_option_id option)
 {
-    return part->heeds >> option & 1;
+    return experiment->accepts >> option & 1;
 }
 
-/* Which parts heed an option, as in the help: "map". */
-static const char *heeders(enum br_option_id option)
+/* The experiments that accept an option, as in the help: "map". */
+static const char *accepting(enum br_option_id option)
 {
     static char text[256];
     text[0] = '\0';
-    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++)
-        if (heeds(p, option))
-            br_append(text, sizeof text, "%s%s", *text ? ", " : "", p->name);
+    for (const struct br_extremes_experiment *e = br_extremes_experiments; e->name; e++)
+        if (accepts(e, option))
+            br_append(text, sizeof text, "%s%s", *text ? ", " : "", e->name);
     return *text ? text : "no part";
 }
 
-/* With the options that it heeds. */
-static const char *part_title(size_t row)
+/* With the options that it accepts. */
+static const char *experiment_title(size_t row)
 {
     static char text[256];
-    const struct br_extremes_part *part = &br_extremes_parts[row];
-    snprintf(text, sizeof text, "%.150s.", part->title);
-    for (size_t i = 0; i < HEEDED; i++)
-        if (heeds(part, heeded[i].id))
-            br_append(text, sizeof text, " %s", heeded[i].option);
+    const struct br_extremes_experiment *experiment = &br_extremes_experiments[row];
+    snprintf(text, sizeof text, "%.150s.", experiment->title);
+    for (size_t i = 0; i < OPTIONS; i++)
+        if (accepts(experiment, own_options[i].id))
+            br_append(text, sizeof text, " %s", own_options[i].option);
     return text;
 }
 
-static const char *part_name(size_t row)
+static const char *experiment_name(size_t row)
 {
-    return br_extremes_parts[row].name;
+    return br_extremes_experiments[row].name;
 }
 
-static const struct br_words parts = {part_name, part_title, NULL};
+static const struct br_words experiments = {experiment_name, experiment_title, NULL};
 
-/* An option that no chosen part heeds would be dropped silently. */
-static enum br_status check_heeded(const struct run *r, struct br_error *err)
+/* Refuses an option that no chosen experiment accepts. */
+static enum br_status check_options(const struct run *r, struct br_error *err)
 {
-    for (size_t i = 0; i < HEEDED; i++) {
-        bool wanted = !br_option_given(r->session.options, heeded[i].id);
-        for (size_t p = 0; p < r->parts; p++)
-            wanted |= heeds(r->part[p], heeded[i].id);
+    for (size_t i = 0; i < OPTIONS; i++) {
+        bool wanted = !br_option_given(r->session.options, own_options[i].id);
+        for (size_t e = 0; e < r->experiments; e++)
+            wanted |= accepts(r->experiment[e], own_options[i].id);
         if (!wanted)
             return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
-                           heeded[i].option, heeders(heeded[i].id));
+                           own_options[i].option, accepting(own_options[i].id));
     }
     return BR_OK;
 }
 
-/* All that are wanted, in the registry's order whatever that of the words; none: all. */
-static enum br_status choose_parts(struct run *r, struct br_error *err)
+/* Chooses the named experiments, in the registry's order; without names, all. */
+static enum br_status choose_experiments(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
-    for (const struct br_extremes_part *p = br_extremes_parts; p->name; p++) {
+    for (const struct br_extremes_experiment *e = br_extremes_experiments; e->name; e++) {
         size_t times = 0;
         for (size_t i = 0; i < o->words; i++)
-            times += strcmp(o->word[i], p->name) == 0;
+            times += strcmp(o->word[i], e->name) == 0;
         if (times > 1)
-            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", p->name);
-        if ((times || !o->words) && r->parts < MOST_PARTS)
-            r->part[r->parts++] = p;
+            return br_fail(err, BR_BAD_INPUT, "part %s is given twice", e->name);
+        if ((times || !o->words) && r->experiments < MOST_EXPERIMENTS)
+            r->experiment[r->experiments++] = e;
     }
     return BR_OK;
 }
@@ -114,51 +114,51 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         .k_count = o->count[BR_OPT_K],
         .rounding = br_rounding_mode((size_t)br_option_number(o, BR_OPT_ROUNDING, 0)),
     };
-    return choose_parts(r, err) ? err->status : check_heeded(r, err);
+    return choose_experiments(r, err) ? err->status : check_options(r, err);
 }
 
 /* ---- computing and writing ---- */
 
-static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
+static enum br_status run_experiment(struct run *r, size_t i, struct br_error *err)
 {
-    const struct br_extremes_part *part = r->part[i];
+    const struct br_extremes_experiment *experiment = r->experiment[i];
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_extremes_job job = r->job;
     struct br_kept kept = {0};
     char what[64];
-    snprintf(what, sizeof what, "%s (%zu of %zu)", part->name, i + 1, r->parts);
-    if (part->heeds & BR_HEEDS(RESUME)) {
-        if (br_session_keep(&r->session, part->name, "", &kept, err))
+    snprintf(what, sizeof what, "%s (%zu of %zu)", experiment->name, i + 1, r->experiments);
+    if (experiment->accepts & BR_ACCEPTS(RESUME)) {
+        if (br_session_keep(&r->session, experiment->name, "", &kept, err))
             return err->status;
         job.kept = &kept;
     }
     job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
     const struct br_extremes_output to = {&r->session, &r->session.document[i], &r->verdict[i]};
-    const enum br_status status = part->run(&job, &to, err);
+    const enum br_status status = experiment->run(&job, &to, err);
     br_progress_end();
     br_session_tell_kept(&r->session, &kept);
     if (status)
-        return br_failed_in(err, part->name);
+        return br_failed_in(err, experiment->name);
     br_put_provenance(to.report, &provenance);
     return br_progress_result(status, err);
 }
 
-static enum br_status run_parts(struct run *r, struct br_error *err)
+static enum br_status run_experiments(struct run *r, struct br_error *err)
 {
-    enum br_status status = br_session_report(&r->session, r->parts, err);
-    for (size_t i = 0; i < r->parts && !status; i++)
-        status = run_part(r, i, err);
+    enum br_status status = br_session_report(&r->session, r->experiments, err);
+    for (size_t i = 0; i < r->experiments && !status; i++)
+        status = run_experiment(r, i, err);
     return status;
 }
 
 /* The first verdict that fails. */
 static enum br_status judge(const struct run *r, struct br_error *err)
 {
-    for (size_t i = 0; i < r->parts; i++)
+    for (size_t i = 0; i < r->experiments; i++)
         if (r->verdict[i].status) {
             *err = r->verdict[i];
-            return br_failed_in(err, r->part[i]->name);
+            return br_failed_in(err, r->experiment[i]->name);
         }
     return BR_OK;
 }
@@ -167,7 +167,8 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     struct run r = {.session = br_session_begin(options)};
     const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        run_parts(&r, err) || br_session_finish(&r.session, err) || judge(&r, err);
+                        run_experiments(&r, err) || br_session_finish(&r.session, err) ||
+                        judge(&r, err);
     br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }
@@ -190,6 +191,6 @@ const struct br_command br_command_extremes = {
     .example = {"beamrate extremes", "beamrate extremes map --cases 10 --seed 7",
                 "beamrate extremes floors -n 100,1000 -k 0.01"},
     .most_words = BR_MOST_WORDS,
-    .words = &parts,
+    .words = &experiments,
     .run = run,
 };

@@ -15,7 +15,7 @@ struct run {
     struct br_paper paper;
 };
 
-/* The paper's words on a figure, and what happens at the tip of the exact solution. */
+/* Writes what the paper says of a figure, and the events at the tip of the exact solution. */
 static void put_caption(struct br_document *d, const struct br_paper_figure *f,
                         const struct br_example *e)
 {

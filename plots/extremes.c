@@ -9,7 +9,7 @@
 
 /* ---- floors: deviation over n, or over N ---- */
 
-/* 2^-53 n^power: what one rounding becomes; a deviation beyond 10 says nothing. */
+/* 2^-53 n^power: the growth of one rounding error; nothing is drawn above 10. */
 static void add_rounding(const struct br_floors *f, int power, struct br_figure *figure)
 {
     struct br_series *s =
@@ -37,7 +37,7 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
     br_panel_add(figure, "elements n", "relative deviation");
     for (size_t m = 0; m < f->methods; m++) {
         const char *name = f->method[m].name;
-        if (strstr(name, "scaled")) /* they are where they are without */
+        if (strstr(name, "scaled")) /* their points are those without scaling */
             continue;
         struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", name);
         for (size_t i = 0; i < f->n_count; i++)
@@ -95,7 +95,7 @@ static void add_loss(const struct br_vibration_row *row, bool measured, struct b
     }
 }
 
-/* Schemes that take the same share a curve. */
+/* Schemes that take the same energy share a curve. */
 static bool same(const struct br_vibration_row *a, const struct br_vibration_row *b)
 {
     for (size_t r = 0; r < BR_VIBRATION_RATES; r++)

@@ -5,7 +5,7 @@
 #include "study/extremes/extremes.h"
 #include "tables/reports.h"
 
-/* The density that people see. */
+/* The density that is shown to people. */
 enum { SHOWN = BR_VIBRATION_DENSITIES / 2 };
 
 static const char *field_name(enum br_field_kind kind)
@@ -108,13 +108,13 @@ static double steps_of(const struct br_balance_row *row)
 }
 
 /* In per cent. */
-static void put_share(struct br_document *d, const char *key, const char *heading, double part,
+static void put_share(struct br_document *d, const char *key, const char *heading, double amount,
                       double whole)
 {
     BR_PUT(d,
-           br_number(whole > 0   ? 100 * part / whole
-                     : part == 0 ? 0
-                                 : NAN),
+           br_number(whole > 0     ? 100 * amount / whole
+                     : amount == 0 ? 0
+                                   : NAN),
            .key = key, .heading = heading, .unit = "%", .format = "%.3g");
 }
 
@@ -188,11 +188,11 @@ static void note_added(struct br_document *d, const struct br_energy_behaviour *
 {
     for (size_t i = 0; i < b->balances; i++) {
         const struct br_balance_row *row = &b->balance[i];
-        const double part = added(row) / put_in(row);
-        if (!(part > 1e-3))
+        const double share = added(row) / put_in(row);
+        if (!(share > 1e-3))
             continue;
         br_put_note(d, "%s by %s: the scheme added %.3g J, %.3g %% of what was put in%s.",
-                    row->scene->name, row->scheme->name, added(row), 100 * part,
+                    row->scene->name, row->scheme->name, added(row), 100 * share,
                     row->work.scheme_contact < 0 && row->scheme->may_lag
                         ? "; it is the lagged contact's force, implicit contact adds nothing"
                         : "");

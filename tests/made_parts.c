@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#include "cli/extremes_part.h"
+#include "cli/extremes_experiment.h"
 
 struct heard {
     char line[512];
@@ -120,17 +120,18 @@ static enum br_status run_slow(const struct br_extremes_job *j, const struct br_
     return status;
 }
 
-const struct br_extremes_part br_extremes_parts[] = {
+const struct br_extremes_experiment br_extremes_experiments[] = {
     {
         .name = "fast",
         .title = "says what it was asked for",
-        .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .accepts = BR_ACCEPTS(CASES) | BR_ACCEPTS(SEED) | BR_ACCEPTS(N) | BR_ACCEPTS(K) |
+                   BR_ACCEPTS(ROUNDING),
         .run = run_fast,
     },
     {
         .name = "slow",
         .title = "takes long",
-        .heeds = BR_HEEDS(CASES) | BR_HEEDS(RESUME),
+        .accepts = BR_ACCEPTS(CASES) | BR_ACCEPTS(RESUME),
         .run = run_slow,
     },
     {0},

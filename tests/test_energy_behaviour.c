@@ -42,7 +42,7 @@ TEST(test_modes)
     assert_true(mode.omega > exact && mode.omega < exact * (1 + 1e-5));
     double nodal[2 * (BR_MODE_ELEMENTS + 1)] = {0};
     memcpy(nodal + 2, mode.phi, sizeof mode.phi);
-    CLOSE(br_beam_mode_part(&mode, nodal), 1, 1e-13);
+    CLOSE(br_beam_mode_component(&mode, nodal), 1, 1e-13);
 }
 
 /* One period of one scheme: by the formula, and what is refused. */

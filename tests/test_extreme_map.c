@@ -206,7 +206,8 @@ TEST(test_hard_cases)
  * it does not know is not. */
 TEST(test_boast)
 {
-    const struct br_extreme_judging honest = {.quick = true}, boast = {.quick = true, .boast = 1e4};
+    const struct br_extreme_judging honest = {.quick = true},
+                                    boast = {.quick = true, .stated_divisor = 1e4};
     int known = 0, wrong = 0;
     for (size_t i = 1; i < 16 && (known < 4 || br_test_long()); i++) {
         const struct named one = {1, i};
@@ -229,13 +230,13 @@ TEST(test_places)
 {
     const size_t meshes[] = {1, 7, 112, 1000};
     for (size_t i = 0; i < sizeof meshes / sizeof *meshes; i++) {
-        const struct br_track_places p = br_track_places(meshes[i], 10);
+        const struct br_track_samples p = br_track_samples(meshes[i], 10);
         size_t inside = 0;
         for (size_t j = 0; j + 1 < p.points; j++) {
-            assert_true(p.place[j] > 0 && p.place[j] < p.place[j + 1]);
-            inside += p.place[j] % p.parts != 0;
+            assert_true(p.point[j] > 0 && p.point[j] < p.point[j + 1]);
+            inside += p.point[j] % p.parts != 0;
         }
-        assert_int_equal(p.place[p.points - 1], meshes[i] * p.parts);
+        assert_int_equal(p.point[p.points - 1], meshes[i] * p.parts);
         assert_true(p.parts == 1 || inside >= BR_TRACK_EVEN / 2);
     }
 }
@@ -245,12 +246,12 @@ static struct br_track *made_track(double rest, double tip)
 {
     struct br_track *t = br_allocate(1, sizeof *t);
     assert_non_null(t);
-    t->places = br_track_places(3, 10);
-    t->seen = t->places.levels;
+    t->samples = br_track_samples(3, 10);
+    t->seen = t->samples.levels;
     t->largest[BR_AXIAL] = fmax(fabs(rest), fabs(tip));
-    for (size_t i = 0; i < t->places.levels; i++)
-        for (size_t p = 0; p < t->places.points; p++)
-            t->value[BR_AXIAL][i][p] = p + 1 < t->places.points ? rest : tip;
+    for (size_t i = 0; i < t->samples.levels; i++)
+        for (size_t p = 0; p < t->samples.points; p++)
+            t->value[BR_AXIAL][i][p] = p + 1 < t->samples.points ? rest : tip;
     return t;
 }
 

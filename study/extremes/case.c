@@ -24,12 +24,12 @@ const char *const br_extreme_specials[] = {
 
 /* ---- forces ---- */
 
-/* Of L. */
+/* Functions of x; the argument is L. */
 static const char *const shapes[] = {
     "", "*(x/%.17g)", "*sin(pi*x/%.17g)", "*sin(7*pi*x/%.17g)", "*(1 - (x/%.17g)^3)",
 };
 
-/* Of T and the rate. */
+/* Functions of t; the arguments are T and the rate. */
 static const char *const histories[] = {
     "",
     "*(t/%.17g)",
@@ -47,7 +47,7 @@ static void draw_form(struct br_random *r, struct br_extreme_force *f)
     f->rate = round(br_random_decades(r, 0, 1.5)) + 0.25;
 }
 
-/* A load of about that size, and now and then forces at the tip; total: N. */
+/* Draws a load with a total of about `total` (N), and sometimes forces at the tip. */
 static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_field_kind kind,
                         double total)
 {
@@ -64,7 +64,7 @@ static void draw_forces(struct br_random *r, struct br_extreme_case *c, enum br_
         p->tip_moment.size = total * c->length * br_random_uniform(r, -0.5, 0.5);
 }
 
-/* Displacements of about `way`, m; velocities over `time`, s. */
+/* Draws displacements of about `way` (m), and velocities of about way/time (time: s). */
 static void draw_start(struct br_random *r, struct br_extreme_field *p, double way, double time,
                        double density)
 {
@@ -75,7 +75,7 @@ static void draw_start(struct br_random *r, struct br_extreme_field *p, double w
         p->velocity = (struct br_extreme_start){size / time, br_random_once_in(r, 4)};
 }
 
-/* Coulomb's needs the contact. */
+/* Coulomb's law needs the contact. */
 static void draw_law(struct br_random *r, struct br_extreme_case *c)
 {
     c->law = (enum br_friction_law)br_random_index(r, 3);
@@ -85,7 +85,8 @@ static void draw_law(struct br_random *r, struct br_extreme_case *c)
 
 /* ---- numbers that belong together ---- */
 
-/* A field by its relaxation time c/a over T, and the tip's static way over L. */
+/* Draws a field by its relaxation time c/a relative to T and the static displacement of its tip
+ * relative to L. */
 static void draw_natural_field(struct br_random *r, struct br_extreme_case *c,
                                enum br_field_kind kind, double stiffness)
 {
@@ -143,7 +144,7 @@ static void draw_natural(struct br_random *r, struct br_extreme_case *c)
 
 /* ---- any numbers ---- */
 
-/* 10^[low, high), or now and then 0. */
+/* 10^[low, high), or sometimes 0. */
 static double wild(struct br_random *r, double low, double high)
 {
     return br_random_once_in(r, 8) ? 0 : br_random_decades(r, low, high);
@@ -185,7 +186,7 @@ static size_t rows(const void *const *registry)
     return count;
 }
 
-/* One of a registry's rows, the first half of the time. */
+/* Picks a row of a registry; in half of the draws the first one. */
 static const void *pick(struct br_random *r, const void *const *registry)
 {
     const size_t row = br_random_index(r, rows(registry));
@@ -216,13 +217,13 @@ static void draw_method(struct br_random *r, struct br_extreme_case *c)
         c->wanted = 3;
 }
 
-/* Linear solves a step, about. */
+/* Linear solves per step, about. */
 static double solves(const struct br_method *m)
 {
     return m->scheme->adaptive ? 60 : br_time_scheme_stages(m->scheme);
 }
 
-/* Most of the elements times linear solves of a case. */
+/* The limit of elements times linear solves of a case. */
 static const double most_work = 1e5;
 
 static void draw_resolution(struct br_random *r, struct br_extreme_case *c)
@@ -288,9 +289,9 @@ static void oscillate(struct br_random *r, struct br_extreme_case *c)
     }
 }
 
-/* ---- numbers that only a march can tell: its stability limit, its reaction ---- */
+/* ---- numbers that are measured by a march: its stability limit, its reaction ---- */
 
-/* The first step of a case; NULL: it cannot be made. The scene is to be cleared. */
+/* Marches the first step of a case; NULL if that fails. The caller clears the scene. */
 static struct br_march *first_step(const struct br_extreme_case *c, struct br_scene *scene,
                                    struct br_scene *marched)
 {
@@ -307,7 +308,7 @@ static struct br_march *first_step(const struct br_extreme_case *c, struct br_sc
     return NULL;
 }
 
-/* c_H k z_tip = 1 + c/(c + k a), and a little more or less. */
+/* Sets c_H to the stability limit, c_H k z_tip = 1 + c/(c + k a), times 1 + little. */
 static void tune_contact(struct br_extreme_case *c, const struct br_march *march, double little)
 {
     const struct br_field *f = br_march_field(march, BR_AXIAL);
@@ -317,9 +318,8 @@ static void tune_contact(struct br_extreme_case *c, const struct br_march *march
         c->contact_stiffness = limit;
 }
 
-/* Does what the special case asks where it needs a march of one step: of what cannot be marched,
- * nothing.
- */
+/* Sets the number of a special case that needs a march of one step. If that march fails, nothing is
+ * changed. */
 static void tune(struct br_extreme_case *c, double little)
 {
     struct br_extreme_case trial = *c;
@@ -386,7 +386,7 @@ void br_extreme_draw(uint64_t seed, size_t index, struct br_extreme_case *c)
 
 /* ---- the text of a case: expressions ---- */
 
-/* Of size and L, by field: plain and waved; of a beam also the slope. */
+/* Functions of size and L, by field: plain and waved; of a beam also the slopes. */
 static const char *const starts[2][2] = {
     {"%.17g*(x/%.17g)", "%.17g*sin(5*pi*x/(2*%.17g))"},
     {"%.17g*(x/%.17g)^2", "%.17g*(1 - cos(5*pi*x/(2*%.17g)))"},
@@ -467,8 +467,8 @@ void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT
         br_append(text, BR_EXTREME_TEXT, "  regularisation: %.17g m/s\n", c->regularisation);
 }
 
-/* What the program takes: no option that the method does not heed, and every number to its last
- * bit. */
+/* A command that the program accepts: no option that the method does not use, and every number to
+ * its last bit. */
 void br_extreme_command(const struct br_extreme_case *c, const char *name,
                         char text[BR_EXTREME_COMMAND])
 {

@@ -9,7 +9,7 @@
 
 /* ---- the scenes ---- */
 
-#define PLACE(member) offsetof(struct br_scene, member)
+#define OFFSET(member) offsetof(struct br_scene, member)
 
 const struct br_balance_scene br_balance_scenes[] = {
     {"example1", "example1", NULL, {0}, 0},
@@ -18,22 +18,22 @@ const struct br_balance_scene br_balance_scenes[] = {
     {"example2, lagged contact, c_H = 1e12 N/m",
      "example2",
      "lagged",
-     {PLACE(contact.stiffness)},
+     {OFFSET(contact.stiffness)},
      1e12},
-    {"example2, c_H = 1e12 N/m", "example2", "implicit", {PLACE(contact.stiffness)}, 1e12},
-    {"example2, density 0", "example2", "implicit", {PLACE(density)}, 0},
-    {"example2, density 1e6 kg/m", "example2", "implicit", {PLACE(density)}, 1e6},
+    {"example2, c_H = 1e12 N/m", "example2", "implicit", {OFFSET(contact.stiffness)}, 1e12},
+    {"example2, density 0", "example2", "implicit", {OFFSET(density)}, 0},
+    {"example2, density 1e6 kg/m", "example2", "implicit", {OFFSET(density)}, 1e6},
     {"example2, viscosity 0",
      "example2",
      "implicit",
-     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     {OFFSET(axial.viscosity), OFFSET(bending.viscosity)},
      0},
     {"example2, viscosity 1e6",
      "example2",
      "implicit",
-     {PLACE(axial.viscosity), PLACE(bending.viscosity)},
+     {OFFSET(axial.viscosity), OFFSET(bending.viscosity)},
      1e6},
-    {"example2, c_V = 1e12 N/m", "example2", "implicit", {PLACE(friction.coefficient)}, 1e12},
+    {"example2, c_V = 1e12 N/m", "example2", "implicit", {OFFSET(friction.coefficient)}, 1e12},
     {"example4", "example4", NULL, {0}, 0},
     {"bouncing", "bouncing", "implicit", {0}, 0},
     {"bouncing, lagged contact", "bouncing", "lagged", {0}, 0},
@@ -54,8 +54,8 @@ static enum br_status read_scene(const struct br_balance_scene *s, struct br_sce
     enum br_status status = br_scene_find(s->bundled, path, sizeof path, err);
     if (!status)
         status = br_scene_read(path, scene, err);
-    for (size_t i = 0; i < 2 && s->place[i] && !status; i++)
-        *(double *)((char *)scene + s->place[i]) = s->value;
+    for (size_t i = 0; i < 2 && s->offset[i] && !status; i++)
+        *(double *)((char *)scene + s->offset[i]) = s->value;
     return status;
 }
 
@@ -67,7 +67,7 @@ static const double densities[BR_VIBRATION_DENSITIES] = {1e-6, 1, 1e6};
 static const double dampings[] = {0, 0.01};
 enum { DAMPINGS = sizeof dampings / sizeof *dampings };
 
-/* Of a balance. */
+/* The resolution of a balance. */
 enum { ELEMENTS = 20, STEPS = 400 };
 static const double tolerance = 1e-3;
 
@@ -113,7 +113,7 @@ static enum br_status list(struct br_energy_behaviour *b, struct br_error *err)
 
 /* ---- a balance ---- */
 
-/* A march that ends is a result: what came before it counts. */
+/* A march that fails is a result: the steps before the failure count. */
 static enum br_status march(struct br_balance_row *row, struct br_march *march,
                             struct br_energy_meter *meter, struct br_error *err)
 {
@@ -173,7 +173,7 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
 
 /* ---- all ---- */
 
-/* The last ones are the dearest. */
+/* The last tasks cost most and begin first. */
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     struct br_energy_behaviour *b = self;

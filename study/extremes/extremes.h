@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Experiments at the extremes, each of which compares what is predicted with what marches do:
- * round-off, the stability of the contact, and energy. The map is another one (map.h). */
+/* Experiments at the extremes. Each compares predictions with marches: round-off, the stability of
+ * the contact, and energy. The map is another one (map.h). */
 #ifndef BR_STUDY_EXTREMES_EXTREMES_H
 #define BR_STUDY_EXTREMES_EXTREMES_H
 
@@ -15,7 +15,7 @@
 #include "study/kept/kept.h"
 #include "study/trade/named_method.h"
 
-/* What an experiment is asked for. All borrowed; 0 or NULL: its own choice. */
+/* The request to an experiment. All borrowed; 0 or NULL: its default. */
 struct br_extremes_job {
     size_t cases;  /* of the map */
     uint64_t seed; /* of what is drawn at random */
@@ -24,13 +24,13 @@ struct br_extremes_job {
     const double *k; /* s */
     size_t n_count, k_count;
     int rounding;         /* as fesetround takes it: of the marches, not of their judges */
-    struct br_kept *kept; /* where an experiment that takes long keeps what is done, and finds what
-                             need not be done again; NULL: nothing is kept */
+    struct br_kept *kept; /* where a long experiment stores finished work and finds it again; NULL:
+                             nothing is stored */
     const char *folder;   /* for other files (reproducer scenes); NULL: they are not written */
-    const struct br_observer *observer; /* NULL: nobody */
+    const struct br_observer *observer; /* NULL: none */
 };
 
-/* The larger one; what is no number is the largest. */
+/* The larger one; NaN if one is NaN. */
 static inline double br_worst(double a, double b)
 {
     return isnan(a) || isnan(b) ? NAN : fmax(a, b);
@@ -38,39 +38,38 @@ static inline double br_worst(double a, double b)
 
 /* ---- nodal values, laid out as in solver/field.h, as functions of x ---- */
 
-/* A displacement at xi, 0 to 1, in the element whose nodes' unknowns begin there, and of a beam h
- * w_x (out). */
+/* The displacement at xi, 0 to 1, in the element whose nodal unknowns begin at `at`; slope (out):
+ * of a beam h w_x. */
 double br_nodal_value(enum br_field_kind kind, size_t unknowns, const double *at, double xi,
                       double *slope);
 
 struct br_nodal {
     const struct br_field *field;
     const double *value;
-    bool slope; /* of a beam w_x is the function, not w */
+    bool slope; /* the function is w_x of a beam, not w */
 };
 
-/* For the initial data of a scene; borrows, and so do its clones. */
+/* A function for the initial data of a scene. It and its clones borrow `nodal`. */
 struct br_function br_nodal_function(struct br_nodal *nodal);
 
 /* ---- round-off ---- */
 
-/* How far the displacements of marches are from the exact discrete solution
- * (reference/discrete.h), beside what they predict of themselves. One experiment with two lists of
- * marches: the floors of the linear solvers, and what steps gather. */
+/* How far the displacements of marches are from the exact discrete solution (reference/discrete.h),
+ * compared with the round-off that marches predict. One experiment with two lists of marches: the
+ * floors of the linear solvers, and the round-off that steps gather. */
 
 /* One march. */
 struct br_floor {
     const struct br_scene *scene; /* borrowed */
     const struct br_named_method *by;
-    size_t n, of;        /* elements; steps of the duration */
-    size_t steps;        /* of these, those that are taken; 0: not marched */
-    double k;            /* s */
-    double deviation[2]; /* by br_field_kind: at the end, largest of all nodal displacements,
-                            relative to the largest displacement of the field */
-    double tip[2];       /* of the tip's, relative to the same */
-    double predicted;    /* br_march_round_off */
-    double time_error;   /* largest of the times told, relative to the duration: against n T/N in
-                            whole numbers */
+    size_t n, of;            /* elements; steps of the duration */
+    size_t steps;            /* steps of these that are taken; 0: not marched */
+    double k;                /* s */
+    double deviation[2];     /* by br_field_kind: at the end, largest of all nodal displacements,
+                                relative to the largest displacement of the field */
+    double tip[2];           /* of the tip's, relative to the same */
+    double predicted;        /* br_march_round_off */
+    double time_error;       /* largest error of the march's times, relative to the duration */
     struct br_error refused; /* status BR_OK where it marched */
 };
 
@@ -80,25 +79,25 @@ enum { BR_FLOOR_STEPS = 20, BR_GATHERED_N = 10, BR_FLOOR_SCENES = 2, BR_FLOOR_ME
 struct br_floors {
     /* False: floors. Every linear solver takes BR_FLOOR_STEPS steps of implicit Euler with the
      * paper's lagged contact; the tip slips (Example 2), since a free tip is the softest motion,
-     * which loses most. So many steps are enough for what inertia keeps of earlier ones at
-     * k = 1e-6.
-     * True: what steps gather until the end of the duration, of BR_GATHERED_N elements by every
-     * time scheme of equal steps, with contact and friction. Example 1 sticks, Example 2 slips. */
+     * which loses most. So many steps are enough for the memory of inertia at k = 1e-6.
+     * True: round-off that steps gather until the end of the duration, of BR_GATHERED_N elements by
+     * every time scheme of equal steps, with contact and friction. Example 1 sticks, Example 2
+     * slips. */
     bool gathered;
     struct br_scene scene[BR_FLOOR_SCENES]; /* scenes; owned */
     struct br_named_method method[BR_FLOOR_METHODS];
     size_t scenes, methods, n_count, k_count;
-    size_t solvers;         /* of each scheme and contact; they are neighbours */
+    size_t solvers;         /* per scheme and contact; adjacent */
     struct br_floor *floor; /* floors: by scene, method, n, k; owned */
     size_t floors;
 };
 
-/* Measures all; what a march refuses is a result. Of the job n, of floors, is 100 to 1,000,000 by
- * default, and k 1e-2, 1e-4, 1e-6 s; of what steps gather from one step to 1e5, to 1e6 where a step
- * is one solve, and to 1e7 in Example 1 by implicit Euler with implicit contact. *floors (out) is
- * to be cleared, also after a failure. Fails with BR_UNSUPPORTED where long double has no more
- * digits than double, BR_NO_MEMORY, BR_INTERRUPTED, BR_BAD_INPUT (a k that does not divide the
- * duration), and as the exact discrete solution does. */
+/* Measures all; a refusal by a march is a result. Defaults of the job: for floors n is 100 to
+ * 1,000,000, and k 1e-2, 1e-4, 1e-6 s; for gathered round-off there are from one step to 1e5 steps,
+ * to 1e6 where a step is one solve, and to 1e7 in Example 1 by implicit Euler with implicit
+ * contact. Clear *floors (out) also after a failure. Fails with BR_UNSUPPORTED where long double
+ * has no more digits than double, BR_NO_MEMORY, BR_INTERRUPTED, BR_BAD_INPUT (a k that does not
+ * divide the duration), and as the exact discrete solution does. */
 enum br_status br_floors_run(struct br_floors *floors, bool gathered,
                              const struct br_extremes_job *job, struct br_error *err);
 void br_floors_clear(struct br_floors *floors);
@@ -109,20 +108,20 @@ const struct br_floor *br_floor_at(const struct br_floors *floors, size_t scene,
 /* The larger deviation of both fields; NaN where there is none. */
 double br_floor_deviation(const struct br_floor *floor);
 
-/* What a march is held to: its prediction; of the first BR_FLOOR_STEPS steps of riccati also 2e-11
- * up to n = 12800 and 1e-9 up to n = 1,000,000. */
+/* The limit for a march's deviation: its prediction; for the first BR_FLOOR_STEPS steps of riccati
+ * also 2e-11 up to n = 12800 and 1e-9 up to n = 1,000,000. */
 double br_floor_limit(const struct br_floor *floor);
 
 /* BR_OK, or BR_VERDICT with the first march that is above its limit or whose times drift, or that
- * failed: an assembled matrix may be refused, and a step that the scheme refuses by rule
+ * failed. Allowed are a refused assembled matrix, and a step that the scheme refuses by rule
  * (BR_BAD_INPUT). */
 enum br_status br_floors_verdict(const struct br_floors *floors, struct br_error *err);
 
 /* ---- stability ---- */
 
-/* Where does the contact make a march unstable? Measured by marches, and against what
- * solver/laws.h predicts: the lagged contact over the plane of c_H and k, contact at u_n
- * with every scheme, tips that rest, chatter and bounce. */
+/* Where does the contact make a march unstable? Measured by marches, and compared with
+ * solver/laws.h: the lagged contact over the plane of c_H and k, contact at u_n with every scheme,
+ * tips that rest, chatter and bounce. */
 
 enum { BR_STABILITY_MOST_ELEMENTS = 20, BR_STABILITY_RODS = 6, BR_STABILITY_COLUMNS = 61 };
 
@@ -145,8 +144,8 @@ struct br_stability_row {
     double growth[BR_STABILITY_COLUMNS]; /* predicted: br_contact_growth */
 };
 
-/* Contact at u_n with one scheme: a rod that is pressed to its rest by a constant load, for all c_H
- * up to 1e15 N/m and steps from far above its relaxation time to that. */
+/* Contact at u_n with one scheme: a constant load presses a rod until it rests, for all c_H up to
+ * 1e15 N/m and time steps from far above its relaxation time down to it. */
 struct br_stability_scheme {
     const struct br_time_scheme *scheme;
     size_t marches;
@@ -184,14 +183,14 @@ struct br_stability {
     double excess;         /* how far above 1 the measured eigenvalue is where none is predicted */
 };
 
-/* Measured and predicted limits, and growths, agree so far; nothing predicted to be stable has an
- * eigenvalue further outside. The limit is where one is outside by 1e-11, which is at most so far
- * beyond it, for the eigenvalue grows faster than c_H does; the rest is left for the round-off of
- * eigenvalues. */
+/* The largest allowed relative difference of measured and predicted limits and growths, and the
+ * largest allowed excess over 1 of an eigenvalue where stability is predicted. At a measured limit
+ * an eigenvalue is outside the unit circle by 1e-11. That is at most 1e-11 beyond the limit, since
+ * the eigenvalue grows faster than c_H. The rest is for the round-off of eigenvalues. */
 extern const double br_stability_tolerance; /* 1e-9 */
 
-/* Of the job n, one number of at most BR_STABILITY_MOST_ELEMENTS, is 8 by default, and k 1e-6 to
- * 1e-1 s, four a decade. Fails with BR_BAD_INPUT (n, k), BR_NO_MEMORY, BR_INTERRUPTED,
+/* Of the job: n is one number, at most BR_STABILITY_MOST_ELEMENTS, by default 8; k is by default
+ * 1e-6 to 1e-1 s, four per decade. Fails with BR_BAD_INPUT (n, k), BR_NO_MEMORY, BR_INTERRUPTED,
  * BR_NOT_FINITE; clear it even then. */
 enum br_status br_stability_run(struct br_stability *s, const struct br_extremes_job *job,
                                 struct br_error *err);
@@ -200,22 +199,22 @@ void br_stability_clear(struct br_stability *s);
 /* BR_OK where marches do what is predicted, or BR_VERDICT with the first that does not. */
 enum br_status br_stability_verdict(const struct br_stability *s, struct br_error *err);
 
-/* ---- its parts ---- */
+/* ---- building blocks of this experiment ---- */
 
-/* The field of a rod, and the scene of a field, with a contact that is still without stiffness. */
+/* The field of a rod, and the scene of a field, whose contact stiffness is 0. */
 struct br_field br_stability_field(const struct br_stability_rod *rod, size_t n, double k);
 struct br_scene br_stability_scene(const struct br_field *field, double duration);
 
-/* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, as marches of
- * one step tell it: nothing is known there of the equations ---- */
+/* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, measured by
+ * marches of one step, without use of the equations ---- */
 
 /* A state is the displacements of the nodes, and then k times their velocities, m; the clamped node
  * is left out. */
 size_t br_step_states(const struct br_field *rod);
 
-/* Column by column a state of one unit, whose tip is not away from the obstacle, is marched by one
- * step. rod: an axial field; stiffness: c_H, N/m; matrix (out): br_step_states squared values, by
- * rows. Fails with BR_NO_MEMORY and as marches do. */
+/* Marches one step from each unit state, with the tip in contact; each gives a column. rod: an
+ * axial field; stiffness: c_H, N/m; matrix (out): br_step_states squared values, by rows. Fails
+ * with BR_NO_MEMORY and as marches do. */
 enum br_status br_step_matrix(const struct br_field *rod, double stiffness, double *matrix,
                               struct br_error *err);
 
@@ -229,7 +228,7 @@ enum br_status br_step_radius(const struct br_field *rod, double stiffness, doub
 /* What every time scheme does to the energy: of a free vibration, against its theory, and in scenes
  * with loads, impacts, friction and extreme data, whether each step's balance closes. */
 
-/* ---- the lowest mode of a field on a mesh, as its elements have it, to start with ---- */
+/* ---- the lowest mode of a field on a mesh ---- */
 
 enum { BR_MODE_ELEMENTS = 8, BR_MODE_UNKNOWNS = 2 * BR_MODE_ELEMENTS };
 
@@ -238,18 +237,19 @@ struct br_beam_mode {
     enum br_field_kind kind;
     double omega;                    /* 1/s */
     double phi[BR_MODE_UNKNOWNS];    /* without the clamped node: 1 at the tip */
-    double weight[BR_MODE_UNKNOWNS]; /* M phi over phi'M phi: the part of the mode in a state */
+    double weight[BR_MODE_UNKNOWNS]; /* M phi over phi'M phi: gives the component of the mode in a
+                                        state */
 };
 
 /* Fails with BR_NO_MEMORY, and with BR_SINGULAR where the eigenvalues are not found. */
 enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scene *scene,
                                  enum br_field_kind kind, struct br_error *err);
 
-/* How much of the mode is in nodal values of the field (in: clamped node included), m or m/s. */
-double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal);
+/* The component of the mode in nodal values of the field (in: clamped node included), m or m/s. */
+double br_beam_mode_component(const struct br_beam_mode *mode, const double *nodal);
 
-/* ---- free vibration of a field in its lowest mode: what a time scheme takes from its energy, as
- * measured and as its stability function tells ---- */
+/* ---- free vibration of a field in its lowest mode: the energy that a time scheme takes from it,
+ * measured and predicted by its stability function ---- */
 
 /* The factor of a step with z = k lambda: the stability function R(z) of a Runge-Kutta method (its
  * last stage is the step's end), of backward differences the principal root r of
@@ -268,24 +268,25 @@ struct br_vibration {
     enum br_field_kind kind;
     double damping;    /* of the mode, relative to critical */
     double density;    /* kg/m */
-    size_t per_period; /* steps; of an adaptive scheme looks, see tolerance */
+    size_t per_period; /* steps; of an adaptive scheme output times, see tolerance */
     double tolerance;
 
     /* Out */
     enum br_vibration_end end;
     struct br_error failure;
     double steps;        /* a period, the scheme's own */
-    double measured;     /* share of the energy that the scheme takes a period, beside viscosity */
+    double measured;     /* share of the energy that the scheme takes per period, in addition to
+                            viscosity */
     double predicted;    /* by the amplification; NAN for an adaptive scheme */
     double round_off;    /* of the two, about */
     double worst, limit; /* imbalance of a step */
 };
 
-/* Marches. Fails with BR_NO_MEMORY and BR_SINGULAR; what a march does is a result. */
+/* Marches. Fails with BR_NO_MEMORY and BR_SINGULAR; a failure of the march is a result. */
 enum br_status br_vibration_run(struct br_vibration *vibration, struct br_error *err);
 
-/* Whether what was measured is as predicted, to round-off, and every step's balance closes; what
- * was refused is neither. */
+/* Whether the measurement agrees with the prediction, to round-off, and every step's balance
+ * closes. A refused vibration is right, a failed one is not. */
 bool br_vibration_is_right(const struct br_vibration *vibration);
 
 /* ---- all schemes ---- */
@@ -305,7 +306,7 @@ struct br_vibration_row {
 struct br_balance_scene {
     const char *name, *bundled;
     const char *contact; /* rule; NULL: the scheme's own */
-    size_t place[2];     /* of numbers in struct br_scene; 0: none */
+    size_t offset[2];    /* of numbers in struct br_scene that become `value`; 0: none */
     double value;
 };
 
@@ -333,7 +334,7 @@ enum br_status br_energy_behaviour_run(struct br_energy_behaviour *behaviour,
                                        const struct br_extremes_job *job, struct br_error *err);
 void br_energy_behaviour_clear(struct br_energy_behaviour *behaviour);
 
-/* Whether all that was measured of the row is right; what was refused is. */
+/* Whether all measurements of the row are right; a refusal is right. */
 bool br_vibration_row_is_right(const struct br_vibration_row *row);
 bool br_balance_row_is_right(const struct br_balance_row *row);
 

@@ -13,7 +13,7 @@
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
-/* ---- who is measured ---- */
+/* ---- which methods are measured ---- */
 
 __attribute__((format(printf, 2, 3))) static void add_method(struct br_floors *f,
                                                              const char *format, ...)
@@ -33,7 +33,7 @@ __attribute__((format(printf, 2, 3))) static void add_method(struct br_floors *f
 static void add_solvers(struct br_floors *f)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        if (!(*s)->cost) /* a choice of the others */
+        if (!(*s)->cost) /* it chooses one of the others */
             continue;
         add_method(f, "%s", (*s)->name);
         if (br_linear_solver_heeds(*s, "--scaling"))
@@ -78,7 +78,7 @@ static const size_t usual_steps[] = {100, 10000, 1000000}; /* of 1 s */
 static const size_t gathered_n[] = {BR_GATHERED_N};
 static const size_t gathered_steps[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
 
-/* Whether a number of steps is gathered by default, so that a minute or two is enough: schemes of
+/* Whether a number of steps is marched by default. All of them take a minute or two: schemes of
  * several solves a step, of one, and, in the scene that sticks, implicit Euler with implicit
  * contact. */
 static bool is_usual(const struct br_method *m, bool sticks, size_t steps)
@@ -155,7 +155,7 @@ void br_floors_clear(struct br_floors *f)
 
 /* ---- a march against the exact discrete solution ---- */
 
-/* Marches that differ by their solver alone, at work. */
+/* The work of a turn: marches that differ only by their solver. */
 struct work {
     struct br_floor *first; /* the others follow, with a stride */
     const struct br_observer *observer;
@@ -163,7 +163,7 @@ struct work {
     double *march;         /* workspace, 2 (n + 1); owned */
 };
 
-/* Looked at so often that steps of any mesh take no long time. */
+/* Checks so often that on any mesh little time passes between two checks. */
 static bool stopped(const struct work *w, size_t step)
 {
     return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
@@ -188,7 +188,7 @@ static enum br_status find_exact(struct work *w, struct br_error *err)
     return status;
 }
 
-/* Differences of the nodal displacements; slopes are those of the same functions. */
+/* Compares nodal displacements. Slopes belong to the same functions and need no comparison. */
 static void compare(const struct work *w, const struct br_march *march, enum br_field_kind kind,
                     struct br_floor *floor)
 {
@@ -205,14 +205,14 @@ static void compare(const struct work *w, const struct br_march *march, enum br_
     floor->tip[kind] = (double)(fabsl(exact[last] - w->march[last]) / largest);
 }
 
-/* How far the time told is from i T/N, which long double has to 64 bits. */
+/* The difference of the march's time from i T/N, which long double has to 64 bits. */
 static double time_error(const struct br_floor *f, const struct br_march *march, size_t i)
 {
     const long double exact = (long double)f->scene->duration * (long double)i / (long double)f->of;
     return (double)fabsl(br_march_time(march) - exact) / f->scene->duration;
 }
 
-/* What the solver refuses, or fails with, is kept. */
+/* A refusal or failure of the solver is stored in floor->refused. */
 static enum br_status measure(const struct work *w, struct br_floor *floor, struct br_error *err)
 {
     struct br_march *march;
@@ -240,7 +240,7 @@ struct loop {
     const struct br_observer *observer;
 };
 
-/* Of the solvers of a turn: those of the finest meshes and most steps come first. */
+/* The first march of a turn. Turns of the finest meshes and most steps come first. */
 static struct br_floor *first_of(const struct br_floors *f, size_t turn)
 {
     const size_t groups = f->scenes * f->methods / f->solvers, grids = f->n_count * f->k_count;
@@ -290,7 +290,7 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
     return br_each(&each, err);
 }
 
-/* ---- looking ---- */
+/* ---- reading the results ---- */
 
 const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size_t method, size_t n,
                                    size_t k)

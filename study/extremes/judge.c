@@ -21,17 +21,17 @@ struct trial {
     struct br_extreme_verdict *verdict;
     struct br_scene scene, marched; /* the latter borrows */
     struct br_method method;
-    struct br_track_places places;
+    struct br_track_samples samples;
     struct br_track *own, *other;
     struct br_prediction prediction;
-    double judge_error[2]; /* of those who judge, by br_field_kind, relative; 0: not known */
-    double beyond;         /* an error over what is stated, where it is more; 0: it is not */
+    double judge_error[2]; /* of the judging march, by br_field_kind, relative; 0: not known */
+    double beyond;         /* an error over the stated one, if it is larger; otherwise 0 */
     double error;          /* that error, or the largest */
     struct br_warnings warnings;
     bool done;
 };
 
-static const double no_digit = 0.05; /* predicted round-off that leaves none */
+static const double no_digit = 0.05; /* predicted round-off that leaves no correct digit */
 
 const struct br_extreme_names br_extreme_names[] = {
     {"right", "right", "right"},
@@ -46,7 +46,7 @@ const struct br_extreme_names br_extreme_names[] = {
 
 const char *const br_extreme_judges[] = {"nobody", "the exact solution", "refinement"};
 
-/* Decides a case, once and for all; the format is of what is to be said. */
+/* Sets the verdict of a case; the format is that of its reason. */
 __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
                                                          enum br_extreme_class which,
                                                          const char *format, ...)
@@ -62,7 +62,7 @@ __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
     t->done = true;
 }
 
-/* Whether it was said before the march that no digit may be right. */
+/* Whether a warning before the march says that perhaps no digit is right. */
 static bool warned(const struct trial *t)
 {
     return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
@@ -70,13 +70,13 @@ static bool warned(const struct trial *t)
            br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
 }
 
-/* What is marched where nothing is changed. */
+/* The request for a march of the unchanged case. */
 static struct br_track_request request_of(const struct trial *t)
 {
     return (struct br_track_request){.scene = &t->scene,
                                      .wanted = t->one->wanted,
                                      .method = &t->method,
-                                     .places = &t->places,
+                                     .samples = &t->samples,
                                      .finer = 1,
                                      .shorter = 1,
                                      .rounding = t->judging->rounding};
@@ -86,9 +86,9 @@ static struct br_track_request request_of(const struct trial *t)
 
 static const double accurate = 0.05;    /* relative, of displacements */
 static const double refined_work = 3e6; /* elements times linear solves */
-static const double of_distance = 1.5;  /* between a judge and a finer one */
+static const double of_distance = 1.5;  /* from a judge to a finer one, times this: its error */
 
-/* How far the march is from the judge, against what is stated. */
+/* Compares the distance of the march from the judge with the stated error. */
 static void compare(struct trial *t)
 {
     struct br_extreme_verdict *v = t->verdict;
@@ -97,8 +97,8 @@ static void compare(struct trial *t)
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
-        const double boast = t->judging->boast > 0 ? t->judging->boast : 1;
-        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / boast;
+        const double divisor = t->judging->stated_divisor > 0 ? t->judging->stated_divisor : 1;
+        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / divisor;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
         if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
@@ -110,15 +110,15 @@ static void compare(struct trial *t)
     }
 }
 
-/* The exact solution knows (12) alone. */
+/* The exact solution has no friction law but (12). */
 static bool exact_knows(const struct trial *t)
 {
     return !t->judging->quick && !(t->marched.friction.law != BR_FRICTIONLESS &&
                                    t->method.friction->needs_regularisation);
 }
 
-/* By a scheme that takes little energy from a vibration, but is not the one that errors are
- * predicted by. */
+/* Marches by a scheme that takes little energy from a vibration, but is not the one that predicts
+ * errors. */
 static enum br_status march_finer(struct trial *t, size_t finer, double times,
                                   struct br_track *track, struct br_error *err)
 {
@@ -147,7 +147,7 @@ static size_t finer_mesh(const struct trial *t)
 static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_error *err)
 {
     const enum br_status status =
-        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->places, MOST_STEPS, t->other, err)
+        by == BR_BY_EXACT ? br_track_exact(&t->marched, &t->samples, MOST_STEPS, t->other, err)
                           : march_finer(t, finer_mesh(t), 1, t->other, err);
     if (status || t->other->failure.status)
         return status;
@@ -156,7 +156,7 @@ static enum br_status ask(struct trial *t, enum br_extreme_by by, struct br_erro
     return BR_OK;
 }
 
-/* Before anything is called wrong, the judge itself is judged: by a march that is finer still. */
+/* Before a case is called wrong, a still finer march measures the judge's own error. */
 static enum br_status ask_again(struct trial *t, struct br_error *err)
 {
     struct br_track *finest = br_allocate(1, sizeof *finest), *other = t->other;
@@ -215,8 +215,8 @@ static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
 
 /* ---- whether other units change the answer ---- */
 
-static const double noise = 1e-12; /* of data, more than other units do to them */
-static const double magnified = 8; /* between two such noises */
+static const double noise = 1e-12; /* relative change of data, larger than that by other units */
+static const double magnified = 8; /* times the effect of such noise: the allowed difference */
 
 static enum br_status march_changed(struct trial *t, const struct br_scene *changed, double unit,
                                     double *distance, struct br_error *err)
@@ -231,7 +231,7 @@ static enum br_status march_changed(struct trial *t, const struct br_scene *chan
     return status;
 }
 
-/* *exist: out, whether the scene's numbers are numbers in those units. */
+/* *exist (out): whether all numbers of the scene can be represented in those units. */
 static enum br_status march_in_other_units(struct trial *t, bool *exist, struct br_error *err)
 {
     struct br_random r = br_random_of(t->one->seed ^ 0x5ca1e, t->one->index);
@@ -243,10 +243,10 @@ static enum br_status march_in_other_units(struct trial *t, bool *exist, struct 
     if (!status)
         status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
     br_scene_clear(&changed);
-    return status == BR_BAD_INPUT ? BR_OK : status; /* there are no such units for it */
+    return status == BR_BAD_INPUT ? BR_OK : status; /* a number is out of range in these units */
 }
 
-/* The most that little noise does to the answer. Where a last bit decides between stick and slip,
+/* The largest effect of small noise on the answer. Where a last bit decides between stick and slip,
  * half of the tries decide otherwise. */
 static enum br_status march_with_noise(struct trial *t, double *most, struct br_error *err)
 {
@@ -268,8 +268,8 @@ static enum br_status march_with_noise(struct trial *t, double *most, struct br_
     return BR_OK;
 }
 
-/* Where a scheme takes a step or not by comparisons that a last bit decides, marches agree as well
- * as each is right: as is stated, and within so many times the tolerance. */
+/* An adaptive scheme accepts or refuses a step by a comparison that a last bit can decide. So its
+ * marches agree to the stated error, and to this many times the tolerance. */
 static const double of_tolerance = 100;
 
 static double control(const struct trial *t)
@@ -282,19 +282,19 @@ static double control(const struct trial *t)
     return fmin(stated, of_tolerance * t->method.tolerance);
 }
 
-/* What rounding may do to the displacements, relative to the largest: what is predicted, in either
- * units, since assembled matrices are rounded otherwise in others; what an iteration leaves; the
- * velocities' own, since displacements are sums of them, and those that the tip would have without
- * the laws' forces, since its own are differences from these; and what steps that are chosen
- * differ by. */
+/* The effect that rounding may have on the displacements, relative to the largest: the predicted
+ * round-off, the larger one of both units, since assembled matrices are rounded differently; the
+ * tolerance of an iteration; the rounding of velocities, whose sums are the displacements; the
+ * rounding of the distances that the tip would move without the forces of the laws, since its
+ * displacement is a difference from these; and the effect of adaptive steps. */
 static double allowed(const struct trial *t)
 {
     const double k = t->marched.duration / (double)t->one->steps;
     double ways = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (t->own->largest[kind] > 0)
-            ways =
-                fmax(ways, (k * t->own->speed[kind] + t->own->held[kind]) / t->own->largest[kind]);
+            ways = fmax(ways,
+                        (k * t->own->speed[kind] + t->own->unforced[kind]) / t->own->largest[kind]);
     const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
     const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
     return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control(t);
@@ -323,7 +323,7 @@ static enum br_status judge_units(struct trial *t, struct br_error *err)
 
 /* ---- before the march ---- */
 
-/* What the program does with a failure of its own: it says so. */
+/* A failure that the program reports: the case is refused. */
 static enum br_status refuse(struct trial *t, enum br_status status, const struct br_error *said,
                              struct br_error *err)
 {
@@ -359,7 +359,7 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
 
 /* ---- the march ---- */
 
-/* The march with everything that checks it. */
+/* Marches the case with all checks. */
 static enum br_status march(struct trial *t, struct br_error *err)
 {
     struct br_track_request request = request_of(t);
@@ -406,7 +406,7 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
         (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
     struct trial t = {.one = one, .judging = judging, .verdict = verdict, .method = one->method};
     t.method.most_steps = MOST_STEPS;
-    t.places = br_track_places(one->n, one->steps);
+    t.samples = br_track_samples(one->n, one->steps);
     t.own = br_allocate(1, sizeof *t.own);
     t.other = br_allocate(1, sizeof *t.other);
     const enum br_status status =

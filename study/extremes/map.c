@@ -50,54 +50,54 @@ static enum br_status do_case(void *self, size_t i, struct br_error *err)
 
 /* ---- a case that is wrong, made small while it stays wrong, so that a person can read it ---- */
 
-/* What becomes as it is in the plainest case: a part of a case, or of both of its fields. Of a
- * number one digit is left, where it cannot be plain. */
-struct part {
+/* A member of a case, or of both of its fields, that is set as in the plainest case. A number that
+ * must differ from that is rounded to one digit. */
+struct member {
     size_t offset, size;
     bool number;
 };
-#define PART(type, member) offsetof(struct type, member), sizeof((struct type *)NULL)->member
-static const struct part of_case[] = {
-    {PART(br_extreme_case, field[BR_AXIAL]), false},
-    {PART(br_extreme_case, field[BR_BENDING]), false},
-    {PART(br_extreme_case, contact), false},
-    {PART(br_extreme_case, law), false},
-    {PART(br_extreme_case, method.scheme), false},
-    {PART(br_extreme_case, method.solver), false},
-    {PART(br_extreme_case, method.friction), false},
-    {PART(br_extreme_case, method.contact), false},
-    {PART(br_extreme_case, method.axial_degree), false},
-    {PART(br_extreme_case, method.linear), false},
-    {PART(br_extreme_case, density), true},
-    {PART(br_extreme_case, gap), true},
-    {PART(br_extreme_case, contact_stiffness), true},
-    {PART(br_extreme_case, friction), true},
-    {PART(br_extreme_case, regularisation), true},
-    {PART(br_extreme_case, length), true},
-    {PART(br_extreme_case, duration), true},
+#define MEMBER(type, member) offsetof(struct type, member), sizeof((struct type *)NULL)->member
+static const struct member of_case[] = {
+    {MEMBER(br_extreme_case, field[BR_AXIAL]), false},
+    {MEMBER(br_extreme_case, field[BR_BENDING]), false},
+    {MEMBER(br_extreme_case, contact), false},
+    {MEMBER(br_extreme_case, law), false},
+    {MEMBER(br_extreme_case, method.scheme), false},
+    {MEMBER(br_extreme_case, method.solver), false},
+    {MEMBER(br_extreme_case, method.friction), false},
+    {MEMBER(br_extreme_case, method.contact), false},
+    {MEMBER(br_extreme_case, method.axial_degree), false},
+    {MEMBER(br_extreme_case, method.linear), false},
+    {MEMBER(br_extreme_case, density), true},
+    {MEMBER(br_extreme_case, gap), true},
+    {MEMBER(br_extreme_case, contact_stiffness), true},
+    {MEMBER(br_extreme_case, friction), true},
+    {MEMBER(br_extreme_case, regularisation), true},
+    {MEMBER(br_extreme_case, length), true},
+    {MEMBER(br_extreme_case, duration), true},
 };
-static const struct part of_field[] = {
-    {PART(br_extreme_field, load.shape), false},
-    {PART(br_extreme_field, load.history), false},
-    {PART(br_extreme_field, tip_force.history), false},
-    {PART(br_extreme_field, tip_moment.history), false},
-    {PART(br_extreme_field, displacement.waved), false},
-    {PART(br_extreme_field, velocity.waved), false},
-    {PART(br_extreme_field, stiffness), true},
-    {PART(br_extreme_field, viscosity), true},
-    {PART(br_extreme_field, load.size), true},
-    {PART(br_extreme_field, load.rate), true},
-    {PART(br_extreme_field, tip_force.size), true},
-    {PART(br_extreme_field, tip_force.rate), true},
-    {PART(br_extreme_field, tip_moment.size), true},
-    {PART(br_extreme_field, tip_moment.rate), true},
-    {PART(br_extreme_field, displacement.size), true},
-    {PART(br_extreme_field, velocity.size), true},
+static const struct member of_field[] = {
+    {MEMBER(br_extreme_field, load.shape), false},
+    {MEMBER(br_extreme_field, load.history), false},
+    {MEMBER(br_extreme_field, tip_force.history), false},
+    {MEMBER(br_extreme_field, tip_moment.history), false},
+    {MEMBER(br_extreme_field, displacement.waved), false},
+    {MEMBER(br_extreme_field, velocity.waved), false},
+    {MEMBER(br_extreme_field, stiffness), true},
+    {MEMBER(br_extreme_field, viscosity), true},
+    {MEMBER(br_extreme_field, load.size), true},
+    {MEMBER(br_extreme_field, load.rate), true},
+    {MEMBER(br_extreme_field, tip_force.size), true},
+    {MEMBER(br_extreme_field, tip_force.rate), true},
+    {MEMBER(br_extreme_field, tip_moment.size), true},
+    {MEMBER(br_extreme_field, tip_moment.rate), true},
+    {MEMBER(br_extreme_field, displacement.size), true},
+    {MEMBER(br_extreme_field, velocity.size), true},
 };
 enum { OF_CASE = sizeof of_case / sizeof *of_case, OF_FIELD = sizeof of_field / sizeof *of_field };
-enum { HALVES = 3, PARTS = OF_CASE + 2 * OF_FIELD };
+enum { HALVES = 3, MEMBERS = OF_CASE + 2 * OF_FIELD };
 
-/* Half of the elements, of the duration with the step kept, or of the steps. */
+/* Halves the elements, the duration with the same time step, or the steps. */
 static void halve(size_t what, struct br_extreme_case *c)
 {
     if (what == 0)
@@ -119,19 +119,19 @@ static void simplify(size_t i, bool to_a_digit, struct br_extreme_case *c)
 {
     const struct br_extreme_case plain = {
         .length = 1, .duration = 1, .method = br_method_default()};
-    const struct part *part = i < OF_CASE ? &of_case[i] : &of_field[(i - OF_CASE) % OF_FIELD];
+    const struct member *member = i < OF_CASE ? &of_case[i] : &of_field[(i - OF_CASE) % OF_FIELD];
     const size_t field = (i - OF_CASE) / OF_FIELD * sizeof *c->field;
     const size_t at =
-        part->offset + (i < OF_CASE ? 0 : offsetof(struct br_extreme_case, field) + field);
+        member->offset + (i < OF_CASE ? 0 : offsetof(struct br_extreme_case, field) + field);
     double *number = (double *)(void *)((char *)c + at);
     if (!to_a_digit)
-        memcpy((char *)c + at, (const char *)&plain + at, part->size);
-    else if (part->number)
+        memcpy((char *)c + at, (const char *)&plain + at, member->size);
+    else if (member->number)
         *number = one_digit(*number);
 }
 
-/* What belongs together. */
-static void mend(struct br_extreme_case *c)
+/* Makes the members agree with each other after a change. */
+static void make_consistent(struct br_extreme_case *c)
 {
     c->contact &= c->field[BR_AXIAL].modelled;
     if (!c->field[BR_BENDING].modelled || (c->law == BR_COULOMB && !c->contact))
@@ -142,13 +142,13 @@ static void mend(struct br_extreme_case *c)
         c->method.contact = br_contact_rule_of(c->method.scheme);
 }
 
-enum { MOST_QUESTIONS = 300 };
+enum { MOST_TRIALS = 300 };
 
 struct shrinking {
     const struct work *work;
     struct br_extreme_shrunk *best;
     char text[BR_EXTREME_TEXT]; /* of the best: what does not change it is not tried */
-    size_t asked;
+    size_t tried;
     bool gained;
 };
 
@@ -158,9 +158,9 @@ static enum br_status attempt(struct shrinking *s, const struct br_extreme_case 
     struct br_extreme_verdict verdict;
     char text[BR_EXTREME_TEXT];
     br_extreme_scene(smaller, text);
-    if (strcmp(text, s->text) == 0 || s->asked >= MOST_QUESTIONS)
+    if (strcmp(text, s->text) == 0 || s->tried >= MOST_TRIALS)
         return BR_OK;
-    s->asked++;
+    s->tried++;
     if (br_observer_stops(s->work->job->observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     const enum br_status status = ask(s->work, smaller, &verdict, err);
@@ -173,18 +173,18 @@ static enum br_status attempt(struct shrinking *s, const struct br_extreme_case 
     return BR_OK;
 }
 
-/* Each part plain, all halves, then digits. */
+/* Tries each member plain, then all halves, then one digit. */
 static enum br_status try_all(struct shrinking *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
     s->gained = false;
-    for (size_t i = 0; i < 2 * PARTS + HALVES && !status; i++) {
+    for (size_t i = 0; i < 2 * MEMBERS + HALVES && !status; i++) {
         struct br_extreme_case smaller = s->best->one;
-        if (i < PARTS || i >= PARTS + HALVES)
-            simplify(i < PARTS ? i : i - PARTS - HALVES, i >= PARTS, &smaller);
+        if (i < MEMBERS || i >= MEMBERS + HALVES)
+            simplify(i < MEMBERS ? i : i - MEMBERS - HALVES, i >= MEMBERS, &smaller);
         else
-            halve(i - PARTS, &smaller);
-        mend(&smaller);
+            halve(i - MEMBERS, &smaller);
+        make_consistent(&smaller);
         status = attempt(s, &smaller, err);
     }
     return status;
@@ -213,7 +213,7 @@ static enum br_status shrink(void *self, size_t i, struct br_error *err)
     struct shrinking s = {.work = work, .best = &work->map->shrunk[i], .gained = true};
     enum br_status status = BR_OK;
     br_extreme_scene(&s.best->one, s.text);
-    while (s.gained && !status && s.asked < MOST_QUESTIONS)
+    while (s.gained && !status && s.tried < MOST_TRIALS)
         status = try_all(&s, err);
     return status ? status : write_scene(work->job->folder, s.best, s.text, err);
 }
@@ -254,8 +254,7 @@ static bool starts_number(const char *c, const char *text)
     return !inside && isdigit((unsigned char)c[*c == '-' || *c == '+']);
 }
 
-/* Numbers become #, so that reasons of different cases are alike; what follows a colon of a place
- * in a scene stays. */
+/* Replaces numbers by #, so that equal reasons of different cases have equal texts. */
 static void generalise(const char *why, char text[150])
 {
     size_t used = 0;
@@ -394,8 +393,8 @@ struct br_extreme_rate br_extreme_rate(const struct br_extreme_map *m)
 
 /* ---- planes ---- */
 
-/* The beam, or a rod alone. */
-static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
+/* The field of the beam, or of the rod if there is no beam. */
+static const struct br_extreme_field *main_field(const struct br_extreme_case *c)
 {
     return &c->field[c->field[BR_BENDING].modelled ? BR_BENDING : BR_AXIAL];
 }
@@ -403,16 +402,16 @@ static const struct br_extreme_field *main_part(const struct br_extreme_case *c)
 static double inertia(const struct br_extreme_case *c)
 {
     const double power = c->field[BR_BENDING].modelled ? 4 : 2;
-    return c->density * pow(c->length, power) / main_part(c)->stiffness / pow(c->duration, 2);
+    return c->density * pow(c->length, power) / main_field(c)->stiffness / pow(c->duration, 2);
 }
 
-OF_CASE(double, relaxation, main_part(c)->viscosity / main_part(c)->stiffness / c->duration)
+OF_CASE(double, relaxation, main_field(c)->viscosity / main_field(c)->stiffness / c->duration)
 OF_CASE(double, contact_ratio,
         c->contact ? c->contact_stiffness * c->length / c->field[BR_AXIAL].stiffness : NAN)
 OF_CASE(double, step_ratio, 1 / (double)c->steps)
 OF_CASE(double, elements, (double)c->n)
-OF_CASE(double, load, fabs(main_part(c)->load.size))
-OF_CASE(double, stiffness, main_part(c)->stiffness)
+OF_CASE(double, load, fabs(main_field(c)->load.size))
+OF_CASE(double, stiffness, main_field(c)->stiffness)
 
 const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
     {"Contact and time step",
@@ -428,7 +427,7 @@ const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES] = {
 };
 
 /* The cell along one coordinate; -1: not in the plane. */
-static int place(const struct br_extreme_coordinate *c, const struct br_extreme_case *one)
+static int cell_index(const struct br_extreme_coordinate *c, const struct br_extreme_case *one)
 {
     const double decade = log10(c->value(one));
     if (!isfinite(decade))
@@ -443,8 +442,8 @@ void br_extreme_plane_fill(const struct br_extreme_map *m, const struct br_extre
     for (size_t at = 0; at < p->x.cells * p->y.cells; at++) {
         size_t count[BR_EXTREME_CLASSES] = {0}, most = 0;
         for (size_t i = 0; i < m->cases; i++)
-            if (place(&p->y, &m->one[i]) == (int)(at / p->x.cells) &&
-                place(&p->x, &m->one[i]) == (int)(at % p->x.cells))
+            if (cell_index(&p->y, &m->one[i]) == (int)(at / p->x.cells) &&
+                cell_index(&p->x, &m->one[i]) == (int)(at % p->x.cells))
                 count[m->verdict[i].which]++;
         for (size_t which = 1; which < BR_EXTREME_CLASSES; which++)
             most = count[which] > count[most] ? which : most;

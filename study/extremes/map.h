@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The map of extremes: many cases, drawn from a seed, judged side by side, and counted by method
- * and law, by reason, and over planes. What comes out does not depend on the number of
- * threads, nor on how often it was interrupted. */
+/* The map of extremes: many cases, drawn from a seed, judged in parallel, and counted by method and
+ * law, by reason, and over planes. What comes out does not depend on the number of threads, nor on
+ * how often it was interrupted. */
 #ifndef BR_STUDY_EXTREMES_MAP_H
 #define BR_STUDY_EXTREMES_MAP_H
 
@@ -37,15 +37,15 @@ struct br_extreme_field {
     struct br_extreme_start displacement, velocity;
 };
 
-/* What was done on purpose beside drawing numbers. */
+/* What was changed on purpose after the numbers were drawn. */
 enum br_extreme_special {
     BR_SPECIAL_NONE,
     BR_SPECIAL_AT_LIMIT,    /* c_H at the lagged contact's stability limit times 1 +- little */
     BR_SPECIAL_AT_REACTION, /* Tresca's bound is the first step's reaction to the last bit */
     BR_SPECIAL_REVERSAL,    /* forces oscillate within a step */
-    BR_SPECIAL_GRAZING,     /* the gap is the tip's largest static way to the last digits */
-    BR_SPECIAL_DENORMAL,    /* loads of about 1e-310 */
-    BR_SPECIAL_ZEROS,       /* some numbers that may be 0 are */
+    BR_SPECIAL_GRAZING,  /* the gap is the tip's largest static displacement to the last digits */
+    BR_SPECIAL_DENORMAL, /* loads of about 1e-310 */
+    BR_SPECIAL_ZEROS,    /* some numbers that may be 0 are */
     BR_SPECIALS
 };
 extern const char *const br_extreme_specials[BR_SPECIALS];
@@ -79,19 +79,19 @@ void br_extreme_command(const struct br_extreme_case *one, const char *name,
 
 /* ---- who judges ---- */
 
-/* Whether a march was right, or said that it was not: the promise, held against one case.
+/* Tests for one case that a march is right, or that the program says that it is not.
  *
- * A case is read, looked ahead at, and marched as `run --check` does. Then
+ * A case is read, checked for warnings, and marched as `run --check` does. Then
  *   - the certificate of every step, the energy balance and the numbers themselves must be sound;
- *   - the exact solution, or where that cannot be promised in time another scheme on a finer mesh
- * by shorter steps, tells how far off the displacements are, against what was stated before the
- *     march (prediction.h);
+ *   - the exact solution, or where that cannot be had in time another scheme on a finer mesh by
+ *     shorter steps, measures the error of the displacements, which is compared with the error
+ *     stated before the march (prediction.h);
  *   - the same scene in other units (metre, second and kilogram each by a random factor) must give
- *     the same answer, to the predicted round-off and what a change of the data by 1e-12 does to
- *     it, which is 1000 times what the other units do to them.
- * Silently wrong is an answer that is further off than the error that is stated, with its interval,
- * or than 5 % where none is stated and no warning says so; or that breaks an equation or a law.
- * Each field counts by its own size. */
+ *     the same answer, to the predicted round-off and the effect of a change of the data by 1e-12,
+ *     which is 1000 times the change by the other units.
+ * Silently wrong is an answer whose error is larger than the stated one with its interval, or than
+ * 5 % where none is stated and no warning says so; or an answer that breaks an equation or a law.
+ * Each field counts relative to its own size. */
 
 enum br_extreme_class {
     BR_EXTREME_RIGHT,
@@ -109,7 +109,7 @@ struct br_extreme_names {
 };
 extern const struct br_extreme_names br_extreme_names[BR_EXTREME_CLASSES];
 
-/* Who tells how accurate it is. */
+/* What the error is measured by. */
 enum br_extreme_by { BR_BY_NOBODY, BR_BY_EXACT, BR_BY_REFINEMENT };
 extern const char *const br_extreme_judges[];
 
@@ -118,20 +118,20 @@ struct br_extreme_verdict {
     enum br_extreme_by by;
     bool known;       /* the run states its error */
     double error;     /* of displacements, over the largest; NaN: not known */
-    double stated;    /* the most that the error is stated to be, of the field that is nearest to it
-                         or beyond; INFINITY: nothing is stated; NaN: not compared */
-    double units;     /* the same between two systems of units; NaN: not compared */
+    double stated;    /* the stated bound of the error, of the field that is nearest to its bound or
+                         furthest beyond it; INFINITY: no bound; NaN: not compared */
+    double units;     /* error between two systems of units; NaN: not compared */
     double round_off; /* predicted */
     unsigned warned;  /* bits: 1 << br_warning_kind */
-    char why[200];    /* of what is not right; one line */
+    char why[200];    /* the reason why it is not right; one line */
 };
 
 /* How judging is done; zeros: as the map does. */
 struct br_extreme_judging {
-    int rounding; /* of the marches, as fesetround takes it */
-    bool quick;   /* without the other units and the exact solution */
-    double boast; /* stated errors are taken for so many times smaller, so that tests see what is
-                     called wrong; 0: as stated */
+    int rounding;          /* of the marches, as fesetround takes it */
+    bool quick;            /* without the other units and the exact solution */
+    double stated_divisor; /* divides the stated errors, so that tests see what is called wrong; 0:
+                              as stated */
 };
 
 /* Judges a case; *verdict (out). Fails with BR_NO_MEMORY. */
@@ -208,8 +208,8 @@ struct br_extreme_plane {
 enum { BR_EXTREME_PLANES = 4 };
 extern const struct br_extreme_plane br_extreme_planes[BR_EXTREME_PLANES];
 
-/* The class that most cases of each cell have (out, y.cells rows of x.cells; NaN: no case); a
- * cell with one that is silently wrong has that. What lies outside counts at the edge. */
+/* The class that most cases of each cell have (out, y.cells rows of x.cells; NaN: no case); a cell
+ * with a silently wrong case has that class. Cases outside the plane count at its edge. */
 void br_extreme_plane_fill(const struct br_extreme_map *map, const struct br_extreme_plane *plane,
                            double *cell);
 

@@ -12,7 +12,7 @@
 
 const double br_stability_tolerance = 1e-9;
 
-/* How far outside of the unit circle an eigenvalue is found to be there. */
+/* An eigenvalue counts as outside the unit circle if it is outside by more than this. */
 static const double outside = 1e-11;
 
 enum { A_DECADE = 4, DECADES_OF_STEPS = 5 };
@@ -53,7 +53,7 @@ struct br_scene br_stability_scene(const struct br_field *field, double duration
 
 /* ---- a row: one rod, one time step ---- */
 
-/* c_H where the largest eigenvalue leaves the unit circle, between two that are apart by it. */
+/* Finds by bisection the c_H at which the largest eigenvalue leaves the unit circle. */
 static enum br_status find_limit(const struct br_field *field, double low, double high,
                                  double *limit, struct br_error *err)
 {
@@ -117,7 +117,7 @@ static enum br_status measure_planes(struct br_stability *s, const struct br_ext
 
 static const double tip_shares[BR_STABILITY_TIPS] = {0.5, 0.9, 0.99, 1.01, 1.1, 2, 10, 1e3, 1e6};
 
-/* Of the limit of a contact that closes and opens, and, from the fifth on, of a closed one. */
+/* c_H over the limit of a contact that closes and opens; from the fifth on, of a closed one. */
 static const double bounce_shares[BR_STABILITY_BOUNCES] = {0.1, 0.5, 0.9, 1, 0.1, 0.5, 0.9, 0.99};
 enum { OF_BOUNCING = 4, TIP_STEPS = 4000, BOUNCE_STEPS = 20000 };
 
@@ -141,8 +141,8 @@ static double energy_of(const struct br_march *march, const struct br_contact *c
            contact->stiffness / 2 * depth * depth;
 }
 
-/* A rod that is pressed has no energy at the start. */
-static void look(struct watch *w, const struct br_march *march, size_t step)
+/* Records a step. Only a thrown rod has energy at the start. */
+static void record(struct watch *w, const struct br_march *march, size_t step)
 {
     struct br_stability_tip *t = w->tip;
     const double u = br_march_tip(march)->displacement, energy = energy_of(march, w->contact);
@@ -161,7 +161,7 @@ static void look(struct watch *w, const struct br_march *march, size_t step)
     w->closed = closed;
 }
 
-/* unit: of its ways, m. A march that fails is a result: what it would tell is NaN. */
+/* unit: of displacements, m. A march that fails is a result: its numbers are NaN. */
 static enum br_status march_tip(struct br_stability_tip *tip, struct br_scene *scene, size_t n,
                                 size_t steps, double unit, struct br_error *err)
 {
@@ -179,7 +179,7 @@ static enum br_status march_tip(struct br_stability_tip *tip, struct br_scene *s
         if (i > 0)
             status = br_march_step(march, &failure);
         if (!status)
-            look(&w, march, i);
+            record(&w, march, i);
     }
     br_march_free(march);
     tip->swing = status ? NAN : (w.high - w.low) / unit;
@@ -210,7 +210,7 @@ static enum br_status press(struct br_stability *s, struct br_error *err)
     return status;
 }
 
-/* Every point of the rod is thrown alike. */
+/* All points of the rod start with the same velocity. */
 static enum br_status throw(struct br_stability * s, struct br_error *err) {
     s->bounce_k = 1e-5; const struct br_field field = br_stability_field(
                             &br_stability_rods[4], BR_STABILITY_MOST_ELEMENTS, s->bounce_k);
@@ -423,7 +423,7 @@ static enum br_status check_tip(const struct br_stability_tip *t, struct br_erro
     return BR_OK;
 }
 
-/* Where no energy can be gained. */
+/* Checks that no energy is gained below the limit. */
 static enum br_status check_bounce(const struct br_stability_tip *b, struct br_error *err)
 {
     if (b->bouncing <= 1 && !(b->energy <= 1 + 1e-12))

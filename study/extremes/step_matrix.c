@@ -60,7 +60,7 @@ size_t br_step_states(const struct br_field *rod)
     return 2 * br_field_unknowns(rod) * rod->n;
 }
 
-/* One step from a state, displacement and k times velocity with their clamped nodes, to another. */
+/* Marches `state` by one step: displacements and k times velocities, with their clamped nodes. */
 static enum br_status march_once(const struct br_field *rod, double stiffness, double *state,
                                  struct br_error *err)
 {
@@ -86,8 +86,8 @@ static enum br_status march_once(const struct br_field *rod, double stiffness, d
     return status;
 }
 
-/* Where entry i of a state stands among nodal values with their clamped nodes. */
-static size_t place(const struct br_field *rod, size_t i)
+/* The index of entry i of a state among nodal values with their clamped nodes. */
+static size_t nodal_index(const struct br_field *rod, size_t i)
 {
     const size_t half = br_step_states(rod) / 2, d = br_field_unknowns(rod);
     return i < half ? d + i : 2 * d + i;
@@ -101,10 +101,10 @@ enum br_status br_step_matrix(const struct br_field *rod, double stiffness, doub
     enum br_status status = state ? BR_OK : br_no_memory(err, "a step's matrix");
     for (size_t j = 0; j < states && !status; j++) {
         memset(state, 0, size * sizeof *state);
-        state[place(rod, j)] = 1;
+        state[nodal_index(rod, j)] = 1;
         status = march_once(rod, stiffness, state, err);
         for (size_t i = 0; i < states; i++)
-            matrix[i * states + j] = state[place(rod, i)];
+            matrix[i * states + j] = state[nodal_index(rod, i)];
     }
     free(state);
     return status;

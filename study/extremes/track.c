@@ -5,31 +5,31 @@
 
 #include "study/extremes/extremes.h"
 
-/* Even ones of `count`, `parts` of which make up an element, then ever nearer to the tip, which is
- * the last. The even ones are in all parts of the elements: nodes alone may be far better, or
- * worse, than what is between them. */
-static size_t choose_places(size_t count, size_t parts, size_t place[BR_TRACK_POINTS])
+/* Chooses even points of `count`, where an element has `parts`, and then points nearer and nearer
+ * to the tip, which is the last. The even points lie in all parts of elements: nodes alone may be
+ * far better, or worse, than the points between them. */
+static size_t choose_points(size_t count, size_t parts, size_t point[BR_TRACK_POINTS])
 {
     const size_t even = count < BR_TRACK_EVEN ? count : BR_TRACK_EVEN;
     const size_t within = count / even < parts ? 0 : parts; /* an element, where it is shorter */
     size_t points = 0;
     for (size_t i = 0; i + 1 < even; i++)
-        place[points++] = (i + 1) * count / even - i * within / even;
+        point[points++] = (i + 1) * count / even - i * within / even;
     for (size_t from_tip = count / (2 * BR_TRACK_EVEN);
          from_tip > 0 && points + 1 < BR_TRACK_POINTS; from_tip /= 2)
-        place[points++] = count - from_tip;
-    place[points++] = count;
+        point[points++] = count - from_tip;
+    point[points++] = count;
     return points;
 }
 
-struct br_track_places br_track_places(size_t n, size_t steps)
+struct br_track_samples br_track_samples(size_t n, size_t steps)
 {
-    struct br_track_places p = {.n = n, .steps = steps, .parts = 1};
+    struct br_track_samples p = {.n = n, .steps = steps, .parts = 1};
     const size_t parts = steps < BR_TRACK_LEVELS ? steps : BR_TRACK_LEVELS;
     while (n * p.parts < 256 * BR_TRACK_EVEN) /* room for those near the tip */
         p.parts *= 2;
     p.levels = parts + 1;
-    p.points = choose_places(n * p.parts, p.parts, p.place);
+    p.points = choose_points(n * p.parts, p.parts, p.point);
     for (size_t i = 0; i < p.levels; i++)
         p.level[i] = i * steps / parts;
     return p;
@@ -37,7 +37,7 @@ struct br_track_places br_track_places(size_t n, size_t steps)
 
 /* ---- marches ---- */
 
-struct looker {
+struct recorder {
     const struct br_track_request *request;
     struct br_track *track;
     double *nodal; /* displacements, then velocities */
@@ -50,7 +50,7 @@ static void keep_slope(struct br_track *t, size_t point, double slope)
     t->largest[BR_BENDING] = fmax(t->largest[BR_BENDING], fabs(slope));
 }
 
-static void look_at(struct looker *l, const struct br_march *march, enum br_field_kind kind)
+static void record_field(struct recorder *l, const struct br_march *march, enum br_field_kind kind)
 {
     struct br_track *t = l->track;
     const struct br_field *f = br_march_field(march, kind);
@@ -63,9 +63,9 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
         t->speed[kind] = fmax(t->speed[kind], fabs(velocity[i]));
         t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
     }
-    for (size_t p = 0; p < t->places.points; p++) {
-        const size_t part = l->request->finer * t->places.place[p], parts = t->places.parts;
-        const size_t element = (part - 1) / parts; /* that the place ends, or is in */
+    for (size_t p = 0; p < t->samples.points; p++) {
+        const size_t part = l->request->finer * t->samples.point[p], parts = t->samples.parts;
+        const size_t element = (part - 1) / parts; /* that contains the point or ends at it */
         const double xi = (double)(part - element * parts) / (double)parts;
         double slope;
         t->value[kind][t->seen][p] =
@@ -75,34 +75,34 @@ static void look_at(struct looker *l, const struct br_march *march, enum br_fiel
     }
 }
 
-static enum br_status look(void *self, const struct br_march *march,
-                           const struct br_history_row *row, struct br_error *err)
+static enum br_status record(void *self, const struct br_march *march,
+                             const struct br_history_row *row, struct br_error *err)
 {
-    struct looker *l = self;
+    struct recorder *l = self;
     (void)row;
     if (!l->nodal)
         l->nodal =
-            br_allocate(4 * (l->request->places->n * l->request->finer + 1), sizeof *l->nodal);
+            br_allocate(4 * (l->request->samples->n * l->request->finer + 1), sizeof *l->nodal);
     if (!l->nodal)
         return br_no_memory(err, "a march's values");
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (br_march_models(march, (enum br_field_kind)kind))
-            look_at(l, march, (enum br_field_kind)kind);
+            record_field(l, march, (enum br_field_kind)kind);
     l->track->seen++;
     return BR_OK;
 }
 
-static enum br_status watch_size(void *self, const struct br_march *march,
-                                 const struct br_history_row *row, struct br_error *err)
+static enum br_status record_step(void *self, const struct br_march *march,
+                                  const struct br_history_row *row, struct br_error *err)
 {
-    struct br_track *t = ((struct looker *)self)->track;
+    struct br_track *t = ((struct recorder *)self)->track;
     (void)err;
     const double force[2] = {row->contact_force, row->friction_force};
     const double k = t->report.k;
     for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
         const enum br_field_kind kind = (enum br_field_kind)i;
         if (row->step > 0)
-            t->held[kind] += k * fabs(force[kind]) * br_march_compliance(march, kind);
+            t->unforced[kind] += k * fabs(force[kind]) * br_march_compliance(march, kind);
         t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
         t->largest[kind] = fmax(t->largest[kind], fabs(br_march_tip_displacement(march, kind)));
     }
@@ -112,28 +112,29 @@ static enum br_status watch_size(void *self, const struct br_march *march,
 enum br_status br_track_march(const struct br_track_request *q, struct br_track *t,
                               struct br_error *err)
 {
-    *t = (struct br_track){.places = *q->places, .finite = true};
-    struct looker looker = {.request = q, .track = t};
-    const struct br_history_observer observer = {.self = &looker, .step = watch_size, .look = look};
+    *t = (struct br_track){.samples = *q->samples, .finite = true};
+    struct recorder recorder = {.request = q, .track = t};
+    const struct br_history_observer observer = {
+        .self = &recorder, .step = record_step, .look = record};
     size_t level[BR_TRACK_LEVELS + 1];
-    for (size_t i = 0; i < t->places.levels; i++)
-        level[i] = t->places.level[i] * q->shorter;
+    for (size_t i = 0; i < t->samples.levels; i++)
+        level[i] = t->samples.level[i] * q->shorter;
     struct br_method method = *q->method;
     method.rounding = q->rounding;
     const struct br_run_request request = {
         .scene = q->scene,
         .wanted = q->wanted,
         .method = method,
-        .n = t->places.n * q->finer,
-        .steps = t->places.steps * q->shorter,
+        .n = t->samples.n * q->finer,
+        .steps = t->samples.steps * q->shorter,
         .level = level,
-        .levels = t->places.levels,
+        .levels = t->samples.levels,
         .check = q->check,
         .output = &observer,
         .outputs = 1,
     };
     const enum br_status status = br_run(&request, &t->report, &t->failure);
-    free(looker.nodal);
+    free(recorder.nodal);
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", t->failure.message);
     t->begun = !status;
@@ -154,15 +155,15 @@ static bool stop(void *self)
     return p->left-- == 0;
 }
 
-/* Values of one field, or its slope, at the places (out). */
+/* Values of one field, or its slope, at the points (out). */
 static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
                                const struct br_exact_part *part, double length,
                                const struct br_exact_state *state, double value[BR_TRACK_POINTS])
 {
     double x[BR_TRACK_POINTS];
-    for (size_t p = 0; p < t->places.points; p++)
-        x[p] = length * (double)t->places.place[p] / (double)(t->places.n * t->places.parts);
-    return br_exact_evaluate(exact, state, part, t->places.points, x, value, &t->failure);
+    for (size_t p = 0; p < t->samples.points; p++)
+        x[p] = length * (double)t->samples.point[p] / (double)(t->samples.n * t->samples.parts);
+    return br_exact_evaluate(exact, state, part, t->samples.points, x, value, &t->failure);
 }
 
 static enum br_status read_exact(const struct br_exact *exact, struct br_track *t,
@@ -172,7 +173,7 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
     struct br_exact_part part = {kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING, false, 0};
     double *value = t->value[kind][t->seen], slope[BR_TRACK_POINTS];
     enum br_status status = evaluate(exact, t, &part, length, state, value);
-    for (size_t p = 0; p < t->places.points && !status; p++)
+    for (size_t p = 0; p < t->samples.points && !status; p++)
         t->largest[kind] = fmax(t->largest[kind], fabs(value[p]));
     const struct br_exact_report report = br_exact_report(exact, part.field);
     t->largest[kind] = fmax(t->largest[kind], report.largest.displacement);
@@ -180,19 +181,19 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
     part.order = 1;
     if (!status && kind == BR_BENDING)
         status = evaluate(exact, t, &part, length, state, slope);
-    for (size_t p = 0; p < t->places.points && !status && kind == BR_BENDING; p++)
+    for (size_t p = 0; p < t->samples.points && !status && kind == BR_BENDING; p++)
         keep_slope(t, p, slope[p] * length / 4);
     return status;
 }
 
-static void look_at_exact(const struct br_exact *exact, const struct br_scene *scene,
-                          struct br_track *t)
+static void record_exact(const struct br_exact *exact, const struct br_scene *scene,
+                         struct br_track *t)
 {
     struct br_exact_state *state = NULL;
     enum br_status status = br_exact_state_create(&state, exact, &t->failure);
-    for (; t->seen < t->places.levels && !status; t->seen++) {
+    for (; t->seen < t->samples.levels && !status; t->seen++) {
         br_exact_at(exact,
-                    scene->duration * (double)t->places.level[t->seen] / (double)t->places.steps,
+                    scene->duration * (double)t->samples.level[t->seen] / (double)t->samples.steps,
                     state);
         for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
             if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
@@ -201,10 +202,10 @@ static void look_at_exact(const struct br_exact *exact, const struct br_scene *s
     br_exact_state_free(state);
 }
 
-enum br_status br_track_exact(const struct br_scene *scene, const struct br_track_places *places,
+enum br_status br_track_exact(const struct br_scene *scene, const struct br_track_samples *samples,
                               size_t steps, struct br_track *t, struct br_error *err)
 {
-    *t = (struct br_track){.places = *places, .finite = true};
+    *t = (struct br_track){.samples = *samples, .finite = true};
     struct step_limit limit = {steps};
     const struct br_exact_options options = {.tolerance = 1e-6,
                                              .acceptable = 1e-3,
@@ -216,7 +217,7 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
     const enum br_status status = br_exact_create(&exact, scene, &options, &t->failure);
     t->begun = !status;
     if (!status)
-        look_at_exact(exact, scene, t);
+        record_exact(exact, scene, t);
     br_exact_free(exact);
     return t->failure.status == BR_NO_MEMORY ? br_no_memory(err, "the exact solution") : BR_OK;
 }
@@ -227,8 +228,8 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
 static double difference(const struct br_track *a, const struct br_track *b, int value, double unit)
 {
     double most = 0;
-    for (size_t i = 0; i < a->places.levels; i++)
-        for (size_t p = 0; p < a->places.points; p++) {
+    for (size_t i = 0; i < a->samples.levels; i++)
+        for (size_t p = 0; p < a->samples.points; p++) {
             const double d = a->value[value][i][p] / unit - (b ? b->value[value][i][p] : 0);
             most = br_worst(most, isfinite(d) ? fabs(d) : NAN);
         }
@@ -247,7 +248,7 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
                          enum br_field_kind kind, double unit)
 {
     const double *size = reference->largest;
-    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+    if (track->seen < track->samples.levels || reference->seen < track->samples.levels)
         return NAN;
     const double most = largest(track, reference, kind, unit);
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
@@ -255,20 +256,20 @@ double br_track_distance(const struct br_track *track, const struct br_track *re
 
 /* ---- errors ---- */
 
-/* The mean square of a field less another's, or alone, at a level: by trapezes from the clamped
- * end, where nothing moves. The last one, at the tip, is as low as its lower end: a layer there may
- * be far narrower than it is. */
+/* The mean square of a field, or of its difference from another one, at a level: by the trapezoidal
+ * rule from the clamped end, where it is 0. The last interval, at the tip, counts with its first
+ * value where that is lower: a layer there may be far narrower than the interval. */
 static double square(const struct br_track *a, const struct br_track *b, int value, size_t level)
 {
-    const struct br_track_places *at = &a->places;
+    const struct br_track_samples *at = &a->samples;
     double sum = 0, left = 0;
     size_t from = 0;
     for (size_t p = 0; p < at->points; p++) {
         const double d = a->value[value][level][p] - (b ? b->value[value][level][p] : 0);
         const bool tip = p > 0 && p + 1 == at->points && d * d > left;
-        sum += (left + (tip ? left : d * d)) * (double)(at->place[p] - from) / 2;
+        sum += (left + (tip ? left : d * d)) * (double)(at->point[p] - from) / 2;
         left = d * d;
-        from = at->place[p];
+        from = at->point[p];
     }
     return sum / (double)(at->n * at->parts);
 }
@@ -277,12 +278,12 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
                            enum br_field_kind kind)
 {
     double most = 0;
-    for (size_t i = 0; i < a->places.levels; i++)
+    for (size_t i = 0; i < a->samples.levels; i++)
         most = br_worst(most, square(a, b, (int)kind, i));
     return sqrt(most);
 }
 
-/* Of the mean at all times: as much larger as what the track has seen at other times. */
+/* The mean at all times: scaled by the largest value of all times over the largest sampled one. */
 static double mean_size(const struct br_track *t, enum br_field_kind kind)
 {
     const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind, 1);
@@ -293,7 +294,7 @@ double br_track_error(const struct br_track *track, const struct br_track *refer
                       enum br_field_kind kind, double *sure_to)
 {
     *sure_to = 0;
-    if (track->seen < track->places.levels || reference->seen < track->places.levels)
+    if (track->seen < track->samples.levels || reference->seen < track->samples.levels)
         return NAN;
     const double own = mean_size(reference, kind);
     const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));

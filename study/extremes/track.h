@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one march comes to, at a few times and places, so that marches can be compared: on finer
- * meshes, by smaller steps, in other units, and with the exact solution. */
+/* Samples of one march at a few times and points, so that marches can be compared: on finer meshes,
+ * by smaller steps, in other units, and with the exact solution. */
 #ifndef BR_STUDY_EXTREMES_TRACK_H
 #define BR_STUDY_EXTREMES_TRACK_H
 
@@ -9,35 +9,34 @@
 
 enum {
     BR_TRACK_LEVELS = 8,
-    BR_TRACK_EVEN = 16,   /* places at equal distances */
+    BR_TRACK_EVEN = 16,   /* points at equal distances */
     BR_TRACK_POINTS = 24, /* and others near the tip, where layers are */
     BR_TRACK_SLOPE = 2,
     BR_TRACK_VALUES
 };
 
-/* Where is looked: levels of `steps`, and places on n elements of `parts` parts each, counted in
- * parts; each ascending, the last being the end; the first level is 0, whose values count as sizes.
- */
-struct br_track_places {
+/* Where a march is sampled: time levels of `steps`, and points on n elements of `parts` parts each,
+ * in units of parts. Both ascend and contain the end; the first level is t = 0. */
+struct br_track_samples {
     size_t n, steps, parts;
     size_t level[BR_TRACK_LEVELS + 1], levels;
-    size_t place[BR_TRACK_POINTS], points;
+    size_t point[BR_TRACK_POINTS], points;
 };
-struct br_track_places br_track_places(size_t n, size_t steps);
+struct br_track_samples br_track_samples(size_t n, size_t steps);
 
 struct br_track {
-    struct br_track_places places;
-    /* Displacements by br_field_kind, and L w_x/4, which is about the bulge of a beam whose tip is
-     * held; m. */
+    struct br_track_samples samples;
+    /* Displacements by br_field_kind, and L w_x/4, which is about the bulge of a beam with a fixed
+     * tip; m. */
     double value[BR_TRACK_VALUES][BR_TRACK_LEVELS + 1][BR_TRACK_POINTS];
-    size_t seen;                 /* levels */
-    bool finite;                 /* all nodal values there */
-    double largest[2];           /* of all nodal displacements there, m */
-    double own_error[2];         /* what an exact solution says that it is off by, m */
-    double speed[2];             /* of the nodes there, and of the tip at every step, m/s */
-    double held[2];              /* ways that the tip would have gone without the laws' forces, from
-                                    step to step, m: its own are differences from these */
-    struct br_run_report report; /* its scenes are gone */
+    size_t seen;         /* sampled levels */
+    bool finite;         /* all nodal values there */
+    double largest[2];   /* of all nodal displacements there, m */
+    double own_error[2]; /* error that an exact solution states of itself, m */
+    double speed[2];     /* of the nodes there, and of the tip at every step, m/s */
+    double unforced[2];  /* distances that the tip would move without the forces of the laws, summed
+                            over the steps, m: its displacements are differences from these */
+    struct br_run_report report; /* its scenes are freed */
     struct br_error failure;     /* BR_OK; why it did not begin, or stopped */
     bool begun;
 };
@@ -47,8 +46,8 @@ struct br_track_request {
     const struct br_scene *scene;
     unsigned wanted;
     const struct br_method *method;
-    const struct br_track_places *places;
-    size_t finer, shorter; /* elements and steps are so many times the places' */
+    const struct br_track_samples *samples;
+    size_t finer, shorter; /* factors of the elements and steps of `samples` */
     bool check;            /* the certificate of every step */
     int rounding;          /* as fesetround takes it */
 };
@@ -60,18 +59,19 @@ enum br_status br_track_march(const struct br_track_request *request, struct br_
 
 /* The same by the exact solution; its failures are in track->failure. steps: most steps and
  * attempts of it. modelled: the fields of the scene that are marched. */
-enum br_status br_track_exact(const struct br_scene *modelled, const struct br_track_places *places,
-                              size_t steps, struct br_track *track, struct br_error *err);
+enum br_status br_track_exact(const struct br_scene *modelled,
+                              const struct br_track_samples *samples, size_t steps,
+                              struct br_track *track, struct br_error *err);
 
 /* The largest difference of a field over the largest of its displacements in `reference`, or where
- * those are all zero over that of the other field's; `unit`: metres of the reference are so many of
- * the track's. 0 where there is no difference, NAN where a value is not finite or missing. */
+ * those are all zero over that of the other field's; `unit`: one metre of the reference in the
+ * track's unit. 0 where there is no difference, NAN where a value is not finite or missing. */
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
                          enum br_field_kind kind, double unit);
 
-/* The error of a field: the largest root of the mean square over x, by the places, at a level, over
- * the largest of `reference`, as br_track_distance. *sure_to (out): what the reference says of
- * itself, relative to the same. */
+/* The error of a field: the largest root of the mean square over x of all levels, relative to that
+ * of `reference` as in br_track_distance. *sure_to (out): the reference's own error, relative to
+ * the same. */
 double br_track_error(const struct br_track *track, const struct br_track *reference,
                       enum br_field_kind kind, double *sure_to);
 

@@ -55,29 +55,29 @@ enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scen
     double room[4][BR_MODE_UNKNOWNS * BR_MODE_UNKNOWNS] = {{0}}, value[BR_MODE_UNKNOWNS];
     gsl_matrix_view k = gsl_matrix_view_array(room[0], size, size),
                     m = gsl_matrix_view_array(room[1], size, size),
-                    kept = gsl_matrix_view_array(room[2], size, size),
+                    mass = gsl_matrix_view_array(room[2], size, size),
                     vectors = gsl_matrix_view_array(room[3], size, size);
     gsl_vector_view values = gsl_vector_view_array(value, size);
     gsl_eigen_gensymmv_workspace *w = gsl_eigen_gensymmv_alloc(size);
     if (!w)
         return br_no_memory(err, "a mode");
     assemble(&f, &k.matrix, &m.matrix);
-    gsl_matrix_memcpy(&kept.matrix, &m.matrix);
+    gsl_matrix_memcpy(&mass.matrix, &m.matrix);
     const int failed = gsl_eigen_gensymmv(&k.matrix, &m.matrix, &values.vector, &vectors.matrix, w);
     gsl_eigen_gensymmv_free(w);
     if (failed)
         return br_fail(err, BR_SINGULAR, "the modes of %zu elements were not found", f.n);
-    take_lowest(mode, &values.vector, &vectors.matrix, &kept.matrix);
+    take_lowest(mode, &values.vector, &vectors.matrix, &mass.matrix);
     return BR_OK;
 }
 
-double br_beam_mode_part(const struct br_beam_mode *mode, const double *nodal)
+double br_beam_mode_component(const struct br_beam_mode *mode, const double *nodal)
 {
     const size_t d = mode->kind == BR_AXIAL ? 1 : 2;
-    double part = 0;
+    double component = 0;
     for (size_t i = 0; i < d * BR_MODE_ELEMENTS; i++)
-        part += mode->weight[i] * nodal[d + i];
-    return part;
+        component += mode->weight[i] * nodal[d + i];
+    return component;
 }
 
 /* ---- what a time scheme makes of y' = lambda y in a step, by its textbook ---- */
@@ -97,7 +97,7 @@ static double complex stability_function(const struct br_textbook *t, double com
     return (double complex)y[t->rows - 1];
 }
 
-/* Newton's method, from z = 0, where the root is 1, on to z in small steps. */
+/* Newton's method, continued from z = 0, where the root is 1, to z in small steps. */
 static double complex principal_root(const struct br_textbook *t, double complex z)
 {
     enum { PIECES = 64, ITERATIONS = 8 };
@@ -121,7 +121,7 @@ double complex br_amplification(const struct br_textbook *t, double complex z)
 
 /* ---- a vibration ---- */
 
-/* Steps at first, in which what the scheme's start has left dies away, and periods then. */
+/* First steps, in which the effects of the scheme's start die away, and then measured periods. */
 enum { FIRST_STEPS = 60, PERIODS = 2 };
 
 struct trial {
@@ -168,8 +168,8 @@ static double amplitude(const struct trial *t)
 {
     double displacement[2 * (BR_MODE_ELEMENTS + 1)], velocity[2 * (BR_MODE_ELEMENTS + 1)];
     br_march_get(t->march, t->v->kind, displacement, velocity);
-    const double q = t->mode.omega * br_beam_mode_part(&t->mode, displacement);
-    const double p = br_beam_mode_part(&t->mode, velocity);
+    const double q = t->mode.omega * br_beam_mode_component(&t->mode, displacement);
+    const double p = br_beam_mode_component(&t->mode, velocity);
     return p * p + 2 * t->v->damping * p * q + q * q;
 }
 

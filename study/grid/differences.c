@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* A pair of neighbours is a study of one cell, in a chain of as many norms as the grid's;
- * all pairs run at once. */
+/* Each pair of neighbouring cells is a study of one cell, in a chain of as many norms as the grid
+ * has; all pairs run at once. */
 struct pairs {
     const struct br_study *grid;
     size_t norms, count;
@@ -82,7 +82,7 @@ static enum br_status create_pairs(struct pairs *p, struct br_error *err)
     return BR_OK;
 }
 
-/* A pair is unstable where either of the two is. */
+/* A pair is unstable if one of its two marches is. */
 static struct br_cell cell_of(const struct br_study *pair)
 {
     struct br_cell cell = pair->cell[0];
@@ -116,7 +116,7 @@ static enum br_status gather(const struct pairs *p, bool over_h, size_t m, struc
     return BR_OK;
 }
 
-/* Every cell of the grid is the first of a pair, but for the last one of both directions. */
+/* Every cell of the grid is the first of a pair, except that of finest mesh and smallest step. */
 static void collect_tips(const struct pairs *p, struct br_tips *tips)
 {
     const size_t rows = tips->n_count, columns = tips->k_count;

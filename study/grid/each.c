@@ -11,7 +11,7 @@ bool br_observer_stops(const struct br_observer *o)
     return o && o->stop && o->stop(o->self);
 }
 
-static void tell_share(void *self, double fraction)
+static void report_share(void *self, double fraction)
 {
     const struct br_observer_share *share = self;
     share->whole->progress(share->whole->self, share->from + share->length * fraction);
@@ -31,7 +31,7 @@ static void prepare_share(void *self, double most)
 
 struct br_observer br_observer_of(struct br_observer_share *share)
 {
-    return (struct br_observer){.progress = share->whole->progress ? tell_share : NULL,
+    return (struct br_observer){.progress = share->whole->progress ? report_share : NULL,
                                 .stop = stop_share,
                                 .self = share,
                                 .preparing = share->whole->preparing ? prepare_share : NULL};
@@ -44,7 +44,7 @@ struct loop {
     atomic_bool over;
     /* under the lock */
     double done, all;
-    size_t failed; /* the turn */
+    size_t failed; /* the lowest turn that failed */
     struct br_error failure;
 };
 

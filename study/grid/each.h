@@ -26,15 +26,15 @@ struct br_each {
     size_t count;                       /* turns */
     int threads;                        /* 0: all cores */
     const struct br_observer *observer; /* of the whole loop; may be NULL */
-    /* Turn i: on any thread, beside others. */
+    /* Does turn i, on any thread, while other turns run. */
     enum br_status (*turn)(void *self, size_t i, struct br_error *err);
-    /* How much of the work it is, for progress; NULL: all turns are alike. */
+    /* The work of turn i, for progress; NULL: all turns cost the same. */
     double (*work)(const void *self, size_t i);
     void *self;
 };
 
-/* Begins turns 0, 1, ... in that order; after a failure, or where the observer says stop, no more.
- * Fails as the turn of the lowest number that failed, or with BR_INTERRUPTED. */
+/* Begins turns 0, 1, ... in that order, and no more after a failure or when the observer stops the
+ * loop. Fails as the turn of the lowest number that failed, or with BR_INTERRUPTED. */
 enum br_status br_each(const struct br_each *each, struct br_error *err);
 
 #endif

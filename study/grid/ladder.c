@@ -7,22 +7,23 @@
 #define ROW(set) &br_ladder_##set,
 const struct br_ladder_kernel *const br_ladder_kernels[] = {BR_INSTRUCTION_SETS(ROW) NULL};
 
-/* A rung; of a root n alone. */
-struct rung {
+/* A level; of a root level only n is set. */
+struct level {
     size_t n;
-    size_t parent;    /* what it is projected from: a rung, or `count` + a root */
+    size_t parent;    /* the level that it is projected from: its index, or `count` + that of a root
+                         level */
     size_t ratio;     /* parent's n over n */
-    size_t offset;    /* of its modes in a projection, where they are in lanes */
+    size_t offset;    /* of its modes in a projection, laid out as BR_IN_LANES */
     double *transfer; /* as in ladder.h */
 };
 
 struct br_ladder {
     const struct br_ladder_kernel *kernel;
     size_t modes;
-    size_t count;      /* rungs */
-    size_t size;       /* doubles in a projection: the losses of all rungs, then their modes */
-    struct rung *rung; /* rungs, and then the roots */
-    size_t *order;     /* of the rungs, parents first */
+    size_t count;        /* levels */
+    size_t size;         /* doubles in a projection: the losses of all levels, then their modes */
+    struct level *level; /* the levels, then the root levels */
+    size_t *order;       /* of the levels, parents first */
 };
 
 /* P_i on [0, 1], orthonormal. */
@@ -43,37 +44,37 @@ static double legendre(size_t i, double x)
 
 /* E_j[i][m] = ratio^-1/2 int_0^1 P_i(x) P_m((j + x)/ratio) dx for i <= m: the modes of child j of
  * an element from the element's mode m; exactly the identity where the ratio is 1. */
-static double transfer(const gsl_integration_glfixed_table *gauss, const struct rung *rung,
+static double transfer(const gsl_integration_glfixed_table *gauss, const struct level *level,
                        size_t j, size_t i, size_t m)
 {
-    const double ratio = (double)rung->ratio;
+    const double ratio = (double)level->ratio;
     double sum = 0;
     for (size_t q = 0; q < BR_MOST_MODES; q++) {
         double x, weight;
         gsl_integration_glfixed_point(0, 1, q, &x, &weight, gauss);
         sum += weight * legendre(i, x) * legendre(m, ((double)j + x) / ratio) / sqrt(ratio);
     }
-    return rung->ratio > 1 ? sum : i == m;
+    return level->ratio > 1 ? sum : i == m;
 }
 
-static enum br_status fill_transfers(struct rung *rung, size_t modes, struct br_store *store,
+static enum br_status fill_transfers(struct level *level, size_t modes, struct br_store *store,
                                      struct br_error *err)
 {
-    const size_t half = (rung->ratio + 1) / 2;
-    rung->transfer = br_store_take(store, half * modes * modes, sizeof *rung->transfer);
+    const size_t half = (level->ratio + 1) / 2;
+    level->transfer = br_store_take(store, half * modes * modes, sizeof *level->transfer);
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(BR_MOST_MODES);
-    for (size_t j = 0; rung->transfer && gauss && j < half; j++)
+    for (size_t j = 0; level->transfer && gauss && j < half; j++)
         for (size_t i = 0; i < modes; i++)
             for (size_t m = i; m < modes; m++)
-                rung->transfer[(j * modes + i) * modes + m] = transfer(gauss, rung, j, i, m);
+                level->transfer[(j * modes + i) * modes + m] = transfer(gauss, level, j, i, m);
     gsl_integration_glfixed_table_free(gauss);
-    return rung->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
+    return level->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
 }
 
-/* The coarsest of `meshes` that rung r divides, a finer rung or a root: its parent. */
-static bool find_parent(const struct br_ladder *ladder, size_t meshes, struct rung *r)
+/* Finds the parent of r: the coarsest finer level, or root level, that r divides. */
+static bool find_parent(const struct br_ladder *ladder, size_t meshes, struct level *r)
 {
-    const struct rung *mesh = ladder->rung;
+    const struct level *mesh = ladder->level;
     r->parent = meshes;
     for (size_t i = 0; i < meshes; i++) {
         const bool divides = mesh[i].n % r->n == 0 && (i >= ladder->count || mesh[i].n != r->n);
@@ -90,39 +91,39 @@ static size_t round_up(size_t count, size_t lanes)
     return (count + lanes - 1) / lanes * lanes;
 }
 
-static enum br_status add_rungs(struct br_ladder *ladder, const struct br_mesh_list *rungs,
-                                size_t roots, struct br_store *store, struct br_error *err)
+static enum br_status add_levels(struct br_ladder *ladder, const struct br_mesh_list *levels,
+                                 size_t roots, struct br_store *store, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t r = 0; r < rungs->count; r++) {
-        ladder->rung[r] = (struct rung){.n = rungs->n[r], .offset = ladder->size};
-        if (rungs->n[r] == 0)
+    for (size_t r = 0; r < levels->count; r++) {
+        ladder->level[r] = (struct level){.n = levels->n[r], .offset = ladder->size};
+        if (levels->n[r] == 0)
             return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
-        ladder->size += round_up(rungs->n[r], BR_MOST_LANES) * ladder->modes;
+        ladder->size += round_up(levels->n[r], BR_MOST_LANES) * ladder->modes;
     }
-    for (size_t r = 0; r < rungs->count && !status; r++) {
-        struct rung *rung = &ladder->rung[r];
-        status = find_parent(ladder, rungs->count + roots, rung)
-                     ? fill_transfers(rung, ladder->modes, store, err)
+    for (size_t r = 0; r < levels->count && !status; r++) {
+        struct level *level = &ladder->level[r];
+        status = find_parent(ladder, levels->count + roots, level)
+                     ? fill_transfers(level, ladder->modes, store, err)
                      : br_fail(err, BR_BAD_INPUT, "n = %zu does not divide the reference's %zu",
-                               rung->n, ladder->rung[rungs->count].n);
+                               level->n, ladder->level[levels->count].n);
     }
     return status;
 }
 
-/* Finer rungs first: each needs its parent. */
-static void sort_rungs(struct br_ladder *ladder)
+/* Finer levels first: each needs its parent. */
+static void sort_levels(struct br_ladder *ladder)
 {
     for (size_t r = 0; r < ladder->count; r++) {
         size_t i = r;
-        for (; i > 0 && ladder->rung[ladder->order[i - 1]].n < ladder->rung[r].n; i--)
+        for (; i > 0 && ladder->level[ladder->order[i - 1]].n < ladder->level[r].n; i--)
             ladder->order[i] = ladder->order[i - 1];
         ladder->order[i] = r;
     }
 }
 
 enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
-                                const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
+                                const struct br_mesh_list *roots, const struct br_mesh_list *levels,
                                 struct br_store *store, struct br_error *err)
 {
     struct br_ladder *ladder = *out = br_store_take(store, 1, sizeof *ladder);
@@ -130,17 +131,17 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
         return br_no_memory(err, "the ladder of meshes");
     ladder->kernel = br_ladder_kernels[br_instruction_set_best()];
     ladder->modes = modes;
-    ladder->count = rungs->count;
-    ladder->size = round_up(rungs->count, BR_MOST_LANES);
-    ladder->rung = br_store_take(store, rungs->count + roots->count, sizeof *ladder->rung);
-    ladder->order = br_store_take(store, rungs->count, sizeof *ladder->order);
+    ladder->count = levels->count;
+    ladder->size = round_up(levels->count, BR_MOST_LANES);
+    ladder->level = br_store_take(store, levels->count + roots->count, sizeof *ladder->level);
+    ladder->order = br_store_take(store, levels->count, sizeof *ladder->order);
     if (store->failed)
         return br_no_memory(err, "the ladder of meshes");
     for (size_t i = 0; i < roots->count; i++)
-        ladder->rung[rungs->count + i].n = roots->n[i];
-    const enum br_status status = add_rungs(ladder, rungs, roots->count, store, err);
+        ladder->level[levels->count + i].n = roots->n[i];
+    const enum br_status status = add_levels(ladder, levels, roots->count, store, err);
     if (!status)
-        sort_rungs(ladder);
+        sort_levels(ladder);
     return status;
 }
 
@@ -154,14 +155,14 @@ size_t br_ladder_size(const struct br_ladder *ladder)
     return ladder->size;
 }
 
-/* The projection's part on a rung. */
+/* The modes of a projection on level r. */
 static struct br_view view_of(const struct br_ladder *ladder, size_t r, double *projection)
 {
     struct br_view view;
     br_view_modes(&view, ladder->modes);
     view.layout = BR_IN_LANES;
     view.rest = projection[r];
-    view.values = projection + ladder->rung[r].offset;
+    view.values = projection + ladder->level[r].offset;
     return view;
 }
 
@@ -170,14 +171,14 @@ void br_ladder_project(const struct br_ladder *ladder, const struct br_view *roo
 {
     for (size_t i = 0; i < ladder->count; i++) {
         const size_t r = ladder->order[i];
-        const struct rung *rung = &ladder->rung[r];
+        const struct level *level = &ladder->level[r];
         const struct br_projecting p = {
-            .fine = rung->parent < ladder->count ? view_of(ladder, rung->parent, projection)
-                                                 : root[rung->parent - ladder->count],
-            .n = rung->n,
-            .ratio = rung->ratio,
-            .transfer = rung->transfer,
-            .coarse = projection + rung->offset,
+            .fine = level->parent < ladder->count ? view_of(ladder, level->parent, projection)
+                                                  : root[level->parent - ladder->count],
+            .n = level->n,
+            .ratio = level->ratio,
+            .transfer = level->transfer,
+            .coarse = projection + level->offset,
         };
         projection[r] = p.fine.rest + ladder->kernel->project(&p);
     }
@@ -186,19 +187,19 @@ void br_ladder_project(const struct br_ladder *ladder, const struct br_view *roo
 double br_ladder_distance(const struct br_ladder *ladder, size_t r, const struct br_view *view,
                           const double *projection)
 {
-    const struct rung *rung = &ladder->rung[r];
-    return sqrt(ladder->kernel->distance(view, rung->n, projection + rung->offset) + view->rest +
+    const struct level *level = &ladder->level[r];
+    return sqrt(ladder->kernel->distance(view, level->n, projection + level->offset) + view->rest +
                 projection[r]);
 }
 
-/* By Pythagoras, from the coarsest rung: the shortest sum. */
+/* By Pythagoras from the coarsest level, where the sum is shortest. */
 double br_ladder_norm(const struct br_ladder *ladder, const double *projection)
 {
     const size_t r = ladder->order[ladder->count - 1];
-    const struct rung *rung = &ladder->rung[r];
-    const double *modes = projection + rung->offset;
+    const struct level *level = &ladder->level[r];
+    const double *modes = projection + level->offset;
     double sum = projection[r];
-    const size_t count = round_up(rung->n, ladder->kernel->lanes) * ladder->modes;
+    const size_t count = round_up(level->n, ladder->kernel->lanes) * ladder->modes;
     for (size_t i = 0; i < count; i++)
         sum += modes[i] * modes[i];
     return sqrt(sum);

@@ -3,8 +3,8 @@
  *
  * On each element a function is given by its orthonormal Legendre modes, as a view of it
  * has them (solver/modes.h).
- * The reference is projected from its own meshes down a ladder of coarser ones; what each rung
- * loses is kept as a sum of squares. For a function v of rung n,
+ * The reference is projected from its own meshes, the root levels, down a ladder of coarser meshes,
+ * the levels. What each level loses is kept as a sum of squares. For a function v on n elements,
  *     |v - ref|^2 = |v - P_n ref|^2 + |ref - P_n ref|^2    (Pythagoras),
  * and both terms are sums of squares of small numbers: no sampling, no
  * quadrature, and no cancellation as in |ref|^2 - 2(ref, v) + |v|^2. */
@@ -27,27 +27,27 @@ struct br_mesh_list {
     const size_t *n;
 };
 
-/* A ladder for functions with 1 to 4 modes an element, from one or more
- * root meshes down to the rungs, every one of which divides a root (it may be one).
- * *ladder: out, owned by the store. Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
+/* Creates a ladder for functions with 1 to 4 modes per element, from one or more root levels down
+ * to the levels. Each level divides a root level, or is equal to it. *ladder: out, owned by the
+ * store. Fails with BR_BAD_INPUT (not nested) or BR_NO_MEMORY. */
 enum br_status br_ladder_create(struct br_ladder **ladder, size_t modes,
-                                const struct br_mesh_list *roots, const struct br_mesh_list *rungs,
+                                const struct br_mesh_list *roots, const struct br_mesh_list *levels,
                                 struct br_store *store, struct br_error *err);
 
-/* Takes this kernel, not the best one; its last digits are its own. */
+/* Uses this kernel instead of the best one. The last digits of results depend on the kernel. */
 void br_ladder_use(struct br_ladder *ladder, const struct br_ladder_kernel *kernel);
 
-/* Doubles in a projection of one function onto all rungs, a multiple of 8: fastest at the start
- * of a cache line. */
+/* Doubles in a projection of one function onto all levels, a multiple of 8. It is fastest at the
+ * start of a cache line. */
 size_t br_ladder_size(const struct br_ladder *ladder);
 
-/* Projects a function given on every root mesh (in) onto all rungs; `projection`: out,
+/* Projects a function that is given on every root level (in) onto all levels; `projection`: out,
  * br_ladder_size values. */
 void br_ladder_project(const struct br_ladder *ladder, const struct br_view *root,
                        double *projection);
 
-/* L2 distance of a function (in) on the mesh n[rung] from the projected one. */
-double br_ladder_distance(const struct br_ladder *ladder, size_t rung, const struct br_view *view,
+/* L2 distance of a function (in) on the mesh n[level] from the projected one. */
+double br_ladder_distance(const struct br_ladder *ladder, size_t level, const struct br_view *view,
                           const double *projection);
 
 /* L2 norm of the projected function. */
@@ -55,13 +55,13 @@ double br_ladder_norm(const struct br_ladder *ladder, const double *projection);
 
 /* ---- kernels ---- */
 
-/* The element loops, elements of a rung side by side in the lanes of vectors.
- * Every sum is taken in an order that depends on the mesh alone. */
+/* The element loops, elements of a level side by side in the lanes of vectors. Every sum is taken
+ * in an order that depends on the mesh alone. */
 
-/* One rung from its parent. */
+/* The projection of one level from its parent. */
 struct br_projecting {
     struct br_view fine;    /* a function on ratio * n elements */
-    size_t n, ratio;        /* elements of the rung; of its parent's, those in one of the rung */
+    size_t n, ratio;        /* elements of the level; elements of its parent in one of the level */
     const double *transfer; /* E_j of the first (ratio + 1)/2 children, modes^2 by rows each, zero
                                below the diagonal; the others' are their mirror images */
     double *coarse;         /* out: modes in lanes (BR_IN_LANES) */

@@ -13,8 +13,8 @@
 
 enum { MOST = BR_MOST_MODES, MOST_RATIO = 4 };
 
-/* f of each lane; every other one of the values of a and b; those of a from the second on, and b's
- * first. */
+/* EACH: f of each lane. EVEN, ODD: the values of a and b with even or odd index. SHIFT: the values
+ * of a from the second on, then the first of b. */
 #if LANES == 8
 #define EACH(f) f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)
 #define EVEN(a, b) SHUFFLE(a, b, 0, 2, 4, 6, 8, 10, 12, 14)
@@ -32,8 +32,8 @@ enum { MOST = BR_MOST_MODES, MOST_RATIO = 4 };
 #define SHIFT(a, b) SHUFFLE(a, b, 1, 2)
 #endif
 
-/* `count` vectors that stand `apart`, as one row of values; then vector i has the values i,
- * i + count, ... of it. count: a power of two. */
+/* Loads `count` vectors, `apart` values from each other, as one row of values, and sorts them:
+ * vector i gets the values i, i + count, ... of the row. count: a power of two. */
 INLINE void load_sorted(int count, const double *from, int apart, vec *x)
 {
     for (int i = 0; i < count; i++)
@@ -49,15 +49,15 @@ INLINE void load_sorted(int count, const double *from, int apart, vec *x)
     }
 }
 
-/* Unknowns a node of elements of so many modes. */
+/* Unknowns per node of elements with `modes` modes. */
 INLINE int unknowns_of(int modes)
 {
     return (modes + 1) / 2;
 }
 
-/* Which of the values of its two nodes has value i of an element: all, but of three modes not the
- * second one, the bubble of the element before. */
-INLINE int place_of(int modes, int i)
+/* The index of value i of an element among the values of its two nodes. With three modes the second
+ * value, the bubble of the element before, is left out. */
+INLINE int node_value_of(int modes, int i)
 {
     return modes == 3 && i > 0 ? i + 1 : i;
 }
@@ -74,10 +74,10 @@ INLINE void fetch_nodes(int modes, int ratio, const double *from, vec value[][MO
     }
     for (int j = 0; j < ratio; j++)
         for (int i = 0; i < modes; i++)
-            value[j][i] = node[j * unknowns + place_of(modes, i)];
+            value[j][i] = node[j * unknowns + node_value_of(modes, i)];
 }
 
-/* As load_sorted of vectors side by side, for any count. */
+/* As load_sorted for adjacent vectors, but for any count. */
 INLINE void load_elements(int count, const double *from, vec *x)
 {
     if (count != 3) {
@@ -120,7 +120,7 @@ struct few {
     size_t e, stride, live;
 };
 
-/* Their values; zeros in the other lanes. */
+/* Collects their values; zeros in the other lanes. */
 INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
                     const struct few *few, vec *value)
 {
@@ -135,7 +135,7 @@ INLINE void collect(const struct br_view *v, enum br_layout layout, int modes,
         if (l >= few->live)
             from[l] = zeros;
     }
-#define AT(l) from[l][(layout == BR_BY_NODE ? place_of(modes, i) : i) * step]
+#define AT(l) from[l][(layout == BR_BY_NODE ? node_value_of(modes, i) : i) * step]
     for (int i = 0; i < modes; i++)
         value[i] = (vec){EACH(AT)};
 #undef AT
@@ -215,8 +215,8 @@ INLINE void add_loss(int modes, const double *transfer, const vec *x, const vec 
     }
 }
 
-/* Transfers for modes without their scales: diag(scale) E, and diag(scale)^-1 E for the loss, which
- * is the scales' to mend. Copies, since no store can change what is local. */
+/* Transfers for modes without their scales: diag(scale) E, and diag(scale)^-1 E for the loss, whose
+ * scale is applied at the end. Local copies: the compiler then knows that no store changes them. */
 struct scaled {
     double scale[MOST], sum[MOST_RATIO / 2 * MOST * MOST], loss[MOST_RATIO / 2 * MOST * MOST];
 };
@@ -232,7 +232,7 @@ INLINE void scale_transfers(const struct br_projecting *p, int modes, int ratio,
     }
 }
 
-/* A vector of elements of a rung; the loss of each mode is without the square of its scale. */
+/* A vector of elements of a level; the loss of each mode is without the square of its scale. */
 INLINE void project_vector(const struct br_projecting *p, const struct scaled *t,
                            enum br_layout layout, int modes, int ratio, size_t first, vec *loss)
 {
@@ -256,7 +256,7 @@ INLINE void project_vector(const struct br_projecting *p, const struct scaled *t
         store(sum[i], p->coarse + first * (size_t)modes + i * LANES);
 }
 
-/* The children j and ratio - 1 - j of few elements, mirrored, or twice the middle one. */
+/* The children j and ratio - 1 - j of few elements, mirrored, or the middle child twice. */
 INLINE void collect_children(const struct br_projecting *p, enum br_layout layout, int modes,
                              const struct few *few, size_t j, vec x[2][MOST])
 {
@@ -307,7 +307,7 @@ INLINE void project_few(const struct br_projecting *p, enum br_layout layout, in
         store(sum[i], p->coarse + few->e * (size_t)modes + i * LANES);
 }
 
-/* All whole vectors of a rung. */
+/* All whole vectors of a level. */
 INLINE void project_whole(const struct br_projecting *p, enum br_layout layout, int modes,
                           int ratio, vec *loss)
 {

@@ -3,7 +3,7 @@
  * projections (ladder.h) in one of a few buffers; the cells then take their own steps through the
  * batch and measure their errors, while the reference is already filling the other buffers. These
  * are OpenMP tasks whose dependences are the buffers and the marches. The bending field follows the
- * axial one, which never waits for it but for a free buffer. Every march is one sequence of
+ * axial one; the axial field waits only for a free buffer. Every march is one sequence of
  * operations whichever threads run it, so the result has the same bits on any number. */
 #include "study/grid/lockstep.h"
 
@@ -16,39 +16,39 @@
 
 /* ---- measuring ---- */
 
-static bool is_used(const struct br_channel *c, enum br_field_kind kind, bool last)
+static bool is_used(const struct br_measured *f, enum br_field_kind kind, bool last)
 {
-    return c->used && c->at.kind == kind && (last || !c->last_only);
+    return f->used && f->at.kind == kind && (last || !f->last_only);
 }
 
 /* The projection at the level of that index. */
-static double *projection_at(const struct br_lockstep *l, const struct br_channel *c, size_t index)
+static double *projection_at(const struct br_lockstep *l, const struct br_measured *f, size_t index)
 {
-    return c->projection + index % l->slots * c->size;
+    return f->projection + index % l->buffered_levels * f->size;
 }
 
-/* Looks at the reference and projects it; returns its size. */
-static double project(struct br_lockstep *l, const struct br_channel *c, double *projection)
+/* Samples the reference and projects it; returns its norm. */
+static double project(struct br_lockstep *l, const struct br_measured *f, double *projection)
 {
-    struct br_sample_at at = c->at;
-    for (at.mesh = 0; at.mesh < (c->ladder ? l->roots : 1); at.mesh++)
-        l->reference.judge->sample(l->reference.self, &at, &c->root[at.mesh]);
-    if (!c->ladder) {
-        *projection = l->study->reference_tip[at.kind] = c->root[0].values[0];
+    struct br_sample_at at = f->at;
+    for (at.mesh = 0; at.mesh < (f->ladder ? l->root_meshes : 1); at.mesh++)
+        l->reference.judge->sample(l->reference.self, &at, &f->root_view[at.mesh]);
+    if (!f->ladder) {
+        *projection = l->study->reference_tip[at.kind] = f->root_view[0].values[0];
         return fabs(*projection);
     }
-    br_ladder_project(c->ladder, c->root, projection);
-    return br_ladder_norm(c->ladder, projection);
+    br_ladder_project(f->ladder, f->root_view, projection);
+    return br_ladder_norm(f->ladder, projection);
 }
 
-/* The distance of the reference, as last looked at, from the auditor. */
-static double audit(struct br_lockstep *l, struct br_channel *c)
+/* The distance of the last sample of the reference from the auditor. */
+static double audit(struct br_lockstep *l, struct br_measured *f)
 {
-    l->auditor.judge->sample(l->auditor.self, &c->at, &c->audit);
-    if (!c->own_ladder)
-        return fabs(c->audit.values[0] - c->root[0].values[0]);
-    br_ladder_project(c->own_ladder, c->root, c->own_projection);
-    return br_ladder_distance(c->own_ladder, 0, &c->audit, c->own_projection);
+    l->auditor.judge->sample(l->auditor.self, &f->at, &f->audit);
+    if (!f->own_ladder)
+        return fabs(f->audit.values[0] - f->root_view[0].values[0]);
+    br_ladder_project(f->own_ladder, f->root_view, f->own_projection);
+    return br_ladder_distance(f->own_ladder, 0, &f->audit, f->own_projection);
 }
 
 /* Whether the reference is audited at the level of that index. */
@@ -57,20 +57,20 @@ static bool is_audited(const struct br_lockstep *l, size_t index)
     return l->auditor.judge && (index % l->audit_every == 0 || index + 1 == l->level_count);
 }
 
-/* One field of the reference, or then of the auditor, goes on to a level and is measured. */
+/* Advances one field of the reference or of the auditor to a level and measures it. */
 static enum br_status judge_level(struct br_lockstep *l, const struct br_bench *bench,
                                   enum br_field_kind kind, size_t index, struct br_error *err)
 {
     const size_t level = l->level[index];
     const enum br_status status = bench->judge->advance(bench->self, kind, level, err);
-    double *size = bench->sample[index % l->slots].size[kind];
+    double *size = bench->sample[index % l->buffered_levels].size[kind];
     const bool last = level == l->study->reference.steps;
-    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
-        if (c->at.kind == kind)
-            size[c->at.measure] = !is_used(c, kind, last) ? 0
+    for (struct br_measured *f = l->measured; f < l->measured + BR_MEASURED && !status; f++)
+        if (f->at.kind == kind)
+            size[f->at.measure] = !is_used(f, kind, last) ? 0
                                   : bench == &l->auditor
-                                      ? audit(l, c)
-                                      : project(l, c, projection_at(l, c, index));
+                                      ? audit(l, f)
+                                      : project(l, f, projection_at(l, f, index));
     return status;
 }
 
@@ -81,11 +81,11 @@ static void add_to_all(const struct br_lockstep *l, const struct br_sample *samp
         br_norm_add(s->norm, s->scene, sample, sum++);
 }
 
-/* Adds up what has been measured at a level, after those before it. A sample's share of an integral
- * over time goes back to the one before it. */
+/* Adds the sample of a level to the sums, level after level. In an integral over time, a sample has
+ * the weight of the time since the sample before. */
 static void add_up(const struct br_lockstep *l, struct br_bench *bench, size_t index)
 {
-    struct br_sample *sample = &bench->sample[index % l->slots];
+    struct br_sample *sample = &bench->sample[index % l->buffered_levels];
     sample->time =
         l->study->scene->duration * (double)l->level[index] / (double)l->study->reference.steps;
     sample->weight = sample->time - bench->time;
@@ -93,7 +93,7 @@ static void add_up(const struct br_lockstep *l, struct br_bench *bench, size_t i
     add_to_all(l, sample, bench->sum);
 }
 
-/* Measures a cell as it stands against the level of that index. */
+/* Measures a cell at its present time against the reference at the level of that index. */
 static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
 {
     struct br_runner *r = &l->cell[index];
@@ -104,19 +104,19 @@ static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
         .time = t,
         .weight = t > 0 ? br_time_step(l->study->scene, cell->at.steps) : 0,
     };
-    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++) {
-        if (!is_used(c, c->at.kind, last))
+    for (const struct br_measured *f = l->measured; f < l->measured + BR_MEASURED; f++) {
+        if (!is_used(f, f->at.kind, last))
             continue;
-        const double *reference = projection_at(l, c, level);
-        br_look(r->march, c->at.kind, c->at.measure, &r->view);
-        const double size = c->ladder ? br_ladder_distance(c->ladder, br_study_row(l->study, index),
+        const double *reference = projection_at(l, f, level);
+        br_look(r->march, f->at.kind, f->at.measure, &r->view);
+        const double size = f->ladder ? br_ladder_distance(f->ladder, br_study_row(l->study, index),
                                                            &r->view, reference)
                                       : fabs(r->view.values[0] - *reference);
         if (!isfinite(size))
             br_fail(&r->error, BR_NOT_FINITE, "the error at t = %g s is %g", t, size);
-        sample.size[c->at.kind][c->at.measure] = size;
-        if (c->at.measure == BR_TIP)
-            cell->tip[c->at.kind] = r->view.values[0];
+        sample.size[f->at.kind][f->at.measure] = size;
+        if (f->at.measure == BR_TIP)
+            cell->tip[f->at.kind] = r->view.values[0];
     }
     if (r->error.status)
         br_cell_failed(l->study, index, &r->error);
@@ -136,7 +136,7 @@ void br_cell_failed(struct br_study *study, size_t index, const struct br_error 
     }
 }
 
-/* One cell in one norm. */
+/* Writes the results of one cell in one norm. */
 static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_t index,
                           const struct br_norm_sum *sum)
 {
@@ -152,7 +152,7 @@ static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_
     }
 }
 
-/* What has been measured, into the studies. */
+/* Writes what was measured into the studies. */
 static void conclude_norms(struct br_lockstep *l)
 {
     size_t m = 0;
@@ -200,8 +200,8 @@ static bool models(const struct br_lockstep *l, enum br_field_kind kind)
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
 }
 
-/* The failure that counts is that of the first level, there of the axial field, whichever thread
- * was faster: the other field goes on up to that level. */
+/* The failure that counts is that of the first level, and at that level that of the axial field,
+ * whichever thread was faster. Therefore the other field goes on up to that level. */
 static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t index,
                          const struct br_error *failure)
 {
@@ -244,7 +244,7 @@ static enum br_status advance(struct br_runner *r, size_t step)
     return r->error.status;
 }
 
-/* A cell goes on to the level of that index, if it is one of its own, and is measured there. */
+/* Advances a cell to the level of that index, if the cell has it, and measures it there. */
 static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
 {
     struct br_runner *r = &l->cell[cell];
@@ -257,24 +257,24 @@ static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
         measure_cell(l, cell, index);
 }
 
-/* Level by level: the cells of a crew read the same projection while it is near. */
-static void crew_batch(struct br_lockstep *l, size_t b, size_t crew)
+/* Level by level: the cells of a task read the same projection while it is in the cache. */
+static void cells_batch(struct br_lockstep *l, size_t b, size_t task)
 {
     for (size_t i = b * l->batch; i < batch_end(l, b); i++) {
         if (atomic_load(&l->stopped) || failed_before(l, i))
             return;
-        for (size_t c = l->crew[crew]; c < l->crew[crew + 1]; c++)
+        for (size_t c = l->task_cell[task]; c < l->task_cell[task + 1]; c++)
             cell_level(l, i, c);
     }
 }
 
 /* ---- running ---- */
 
-/* Batches of each study that are known at once, at most: time and memory of waiting tasks grow
+/* Batches of each study whose tasks exist at once, at most: time and memory of waiting tasks grow
  * faster than their number. */
 enum { AHEAD = 128 };
 
-/* All the studies of a call, and how far they are. */
+/* All the studies of a call, and their progress. */
 struct work {
     struct br_lockstep *step;
     size_t count;
@@ -283,7 +283,7 @@ struct work {
     const struct br_observer *observer;
 };
 
-static void tell(struct work *work, struct br_lockstep *l)
+static void report_progress(struct work *work, struct br_lockstep *l)
 {
     if (atomic_load(&l->stopped) || failed_before(l, l->level_count))
         return;
@@ -306,15 +306,15 @@ static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
 #pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
     {
         reference_batch(l, BR_BENDING, b);
-        tell(work, l);
+        report_progress(work, l);
     }
 #pragma omp task depend(inout : tally[0]) depend(in : from_axial[0], from_bending[0])
     add_up_batch(l, b);
-    for (size_t i = 0; i < l->crews; i++) {
-        size_t *crew = &l->crew[i];
-        (void)crew;
-#pragma omp task depend(inout : crew[0]) depend(in : from_axial[0], from_bending[0])
-        crew_batch(l, b, i);
+    for (size_t i = 0; i < l->tasks; i++) {
+        size_t *task_cell = &l->task_cell[i];
+        (void)task_cell;
+#pragma omp task depend(inout : task_cell[0]) depend(in : from_axial[0], from_bending[0])
+        cells_batch(l, b, i);
     }
 }
 
@@ -347,13 +347,13 @@ static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
     return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
 }
 
-/* What concerns the whole call, not one study. */
+/* Whether a failure ends the whole call, not only one study. */
 static bool is_fatal(const struct br_error *failure)
 {
     return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
 }
 
-/* Whether a study went well; if not, its failure is known to all its norms. */
+/* Whether a study succeeded. Copies its failure to all its norms. */
 static bool succeeded(struct br_study *first)
 {
     for (struct br_study *s = first; s; s = s->next_norm)
@@ -390,8 +390,8 @@ static void create(struct work *work, struct br_study *studies, size_t s)
         l->batches = 0; /* nothing to march */
 }
 
-/* Sets up all studies: an exact reference works its solution out there. Those of one scene
- * one after the other, since they all read its functions (scene.h). */
+/* Sets up all studies; an exact reference computes its solution here. Studies of one scene are set
+ * up one after the other, since all of them use its functions (scene.h). */
 static void create_all(struct work *work, struct br_study *studies, int threads)
 {
     (void)threads; /* without OpenMP */

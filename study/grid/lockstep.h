@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lockstep_setup.c sets up and lockstep.c runs and measures; for these alone. */
+/* State that lockstep_setup.c creates and lockstep.c uses; private to these two. */
 #ifndef BR_STUDY_GRID_LOCKSTEP_H
 #define BR_STUDY_GRID_LOCKSTEP_H
 
@@ -9,18 +9,18 @@
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 
-enum { BR_LOCKSTEP_BUFFERS = 4, BR_CHANNELS = 2 * BR_MEASURES };
+enum { BR_LOCKSTEP_BUFFERS = 4, BR_MEASURED = 2 * BR_MEASURES };
 
 /* One measure of one field of the reference and the cells. */
-struct br_channel {
+struct br_measured {
     struct br_sample_at at;
-    bool used, last_only;         /* only at t = T */
+    bool used, last_only;         /* last_only: measured only at t = T */
     size_t size;                  /* of a projection */
     struct br_ladder *ladder;     /* NULL: one number, the tip's */
-    struct br_view *root;         /* the reference on its meshes */
-    double *projection;           /* slots * size */
-    struct br_view audit;         /* the auditor on the first of them */
-    struct br_ladder *own_ladder; /* that mesh alone; NULL: the tip's */
+    struct br_view *root_view;    /* the reference on the root meshes */
+    double *projection;           /* buffered_levels * size */
+    struct br_view audit;         /* the auditor on the first root mesh */
+    struct br_ladder *own_ladder; /* of that mesh alone; NULL for the tip */
     double *own_projection;       /* the reference there */
 };
 
@@ -28,12 +28,13 @@ struct br_channel {
 struct br_bench {
     const struct br_judge *judge;
     void *self;
-    struct br_sample *sample; /* slots: sizes of the reference, or its distances from the auditor */
+    struct br_sample *sample; /* buffered_levels: norms of the reference, or its distances from the
+                                 auditor */
     struct br_norm_sum *sum;  /* norms, of the same */
     double time;              /* of the last sample, s */
 };
 
-/* A cell's march, with room to look at it. */
+/* A cell's march, with a buffer to sample it. */
 struct br_runner {
     struct br_march *march;
     struct br_view view;
@@ -42,26 +43,26 @@ struct br_runner {
 };
 
 struct br_lockstep {
-    struct br_study *study;                 /* the first of its chain */
-    size_t norms;                           /* in the chain */
-    struct br_channel channel[BR_CHANNELS]; /* by field, then measure */
-    struct br_bench reference, auditor;     /* the auditor's judge may be NULL */
+    struct br_study *study;                   /* the first of its chain */
+    size_t norms;                             /* in the chain */
+    struct br_measured measured[BR_MEASURED]; /* by field, then measure */
+    struct br_bench reference, auditor;       /* the auditor's judge may be NULL */
     atomic_size_t first_failed; /* the index of the first level at which a field failed, */
     struct br_error failure;    /* and why; status BR_OK while all is well */
-    size_t *root;               /* the meshes on which the reference is looked at */
-    size_t roots;
-    size_t audit_every;     /* of the levels, so that there are not too many audits */
-    struct br_runner *cell; /* br_study_cells */
-    size_t *crew, crews; /* the first cells of crews, whose cells march in one task; and the end */
+    size_t *root_mesh;          /* on which the reference is sampled */
+    size_t root_meshes;
+    size_t audit_every;           /* of the levels, so that there are not too many audits */
+    struct br_runner *cell;       /* br_study_cells */
+    size_t *task_cell, tasks;     /* the first cell that each task marches; then the end */
     struct br_norm_sum *cell_sum; /* norms for each cell */
     size_t *level;                /* reference steps at which some cell has a time level */
     size_t level_count, batch, batches;
-    size_t slots; /* levels that there is room for at once: of so many batches as buffers */
+    size_t buffered_levels; /* levels in all buffers together */
     const struct br_observer *observer;
     struct br_store store; /* of all arrays, and of the ladders */
     atomic_bool stopped;
-    /* What tasks depend on: by br_field_kind, the reference's march and its buffers; and those that
-     * add up. */
+    /* What OpenMP tasks depend on: by br_field_kind, the reference's march and its buffers; and
+     * those that add up. */
     char marched[2], filled[2][BR_LOCKSTEP_BUFFERS], tally;
 };
 

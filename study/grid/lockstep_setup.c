@@ -6,7 +6,7 @@
 
 static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */
 static const size_t most_levels = 32;        /* in a batch */
-static const double least_work = 1e5;        /* element-steps of a crew in a batch, about */
+static const double least_work = 1e5;        /* element-steps of a task in a batch, about */
 static const size_t most_audits = 1000;      /* of the reference, about */
 
 static enum br_status take_arrays(struct br_lockstep *l, struct br_error *err)
@@ -17,9 +17,9 @@ static enum br_status take_arrays(struct br_lockstep *l, struct br_error *err)
     for (size_t j = 0; j < s->k_count; j++)
         levels += s->steps[j];
     l->level = br_store_take(&l->store, levels, sizeof *l->level);
-    l->root = br_store_take(&l->store, s->n_count, sizeof *l->root);
+    l->root_mesh = br_store_take(&l->store, s->n_count, sizeof *l->root_mesh);
     l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
-    l->crew = br_store_take(&l->store, cells + 1, sizeof *l->crew);
+    l->task_cell = br_store_take(&l->store, cells + 1, sizeof *l->task_cell);
     l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
     l->reference.sum = br_store_take(&l->store, l->norms, sizeof *l->reference.sum);
     l->auditor.sum = br_store_take(&l->store, l->norms, sizeof *l->auditor.sum);
@@ -42,36 +42,36 @@ static void list_levels(struct br_lockstep *l)
     }
 }
 
-/* The meshes that the reference is looked at on: its own where it has one; else
- * those of the cells that are no divisor of another's. */
-static void list_roots(struct br_lockstep *l)
+/* The meshes on which the reference is sampled: its own, if it has one; otherwise the meshes of the
+ * cells that do not divide another one. */
+static void list_root_meshes(struct br_lockstep *l)
 {
     const struct br_study *s = l->study;
     if (s->judge->nests)
-        l->root[l->roots++] = s->reference.n;
+        l->root_mesh[l->root_meshes++] = s->reference.n;
     for (size_t i = 0; i < s->n_count && !s->judge->nests; i++) {
         bool divides = false;
         for (size_t j = 0; j < s->n_count; j++)
             divides |= s->n[j] % s->n[i] == 0 && (s->n[j] > s->n[i] || j < i);
         if (!divides)
-            l->root[l->roots++] = s->n[i];
+            l->root_mesh[l->root_meshes++] = s->n[i];
     }
 }
 
-/* Which measures the norms need. The tip's is also kept at the end, whatever they need. */
-static void choose_channels(struct br_lockstep *l)
+/* Chooses the measures that the norms need. The tip is always measured at the end. */
+static void choose_measured(struct br_lockstep *l)
 {
     const struct br_scene *scene = l->study->scene;
     const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
-    for (size_t i = 0; i < BR_CHANNELS; i++) {
-        struct br_channel *c = &l->channel[i];
+    for (size_t i = 0; i < BR_MEASURED; i++) {
+        struct br_measured *f = &l->measured[i];
         bool needed = false;
-        c->at = (struct br_sample_at){(enum br_field_kind)(i / BR_MEASURES),
+        f->at = (struct br_sample_at){(enum br_field_kind)(i / BR_MEASURES),
                                       (enum br_measure)(i % BR_MEASURES), 0};
         for (const struct br_study *s = l->study; s; s = s->next_norm)
-            needed |= br_norm_needs(s->norm, c->at.measure);
-        c->used = modelled[c->at.kind] && (needed || c->at.measure == BR_TIP);
-        c->last_only = !needed;
+            needed |= br_norm_needs(s->norm, f->at.measure);
+        f->used = modelled[f->at.kind] && (needed || f->at.measure == BR_TIP);
+        f->last_only = !needed;
     }
 }
 
@@ -82,85 +82,86 @@ static double *new_values(struct br_lockstep *l, const struct br_sample_at *at, 
     return br_store_take(&l->store, size, sizeof(double));
 }
 
-/* With the kernel that the cells are marched by, where one was asked for: then another processor
- * gives the same bits. */
+/* Uses the kernel of the cells, if one was requested: then another processor gives the same
+ * bits. */
 static enum br_status create_ladder(struct br_lockstep *l, const struct br_sample_at *at,
                                     const struct br_mesh_list *roots,
-                                    const struct br_mesh_list *rungs, struct br_ladder **ladder,
+                                    const struct br_mesh_list *meshes, struct br_ladder **ladder,
                                     struct br_error *err)
 {
     const struct br_kernel *kernel = l->study->method.linear.kernel;
     const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
-    const enum br_status status = br_ladder_create(ladder, modes, roots, rungs, &l->store, err);
+    const enum br_status status = br_ladder_create(ladder, modes, roots, meshes, &l->store, err);
     if (!status && kernel)
         br_ladder_use(*ladder, br_ladder_kernels[br_instruction_set_find(kernel->name)]);
     return status;
 }
 
-static enum br_status create_channel(struct br_lockstep *l, struct br_channel *c,
-                                     struct br_error *err)
+static enum br_status create_measured(struct br_lockstep *l, struct br_measured *f,
+                                      struct br_error *err)
 {
-    const struct br_mesh_list roots = {l->roots, l->root}, own = {1, l->root},
-                              rungs = {l->study->n_count, l->study->n};
-    const bool distance = c->at.measure != BR_TIP;
+    const struct br_mesh_list roots = {l->root_meshes, l->root_mesh}, own = {1, l->root_mesh},
+                              meshes = {l->study->n_count, l->study->n};
+    const bool distance = f->at.measure != BR_TIP;
     enum br_status status = BR_OK;
-    c->size = 1;
-    c->root = br_store_take(&l->store, l->roots, sizeof *c->root);
-    for (size_t i = 0; i < l->roots && c->root; i++)
-        c->root[i].values = new_values(l, &c->at, l->root[i]);
+    f->size = 1;
+    f->root_view = br_store_take(&l->store, l->root_meshes, sizeof *f->root_view);
+    for (size_t i = 0; i < l->root_meshes && f->root_view; i++)
+        f->root_view[i].values = new_values(l, &f->at, l->root_mesh[i]);
     if (l->study->auditor)
-        c->audit.values = new_values(l, &c->at, l->root[0]);
+        f->audit.values = new_values(l, &f->at, l->root_mesh[0]);
     if (l->study->auditor && distance)
-        status = create_ladder(l, &c->at, &own, &own, &c->own_ladder, err);
-    if (!status && c->own_ladder)
-        c->own_projection = br_store_take(&l->store, br_ladder_size(c->own_ladder), sizeof(double));
+        status = create_ladder(l, &f->at, &own, &own, &f->own_ladder, err);
+    if (!status && f->own_ladder)
+        f->own_projection = br_store_take(&l->store, br_ladder_size(f->own_ladder), sizeof(double));
     if (!status && distance)
-        status = create_ladder(l, &c->at, &roots, &rungs, &c->ladder, err);
+        status = create_ladder(l, &f->at, &roots, &meshes, &f->ladder, err);
     if (!status && distance)
-        c->size = br_ladder_size(c->ladder);
+        f->size = br_ladder_size(f->ladder);
     return status || !l->store.failed ? status : br_no_memory(err, "the reference's values");
 }
 
-static enum br_status create_channels(struct br_lockstep *l, struct br_error *err)
+static enum br_status create_all_measured(struct br_lockstep *l, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS && !status; c++)
-        if (c->used)
-            status = create_channel(l, c, err);
+    for (struct br_measured *f = l->measured; f < l->measured + BR_MEASURED && !status; f++)
+        if (f->used)
+            status = create_measured(l, f, err);
     return status;
 }
 
 static enum br_status create_buffers(struct br_lockstep *l, struct br_error *err)
 {
     size_t doubles = 0;
-    for (size_t i = 0; i < BR_CHANNELS; i++)
-        doubles += l->channel[i].size;
+    for (size_t i = 0; i < BR_MEASURED; i++)
+        doubles += l->measured[i].size;
     l->batch = buffer_bytes / (doubles * sizeof(double));
     l->batch = l->batch < 1 ? 1 : l->batch > most_levels ? most_levels : l->batch;
     l->batches = (l->level_count + l->batch - 1) / l->batch;
-    l->slots = BR_LOCKSTEP_BUFFERS * l->batch;
-    for (size_t i = 0; i < BR_CHANNELS; i++)
-        if (l->channel[i].used)
-            l->channel[i].projection =
-                br_store_take(&l->store, l->slots * l->channel[i].size, sizeof(double));
-    l->reference.sample = br_store_take(&l->store, l->slots, sizeof *l->reference.sample);
-    l->auditor.sample = br_store_take(&l->store, l->slots, sizeof *l->auditor.sample);
+    l->buffered_levels = BR_LOCKSTEP_BUFFERS * l->batch;
+    for (size_t i = 0; i < BR_MEASURED; i++)
+        if (l->measured[i].used)
+            l->measured[i].projection =
+                br_store_take(&l->store, l->buffered_levels * l->measured[i].size, sizeof(double));
+    l->reference.sample = br_store_take(&l->store, l->buffered_levels, sizeof *l->reference.sample);
+    l->auditor.sample = br_store_take(&l->store, l->buffered_levels, sizeof *l->auditor.sample);
     return l->store.failed ? br_no_memory(err, "the reference's projections") : BR_OK;
 }
 
-/* Steps of the reference in the longest run of as many batches as there are buffers. */
+/* The most steps of the reference in as many successive batches as there are buffers. */
 static size_t longest_lead(const struct br_lockstep *l)
 {
     size_t most = 1;
     for (size_t i = 0; i < l->level_count; i += l->batch) {
-        const size_t end = i + l->slots, last = end < l->level_count ? end : l->level_count - 1;
+        const size_t end = i + l->buffered_levels,
+                     last = end < l->level_count ? end : l->level_count - 1;
         const size_t steps = l->level[last] - l->level[i];
         most = steps > most ? steps : most;
     }
     return most;
 }
 
-/* An auditor that cannot promise a solution of this scene is done without. */
+/* Drops an auditor that cannot promise a solution of this scene. */
 static void dismiss_auditor(struct br_lockstep *l)
 {
     l->auditor.judge->free(l->auditor.self);
@@ -168,7 +169,7 @@ static void dismiss_auditor(struct br_lockstep *l)
     l->study->auditor = NULL;
 }
 
-/* The reference, and who audits it. */
+/* Creates the reference and its auditor. */
 static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
 {
     struct br_study *s = l->study;
@@ -179,14 +180,14 @@ static enum br_status create_judges(struct br_lockstep *l, struct br_error *err)
         .axial_degree = s->method.axial_degree,
         .levels = s->reference.steps,
         .lead = longest_lead(l),
-        .mesh_count = l->roots,
-        .mesh = l->root,
+        .mesh_count = l->root_meshes,
+        .mesh = l->root_mesh,
         .stop = l->observer ? l->observer->stop : NULL,
         .stop_self = l->observer ? l->observer->self : NULL,
         .preparing = l->observer ? l->observer->preparing : NULL,
     };
-    for (const struct br_channel *c = l->channel; c < l->channel + BR_CHANNELS; c++)
-        request.measured[c->at.kind][c->at.measure] = c->used;
+    for (const struct br_measured *f = l->measured; f < l->measured + BR_MEASURED; f++)
+        request.measured[f->at.kind][f->at.measure] = f->used;
     l->reference.judge = s->judge;
     const enum br_status status = s->judge->create(&l->reference.self, &request, err);
     if (status || !s->auditor)
@@ -242,9 +243,8 @@ static double work_of(const struct br_lockstep *l, size_t cell)
     return (double)at.n * (double)at.steps / (double)l->batches;
 }
 
-/* Cells go into crews whose tasks are long enough to be worth their while, whatever the number of
- * threads. */
-static void choose_crews(struct br_lockstep *l)
+/* Groups cells into tasks that are long enough to be worthwhile, for any number of threads. */
+static void choose_tasks(struct br_lockstep *l)
 {
     const size_t cells = br_study_cells(l->study);
     double work = 0;
@@ -252,7 +252,7 @@ static void choose_crews(struct br_lockstep *l)
         work += work_of(l, i);
         if (work < least_work && i + 1 < cells)
             continue;
-        l->crew[++l->crews] = i + 1;
+        l->task_cell[++l->tasks] = i + 1;
         work = 0;
     }
 }
@@ -265,15 +265,15 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
         l->norms++;
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
-    choose_channels(l);
+    choose_measured(l);
     if (take_arrays(l, err))
         return err->status;
     list_levels(l);
-    list_roots(l);
-    if (create_channels(l, err) || create_buffers(l, err) || create_judges(l, err) ||
+    list_root_meshes(l);
+    if (create_all_measured(l, err) || create_buffers(l, err) || create_judges(l, err) ||
         create_cells(l, err))
         return err->status;
-    choose_crews(l);
+    choose_tasks(l);
     return BR_OK;
 }
 

@@ -10,11 +10,11 @@ struct br_observer {
     void (*progress)(void *self, double fraction); /* of the whole work, 0 to 1 */
     bool (*stop)(void *self);                      /* true: give up soon */
     void *self;
-    /* the share of the most work that an exact reference may take, while it is made; may be NULL */
+    /* reports the share of its work limit that an exact reference has used so far; may be NULL */
     void (*preparing)(void *self, double share);
 };
 
-/* Whether an observer says stop; NULL: nobody does. */
+/* Whether the observer asks to stop; false for NULL. */
 bool br_observer_stops(const struct br_observer *observer);
 
 /* A share of a longer work: its progress is `from` to `from` + `length` of the whole's. */

@@ -8,11 +8,11 @@
 
 /* ---- norms ---- */
 
-/* What the error of a cell is: a registry. A norm is built from measures (solver/modes.h)
- * of the difference at a cell's time levels: the largest over time of one measure and,
- * in the energy norm, a sum over time of another. Axial and bending apart, and both. */
+/* What the error of a cell is: a registry. A norm is built from measures (solver/modes.h) of the
+ * difference at a cell's time levels: the largest over time of one measure and, in the energy norm,
+ * a sum over time of another. It is measured for each field and for both. */
 
-/* The error and its parts, each with its own maximum over the time levels. */
+/* The error and its components, each with its own maximum over the time levels. */
 enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
 extern const char *const br_part_names[BR_PARTS];
 
@@ -44,7 +44,7 @@ struct br_sample {
     double size[2][BR_MEASURES]; /* by br_field_kind */
 };
 
-/* A norm on its way through the time levels; begins as zeros. */
+/* A norm accumulated over the time levels; starts as zeros. */
 struct br_norm_sum {
     double most[BR_PARTS]; /* squared in the energy norm; a NaN stays */
     double time[BR_PARTS]; /* of the largest, s */
@@ -55,11 +55,11 @@ struct br_norm_sum {
 void br_norm_add(const struct br_norm *norm, const struct br_scene *scene,
                  const struct br_sample *sample, struct br_norm_sum *sum);
 
-/* The norm of one part so far. */
+/* The norm of one component so far. */
 double br_norm_value(const struct br_norm *norm, const struct br_norm_sum *sum, enum br_part part);
 
-/* The norm of a difference that is `size`, by br_field_kind, all the time: NaN where one
- * that is needed of a modelled field is. */
+/* The norm of a difference whose sizes, by br_field_kind, are constant in time. NaN if a size is
+ * NaN that the norm needs of a modelled field. */
 double br_norm_of_constant(const struct br_norm *norm, const struct br_scene *scene,
                            const double size[2][BR_MEASURES], enum br_part part);
 
@@ -111,8 +111,8 @@ struct br_study {
     struct br_method reference_method; /* of a fine run */
     struct br_resolution reference;    /* a fine run's; otherwise n = 0, and steps are set to the
                                           least common multiple of the cells' */
-    const struct br_judge *auditor;    /* measures the reference's own error; NULL: nobody. Set
-                                          to NULL where it cannot promise a solution */
+    const struct br_judge *auditor; /* measures the reference's own error; NULL: none. Set to NULL
+                                       where it cannot promise a solution */
     size_t n_count, k_count;
     bool path;                  /* the cells are (n[i], steps[i]) alone, and n_count = k_count */
     const size_t *n;            /* n_count, borrowed */
@@ -137,13 +137,13 @@ void br_study_clear(struct br_study *study);
 /* How many cells a study has. */
 size_t br_study_cells(const struct br_study *study);
 
-/* What a cell is marched by. */
+/* The method that marches a cell. */
 const struct br_method *br_study_method(const struct br_study *study, size_t cell);
 
 /* Which n[i] a cell has. */
 size_t br_study_row(const struct br_study *study, size_t cell);
 
-/* What a cell's grid is to be. */
+/* The resolution that a cell is to have. */
 struct br_resolution br_study_resolution(const struct br_study *study, size_t cell);
 
 /* The cell of row i (n) and column j (k); not of a path. */

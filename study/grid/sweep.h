@@ -67,9 +67,9 @@ struct br_triangle {
     bool contradiction;          /* !(least <= D <= most) */
 };
 
-/* Looks for pairs of cells that contradict `printed` (n_count * k_count values by rows, NaN
- * where nothing is printed), guided by the study's own errors, of those that do so plainly the
- * cheapest, and marches them: up to `most` pairs into `triangles` (out); *count: how many. */
+/* Marches pairs of cells that contradict `printed` (n_count * k_count values by rows, NaN where
+ * nothing is printed): up to `most` into `triangles` (out); *count: how many. The study's own
+ * errors choose them; of those that plainly contradict it, the cheapest come first. */
 enum br_status br_triangles(const struct br_study *study, const double *printed, size_t most,
                             struct br_triangle *triangles, size_t *count, int threads,
                             struct br_error *err);

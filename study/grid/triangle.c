@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* From this score on a pair shows a contradiction plainly, and the cheapest one will do: a finer
- * pair would cost a hundred times as much and say the same. */
+/* A pair with at least this score shows a contradiction plainly. Then the cheapest pair is enough:
+ * a finer one costs a hundred times as much and shows the same. */
 static const double plain = 1.5;
 
 /* A pair of cells and how plainly it may contradict the printed values. */
@@ -67,8 +67,8 @@ static bool better(const struct candidate *c, const struct candidate *best)
     return score > best_score || (score == best_score && c->work < best->work);
 }
 
-/* The best pair of the wanted inequality whose cells are not yet used, from a score on. Up to 1
- * there is nothing to show. */
+/* The best pair of the wanted inequality whose cells are not yet used, from a score on. A score up
+ * to 1 shows nothing. */
 static struct candidate best_pair(const struct br_study *s, const double *printed, const bool *used,
                                   bool too_near, double least)
 {

@@ -55,7 +55,7 @@ static double smaller(double a, double b)
 
 /* ---- the scheme beside the exact solution ---- */
 
-/* What a row of an example shows. */
+/* A quantity of a row of an example. */
 typedef double of_row(const struct br_example *e, const struct br_history_row *row);
 
 static double deflection(const struct br_example *e, const struct br_history_row *row)
@@ -120,8 +120,8 @@ static const struct br_exact_event *last_event(const struct br_example *e, enum 
 static double most_of_beam(const struct br_history_record *record)
 {
     double value = 0;
-    for (size_t look = 0; look < record->looks; look++) {
-        const double *nodal = br_history_field(record, look, BR_BENDING, false);
+    for (size_t sample = 0; sample < record->looks; sample++) {
+        const double *nodal = br_history_field(record, sample, BR_BENDING, false);
         for (size_t node = 0; node <= record->n; node++)
             value = larger(value, fabs(nodal[2 * node]));
     }
@@ -220,7 +220,7 @@ static void measure_cell(const struct br_paper *p, size_t which, struct br_findi
 
 /* ---- Example 2 ---- */
 
-/* The tip rests in these steps' time, s; *slowest: the least |w_t(L)| after t = 0, m/s. */
+/* The time of the steps at rest, s; *slowest: the least |w_t(L)| after t = 0, m/s. */
 static double resting(const struct br_history_record *record, double *slowest)
 {
     size_t steps = 0;
@@ -270,7 +270,7 @@ static void measure_decouples(const struct br_paper *p, size_t which, struct br_
 {
     (void)which;
     f->value = p->coupled;
-    f->exact = f->error = 0; /* (2), (4), (9), (11), (12) (i) hold no axial displacement */
+    f->exact = f->error = 0; /* (2), (4), (9), (11), (12) (i) contain no axial displacement */
     f->agreement = br_below(f->value, 0, 1e-15);
     snprintf(f->note, sizeof f->note, "with the rod and the contact of Example 1 added");
 }
@@ -383,7 +383,7 @@ static void measure_printed(const struct br_paper *p, size_t which, struct br_fi
         if (s->point[i].unstable)
             limit = s->point[i].coefficient;
     f->value = last->most[0] / last->most[1];
-    f->error = fabs(f->value - before->most[0] / before->most[1]); /* it is chaos */
+    f->error = fabs(f->value - before->most[0] / before->most[1]); /* it is chaotic */
     f->agreement = br_below(f->value, f->error, 2);
     snprintf(f->note, sizeof f->note,
              "the lagged contact amplifies from c_H = %.3g N/m on at this k, and its tip chatters: "

@@ -13,10 +13,9 @@
 
 /* ---- Figure 10 ---- */
 
-/* Example 4 with other coefficients of contact and friction. The paper does not say
- * which ones, nor at what time: c_H from 1 to 1e8 N/m, c_V from 10 to 1e9 N/m; at t = T, and the
- * most. */
-enum { LOOKS = 300 };
+/* Example 4 with other coefficients of contact and friction. The paper does not say which ones, nor
+ * at what time: c_H from 1 to 1e8 N/m, c_V from 10 to 1e9 N/m; norms at t = T and their maximum. */
+enum { SAMPLES = 300 };
 
 static const struct range {
     double low;
@@ -72,8 +71,8 @@ static enum br_status measure(void *self, const struct br_march *march,
     return BR_OK;
 }
 
-/* How a point is marched: as printed, or with the contact force at the new step; h and k times so
- * much. */
+/* How a point is marched: as printed, or with the contact force at the new step; coarser: factor of
+ * h and k. */
 static const struct way {
     const char *contact;
     size_t coarser;
@@ -85,11 +84,11 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
 {
     struct br_method method = br_method_default();
     method.contact = br_contact_rule_find(way->contact);
-    size_t level[LOOKS];
+    size_t level[SAMPLES];
     const size_t steps = p->request.per_second * (size_t)lround(scene->duration) / way->coarser;
-    const size_t looks = steps < LOOKS ? steps : LOOKS;
-    for (size_t i = 0; i < looks; i++)
-        level[i] = (i + 1) * steps / looks;
+    const size_t samples = steps < SAMPLES ? steps : SAMPLES;
+    for (size_t i = 0; i < samples; i++)
+        level[i] = (i + 1) * steps / samples;
     const struct br_history_observer observer = {.self = size, .look = measure};
     const struct br_history_request request = {
         .scene = scene,
@@ -97,7 +96,7 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
         .n = p->request.n / way->coarser,
         .steps = steps,
         .level = level,
-        .levels = looks,
+        .levels = samples,
         .observer = &observer,
         .observers = 1,
     };
@@ -150,7 +149,8 @@ static struct br_history_row row_at(const struct br_exact *exact, double time,
     };
 }
 
-/* Its events, the same time levels as the scheme's, and for Example 1 the first instants. */
+/* Samples the exact solution: events, values at the time levels of the scheme, and for Example 1
+ * the first instants. */
 static enum br_status sample(struct br_paper *p, size_t i, const struct br_exact *exact,
                              struct br_error *err)
 {

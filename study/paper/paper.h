@@ -12,7 +12,7 @@
 
 enum { BR_EXAMPLES = 4, BR_FIGURE_TIMES = 6, BR_EXACT_EARLY = 400 };
 
-/* What it is marched with. */
+/* The resolution of the marches. */
 struct br_paper_request {
     size_t n;          /* elements of L: 1000, even */
     size_t per_second; /* steps of 1 s, 1000: an even multiple of 100 */
@@ -27,7 +27,7 @@ enum br_status br_paper_scene(size_t i, struct br_scene *scene, struct br_error 
 /* One example. */
 struct br_example {
     struct br_scene scene;
-    struct br_history_record record; /* rows: every step; looks: at the figures' times */
+    struct br_history_record record; /* rows: every step; samples: at the figures' times */
     struct br_history_row *exact;    /* exacts, at the rows' times, without contact force; owned */
     size_t exacts;
     struct br_exact_event *event; /* events; owned */
@@ -83,7 +83,7 @@ void br_paper_clear(struct br_paper *paper);
 /* ---- claims ---- */
 
 /* What the paper says there, as far as it can be checked: a registry. Each claim measures its value
- * from the marches above, and from the exact solution where that knows it.
+ * from the marches above, and from the exact solution where that has it.
  *
  * To add a claim: a function and a row in claims.c. */
 
@@ -94,7 +94,7 @@ enum br_agreement {
 };
 const char *br_agreement_name(enum br_agreement agreement); /* "agree", "differ", "undecided" */
 
-/* What was found. NaN: not there. */
+/* The result of a claim. NaN: not available. */
 struct br_finding {
     double value;   /* of the scheme at the figures' h and k */
     double exact;   /* of the continuous problem */
@@ -123,8 +123,8 @@ extern const struct br_claim br_claims[];
 /* Measures one claim; a value that is no number leaves it undecided. */
 struct br_finding br_claim_measure(const struct br_claim *claim, const struct br_paper *paper);
 
-/* Inside: agree where value (and its bar) is below or above a limit, undecided where that spans it.
- */
+/* For claims.c: agree where value (and its bar) is below or above a limit, undecided where that
+ * spans it. */
 enum br_agreement br_below(double value, double error, double limit);
 enum br_agreement br_above(double value, double error, double limit);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies are cut into slices, some cells each; slices are dealt into batches. A batch at work, and
- * its results as bytes. */
+/* Cuts studies into slices of some cells, deals these into batches, marches a batch, and turns its
+ * results into bytes. */
 #include "study/ranks/batches.h"
 
 #include <math.h>
@@ -13,15 +13,15 @@
 
 /* ---- costs ---- */
 
-/* ns, measured on one core, both fields, n = 1600 and 3200, 1e4 time levels, and taken to the 3 GHz
- * of the solvers' costs. They decide who does what, not what comes out: a wrong one costs time. */
+/* ns, measured on one core, both fields, n = 1600 and 3200, 1e4 time levels, scaled to the 3 GHz of
+ * the solvers' costs. They decide who does what, not the results: a wrong one costs time. */
 static const double measure_ns = 33;      /* to sample an element of a cell, and to project there */
 static const double sample_fine_ns = 30;  /* to sample an element of a fine run */
 static const double sample_other_ns = 73; /* of a judge that evaluates a solution; mms: 100 */
 static const double create_ns = 3.3e7;    /* a solution of the continuous problem */
 
-/* The reference is sampled wherever some cell has a time level: as often as the cell of most steps
- * has some, about. */
+/* The reference is sampled at every time level of a cell: about as often as the cell of most
+ * steps. */
 double br_reference_cost(const struct br_study *s)
 {
     size_t levels = 0, n = 0;
@@ -66,7 +66,7 @@ static size_t least(const double *load, size_t count)
     return best;
 }
 
-/* The dearest cell first, each to the slice that has least (Graham 1969). */
+/* The dearest cell first, each to the slice with the least work (Graham 1969). */
 double br_slice_cells(const struct br_study *s, size_t slices, size_t *slice)
 {
     const size_t cells = br_study_cells(s);
@@ -112,9 +112,10 @@ static double whole_cost(const struct br_study *s, double *dearest)
  *
  * A slice marches some of the cells, and the whole reference again. So it pays where the reference
  * is cheap beside the cells, or where ranks would have nothing to do, and a slice ends clearly
- * sooner. That leaves the cells of a much finer run with it: it is the work.
+ * sooner. The cells of a study with a much finer reference stay together: its reference is the
+ * work.
  *
- * The reference could also be worked out by one rank and broadcast. Measured on 4 ranks of one
+ * The reference could also be computed by one rank and broadcast. Measured on 4 ranks of one
  * machine, that saves a tenth at most, by the fastest of networks, and loses with more ranks: its
  * owner is spared its share of the cells, but sends 48 bytes an element of every mesh and time
  * level. */
@@ -199,10 +200,10 @@ void br_batches_clear(struct br_batches *b)
     *b = (struct br_batches){0};
 }
 
-/* ---- a batch at work ---- */
+/* ---- marching a batch ---- */
 
 /* of: the batch of each of the study's cells. */
-static bool takes_part(const struct br_study *s, const size_t *of, size_t batch)
+static bool has_cells_in(const struct br_study *s, const size_t *of, size_t batch)
 {
     bool takes = false;
     for (size_t i = 0; i < br_study_cells(s); i++)
@@ -223,7 +224,7 @@ static void set_cells(struct br_study *s, const size_t *of, size_t batch)
         }
 }
 
-/* ---- results: the batch's number, then what each of its studies has come to ---- */
+/* ---- results: the batch's number, then those of its studies ---- */
 
 /* Writes bytes, or reads them. */
 struct transfer {
@@ -255,7 +256,7 @@ static void pass_events(struct transfer *t, struct br_study *s)
     pass(t, s->events, size);
 }
 
-/* All batches of a study report the same of it, but for times; a failure is kept. */
+/* All batches of a study report the same about it, except times; a failure is kept. */
 static void pass_study(struct transfer *t, struct br_study *s, const size_t *of, size_t batch)
 {
     bool audited = s->auditor != NULL;
@@ -288,7 +289,7 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
     if (!copy)
         return br_no_memory(err, "a batch of studies");
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++]))
-        if (takes_part(&studies[s], of, batch)) {
+        if (has_cells_in(&studies[s], of, batch)) {
             set_cells(&studies[s], of, batch);
             copy[copies++] = studies[s];
         }
@@ -296,7 +297,7 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
     pass(&t, &batch, sizeof batch);
     of = b->of;
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++])) {
-        const bool takes = takes_part(&studies[s], of, batch);
+        const bool takes = has_cells_in(&studies[s], of, batch);
         for (struct br_study *norm = takes ? &copy[written++] : NULL; norm;
              norm = norm->next_norm) {
             pass_study(&t, norm, of, batch);
@@ -316,7 +317,7 @@ static void read_batch(struct transfer *t, struct br_study *studies, size_t coun
     pass(t, &batch, sizeof batch);
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++]))
         for (struct br_study *norm = &studies[s]; norm; norm = norm->next_norm)
-            if (takes_part(&studies[s], of, batch))
+            if (has_cells_in(&studies[s], of, batch))
                 pass_study(t, norm, of, batch);
 }
 
@@ -350,7 +351,7 @@ static void add(unsigned long long *hash, const char *text)
     *hash = (*hash ^ 0xff) * 0x100000001b3ull;
 }
 
-/* Nine digits: the last bits may be another processor's. */
+/* Nine digits: the last bits may differ between processors. */
 static void add_number(unsigned long long *hash, double value)
 {
     char text[40];
@@ -368,14 +369,14 @@ static void add_counts(unsigned long long *hash, const size_t *list, size_t coun
 static void add_function(unsigned long long *hash, const struct br_function *f,
                          const struct br_scene *s)
 {
-    static const double place[] = {0, 0.137, 0.5, 0.823, 1};
-    enum { PLACES = sizeof place / sizeof *place };
-    double x[PLACES], value[PLACES];
-    for (size_t i = 0; i < PLACES; i++)
-        x[i] = place[i] * s->length;
-    for (size_t j = 0; j < PLACES; j++) {
-        br_function_evaluate(f, PLACES, x, place[j] * s->duration, value);
-        for (size_t i = 0; i < PLACES; i++)
+    static const double point[] = {0, 0.137, 0.5, 0.823, 1};
+    enum { POINTS = sizeof point / sizeof *point };
+    double x[POINTS], value[POINTS];
+    for (size_t i = 0; i < POINTS; i++)
+        x[i] = point[i] * s->length;
+    for (size_t j = 0; j < POINTS; j++) {
+        br_function_evaluate(f, POINTS, x, point[j] * s->duration, value);
+        for (size_t i = 0; i < POINTS; i++)
             add_number(hash, value[i]);
     }
 }
@@ -396,7 +397,7 @@ static void add_scene(unsigned long long *hash, const struct br_scene *s)
         add_function(hash, f, s);
 }
 
-/* All but what is the machine's own: its instruction set. */
+/* All fields but the instruction set, which depends on the machine. */
 static void add_method(unsigned long long *hash, const struct br_method *m)
 {
     char text[BR_METHOD_VALUE];

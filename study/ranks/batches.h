@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The work of a call of br_study_run, cut into batches for ranks. A batch is some cells of one or
- * more studies, with their references; a rank marches one batch at a time. Every rank cuts alike.
- */
+ * more studies, with their references; a rank marches one batch at a time. Every rank makes the
+ * same cut. */
 #ifndef BR_STUDY_RANKS_BATCHES_H
 #define BR_STUDY_RANKS_BATCHES_H
 
@@ -10,12 +10,12 @@
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 
-/* Which batch each cell belongs to; those of the lower numbers begin first. */
+/* Which batch each cell belongs to; batches of lower numbers begin first. */
 struct br_batches {
     size_t count;
     double *cost; /* of each batch, about, ns of one thread; owned */
-    size_t *of;   /* of each cell, the studies one behind the other: its batch; SIZE_MAX: in none,
-                     since its study has failed. Owned */
+    size_t *of;   /* of each cell, the studies one after the other: its batch; SIZE_MAX: none, since
+                     its study has failed. Owned */
 };
 
 /* Cuts prepared studies for so many ranks, of so many threads each. Fails with BR_NO_MEMORY; clear
@@ -39,17 +39,17 @@ enum br_status br_batches_read(struct br_study *studies, size_t count,
                                const struct br_batches *batches, char *bytes, size_t size,
                                struct br_error *err);
 
-/* What a cell of a study costs, and its reference, about, ns of one thread. */
+/* The approximate cost of a cell of a study, and of its reference, ns of one thread. */
 double br_cell_cost(const struct br_study *study, size_t cell);
 double br_reference_cost(const struct br_study *study);
 
 /* Which slice each cell belongs to (out, br_study_cells), so that all cost about the same. Returns
- * the largest cost of a slice's cells, ns. Fails by -1: out of memory. */
+ * the largest cost of a slice's cells, ns. -1: out of memory. */
 double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
 
-/* What studies ask for, as one number: the same on ranks that have read the same scenes and
- * options. Expressions count by their values at some places and times, to nine digits. Not for
- * studies whose scenes another thread is using. */
+/* A hash of studies, equal on ranks that have read the same scenes and options. Expressions enter
+ * by their values at some points and times, to nine digits. Not for studies whose scenes another
+ * thread is using. */
 unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count);
 
 #endif

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Ranks by MPI. Nobody hands out work: each rank draws the number of its next batch from a counter
- * that they share, and when there is none left, all gather the results of all. Which rank marches
- * what does not matter to any bit.
+/* Ranks by MPI. No rank hands out work: each takes the number of its next batch from a counter that
+ * they share, and when there is none left, all gather the results of all. No bit of the results
+ * depends on which rank marches what.
  *
- * The counter stands on a board of whole numbers in the memory of rank 0, which the others reach by
- * one-sided operations. There, too, each rank counts on while it is there, and says how much it has
- * done; who has stopped counting is taken for dead. A failure is a mark on the board that ends the
- * marches; then all meet and learn of it.
+ * The counter is in a window of integers in the memory of rank 0, which the others access by
+ * one-sided operations. There, too, each rank counts its heartbeats and writes how much it has
+ * done; a rank without heartbeats is taken for dead. A failure is a mark in the window that ends
+ * the marches; then all ranks exchange reports and learn of it.
  *
- * Only the main thread calls MPI: another one marches. The main thread never waits within MPI,
- * where a dead rank could keep it: it asks whether an operation is done, and watches the others. */
+ * Only the main thread calls MPI: another thread marches. The main thread never waits within MPI,
+ * where a dead rank could block it: it tests whether an operation is done, and watches the others.
+ */
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -29,46 +30,46 @@
 #include "study/scene/quote.h"
 
 static const double beat_every = 0.25;    /* s */
-static const double longest_silence = 60; /* s; $BEAMRATE_SILENCE instead */
-static const double longest_look = 0.05;  /* s: longer between two looks, and it was not running */
+static const double default_timeout = 60; /* s without a heartbeat; $BEAMRATE_SILENCE replaces it */
+static const double longest_gap = 0.05;   /* s between two watches of a process that runs */
 
-/* The board: a counter, a mark, and two numbers of each rank. */
-enum { TICKET, FAILED, OF_RANKS };
+/* The window: the number of the next batch, a mark of failure, and two numbers of each rank. */
+enum { NEXT_BATCH, FAILED, OF_RANKS };
 enum { BEATS, DONE, NUMBERS }; /* DONE: work since the start, ns */
 
-/* What a rank says where all meet. */
-struct word {
+/* What a rank reports to all. */
+struct report {
     struct br_error failure;  /* status BR_OK: none */
     unsigned long long asked; /* the fingerprint of a call's studies */
     size_t bytes;             /* of its results */
-    bool ends;                /* its program does */
+    bool ends;                /* its program ends */
 };
 
 static struct {
     int rank, size, threads, most_threads;
-    bool joined; /* all below is there */
+    bool joined; /* all below is set */
     MPI_Comm comm;
-    MPI_Win board;
+    MPI_Win window;
     struct br_store store; /* of the arrays below */
-    struct word *word;     /* of each rank, at the last meeting */
-    int *bytes, *place;    /* of each rank's results */
+    struct report *report; /* of each rank, at the last exchange */
+    int *bytes, *offset;   /* of each rank's results */
 
-    int64_t *seen;           /* the board as it was read last */
-    int64_t mine[NUMBERS];   /* this rank's numbers as they are written */
-    MPI_Request request[3];  /* of both, and of the mark */
-    bool exchanging, marked; /* whether those have begun */
-    int64_t *known_beats;    /* of each rank */
-    double *silence;         /* of each rank, s */
-    double looked, beat;     /* when, s */
+    int64_t *seen;          /* the window as it was read last */
+    int64_t mine[NUMBERS];  /* this rank's numbers as they are written */
+    MPI_Request request[3]; /* of sending, of reading, and of the mark */
+    bool sending, marked;   /* whether those have begun */
+    int64_t *known_beats;   /* of each rank */
+    double *since_beat;     /* of each rank, s since the last heartbeat */
+    double watched, beat;   /* times of the last watch and heartbeat, s */
 
     const struct br_observer *observer; /* of the call; may be NULL */
     double before, total;               /* the job's work before this call, and of it, ns */
     double done;                        /* by this rank since the start, ns */
-    size_t tickets;                     /* drawn in the calls before */
+    size_t drawn_before;                /* drawn in the calls before */
     bool waits;                         /* for rank 0's end, however long it takes */
     bool interrupted;                   /* this rank was asked to stop */
-    bool fails;                         /* this rank, for that or another reason */
-    bool failed;                        /* some rank has */
+    bool fails;                         /* this rank has failed, or was asked to stop */
+    bool failed;                        /* some rank has failed */
     bool lost;                          /* some rank is not heard from any more */
     bool over;                          /* all know that the job has come to its end */
 } job = {.size = 1};
@@ -83,23 +84,23 @@ bool br_ranks_first(void)
     return job.rank == 0;
 }
 
-/* ---- the board ---- */
+/* ---- the window ---- */
 
-/* The main thread looks around this often. */
-static void pause_a_little(void)
+/* The pause of the main thread between two watches. */
+static void pause_briefly(void)
 {
     nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
-static double silence_limit(void)
+static double beat_timeout(void)
 {
     const char *text = getenv("BEAMRATE_SILENCE");
     const double given = text ? atof(text) : 0;
-    return given > 0 ? given : longest_silence;
+    return given > 0 ? given : default_timeout;
 }
 
-/* Rank 0 listens to all, the others to rank 0. */
-static int listens_to(void)
+/* How many ranks this one watches, from 0 on: rank 0 watches all, the others watch rank 0. */
+static int ranks_watched(void)
 {
     return job.rank == 0 ? job.size : 1;
 }
@@ -109,37 +110,37 @@ static int number_of(int rank, int number)
     return OF_RANKS + rank * NUMBERS + number;
 }
 
-/* Counts on, and reads the board. Neither has happened when this returns. */
-static void exchange(void)
+/* Starts to send a heartbeat and to read the window. Neither is done when this returns. */
+static void send_heartbeat(void)
 {
-    const int words = number_of(listens_to(), 0);
+    const int words = number_of(ranks_watched(), 0);
     job.mine[BEATS]++;
     job.mine[DONE] = (int64_t)job.done;
-    job.exchanging = true;
+    job.sending = true;
     MPI_Raccumulate(job.mine, NUMBERS, MPI_INT64_T, 0, number_of(job.rank, 0), NUMBERS, MPI_INT64_T,
-                    MPI_REPLACE, job.board, &job.request[0]);
+                    MPI_REPLACE, job.window, &job.request[0]);
     MPI_Rget_accumulate(NULL, 0, MPI_INT64_T, job.seen, words, MPI_INT64_T, 0, 0, words,
-                        MPI_INT64_T, MPI_NO_OP, job.board, &job.request[1]);
+                        MPI_INT64_T, MPI_NO_OP, job.window, &job.request[1]);
 }
 
-/* So that all ranks end their marches. */
+/* Marks a failure, so that all ranks end their marches. */
 static void mark_failed(void)
 {
     static const int64_t one = 1;
     job.marked = true;
-    MPI_Raccumulate(&one, 1, MPI_INT64_T, 0, FAILED, 1, MPI_INT64_T, MPI_REPLACE, job.board,
+    MPI_Raccumulate(&one, 1, MPI_INT64_T, 0, FAILED, 1, MPI_INT64_T, MPI_REPLACE, job.window,
                     &job.request[2]);
 }
 
-static void read_board(void)
+static void read_window(void)
 {
     double done = 0;
-    job.exchanging = false;
+    job.sending = false;
     job.failed |= job.seen[FAILED] != 0;
-    for (int r = 0; r < listens_to(); r++) {
+    for (int r = 0; r < ranks_watched(); r++) {
         const int64_t beats = job.seen[number_of(r, BEATS)];
         if (beats != job.known_beats[r])
-            job.silence[r] = 0;
+            job.since_beat[r] = 0;
         job.known_beats[r] = beats;
         done += (double)job.seen[number_of(r, DONE)];
     }
@@ -148,91 +149,91 @@ static void read_board(void)
         o->progress(o->self, fmax(0, done - job.before) / job.total);
 }
 
-/* To be called again and again: keeps the exchange going, and asks whether to stop. Fails with
- * BR_IO where a rank has been silent for too long. Only the time that this process was running
- * counts, so that a job that was suspended as a whole goes on. */
+/* To be called again and again: sends heartbeats, reads the window, and checks whether to stop.
+ * Fails with BR_IO where a rank has sent no heartbeat for too long. Only the time in which this
+ * process was running counts, so that a suspended job can go on. */
 static enum br_status watch(struct br_error *err)
 {
-    const double now = br_seconds(), passed = fmin(now - job.looked, longest_look);
+    const double now = br_seconds(), passed = fmin(now - job.watched, longest_gap);
     enum br_status status = BR_OK;
     int flag, idle;
-    job.looked = now;
+    job.watched = now;
     /* lets MPI serve the others */
     MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, job.comm, &flag, MPI_STATUS_IGNORE);
     MPI_Testall(3, job.request, &idle, MPI_STATUSES_IGNORE);
-    if (idle && job.exchanging)
-        read_board();
+    if (idle && job.sending)
+        read_window();
     if (idle && now - job.beat >= beat_every) {
         job.beat = now;
-        exchange();
+        send_heartbeat();
     }
     job.interrupted |= br_observer_stops(job.observer);
     if ((job.interrupted || job.fails) && !job.marked)
         mark_failed();
-    for (int r = 0; r < listens_to() && !job.waits && !status; r++) {
-        job.silence[r] += passed;
-        if (r != job.rank && job.silence[r] >= silence_limit())
+    for (int r = 0; r < ranks_watched() && !job.waits && !status; r++) {
+        job.since_beat[r] += passed;
+        if (r != job.rank && job.since_beat[r] >= beat_timeout())
             status = br_fail(err, BR_IO, "rank %d has not been heard from for %g s: is it gone?", r,
-                             job.silence[r]);
+                             job.since_beat[r]);
     }
     job.lost |= status != BR_OK;
     job.fails |= job.lost;
     return status;
 }
 
-/* After a while in which nobody watched. */
+/* Restarts all timeouts after a time without watching. */
 static void start_watching(void)
 {
-    job.looked = br_seconds();
+    job.watched = br_seconds();
     for (int r = 0; r < job.size; r++)
-        job.silence[r] = 0;
+        job.since_beat[r] = 0;
 }
 
-/* Until an operation is done; fails as watch does. */
+/* Waits until an operation is done; fails as watch does. */
 static enum br_status await(MPI_Request *request, struct br_error *err)
 {
     enum br_status status = BR_OK;
     int done = 0;
     MPI_Test(request, &done, MPI_STATUS_IGNORE);
     while (!done && !status) {
-        pause_a_little();
+        pause_briefly();
         status = watch(err);
         MPI_Test(request, &done, MPI_STATUS_IGNORE);
     }
     return status;
 }
 
-/* The number of a batch that nobody else gets: MPI_Fetch_and_op, but that one can watch meanwhile.
- */
-static enum br_status draw(size_t *ticket, struct br_error *err)
+/* Takes the number of a batch that no other rank gets: as MPI_Fetch_and_op, but this rank can watch
+ * while it waits. */
+static enum br_status draw_batch(size_t *batch, struct br_error *err)
 {
     static const int64_t one = 1;
     static int64_t drawn; /* outlives an operation that is not done when a rank is lost */
     MPI_Request request;
-    MPI_Rget_accumulate(&one, 1, MPI_INT64_T, &drawn, 1, MPI_INT64_T, 0, TICKET, 1, MPI_INT64_T,
-                        MPI_SUM, job.board, &request);
+    MPI_Rget_accumulate(&one, 1, MPI_INT64_T, &drawn, 1, MPI_INT64_T, 0, NEXT_BATCH, 1, MPI_INT64_T,
+                        MPI_SUM, job.window, &request);
     const enum br_status status = await(&request, err);
-    *ticket = (size_t)drawn - job.tickets;
+    *batch = (size_t)drawn - job.drawn_before;
     return status;
 }
 
-/* ---- meetings ---- */
+/* ---- reports ---- */
 
-/* What is wrong with what all have said. */
-static enum br_status judge_words(struct br_error *err)
+/* Fails where a report has a failure, a program that ends early, or other studies. */
+static enum br_status check_reports(struct br_error *err)
 {
-    const struct word *first = &job.word[0], *own = &job.word[job.rank];
+    const struct report *first = &job.report[0], *own = &job.report[job.rank];
     for (int r = 0; r < job.size; r++)
-        if (job.word[r].failure.status)
+        if (job.report[r].failure.status)
             return r == job.rank ? br_fail(err, own->failure.status, "%s", own->failure.message)
-                                 : br_fail(err, job.word[r].failure.status, "rank %d: %.900s", r,
-                                           job.word[r].failure.message);
+                                 : br_fail(err, job.report[r].failure.status, "rank %d: %.900s", r,
+                                           job.report[r].failure.message);
     for (int r = 0; r < job.size; r++)
-        if (job.word[r].ends != own->ends)
+        if (job.report[r].ends != own->ends)
             return br_fail(err, BR_IO, "rank %d has ended before its time",
                            own->ends ? job.rank : r);
     for (int r = 0; r < job.size; r++)
-        if (job.word[r].asked != first->asked)
+        if (job.report[r].asked != first->asked)
             return br_fail(err, BR_BAD_INPUT,
                            "rank %d was asked for other studies than rank 0: all must see the same "
                            "scenes, options and program",
@@ -240,20 +241,20 @@ static enum br_status judge_words(struct br_error *err)
     return BR_OK;
 }
 
-/* All say something, and hear all. Fails on all alike where one has failed: the job is over then.
- */
-static enum br_status meet(struct word word, struct br_error *err)
+/* Exchanges the reports of all ranks. Fails on all ranks if one has failed; then the job is
+ * over. */
+static enum br_status exchange_reports(struct report report, struct br_error *err)
 {
     MPI_Request request;
-    if (!word.failure.status && !word.ends && job.interrupted)
-        br_fail(&word.failure, BR_INTERRUPTED, "interrupted");
-    MPI_Iallgather(&word, sizeof word, MPI_BYTE, job.word, sizeof word, MPI_BYTE, job.comm,
+    if (!report.failure.status && !report.ends && job.interrupted)
+        br_fail(&report.failure, BR_INTERRUPTED, "interrupted");
+    MPI_Iallgather(&report, sizeof report, MPI_BYTE, job.report, sizeof report, MPI_BYTE, job.comm,
                    &request);
     enum br_status status = await(&request, err);
     if (status)
         return status;
-    status = judge_words(err);
-    job.over = status || word.ends;
+    status = check_reports(err);
+    job.over = status || report.ends;
     return status;
 }
 
@@ -264,12 +265,12 @@ struct call {
     size_t count;
     struct br_batches batches;
     int threads;
-    struct word word; /* what this rank says */
-    FILE *results;    /* into its own bytes */
-    char *own, *all;  /* of all ranks, one behind the other */
-    size_t size;      /* of these */
+    struct report report; /* of this rank */
+    FILE *results;        /* into its own bytes */
+    char *own, *all;      /* of all ranks, one after the other */
+    size_t size;          /* of these */
 
-    /* the batch that a thread of its own marches */
+    /* the batch that another thread marches */
     size_t batch;
     atomic_bool stopped;
     _Atomic double fraction;
@@ -292,14 +293,14 @@ static void *march(void *self)
 {
     struct call *c = self;
     const struct br_observer observer = {.progress = keep_fraction, .stop = is_stopped, .self = c};
-    pthread_setname_np(pthread_self(), "march"); /* tells it from MPI's own threads */
+    pthread_setname_np(pthread_self(), "march"); /* distinguishes it from MPI's threads */
     br_batch_march(c->studies, c->count, &c->batches, c->batch, c->threads, &observer, c->results,
                    &c->failure);
     return NULL;
 }
 
-/* Marches a batch while the main thread watches, which signals wake. That others have failed is not
- * this rank's failure. */
+/* Marches a batch by another thread while the main thread watches and gets the signals. A failure
+ * of other ranks is not a failure of this one. */
 static enum br_status march_batch(struct call *c, size_t batch, struct br_error *err)
 {
     const double before = job.done, cost = c->batches.cost[batch];
@@ -321,7 +322,7 @@ static enum br_status march_batch(struct call *c, size_t batch, struct br_error 
         if (status || job.interrupted || job.failed)
             atomic_store(&c->stopped, true);
         job.done = before + cost * atomic_load(&c->fraction);
-        pause_a_little();
+        pause_briefly();
     }
     job.done = before + cost;
     if (!status && c->failure.status && !(job.failed && c->failure.status == BR_INTERRUPTED))
@@ -332,44 +333,44 @@ static enum br_status march_batch(struct call *c, size_t batch, struct br_error 
 static enum br_status march_all(struct call *c, struct br_error *err)
 {
     size_t batch = 0;
-    enum br_status status = draw(&batch, err);
+    enum br_status status = draw_batch(&batch, err);
     while (!status && batch < c->batches.count && !job.interrupted && !job.failed) {
         status = march_batch(c, batch, err);
         if (!status)
-            status = draw(&batch, err);
+            status = draw_batch(&batch, err);
     }
     return status;
 }
 
-/* The results of all ranks. */
+/* Gathers the results of all ranks. */
 static enum br_status gather(struct call *c, struct br_error *err)
 {
     MPI_Request request;
-    enum br_status status = meet(c->word, err);
+    enum br_status status = exchange_reports(c->report, err);
     if (status)
         return status;
-    for (int r = 0; r < job.size; c->size += job.word[r++].bytes) {
-        if (job.word[r].bytes > INT_MAX - c->size)
+    for (int r = 0; r < job.size; c->size += job.report[r++].bytes) {
+        if (job.report[r].bytes > INT_MAX - c->size)
             return br_fail(err, BR_IO, "the results of all ranks are beyond 2 GiB");
-        job.bytes[r] = (int)job.word[r].bytes;
-        job.place[r] = (int)c->size;
+        job.bytes[r] = (int)job.report[r].bytes;
+        job.offset[r] = (int)c->size;
     }
     if (!(c->all = br_allocate(c->size + 1, 1)))
-        br_no_memory(&c->word.failure, "the results");
-    status = meet(c->word, err);
+        br_no_memory(&c->report.failure, "the results");
+    status = exchange_reports(c->report, err);
     if (status)
         return status;
-    MPI_Iallgatherv(c->own, (int)c->word.bytes, MPI_BYTE, c->all, job.bytes, job.place, MPI_BYTE,
+    MPI_Iallgatherv(c->own, (int)c->report.bytes, MPI_BYTE, c->all, job.bytes, job.offset, MPI_BYTE,
                     job.comm, &request);
     return await(&request, err);
 }
 
-/* All marches, then all results. What goes wrong on this rank is said at the meeting. */
+/* Marches batches, then gathers all results. A failure of this rank goes into its report. */
 static enum br_status share(struct call *c, struct br_error *err)
 {
-    struct br_error *failure = &c->word.failure;
-    c->results = open_memstream(&c->own, &c->word.bytes);
-    enum br_status status = meet(c->word, err);
+    struct br_error *failure = &c->report.failure;
+    c->results = open_memstream(&c->own, &c->report.bytes);
+    enum br_status status = exchange_reports(c->report, err);
     if (!status && c->results)
         march_all(c, failure);
     if ((!c->results || fclose(c->results) != 0) && !failure->status)
@@ -398,8 +399,8 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
     if (job.over)
         return br_fail(err, BR_IO, "the ranks share no work after a failure");
     c.threads = threads > 0 ? threads : job.threads;
-    br_batches_create(&c.batches, studies, count, job.size, each, &c.word.failure);
-    c.word.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
+    br_batches_create(&c.batches, studies, count, job.size, each, &c.report.failure);
+    c.report.asked = br_studies_fingerprint(studies, count) + (unsigned)each;
     job.observer = observer;
     job.total = 0;
     for (size_t i = 0; i < c.batches.count; i++)
@@ -408,7 +409,7 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
     const enum br_status status = share(&c, err);
     job.observer = NULL;
     job.before += job.total;
-    job.tickets += c.batches.count + (size_t)job.size; /* each rank has drawn one too many */
+    job.drawn_before += c.batches.count + (size_t)job.size; /* each rank has drawn one too many */
     br_batches_clear(&c.batches);
     if (!status && observer && observer->progress && job.rank == 0)
         observer->progress(observer->self, 1);
@@ -417,9 +418,9 @@ enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int thr
 
 /* ---- beginning and end ---- */
 
-/* Ends all ranks at once, after saying why. One rank alone asks for it: mpirun was seen to crash
- * when several did at once. The others are ended by that soon, or, where the launcher was told to
- * carry on, end by themselves. */
+/* Prints why, and ends all ranks. Only ranks 0 and 1 call MPI_Abort: mpirun was seen to crash when
+ * several ranks did. That soon ends the other ranks; where the launcher was told to carry on, they
+ * end by themselves. */
 _Noreturn static void abort_job(const char *why)
 {
     fprintf(stderr, "beamrate: rank %d of %d: ", job.rank, job.size);
@@ -433,8 +434,8 @@ _Noreturn static void abort_job(const char *why)
     _Exit(br_status_exit_code(BR_IO));
 }
 
-/* Of any MPI function. */
-static void heed_error(int code)
+/* Handles an error of any MPI function. */
+static void abort_on_error(int code)
 {
     char text[MPI_MAX_ERROR_STRING + 8] = "MPI: ";
     int length;
@@ -442,16 +443,16 @@ static void heed_error(int code)
     abort_job(text);
 }
 
-static void heed_error_of_ranks(MPI_Comm *comm, int *code, ...)
+static void abort_on_rank_error(MPI_Comm *comm, int *code, ...)
 {
     (void)comm;
-    heed_error(*code);
+    abort_on_error(*code);
 }
 
-static void heed_error_of_board(MPI_Win *board, int *code, ...)
+static void abort_on_window_error(MPI_Win *window, int *code, ...)
 {
-    (void)board;
-    heed_error(*code);
+    (void)window;
+    abort_on_error(*code);
 }
 
 /* The cores that this rank may use, shared with the ranks of its machine that may use the same. */
@@ -478,29 +479,29 @@ static enum br_status count_threads(struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status create_board(struct br_error *err)
+static enum br_status create_window(struct br_error *err)
 {
     const size_t ranks = (size_t)job.size, words = (size_t)number_of(job.size, 0);
-    job.word = br_store_take(&job.store, ranks, sizeof *job.word);
+    job.report = br_store_take(&job.store, ranks, sizeof *job.report);
     job.bytes = br_store_take(&job.store, ranks, sizeof *job.bytes);
-    job.place = br_store_take(&job.store, ranks, sizeof *job.place);
+    job.offset = br_store_take(&job.store, ranks, sizeof *job.offset);
     job.seen = br_store_take(&job.store, words, sizeof *job.seen);
     job.known_beats = br_store_take(&job.store, ranks, sizeof *job.known_beats);
-    job.silence = br_store_take(&job.store, ranks, sizeof *job.silence);
+    job.since_beat = br_store_take(&job.store, ranks, sizeof *job.since_beat);
     if (job.store.failed)
         return br_no_memory(err, "the ranks");
     MPI_Errhandler handler;
     const MPI_Aint size = job.rank == 0 ? (MPI_Aint)(words * sizeof *job.seen) : 0;
     int64_t *memory;
     job.request[0] = job.request[1] = job.request[2] = MPI_REQUEST_NULL;
-    MPI_Win_allocate(size, sizeof *memory, MPI_INFO_NULL, job.comm, &memory, &job.board);
-    MPI_Win_create_errhandler(heed_error_of_board, &handler);
-    MPI_Win_set_errhandler(job.board, handler);
+    MPI_Win_allocate(size, sizeof *memory, MPI_INFO_NULL, job.comm, &memory, &job.window);
+    MPI_Win_create_errhandler(abort_on_window_error, &handler);
+    MPI_Win_set_errhandler(job.window, handler);
     MPI_Errhandler_free(&handler);
     if (job.rank == 0)
         memset(memory, 0, (size_t)size);
     MPI_Barrier(job.comm);
-    MPI_Win_lock_all(MPI_MODE_NOCHECK, job.board);
+    MPI_Win_lock_all(MPI_MODE_NOCHECK, job.window);
     job.joined = true;
     return BR_OK;
 }
@@ -511,7 +512,7 @@ static enum br_status join(const struct br_launch *launch, struct br_error *err)
     MPI_Errhandler handler;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
     MPI_Comm_size(MPI_COMM_WORLD, &found);
-    job.rank = launch->rank; /* so that only one of them says why they end */
+    job.rank = launch->rank; /* so that only one of them prints why they end */
     if (provided < MPI_THREAD_FUNNELED)
         return br_fail(err, BR_UNSUPPORTED, "this MPI library allows no threads beside it");
     if (found != launch->size)
@@ -522,12 +523,12 @@ static enum br_status join(const struct br_launch *launch, struct br_error *err)
                        launch->launcher, launch->size, found);
     job.size = found;
     MPI_Comm_rank(MPI_COMM_WORLD, &job.rank);
-    MPI_Comm_create_errhandler(heed_error_of_ranks, &handler);
+    MPI_Comm_create_errhandler(abort_on_rank_error, &handler);
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler);
     MPI_Errhandler_free(&handler);
     MPI_Comm_dup(MPI_COMM_WORLD, &job.comm); /* of this program's own, with the same handler */
     const enum br_status status = count_threads(err);
-    return status ? status : create_board(err);
+    return status ? status : create_window(err);
 }
 
 enum br_status br_ranks_start(struct br_error *err)
@@ -542,8 +543,8 @@ static void leave(void)
     MPI_Initialized(&begun);
     if (job.joined) {
         MPI_Waitall(3, job.request, MPI_STATUSES_IGNORE);
-        MPI_Win_unlock_all(job.board);
-        MPI_Win_free(&job.board);
+        MPI_Win_unlock_all(job.window);
+        MPI_Win_free(&job.window);
         MPI_Comm_free(&job.comm);
     }
     if (begun)
@@ -554,15 +555,15 @@ static void leave(void)
 enum br_status br_ranks_end(enum br_status status, struct br_error *err)
 {
     if (job.size > 1) {
-        struct word word = {.ends = true};
+        struct report report = {.ends = true};
         if (status)
-            br_fail(&word.failure, status, "%s", err->message);
+            br_fail(&report.failure, status, "%s", err->message);
         if (!job.joined || job.lost)
             abort_job(err->message);
         job.waits = job.rank > 0; /* rank 0 may be writing for long */
         start_watching();
         if (!job.over)
-            status = meet(word, err);
+            status = exchange_reports(report, err);
         if (job.lost)
             abort_job(err->message);
     }

@@ -23,7 +23,7 @@ int br_ranks_size(void)
 
 bool br_ranks_first(void)
 {
-    return launch.rank == 0; /* so that only one of them says why they end */
+    return launch.rank == 0; /* so that only one of them prints why they end */
 }
 
 enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int threads,

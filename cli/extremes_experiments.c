@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The parts of `extremes`, a function and a row each: what study/extremes/ computes, tables/
+/* The experiments of `extremes`, a function and a row each: study/extremes/ computes, tables/
  * reports and plots/ draws. */
-#include "cli/extremes_part.h"
+#include "cli/extremes_experiment.h"
 
 #include "plots/pictures.h"
 #include "study/extremes/map.h"
 #include "tables/reports.h"
 
-/* Round-off: a picture for each k of the solvers' floors, or one of what steps gather. */
+/* Round-off: a picture for each k of the solvers' floors, or one of the round-off that steps
+ * gather. */
 static enum br_status run_round_off(const struct br_extremes_job *job, bool gathered,
                                     const struct br_extremes_output *to, struct br_error *err)
 {
@@ -102,23 +103,23 @@ static enum br_status run_map(const struct br_extremes_job *job,
     return status;
 }
 
-const struct br_extremes_part br_extremes_parts[] = {
+const struct br_extremes_experiment br_extremes_experiments[] = {
     {
         .name = "floors",
         .title = "round-off of every linear solver over n and k, measured and predicted",
-        .heeds = BR_HEEDS(N) | BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
         .run = run_floors,
     },
     {
         .name = "steps",
         .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
-        .heeds = BR_HEEDS(K) | BR_HEEDS(ROUNDING),
+        .accepts = BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
         .run = run_steps,
     },
     {
         .name = "stability",
         .title = "the contact's stability limit over c_H and k, predicted and measured",
-        .heeds = BR_HEEDS(N) | BR_HEEDS(K),
+        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K),
         .run = run_stability,
     },
     {
@@ -129,7 +130,7 @@ const struct br_extremes_part br_extremes_parts[] = {
     {
         .name = "map",
         .title = "cases at random: right, inaccurate, unstable, refused, and none silently wrong",
-        .heeds = BR_HEEDS(CASES) | BR_HEEDS(SEED) | BR_HEEDS(ROUNDING) | BR_HEEDS(RESUME),
+        .accepts = BR_ACCEPTS(CASES) | BR_ACCEPTS(SEED) | BR_ACCEPTS(ROUNDING) | BR_ACCEPTS(RESUME),
         .run = run_map,
     },
     {0},
