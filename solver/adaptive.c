@@ -2,18 +2,18 @@
 /* Steps by a tolerance, and the times of switching.
  *
  * Between switches the laws at the tip are smooth: open or closed, stick, slip up or down. So a
- * step holds the branch on which it began, through all its stages, and keeps its order. Each branch
- * has a margin that is not negative while it is the right one: the gap or the penetration, h -
- * |lambda| of a tip that sticks, the velocity of one that slips. Where it is negative at the step's
- * end, at a stage or between them (br_margins), the step is taken back and its length found at
- * which the margin is zero; the next step then finds its branches by the laws themselves, in its
- * first stage, with a length that is small. Where a branch is wrong at once, no search can begin: a
- * small step is taken by the laws themselves.
+ * step keeps the branch on which it began active in all its stages, and the scheme keeps its order.
+ * Each branch has a margin that is not negative while it is the right one: the gap or the
+ * penetration, h - |lambda| of a tip that sticks, the velocity of one that slips. Where the margin
+ * is negative at the step's end, at a stage or between them (br_margins), the step is rejected, and
+ * a search finds the length at which the margin is zero. The next step is short, and finds its
+ * branches by the laws themselves in its first stage. If a branch is wrong from the start of a
+ * step, no search is possible: then a small step uses the laws themselves.
  *
- * A field without inertia and viscosity, or with so little that it answers a load within the least
- * step, jumps where its load does, at the start from rest above all. No step is small enough for
- * that, and none needs to be: the end of one obeys the equations whatever was before. So the least
- * step is taken, and what follows starts anew.
+ * A field without inertia and viscosity, or with so little that it follows a load within the least
+ * step, jumps where its load does, mostly at the start from rest. No step resolves the jump, and
+ * none needs to: the end of a step obeys the equations whatever the state before was. So the least
+ * step is accepted, and the scheme restarts after it.
  *
  * The error of a step is estimated in strains (br_field_march_estimate), relative to the largest so
  * far, or to that of a rough march (below). */
@@ -28,8 +28,8 @@ static const double first_step = 1e-7;   /* of the duration */
 static const double after_switch = 0.01; /* of the step before it */
 static const double least_step = 1e-13;  /* of the duration */
 static const double safety = 0.85, most_growth = 5, most_shrinking = 0.1;
-static const double idle_growth = 1.4;       /* less is not worth new tables */
-static const double search_from = 1e-3;      /* of a step: less is too short for its force */
+static const double idle_growth = 1.4;       /* a smaller growth is not worth new tables */
+static const double search_from = 1e-3;      /* of a step: in shorter ones the force is round-off */
 static const double switch_accuracy = 1e-12; /* of the step in which it lies */
 static const double least_progress = 1e-9;   /* of the duration, between two switches */
 static const size_t most_stalled = 200;
@@ -39,19 +39,19 @@ struct br_adaptive {
     double now, next;      /* time reached and length of the next step, s */
     double largest[2];     /* strain of each field so far, or of a rough march */
     size_t since;          /* steps since the start or the last switch */
-    size_t stalled;        /* steps in a row that a switch has cut to next to nothing */
-    bool known;            /* the branches of the laws */
-    bool free;             /* no branch is held */
-    enum br_regime old[2]; /* those in front of the last switch */
+    size_t stalled;        /* steps in a row that a switch has made extremely short */
+    bool known;            /* the branches of the laws are known */
+    bool free;             /* no branch is kept active */
+    enum br_regime old[2]; /* the branches before the last switch */
     struct br_switch found[BR_MOST_SWITCHES];
-    size_t found_count; /* also of those that are not kept */
+    size_t found_count; /* all switches, also those that are not in `found` */
 };
 
 static void recall_all(struct br_march *m, int known)
 {
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_field_march_recall(&m->part[kind], known);
+        if (m->field[kind].modelled)
+            br_field_march_recall(&m->field[kind], known);
 }
 
 static void take_back(struct br_march *m, const struct br_tip *tip)
@@ -69,8 +69,8 @@ struct trial {
     double strain[2];
 };
 
-/* Whether a field's law has branches that a step can hold. A contact without stiffness has no
- * force, but Coulomb's bound has a kink where the tip passes the gap. */
+/* Whether a field's law has branches that a step can keep active. A contact without stiffness has
+ * no force, but Coulomb's bound has a kink where the tip passes the gap. */
 static bool has_branches(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_contact *contact = &m->scene->contact;
@@ -80,7 +80,7 @@ static bool has_branches(const struct br_march *m, enum br_field_kind kind)
     return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
 }
 
-/* The first stage, by the laws themselves, shows which branch of each law holds. */
+/* Finds the active branch of each law from a first stage by the laws themselves. */
 static enum br_status find_branches(struct br_march *m, const struct br_stages *stages,
                                     const struct br_step *step, struct br_error *err)
 {
@@ -90,8 +90,8 @@ static enum br_status find_branches(struct br_march *m, const struct br_stages *
     const struct br_tip tip = m->tip;
     enum br_status status = BR_OK;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        m->held[kind] = false;
-        if (!m->part[kind].modelled)
+        m->keeps_branch[kind] = false;
+        if (!m->field[kind].modelled)
             continue;
         status = br_march_stages(m, kind, &first, step, m->path, err);
         m->regime[kind] = br_march_regime(m, kind);
@@ -101,7 +101,7 @@ static enum br_status find_branches(struct br_march *m, const struct br_stages *
     return status;
 }
 
-/* Whether a field answers a load within the least step. */
+/* Whether a field follows a load within the least step. */
 static bool jumps(const struct br_march *m, const struct br_field *f)
 {
     const double least = least_step * m->scene->duration;
@@ -109,8 +109,8 @@ static bool jumps(const struct br_march *m, const struct br_field *f)
            f->density <= least * (least * f->stiffness * br_field_lowest_mode(f));
 }
 
-static void see_error(const struct br_march *m, enum br_field_kind kind, double error,
-                      struct trial *trial)
+static void record_error(const struct br_march *m, enum br_field_kind kind, double error,
+                         struct trial *trial)
 {
     const double scale =
         m->method.tolerance * fmax(trial->strain[kind], m->adaptive->largest[kind]);
@@ -120,7 +120,7 @@ static void see_error(const struct br_march *m, enum br_field_kind kind, double 
     else if (scale > 0)
         relative = error / scale;
     trial->error = fmax(trial->error, relative);
-    if (!jumps(m, &m->part[kind].field) || !isfinite(error))
+    if (!jumps(m, &m->field[kind].field) || !isfinite(error))
         trial->lasting = fmax(trial->lasting, relative);
 }
 
@@ -129,24 +129,24 @@ static enum br_status try_fields(struct br_march *m, const struct br_step *step,
 {
     enum br_status status = BR_OK;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_field_march *part = &m->part[kind];
-        if (!part->modelled)
+        struct br_field_march *fm = &m->field[kind];
+        if (!fm->modelled)
             continue;
-        m->held[kind] = !m->adaptive->free && has_branches(m, kind);
+        m->keeps_branch[kind] = !m->adaptive->free && has_branches(m, kind);
         m->margins[kind].count = 0;
-        if (m->held[kind] && m->adaptive->since > 0) /* else it is that of another branch */
+        if (m->keeps_branch[kind] && m->adaptive->since > 0) /* else another branch's margin */
             br_margins_add(&m->margins[kind], 0, br_march_margin(m, kind));
         status = br_march_stages(m, kind, &trial->stages, step, m->path, err);
         if (status)
             break;
         double error;
-        br_field_march_estimate(part, &trial->stages, &error, &trial->strain[kind]);
-        see_error(m, kind, error, trial);
+        br_field_march_estimate(fm, &trial->stages, &error, &trial->strain[kind]);
+        record_error(m, kind, error, trial);
     }
     return status;
 }
 
-/* A step of length k from where the march is; the state is then its result. */
+/* Tries a step of length k from the march's state; the state is then its result. */
 static enum br_status try_step(struct br_march *m, double k, struct trial *trial,
                                struct br_error *err)
 {
@@ -166,8 +166,8 @@ struct search {
     struct br_march *march;
     const struct br_tip *tip; /* where the step begins */
     enum br_field_kind kind;
-    double beyond;  /* the margin behind the switch */
-    bool bracketed; /* the margin was in front of the switch at first */
+    double beyond;  /* the margin after the switch */
+    bool bracketed; /* the margin had the sign before the switch at first */
     struct trial trial;
     enum br_status status;
     struct br_error *err;
@@ -183,8 +183,8 @@ static double margin_after(double k, struct search *s)
     return s->status ? 0 : br_march_margin(s->march, s->kind);
 }
 
-/* The same for GSL. A margin of 0 is in front of the switch: a tip that rests at the gap has
- * nothing else, and its switch is where it leaves. Then this halves. */
+/* The margin for GSL. A margin of 0 counts as before the switch: a tip that rests at the gap has
+ * the margin 0 until it leaves the gap, which is the switch. The search is then a bisection. */
 static double margin_to_cross(double k, void *params)
 {
     struct search *s = params;
@@ -192,8 +192,9 @@ static double margin_to_cross(double k, void *params)
     return margin == 0 ? -s->beyond : margin;
 }
 
-/* Shortens a step whose end is beyond the switch of one field to just before that switch, where a
- * load that jumps then has not jumped yet; the state is then the result of the shorter one. */
+/* Shortens a step whose end is beyond the switch of one field, to an end just before that switch: a
+ * load that jumps at the switch has not jumped there. The state is then the result of the shorter
+ * step. */
 static enum br_status find_switch(struct search *s, double longest)
 {
     gsl_function f = {.function = margin_to_cross, .params = s};
@@ -213,8 +214,7 @@ static enum br_status find_switch(struct search *s, double longest)
     }
     gsl_set_error_handler(handler);
     gsl_root_fsolver_free(solver);
-    s->march->adaptive->free =
-        !s->bracketed; /* off the branch at once: as the laws themselves say */
+    s->march->adaptive->free = !s->bracketed; /* off the branch at once: use the laws themselves */
     if (!s->status)
         margin_after(k, s);
     s->march->adaptive->free = false;
@@ -223,13 +223,13 @@ static enum br_status find_switch(struct search *s, double longest)
 
 /* ---- steps ---- */
 
-/* The first step after a switch shows the branch that the law went to. Both fields may have
- * switched. */
+/* Records the switches. The first step after a switch shows the new branch of the law. Both fields
+ * may have switched. */
 static void tell_switches(struct br_march *m)
 {
     struct br_adaptive *a = m->adaptive;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!m->part[kind].modelled || m->regime[kind] == a->old[kind])
+        if (!m->field[kind].modelled || m->regime[kind] == a->old[kind])
             continue;
         if (a->found_count < BR_MOST_SWITCHES)
             a->found[a->found_count] =
@@ -252,14 +252,14 @@ static void accept(struct br_march *m, const struct trial *trial, bool switched)
     memcpy(a->old, m->regime, sizeof a->old);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);
-        if (m->part[kind].modelled)
+        if (m->field[kind].modelled)
             br_march_accept(m, kind, &trial->stages, switched);
     }
     a->known = !switched;
     a->since = switched ? 0 : a->since + 1;
 }
 
-/* What the estimate says of the next step's length. */
+/* The next step's length by the error estimate, s. */
 static double next_length(const struct br_march *m, const struct trial *trial)
 {
     const double order = m->method.scheme->estimate_order;
@@ -271,7 +271,7 @@ static double next_length(const struct br_march *m, const struct trial *trial)
     return fmin(factor, most_growth) * trial->k;
 }
 
-/* A step of at most k, s, that the estimate passes. */
+/* Takes a step of at most k, s, whose error estimate is small enough. */
 static enum br_status estimated_step(struct br_march *m, double k, struct trial *trial,
                                      struct br_error *err)
 {
@@ -299,8 +299,9 @@ static enum br_status estimated_step(struct br_march *m, double k, struct trial 
     }
 }
 
-/* Where the step has gone beyond a switch of a field's law, it ends there. Where only the stages or
- * their polynomial say so, it ends where they do, which the margin there confirms or not. */
+/* If the step has gone beyond a switch of a field's law, shortens it to end at the switch. If only
+ * the stages or their polynomial show a switch, the margin at the end of a step to that time has to
+ * confirm it. */
 static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *tip,
                                      enum br_field_kind kind, struct trial *trial, bool *switched,
                                      struct br_error *err)
@@ -317,15 +318,16 @@ static enum br_status stop_at_switch(struct br_march *m, const struct br_tip *ti
         search.status = find_switch(&search, k);
         *switched |= search.bracketed || end < 0;
     }
-    /* Off the branch from the first moment on, but on it at the end: such a beginning dies away. */
+    /* The tip is off the branch from the start, but on it at the end: such a start dies away, and
+     * the whole step is taken. */
     if (!search.status && search.beyond < 0 && !search.bracketed && !(end < 0))
         margin_after(whole, &search);
     *trial = search.trial;
     return search.status;
 }
 
-/* Whether a step ends on a switch, as where that is a time level: going on would be a step too
- * short for the tip's force to be more than its round-off. */
+/* Whether a step ends on a switch, for example at a time level. The rest of the way to the switch
+ * would be a step so short that the tip's force in it is round-off. */
 static bool meets_switch(const struct br_margins *m)
 {
     return m->count > 1 && m->time[0] == 0 && m->margin[0] > 0 &&
@@ -337,14 +339,14 @@ static enum br_status stop_at_switches(struct br_march *m, const struct br_tip *
 {
     enum br_status status = BR_OK;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (m->held[kind]) {
+        if (m->keeps_branch[kind]) {
             status = stop_at_switch(m, tip, kind, trial, switched, err);
             *switched |= meets_switch(&m->margins[kind]);
         }
     return status;
 }
 
-/* Laws that contradict themselves would have no branch that holds, and no end of switches. */
+/* Fails after too many switches in a row: no branch of contradictory laws would hold. */
 static enum br_status check_progress(struct br_march *m, const struct trial *trial, bool switched,
                                      struct br_error *err)
 {
@@ -372,7 +374,7 @@ static enum br_status check_going_on(const struct br_march *m, struct br_error *
                    m->method.scheme->name, m->adaptive->now, most);
 }
 
-/* Goes on by at most `longest`, s. */
+/* Advances by at most `longest`, s. */
 static enum br_status adaptive_step(struct br_march *m, double longest, struct br_error *err)
 {
     struct br_adaptive *a = m->adaptive;
@@ -392,7 +394,7 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
         return status;
     if (switched)
         a->next = fmax(after_switch * whole, first_step * m->scene->duration);
-    else if (k < wanted && whole == k) /* cut short by a time level, which says little */
+    else if (k < wanted && whole == k) /* shortened by a time level: its error says little */
         a->next = fmax(fmin(wanted, most_growth * k), next_length(m, &trial));
     else
         a->next = next_length(m, &trial);
@@ -403,12 +405,12 @@ static enum br_status adaptive_step(struct br_march *m, double longest, struct b
 
 /* ---- a rough size ---- */
 
-/* The size of a solution that is not known yet. One that starts at rest has none of its own that
- * its first errors could be compared with.
+/* An estimate of the size of the solution. A solution that starts at rest is zero at first, so that
+ * its first errors need another size to compare with.
  *
- * Of two rough marches without common times the smaller size counts, since a short blow that one of
- * them meets acts on it for a whole step; but not that of a march that meets the zeros of a load.
- */
+ * Two rough marches have no common times. The smaller size of the two is used, since a short
+ * impulse at a time of one march acts in it for a whole step. But the size of a march is not used
+ * if its times are the zeros of a load. */
 
 /* The largest strains (out) of a few Euler steps to the end. */
 static enum br_status rough_march(struct br_march *m, int steps, double largest[2],
@@ -420,17 +422,17 @@ static enum br_status rough_march(struct br_march *m, int steps, double largest[
     enum br_status status = BR_OK;
     largest[0] = largest[1] = 0;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (m->part[kind].modelled)
-            br_field_march_keep(&m->part[kind], BR_STAGE);
+        if (m->field[kind].modelled)
+            br_field_march_keep(&m->field[kind], BR_STAGE);
     for (int n = 0; n < steps && !status; n++) {
         const struct br_step step = {T * n / steps, T * (n + 1) / steps, T / steps};
         for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-            struct br_field_march *part = &m->part[kind];
+            struct br_field_march *fm = &m->field[kind];
             double size[2];
-            if (!part->modelled)
+            if (!fm->modelled)
                 continue;
             status = br_march_stages(m, kind, &euler, &step, m->path, err);
-            part->solver->size(part->state, 0, size);
+            fm->solver->size(fm->state, 0, size);
             largest[kind] = fmax(largest[kind], size[0]);
         }
     }
@@ -439,7 +441,7 @@ static enum br_status rough_march(struct br_march *m, int steps, double largest[
     return status;
 }
 
-/* About the largest strains (out) until the end; the march is then where it was. */
+/* Estimates the largest strains (out) until the end; the march's state is not changed. */
 static enum br_status rough_size(struct br_march *m, double largest[2], struct br_error *err)
 {
     const double nothing = 1e-10;
@@ -468,7 +470,7 @@ enum br_status br_adaptive_create(struct br_march *m, struct br_error *err)
 enum br_status br_adaptive_advance(struct br_march *m, struct br_error *err)
 {
     struct br_adaptive *a = m->adaptive;
-    const size_t level = m->part[BR_AXIAL].done + 1;
+    const size_t level = m->field[BR_AXIAL].done + 1;
     const double end = m->scene->duration * (double)level / (double)m->steps;
     const double least = least_step * m->scene->duration;
     while (end - a->now > least) {
@@ -490,7 +492,7 @@ void br_margins_add(struct br_margins *m, double time, double margin)
     m->margin[m->count++] = margin;
 }
 
-/* Lagrange's polynomial through all of them. */
+/* The Lagrange polynomial through all margins. */
 static double interpolate(const struct br_margins *m, double time)
 {
     double sum = 0;
@@ -506,7 +508,7 @@ static double interpolate(const struct br_margins *m, double time)
 
 double br_margins_dip(const struct br_margins *m)
 {
-    enum { PLACES = 64 };
+    enum { POINTS = 64 };
     const double round_off = 1e-13;
     double first = 0, begin = 1, largest = 0;
     for (size_t i = 0; i < m->count; i++) {
@@ -518,8 +520,8 @@ double br_margins_dip(const struct br_margins *m)
     if (first > 0)
         return first;
     double lowest = -round_off * largest;
-    for (int i = 1; i < PLACES; i++) {
-        const double time = begin + (1 - begin) * i / PLACES, margin = interpolate(m, time);
+    for (int i = 1; i < POINTS; i++) {
+        const double time = begin + (1 - begin) * i / POINTS, margin = interpolate(m, time);
         if (margin < lowest) {
             lowest = margin;
             first = time;

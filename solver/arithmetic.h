@@ -7,12 +7,12 @@
 
 /* ---- rounding ---- */
 
-/* The mode belongs to a thread; threads of OpenMP do not hand it on. */
+/* Each thread has its own mode; a thread of OpenMP does not inherit it. */
 
 enum { BR_ROUNDING_KEPT = -1 }; /* no mode has this value (C17, 7.6) */
 
-/* Sets a mode, as fesetround takes it; FE_TONEAREST leaves what the thread has, and costs nothing.
- * Returns what was set, or BR_ROUNDING_KEPT, for br_rounding_restore. */
+/* Sets a mode, as fesetround takes it; FE_TONEAREST leaves the mode of the thread unchanged, at no
+ * cost. Returns the mode before, or BR_ROUNDING_KEPT, for br_rounding_restore. */
 static inline int br_rounding_set(int mode)
 {
     if (mode == FE_TONEAREST)
@@ -30,27 +30,27 @@ static inline void br_rounding_restore(int before)
 
 /* ---- traps ---- */
 
-/* Traps for what no sound march does: an invalid operation, a division by zero, an overflow. On in
- * builds with -Dtraps (debug ones), where they stop the program at the operation; else nothing is
- * done here. They belong to the thread that sets them. */
+/* Traps for operations that a correct march never does: an invalid operation, a division by zero,
+ * an overflow. In builds with -Dtraps (debug builds) they stop the program at the operation; in
+ * others these functions do nothing. Each thread has its own traps. */
 
 #ifdef BR_TRAPS
 
-/* Sets the traps, after forgetting what was raised before; returns those that were set. */
+/* Clears the exception flags and sets the traps; returns the traps that were set before. */
 static inline int br_traps_set(void)
 {
     feclearexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
     return feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
 }
 
-/* No traps, around what others have written: libraries, a person's expressions. Returns those that
- * were set. */
+/* Removes the traps, around code that may raise exceptions: libraries, expressions of a user.
+ * Returns the traps that were set before. */
 static inline int br_traps_lift(void)
 {
     return fedisableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
 }
 
-/* As they were before one of these. */
+/* Sets the traps to a result of br_traps_set or br_traps_lift. */
 static inline void br_traps_restore(int before)
 {
     fedisableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);

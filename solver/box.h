@@ -24,7 +24,7 @@ static inline double middle(iv a)
     return a.low + (a.high - a.low) / 2;
 }
 
-/* Whether a number is between both ends. */
+/* Whether there is a double between both ends. */
 static inline bool is_divisible(iv a)
 {
     return a.low < middle(a) && middle(a) < a.high;
@@ -46,7 +46,7 @@ static inline double magnitude(iv a)
     return fmax(fabs(a.low), fabs(a.high));
 }
 
-/* Both halves of a box; or, where no number is between, both of its faces. */
+/* Both halves of a box; or, where no double lies between the faces, both faces. */
 static inline void split(struct br_box box, enum br_variable v, struct br_box half[2])
 {
     const iv a = *side(&box, v);
@@ -55,14 +55,14 @@ static inline void split(struct br_box box, enum br_variable v, struct br_box ha
     half[1] = with(box, v, divisible ? (iv){middle(a), a.high} : point(a.high));
 }
 
-/* A side that f does not use is a point. */
+/* The box, in which a variable that f does not use is one point. */
 static inline struct br_box used_box(const struct br_function *f, struct br_box box)
 {
     return (struct br_box){f->uses_x ? box.x : point(box.x.low),
                            f->uses_t ? box.t : point(box.t.low)};
 }
 
-/* "x = 0.3333 m, t = 1 s", the middle of a box, of the variables that f uses. */
-void br_name_place(const struct br_function *f, struct br_box box, char text[80]);
+/* Writes the middle of a box, in the variables that f uses, as "x = 0.3333 m, t = 1 s". */
+void br_name_position(const struct br_function *f, struct br_box box, char text[80]);
 
 #endif

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where a function breaks, and a mesh on which polynomials stand for it. */
+/* Where a function breaks, and a mesh on which polynomials approximate it. */
 #include <stdlib.h>
 
 #include "solver/box.h"
 
-enum { MOST_LOOKS = 400000, MOST_BREAKS = 20000, MOST_CELLS = 20000 };
+enum { MOST_EXAMINED = 400000, MOST_BREAKS = 20000, MOST_CELLS = 20000 };
 
 /* ---- breaks ---- */
 
@@ -14,7 +14,7 @@ void br_breaks_free(struct br_breaks *b)
     *b = (struct br_breaks){0};
 }
 
-/* The sign of a guard where it has one. Zero: everywhere. */
+/* The sign of a guard in an interval. ZERO: it is zero everywhere there. */
 enum sign { NEGATIVE = -1, ZERO, POSITIVE, UNDECIDED };
 
 struct zero_search {
@@ -22,8 +22,8 @@ struct zero_search {
     enum br_variable along;
     struct br_box box;
     struct br_breaks *out;
-    size_t looked;
-    enum sign before; /* on what was settled last */
+    size_t examined;
+    enum sign before; /* in the last interval that was settled */
     enum br_status status;
     struct br_error *err;
 };
@@ -46,12 +46,12 @@ static enum sign sign_on(const struct zero_search *s, iv part)
 
 static void refuse(struct zero_search *s, iv part, const char *what)
 {
-    char place[80];
-    br_name_place(s->guard, with(s->box, s->along, part), place);
-    s->status = br_fail(s->err, BR_BAD_INPUT, "%s near %s", what, place);
+    char position[80];
+    br_name_position(s->guard, with(s->box, s->along, part), position);
+    s->status = br_fail(s->err, BR_BAD_INPUT, "%s near %s", what, position);
 }
 
-/* The state behind it is not known. */
+/* The sign after the break is not known. */
 static void add_break(struct zero_search *s, iv at)
 {
     const iv all = *side(&s->box, s->along);
@@ -64,7 +64,7 @@ static void add_break(struct zero_search *s, iv at)
         s->out->at[s->out->count++] = at;
 }
 
-/* The guard has this sign in the part that follows. */
+/* The guard has this sign in the next interval. */
 static void settle(struct zero_search *s, iv part, enum sign sign)
 {
     if (sign != s->before && s->before != UNDECIDED)
@@ -74,8 +74,8 @@ static void settle(struct zero_search *s, iv part, enum sign sign)
     s->before = sign;
 }
 
-/* The last number of the part that is known to have the sign of its first one; or, backward, the
- * first one that has the sign of its last. */
+/* By bisection, the last number from `from` towards `to` (which may be smaller) at which the guard
+ * is known to have the sign that it has at `from`. */
 static double last_with(const struct zero_search *s, double from, double to, enum sign sign)
 {
     for (double m = from + (to - from) / 2; m != from && m != to; m = from + (to - from) / 2)
@@ -86,7 +86,7 @@ static double last_with(const struct zero_search *s, double from, double to, enu
     return from;
 }
 
-/* The one zero, if any, of a guard that rises or falls (up) everywhere in the part. */
+/* Finds the one zero, if any, of a guard that rises (up) or falls everywhere in the interval. */
 static void find_zero(struct zero_search *s, iv part, bool up)
 {
     const enum sign left = up ? NEGATIVE : POSITIVE, right = up ? POSITIVE : NEGATIVE;
@@ -100,7 +100,7 @@ static void find_zero(struct zero_search *s, iv part, bool up)
         root.low = last_with(s, part.low, part.high, left);
     if (last == right)
         root.high = last_with(s, part.high, root.low, right);
-    /* Both ends have a sign; what is between has none. */
+    /* The sign is known at both ends of `root`; between them it is not. */
     const double low = first == left ? nextafter(root.low, INFINITY) : root.low,
                  high = last == right ? nextafter(root.high, -INFINITY) : root.high;
     add_break(s, low <= high ? (iv){low, high} : root);
@@ -108,7 +108,7 @@ static void find_zero(struct zero_search *s, iv part, bool up)
         s->before = right;
 }
 
-/* Whether the guard is no larger in the part than the round-off in its middle. */
+/* Whether the guard's values in the interval are within the round-off of its middle. */
 static bool is_noise(const struct zero_search *s, iv part, iv value)
 {
     iv at;
@@ -122,7 +122,7 @@ static void locate(struct zero_search *s, iv part)
     iv value, slope[2];
     if (s->status)
         return;
-    if (++s->looked > MOST_LOOKS) {
+    if (++s->examined > MOST_EXAMINED) {
         refuse(s, part, "where it changes its form cannot be told");
         return;
     }
@@ -147,7 +147,7 @@ static int compare_breaks(const void *a, const void *b)
     return p->low < q->low ? -1 : p->low > q->low;
 }
 
-/* Sorts, and makes one of those that touch. */
+/* Sorts the breaks, and unites those that touch. */
 static void merge(struct br_breaks *b)
 {
     size_t kept = 0;
@@ -171,7 +171,8 @@ static enum br_status search(const struct br_function *guard, enum br_variable a
         out->at = br_allocate(2 * MOST_BREAKS, sizeof *out->at);
     if (!out->at)
         return br_no_memory(err, "the breaks of a function");
-    s.before = sign_on(&s, point(all->low)); /* so that zero from the start on is no break */
+    /* A guard that is zero from the start on has no break there. */
+    s.before = sign_on(&s, point(all->low));
     locate(&s, *all);
     merge(out);
     return s.status;
@@ -201,7 +202,7 @@ enum br_status br_breaks_add(const struct br_function *f, enum br_variable along
     return status;
 }
 
-/* Whether a guard's derivative by x is not zero wherever it may be zero itself. */
+/* Whether a guard's derivative by x is proved nonzero wherever the guard may be zero. */
 static bool has_single_front(const struct br_function *g, struct br_box box, int depth)
 {
     iv value, slope[2];
@@ -257,11 +258,11 @@ static void add_cell(struct mesher *m, iv cell, bool rough, double range)
 {
     struct br_mesh *out = m->out;
     if (out->count == out->capacity) {
-        char place[80];
-        br_name_place(m->f, with(m->box, m->along, cell), place);
+        char position[80];
+        br_name_position(m->f, with(m->box, m->along, cell), position);
         m->status = br_fail(m->err, BR_BAD_INPUT,
                             "it cannot be resolved: after %zu pieces it still changes near %s",
-                            out->count, place);
+                            out->count, position);
         return;
     }
     out->at[out->count] = cell.low;
@@ -271,7 +272,7 @@ static void add_cell(struct mesher *m, iv cell, bool rough, double range)
         out->missed += width(cell) * range;
 }
 
-/* Its inside: what breaks at an end of the cell does so outside. */
+/* The inside of a cell: a break at an end of the cell is excluded. */
 static iv inside(iv cell)
 {
     const iv in = {nextafter(cell.low, INFINITY), nextafter(cell.high, -INFINITY)};
@@ -296,14 +297,14 @@ static void refine(struct mesher *m, iv cell)
     iv value;
     const bool bounded = br_function_bound(m->f, box, &value);
     const double range = width(value), tolerance = m->aim->tolerance;
-    /* Chebyshev's interpolants are not wider than 3 times that (degree 15) */
+    /* the interpolant's range is at most 3 times that of f (degree 15) */
     const bool flat = bounded && 4 * range <= tolerance;
     if (flat || (bounded && is_polynomial(m, box, cell)))
         add_cell(m, cell, false, range);
     else if (bounded && width(cell) * range <= tolerance * m->total)
         add_cell(m, cell, true, range);
     else if (!is_divisible(cell)) {
-        m->out->capacity = m->out->count; /* no further */
+        m->out->capacity = m->out->count; /* stop here */
         add_cell(m, cell, true, range);
     } else {
         refine(m, (iv){cell.low, middle(cell)});
@@ -311,7 +312,7 @@ static void refine(struct mesher *m, iv cell)
     }
 }
 
-/* From break to break. */
+/* Refines the intervals between breaks, and wide breaks themselves. */
 static void refine_between(struct mesher *m, const struct br_breaks *breaks)
 {
     const iv all = *side(&m->box, m->along);

@@ -13,7 +13,7 @@ static inline double br_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The same of the processor in this thread alone. */
+/* Seconds of processor time of this thread. */
 static inline double br_thread_seconds(void)
 {
     struct timespec t;

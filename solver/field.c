@@ -16,7 +16,7 @@ const double br_bending_mass[4][4] = {
 /* Integrals over one element of the shape functions, over h. */
 static const double axial_mean[2] = {1.0 / 2, 1.0 / 2};
 static const double bending_mean[4] = {1.0 / 2, 1.0 / 12, 1.0 / 2, -1.0 / 12};
-/* The bubble of the element before has nothing here. */
+/* The bubble of the element before has no integral here. */
 static const double quadratic_mean[4] = {1.0 / 2, 0, 1.0 / 2, -1.0 / 6};
 
 enum { GAUSS = 5 };
@@ -184,7 +184,7 @@ enum br_status br_interpolate(const struct br_field *field, const struct br_func
     }
     for (size_t a = 0; a < unknowns; a++)
         nodal[a] = 0;
-    /* what the middle of each element lacks of its chord, four times */
+    /* four times the chord minus the value at the middle of each element */
     if (!status && br_field_is_quadratic(field)) {
         for (size_t e = 0; e < field->n; e++)
             x[e] = field->h * ((double)e + 0.5);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One discretised field (axial or bending) on n equal elements, and the
- * element's exact integrals. Nodal arrays hold, node by node from the clamped
- * end, u for axial and the pair (w, s) with the scaled slope s = h w_x for
- * bending, all in metres; the clamped node 0 is stored and stays zero.
- * A rod of quadratic elements has the pair (u, b), where b is the bubble of the element that ends
- * at the node, the one to its left: with xi in [0, 1] along it,
+/* One discretised field (axial or bending) on n equal elements, and the element's exact integrals.
+ * Nodal arrays contain, node by node from the clamped end, u for axial and the pair (w, s) with the
+ * scaled slope s = h w_x for bending, all in metres; the clamped node 0 is stored and stays zero. A
+ * rod of quadratic elements has the pair (u, b), where b is the bubble of the element that ends at
+ * the node, the one to its left: with xi in [0, 1] along it,
  *     u = (1 - xi) u0 + xi u1 - xi (1 - xi) b,    h u_x = (u1 - u0) + (2 xi - 1) b,
  * so that u is the nodes' chord, less b/4 in the middle. (Szabo and Babuska 1991: the bubble is an
  * integrated Legendre polynomial, orthogonal to the chord in energy.) */
@@ -24,7 +23,7 @@ struct br_field {
     double stiffness; /* a, N or N m^2 */
     double viscosity; /* c, N s or N m^2 s */
     double k;         /* time step, s */
-    int degree;       /* of axial elements: 2, or 1 (0 is the same); bending has its own */
+    int degree;       /* of axial elements: 1 (or 0) or 2; not used for bending */
 };
 
 /* The field of the given kind of a scene, on n elements with the time step k; degree 1. */
@@ -37,15 +36,15 @@ static inline bool br_field_is_quadratic(const struct br_field *field)
     return field->kind == BR_AXIAL && field->degree == 2;
 }
 
-/* Unknowns a node, or what deforms an element: 1 axial, 2 bending; 2 axial if quadratic. */
+/* Unknowns a node, which is also the number of strains an element: 1 axial, 2 bending; 2 axial if
+ * quadratic. */
 size_t br_field_unknowns(const struct br_field *field);
 
-/* mu^2 of the lowest mode with a free tip, so that its elastic frequency is the root of a mu^2 /
- * rho: (pi/2)^2 / L^2 axial, 1.875^4 / L^4 bending; 1/m^2 or 1/m^4. */
+/* mu^2 of the lowest mode with a free tip, so that its elastic frequency is sqrt(a mu^2 / rho):
+ * (pi/2)^2 / L^2 axial, 1.875^4 / L^4 bending; 1/m^2 or 1/m^4. */
 double br_field_lowest_mode(const struct br_field *field);
 
-/* How much heavier the field is in one step than it is stiff, in its lowest mode: rho / (k (c + k
- * a) mu^2). */
+/* The ratio of inertia to stiffness in one step, in the lowest mode: rho / (k (c + k a) mu^2). */
 double br_field_inertia(const struct br_field *field);
 
 /* Length of a nodal array, clamped node included: unknowns * (n + 1). */
@@ -74,8 +73,8 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
 
 /* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s,
  * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending; else
- * NULL. The clamped node is set to zero. Other threads may use the functions: clones are evaluated.
- * Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
+ * NULL. The clamped node is set to zero. Clones of the functions are evaluated, so that other
+ * threads may use the functions. Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err);
 

@@ -6,38 +6,37 @@
 
 /* ---- initial data ---- */
 
-static enum br_status set_initial(struct br_field_march *part,
-                                  const struct br_function *displacement,
+static enum br_status set_initial(struct br_field_march *fm, const struct br_function *displacement,
                                   const struct br_function *displacement_slope,
                                   const struct br_function *velocity,
                                   const struct br_function *velocity_slope, struct br_error *err)
 {
     if (br_function_is_zero(displacement) && br_function_is_zero(velocity))
         return BR_OK; /* a solver starts at rest */
-    const size_t size = br_field_size(&part->field);
+    const size_t size = br_field_size(&fm->field);
     double *nodal = br_allocate(2 * size, sizeof *nodal);
     if (!nodal)
         return br_no_memory(err, "the initial data");
     enum br_status status =
-        br_interpolate(&part->field, displacement, displacement_slope, nodal, err);
+        br_interpolate(&fm->field, displacement, displacement_slope, nodal, err);
     if (!status)
-        status = br_interpolate(&part->field, velocity, velocity_slope, nodal + size, err);
+        status = br_interpolate(&fm->field, velocity, velocity_slope, nodal + size, err);
     for (size_t i = 0; i < size && !status; i++)
-        part->started_with =
-            fmax(part->started_with, fmax(fabs(nodal[i]), part->field.k * fabs(nodal[size + i])));
-    if (!status && !(part->started_with <= br_most_size))
+        fm->started_with =
+            fmax(fm->started_with, fmax(fabs(nodal[i]), fm->field.k * fabs(nodal[size + i])));
+    if (!status && !(fm->started_with <= br_most_size))
         status = br_fail(
             err, BR_NOT_FINITE, "the %s initial data are as large as %g m, expected at most %g m",
-            part->field.kind == BR_AXIAL ? "axial" : "bending", part->started_with, br_most_size);
+            fm->field.kind == BR_AXIAL ? "axial" : "bending", fm->started_with, br_most_size);
     if (!status)
-        part->solver->set(part->state, nodal, nodal + size);
+        fm->solver->set(fm->state, nodal, nodal + size);
     free(nodal);
     return status;
 }
 
 /* ---- what a scheme keeps ---- */
 
-/* Whether Z is the state that the step begins with. */
+/* Whether Z is the state at the start of the step. */
 static bool starts_now(const struct br_stage *stage)
 {
     for (int i = 0; i < BR_KNOWN; i++)
@@ -58,7 +57,7 @@ static void find_needed(const struct br_time_scheme *scheme, bool needed[BR_KNOW
                 needed[known] |= s.stage[i].weight[known] != 0 && (i > 0 || !starts_now(s.stage));
         }
     }
-    needed[BR_NOW] |= scheme->adaptive; /* to go back to */
+    needed[BR_NOW] |= scheme->adaptive; /* rejected steps return to it */
     needed[BR_NOW] |= needed[BR_BEFORE];
 }
 
@@ -92,116 +91,115 @@ double br_time_scheme_sums(const struct br_time_scheme *scheme)
     for (int i = 0; i < s.count; i++)
         if (i > 0 || !starts_now(&s.stage[i]))
             sum += passes(s.stage[i].weight);
-    if (needed[BR_RATE]) /* which the end of the step makes */
+    if (needed[BR_RATE]) /* which the end of the step computes */
         sum += passes(s.stage[s.count - 1].weight);
     return sum / s.count;
 }
 
-enum br_status br_field_march_create(struct br_field_march *part, const struct br_scene *s,
+enum br_status br_field_march_create(struct br_field_march *fm, const struct br_scene *s,
                                      const struct br_field *field, const struct br_method *method,
                                      struct br_error *err)
 {
     const bool axial = field->kind == BR_AXIAL;
-    part->modelled = axial ? s->axial.modelled : s->bending.modelled;
-    part->field = *field;
-    if (!part->modelled)
+    fm->modelled = axial ? s->axial.modelled : s->bending.modelled;
+    fm->field = *field;
+    if (!fm->modelled)
         return BR_OK;
     const struct br_linear_solver *row = br_method_solver(method, field);
-    part->solver = br_linear_solver_for(row, field);
-    enum br_status status = part->solver->create(row, field, &method->linear, &part->state, err);
+    fm->solver = br_linear_solver_for(row, field);
+    enum br_status status = fm->solver->create(row, field, &method->linear, &fm->state, err);
     if (!status)
-        status = br_step_load_init(&part->load, s, field, err);
+        status = br_step_load_init(&fm->load, s, field, err);
     bool needed[BR_KNOWN] = {false};
     find_needed(method->scheme, needed);
     for (int i = 0; i < BR_KNOWN; i++)
         if (needed[i])
-            part->slot[i] = ++part->kept;
-    if (!status && part->kept)
-        status = part->solver->keep(part->state, part->kept, err);
+            fm->buffer[i] = ++fm->kept;
+    if (!status && fm->kept)
+        status = fm->solver->keep(fm->state, fm->kept, err);
     if (status)
         return status;
     if (axial)
-        return set_initial(part, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
-    return set_initial(part, &s->bending.displacement, &s->bending.displacement_slope,
+        return set_initial(fm, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
+    return set_initial(fm, &s->bending.displacement, &s->bending.displacement_slope,
                        &s->bending.velocity, &s->bending.velocity_slope, err);
 }
 
-void br_field_march_clear(struct br_field_march *part)
+void br_field_march_clear(struct br_field_march *fm)
 {
-    if (part->solver)
-        part->solver->free(part->state);
-    br_step_load_clear(&part->load);
+    if (fm->solver)
+        fm->solver->free(fm->state);
+    br_step_load_clear(&fm->load);
 }
 
 /* ---- a step ---- */
 
-/* Copies a slot's state into the solver's, or the other way round. */
-static void copy(struct br_field_march *part, size_t from, size_t into)
+/* Copies a kept state into the solver's, or the solver's into a kept one. */
+static void copy(struct br_field_march *fm, size_t from, size_t into)
 {
     double weight[BR_MOST_STATES] = {0};
     weight[from] = 1;
-    part->solver->combine(part->state, into, (from > into ? from : into) + 1, weight);
+    fm->solver->combine(fm->state, into, (from > into ? from : into) + 1, weight);
 }
 
-void br_field_march_keep(struct br_field_march *part, int known)
+void br_field_march_keep(struct br_field_march *fm, int known)
 {
-    if (part->slot[known])
-        copy(part, 0, part->slot[known]);
+    if (fm->buffer[known])
+        copy(fm, 0, fm->buffer[known]);
 }
 
-void br_field_march_recall(struct br_field_march *part, int known)
+void br_field_march_recall(struct br_field_march *fm, int known)
 {
-    copy(part, part->slot[known], 0);
+    copy(fm, fm->buffer[known], 0);
 }
 
-/* Adds `factor` times the weights to those by slot. */
-static void add_weights(const struct br_field_march *part, double factor,
-                        const double weight[BR_KNOWN], double by_slot[BR_MOST_STATES])
+/* Adds `factor` times the weights to the weights by the solver's index. */
+static void add_weights(const struct br_field_march *fm, double factor,
+                        const double weight[BR_KNOWN], double by_buffer[BR_MOST_STATES])
 {
     for (int i = 0; i < BR_KNOWN; i++)
         if (weight[i] != 0)
-            by_slot[part->slot[i]] +=
-                factor * weight[i] * (i == BR_RATE ? part->field.k / part->rate_tau : 1);
+            by_buffer[fm->buffer[i]] +=
+                factor * weight[i] * (i == BR_RATE ? fm->field.k / fm->rate_tau : 1);
 }
 
-enum br_status br_field_march_start_stage(struct br_field_march *part,
-                                          const struct br_stages *stages, int i, double k,
-                                          struct br_error *err)
+enum br_status br_field_march_start_stage(struct br_field_march *fm, const struct br_stages *stages,
+                                          int i, double k, struct br_error *err)
 {
     const struct br_stage *stage = &stages->stage[i];
     const double tau = stage->gamma * k;
-    if (tau != part->field.k) {
-        part->counts.set_ups++;
-        part->field.k = tau;
-        const enum br_status status = part->solver->set_step(part->state, tau, err);
+    if (tau != fm->field.k) {
+        fm->counts.set_ups++;
+        fm->field.k = tau;
+        const enum br_status status = fm->solver->set_step(fm->state, tau, err);
         if (status)
             return status;
     }
     if (i == 0 && starts_now(stage)) {
-        br_field_march_keep(part, BR_NOW);
+        br_field_march_keep(fm, BR_NOW);
         return BR_OK;
     }
-    /* What the solver has becomes a state that is kept, without a copy. */
-    part->solver->exchange(part->state, 0, part->slot[i == 0 ? BR_NOW : BR_STAGE + i - 1]);
-    double by_slot[BR_MOST_STATES] = {0};
-    add_weights(part, 1, stage->weight, by_slot);
-    part->solver->combine(part->state, 0, part->kept + 1, by_slot);
+    /* The solver's state becomes a kept one, without a copy. */
+    fm->solver->exchange(fm->state, 0, fm->buffer[i == 0 ? BR_NOW : BR_STAGE + i - 1]);
+    double by_buffer[BR_MOST_STATES] = {0};
+    add_weights(fm, 1, stage->weight, by_buffer);
+    fm->solver->combine(fm->state, 0, fm->kept + 1, by_buffer);
     return BR_OK;
 }
 
 /* The largest nodal force of a load whose vector is zero: the load may be so small that its
- * products with h are lost. */
-static long double lost_force(const struct br_field_march *part, double t)
+ * products with h underflow. */
+static long double lost_force(const struct br_field_march *fm, double t)
 {
-    const struct br_step_load *load = &part->load;
-    double most = 0; /* a sum has the factors in its vector */
+    const struct br_step_load *load = &fm->load;
+    double most = 0; /* the vector of a sum contains the factors */
     for (size_t i = 0; i < load->terms; i++)
-        most = fmax(most, br_load_peak(&part->field, &load->functions.term[i].space, t) *
+        most = fmax(most, br_load_peak(&fm->field, &load->functions.term[i].space, t) *
                               (load->sum ? fabs(load->factor[i]) : 1));
-    return (long double)most * part->field.h;
+    return (long double)most * fm->field.h;
 }
 
-/* The largest of some magnitudes; NaN is none. In lanes, which the compiler finds. */
+/* The largest of some magnitudes; NaN is ignored. In lanes, so that the compiler uses vectors. */
 static double largest_of(const double *value, size_t size)
 {
     enum { LANES = 8 };
@@ -216,64 +214,62 @@ static double largest_of(const double *value, size_t size)
     return most[0];
 }
 
-/* What the largest force is, for br_march_check_range. */
-static void see_load(struct br_field_march *part, double t)
+/* Updates the largest nodal force, for br_march_check_range. */
+static void record_load(struct br_field_march *fm, double t)
 {
-    const struct br_drive *drive = &part->load.drive;
+    const struct br_drive *drive = &fm->load.drive;
     if (drive->vector && drive->changed) {
-        const double most = largest_of(drive->vector, br_field_size(&part->field));
-        part->load_size = most > 0 ? most : lost_force(part, t);
+        const double most = largest_of(drive->vector, br_field_size(&fm->field));
+        fm->load_size = most > 0 ? most : lost_force(fm, t);
     }
-    const long double force[] = {part->load_size * fabs(drive->factor), fabs(drive->tip[0]),
+    const long double force[] = {fm->load_size * fabs(drive->factor), fabs(drive->tip[0]),
                                  fabs(drive->tip[1])};
     for (int i = 0; i < 3; i++) /* fmaxl would be a call in every step */
-        if (force[i] > part->moved_by)
-            part->moved_by = force[i];
+        if (force[i] > fm->moved_by)
+            fm->moved_by = force[i];
 }
 
-enum br_status br_field_march_predict(struct br_field_march *part, double t, double *velocity,
+enum br_status br_field_march_predict(struct br_field_march *fm, double t, double *velocity,
                                       struct br_error *err)
 {
-    const enum br_status status = br_step_load_update(&part->load, &part->field, t, err);
+    const enum br_status status = br_step_load_update(&fm->load, &fm->field, t, err);
     if (status)
         return status;
-    see_load(part, t);
-    if (!(part->moved_by <= br_most_size))
+    record_load(fm, t);
+    if (!(fm->moved_by <= br_most_size))
         return br_fail(err, BR_NOT_FINITE,
                        "the %s load at t = %g s has a nodal force of %Lg N, "
                        "expected at most %g",
-                       part->field.kind == BR_AXIAL ? "axial" : "bending", t, part->moved_by,
+                       fm->field.kind == BR_AXIAL ? "axial" : "bending", t, fm->moved_by,
                        br_most_size);
-    part->counts.stages++;
-    const enum br_status predicted =
-        part->solver->predict(part->state, &part->load.drive, velocity, err);
-    part->load.drive.changed = false;
+    fm->counts.stages++;
+    const enum br_status predicted = fm->solver->predict(fm->state, &fm->load.drive, velocity, err);
+    fm->load.drive.changed = false;
     return predicted;
 }
 
-void br_field_march_accept(struct br_field_march *part, const struct br_stages *stages,
-                           bool switched)
+void br_field_march_accept(struct br_field_march *fm, const struct br_stages *stages, bool switched)
 {
     static const int history[] = {BR_NOW, BR_BEFORE, BR_BEFORE_THAT};
-    if (part->slot[BR_RATE] && !switched) { /* tau Y': what its last stage has added to its start */
-        double by_slot[BR_MOST_STATES] = {1};
-        add_weights(part, -1, stages->stage[stages->count - 1].weight, by_slot);
-        part->solver->combine(part->state, part->slot[BR_RATE], part->kept + 1, by_slot);
-        part->rate_tau = part->field.k;
+    if (fm->buffer[BR_RATE] && !switched) { /* tau Y' = Y - Z of the last stage */
+        double by_buffer[BR_MOST_STATES] = {1};
+        add_weights(fm, -1, stages->stage[stages->count - 1].weight, by_buffer);
+        fm->solver->combine(fm->state, fm->buffer[BR_RATE], fm->kept + 1, by_buffer);
+        fm->rate_tau = fm->field.k;
     }
-    for (int i = 2; i > 0; i--) { /* the oldest makes room for what begins the next step */
-        size_t *newer = &part->slot[history[i - 1]], *older = &part->slot[history[i]], old = *older;
+    for (int i = 2; i > 0; i--) { /* the next step's start overwrites the oldest */
+        size_t *newer = &fm->buffer[history[i - 1]], *older = &fm->buffer[history[i]], old = *older;
         if (old) {
             *older = *newer;
             *newer = old;
         }
     }
-    part->since = switched ? 0 : part->since + 1;
-    part->counts.steps++;
+    fm->since = switched ? 0 : fm->since + 1;
+    fm->counts.steps++;
 }
 
-/* The strain that a strain rate of 1/s leads to without loads, s: that of the lowest mode, which
- * swings or creeps there. */
+/* The strain that a strain rate of 1/s leads to without loads, s, in the lowest mode, which swings
+ * or creeps. */
 static double reach_of_rate(const struct br_field *f)
 {
     const double number = br_field_lowest_mode(f);
@@ -284,21 +280,21 @@ static double reach_of_rate(const struct br_field *f)
     return fmin(swing, creep);
 }
 
-void br_field_march_estimate(struct br_field_march *part, const struct br_stages *stages,
+void br_field_march_estimate(struct br_field_march *fm, const struct br_stages *stages,
                              double *error, double *state)
 {
-    const int last = BR_STAGE + stages->count - 1; /* which the solver still has */
-    /* A start may have a tip that moves and now sticks: that is no error, and no step is shorter.
-     */
-    const double reach = part->since > 0 ? reach_of_rate(&part->field) : 0;
-    double size[2], by_slot[BR_MOST_STATES] = {0}, weight[BR_KNOWN];
+    const int last = BR_STAGE + stages->count - 1; /* which is still the solver's state */
+    /* In the first step after a start a moving tip may have come to stick: that jump of the rate is
+     * no error, and shorter steps would not reduce it. */
+    const double reach = fm->since > 0 ? reach_of_rate(&fm->field) : 0;
+    double size[2], by_buffer[BR_MOST_STATES] = {0}, weight[BR_KNOWN];
     memcpy(weight, stages->error, sizeof weight);
-    by_slot[0] = weight[last];
+    by_buffer[0] = weight[last];
     weight[last] = 0;
-    add_weights(part, 1, weight, by_slot);
-    part->solver->combine(part->state, part->slot[last], part->kept + 1, by_slot);
-    part->solver->size(part->state, part->slot[last], size);
+    add_weights(fm, 1, weight, by_buffer);
+    fm->solver->combine(fm->state, fm->buffer[last], fm->kept + 1, by_buffer);
+    fm->solver->size(fm->state, fm->buffer[last], size);
     *error = fmax(size[0], reach > 0 ? reach * size[1] : 0);
-    part->solver->size(part->state, 0, size);
+    fm->solver->size(fm->state, 0, size);
     *state = size[0];
 }

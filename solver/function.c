@@ -8,7 +8,7 @@
 void br_function_evaluate(const struct br_function *f, size_t count, const double *x, double t,
                           double *value)
 {
-    if (f->ops) { /* whoever uses the value reports 1/0 of an expression */
+    if (f->ops) { /* the caller reports values that are not finite */
         const int traps = br_traps_lift();
         f->ops->evaluate(f->self, count, x, t, value);
         br_traps_restore(traps);

@@ -28,21 +28,22 @@ struct br_partial {
 
 enum { BR_DERIVATION_TERMS = 3 };
 
-/* A sum of a function's derivatives, each with a factor. Those with the factor 0 cost nothing. */
+/* A sum of a function's derivatives, each with a factor. Terms with the factor 0 cost nothing. */
 struct br_derivation {
     size_t count;
     struct {
         double factor;
         struct br_partial order;
     } term[BR_DERIVATION_TERMS];
-    double x, t; /* m, s: where it is taken, whatever is asked for; NaN: as asked */
+    double x, t; /* m, s: the point of evaluation, whatever x and t are given; NaN: the given one */
 };
 
 struct br_function;
 
 /* How a function is evaluated, copied, released, and enclosed. An instance may be used by one
- * thread at a time; clone it for another. Without bound, taylor or guard (NULL) nothing is proved
- * of it, and who needs a proof refuses it. Without derive it has no derivatives. */
+ * thread at a time; clone it for another. Without bound, taylor or guard (NULL) nothing can be
+ * proved of the function, and callers that need a proof refuse it. Without derive it has no
+ * derivatives. */
 struct br_function_ops {
     /* x: in, m, count values; t: s; value: out, count values */
     void (*evaluate)(void *self, size_t count, const double *x, double t, double *value);
@@ -50,22 +51,23 @@ struct br_function_ops {
     void (*free)(void *self);         /* accepts NULL */
 
     /* Encloses all values that evaluate gives, or exact arithmetic would, in a box; rounded
-     * outward. False: that failed, the function may be infinite or no number there. */
+     * outward. False: there is no enclosure; the function may be infinite or not a number there. */
     bool (*bound)(const void *self, struct br_box box, struct br_interval *value);
 
     /* Encloses the Taylor coefficients f^(i) / i! along one variable, i = 0 to order, at all points
      * of the box. False: the function may be infinite, no number, or not smooth somewhere in the
-     * box (at a guard, or like a root at zero). */
+     * box (at a guard, or as sqrt is at zero). */
     bool (*taylor)(const void *self, enum br_variable along, struct br_box box, size_t order,
                    struct br_interval *coefficient);
 
     /* Guard i, borrowed, or NULL from the last one on: a function whose change of sign, and nothing
-     * else, makes this function or a derivative of it jump. The argument of step, abs and sign, the
-     * difference of what min, max and a comparison compare. It is enclosed, and nothing else. */
+     * else, makes this function or a derivative of it jump. A guard is the argument of step, abs
+     * and sign, or the difference of the two arguments of min, max and a comparison. A guard has
+     * enclosures only. */
     const struct br_function *(*guard)(const void *self, size_t i);
 
-    /* A sum of derivatives as a function (out), by rule; at a jump or a kink what it is beside it.
-     * Fails with BR_NO_MEMORY or BR_BAD_INPUT (it is too long). */
+    /* A sum of derivatives as a function (out), by the rules of differentiation; at a jump or a
+     * kink it has the value beside it. Fails with BR_NO_MEMORY or BR_BAD_INPUT (it is too long). */
     enum br_status (*derive)(const void *self, const struct br_derivation *what,
                              struct br_function *out, struct br_error *err);
 };
@@ -92,7 +94,7 @@ void br_function_free(struct br_function *f);
 /* Whether f is the constant zero. */
 bool br_function_is_zero(const struct br_function *f);
 
-/* The proofs, as struct br_function_ops has them; value and coefficient (order + 1) are out. */
+/* Enclosures and guards, as in br_function_ops; value and coefficient (order + 1) are out. */
 bool br_function_bound(const struct br_function *f, struct br_box box, struct br_interval *value);
 bool br_function_taylor(const struct br_function *f, enum br_variable along, struct br_box box,
                         size_t order, struct br_interval *coefficient);

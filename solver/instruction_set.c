@@ -33,16 +33,16 @@ static const struct {
 
 size_t br_instruction_set_best(void)
 {
-    size_t place = 0;
-    while (!sets[place].available())
-        place++;
-    return place;
+    size_t set = 0;
+    while (!sets[set].available())
+        set++;
+    return set;
 }
 
 size_t br_instruction_set_find(const char *name)
 {
-    size_t place = 0;
-    while (place < sizeof sets / sizeof *sets && strcmp(sets[place].name, name) != 0)
-        place++;
-    return place;
+    size_t set = 0;
+    while (set < sizeof sets / sizeof *sets && strcmp(sets[set].name, name) != 0)
+        set++;
+    return set;
 }

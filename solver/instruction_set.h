@@ -16,24 +16,23 @@
 #define BR_WIDTH_avx2 4
 #define BR_WIDTH_portable 2
 
-/* Whether the processor has it. */
+/* Whether the processor has the set. */
 bool br_has_avx512(void);
 bool br_has_avx2(void);
 bool br_has_portable(void);
 
-/* A list of what is compiled for each set has them in this order, and NULL behind the last. The
- * place in it of the first set that the processor has; of a set by its name, which may be NULL's:
- * there is none. */
+/* Lists with one entry a set have this order, and NULL at the end. The index in such a list of the
+ * first set that the processor has, or of the set of that name; if there is no such set, the index
+ * of NULL. */
 size_t br_instruction_set_best(void);
 size_t br_instruction_set_find(const char *name);
 
 /* ---- loops that the compiler makes copies of ---- */
 
-/* How the sweeps are compiled. A sweep is one chain of dependent multiply-adds,
- * bound by their latency, so these files, and the ladder's kernels (study/grid/ladder_loops.c),
- * alone are compiled with contraction (-ffp-contract=fast; all others with =off), and on x86-64 the
- * program picks at run time a copy that uses fused multiply-add where the processor has it
- * (-DBR_NO_FMA: never). */
+/* How the sweeps are compiled. A sweep is one chain of dependent multiply-adds, and their latency
+ * limits its speed. So only the files of the sweeps and study/grid/ladder_loops.c are compiled with
+ * contraction (-ffp-contract=fast; all others with =off), and on x86-64 the program picks at run
+ * time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA: never). */
 
 #if defined __has_feature
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \

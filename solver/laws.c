@@ -78,8 +78,8 @@ static double clamp(double lambda, double bound)
     return isless(lambda, -bound) ? -bound : lambda;
 }
 
-/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. Where that is certain
- * nothing is divided, which could overflow. */
+/* (12): stick, v = 0, while |lambda| <= h; slip with |lambda| = h otherwise. Where slip is certain
+ * there is no division, which could overflow. */
 static double exact_force(struct br_friction_state *s)
 {
     if (isgreater(fabs(s->free_velocity), 2 * s->bound * s->compliance))
@@ -137,8 +137,8 @@ static const struct br_friction_rule regularised = {
  * Neither P nor 2 P - I takes points apart, so an iteration leaves |1 - a| of an error at most:
  * Uzawa converges for 0 < rho z < 2, penalty-duality for all omega z > 0, both at once for 1. */
 
-/* f = v* / (z b), without a product or quotient on the way that is no double. Its limit, 1e50,
- * changes no lambda, and keeps what follows finite. */
+/* f = v* / (z b), without overflow or underflow in between. The limit of 1e50 changes no lambda,
+ * and keeps later values finite. */
 static double relative_force(const struct br_friction_state *s)
 {
     const int most = 166; /* 2^166 is about 1e50 */
@@ -155,8 +155,7 @@ static double relative_last(const struct br_friction_state *s)
     return isgreaterequal(fabs(s->last), s->bound) ? copysign(1, s->last) : s->last / s->bound;
 }
 
-/* lambda; it is exact where the slip is certain. Without a bound there is no friction; what is not
- * a number stays so. */
+/* lambda; it is exact where slip is certain. A bound of 0 means no friction; NaN gives NaN. */
 static double iterated_force(struct br_friction_state *s, bool reflects)
 {
     if (s->bound == 0 && !isnan(s->free_velocity) && !isnan(s->compliance))
@@ -247,11 +246,11 @@ enum br_status br_friction_check(const struct br_friction_rule *rule, const stru
 
 /* ---- the limit of the lagged contact ---- */
 
-/* An element without its bubble: [d o; o d] works on its two nodes. What is needed, over N/m, is
- * d + o, which is inertia alone, and d - o. Neither subtracts anything. A chain of n of them,
+/* An element without its bubble: [d o; o d] works on its two nodes. Needed are d + o, which is
+ * inertia alone, and d - o, N/m. Neither is computed by a subtraction. A chain of n of them,
  * clamped at one end: with tanh^2(theta/2) = (d + o)/(d - o), displacements are sinh(i theta), and
- * 1/G = (d - o) tanh(theta/2) coth(n theta). Where d + o exceeds d - o neighbours alternate, and
- * the ratio's inverse stands for it. */
+ * 1/G = (d - o) tanh(theta/2) coth(n theta). Where d + o exceeds d - o, displacements of neighbours
+ * alternate in sign, and the inverse ratio is used. */
 double br_tip_flexibility(const struct br_field *field, double s)
 {
     const double n = (double)field->n;
@@ -287,8 +286,8 @@ bool br_contact_grows(const struct br_field *field, double stiffness)
 /* A value that is not positive below a root and positive above it. */
 typedef double (*rising)(const struct br_field *field, double stiffness, double x);
 
-/* The root between low and high, both positive, to the last digits; the end below it. Halving needs
- * no memory and cannot fail. */
+/* The root between low and high, both positive, to the last digits, from below. Bisection needs no
+ * memory and cannot fail. */
 static double root_of(rising f, const struct br_field *field, double stiffness, double low,
                       double high)
 {

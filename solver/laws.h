@@ -8,12 +8,10 @@
 
 /* ---- contact ---- */
 
-/* When (10) takes its penetration. */
-
 /* The tip before and during a step. */
 struct br_contact_state {
     double displacement;  /* u_{n-1}(L), m */
-    double free_velocity; /* v*, the tip's velocity were there no contact, m/s */
+    double free_velocity; /* v*, the tip's velocity without contact, m/s */
     double compliance;    /* z_tip, m/s per N */
     double k;             /* time step, s */
 };
@@ -36,15 +34,15 @@ double br_penetration(const struct br_contact *contact, double displacement);
 
 /* ---- friction ---- */
 
-/* How rules that iterate do so. */
+/* Parameters of rules that iterate. */
 struct br_iteration {
-    double parameter; /* over the one that converges fastest, 1 / z_tip: 1 is that one */
+    double parameter; /* relative to 1 / z_tip, which converges fastest */
     double tolerance; /* of lambda, relative to the bound */
     size_t most;      /* iterations a step; a march that needs more fails */
 };
 
-/* 1/2: as if z_tip were known within a factor of 2, and taken on its safe side, too large. 1 would
- * be the solution in one iteration, which nobody has who does not solve for z_tip first. */
+/* The parameter 1/2 suits a user who knows z_tip within a factor of 2 and takes the larger, safe
+ * value. The parameter 1 needs z_tip itself, and then one iteration gives the solution. */
 extern const struct br_iteration br_iteration_defaults;
 
 /* With v = v* - lambda z: find lambda in bound * Sign(v), or its regularisation. */
@@ -53,7 +51,7 @@ struct br_friction_state {
     double compliance;     /* z_tip, m/s per N */
     double bound;          /* h(t_n) >= 0, N */
     double regularisation; /* mu, m/s */
-    double last;           /* lambda of the step before, N: where iterations start */
+    double last;           /* lambda of the step before, N: the start of iterations */
     struct br_iteration iteration;
     size_t iterations; /* out: added to by rules that iterate */
 };
@@ -65,8 +63,8 @@ struct br_friction_rule {
     bool needs_regularisation; /* the scene must give mu > 0 */
     bool iterates;             /* uses br_iteration */
     double parameter_below;    /* iterations converge for parameters > 0 below this */
-    /* lambda = -sigma_V(L), N: the friction force that resists the tip. NaN: the data are, or the
-     * iterations did not converge. */
+    /* lambda = -sigma_V(L), N: the friction force that resists the tip. NaN: the data are NaN, or
+     * the iterations did not converge. */
     double (*force)(struct br_friction_state *state);
 };
 
@@ -93,8 +91,8 @@ double br_friction_bound(const struct br_scene *scene, double penetration);
  * error grows by it in every step, with alternating sign. Without inertia this is c_H L <= a +
  * 2c/k.
  *
- * An opening and closing contact is another matter: multiply a step with its v_n, and the energies
- * with the contact's own do not grow, whatever the tip does, as long as
+ * For a contact that opens and closes, multiply a step with its v_n: the energy, with the contact's
+ * own, does not grow, whatever the tip does, as long as
  *     c_H <= min over v of (2/k v'Cv + v'Kv) / v_tip^2 = (a + 2c/k)/L,
  * the limit without inertia. Between the two an impact may gain energy. */
 
@@ -107,19 +105,19 @@ double br_tip_flexibility(const struct br_field *field, double s);
  * step; INFINITY where none is too large. */
 double br_contact_limit_stiffness(const struct br_field *field);
 
-/* The largest c_H, N/m, with which a lagged contact gains no energy however it opens and closes. */
+/* The largest c_H, N/m, with which a lagged contact never gains energy. */
 double br_contact_limit_bouncing(const struct br_field *field);
 
 /* The longest step, s, with which a closed lagged contact of that c_H, N/m, is stable: INFINITY
- * where all are, 0 where none is. */
+ * where all steps are, 0 where no step is. */
 double br_contact_limit_step(const struct br_field *field, double stiffness);
 
-/* Whether a closed lagged contact grows with the field's step; at the limit, to round-off, it does
- * not. */
+/* Whether errors of a closed lagged contact grow with the field's step; at the limit, within
+ * round-off, they do not. */
 bool br_contact_grows(const struct br_field *field, double stiffness);
 
-/* How much it grows in a step: the size of the eigenvalue outside the unit circle; 1 where there is
- * none. */
+/* The factor by which errors grow in a step: the size of the eigenvalue outside the unit circle; 1
+ * where there is none. */
 double br_contact_growth(const struct br_field *field, double stiffness);
 
 #endif

@@ -5,12 +5,12 @@
 
 double br_load_peak(const struct br_field *field, const struct br_function *f, double t)
 {
-    enum { PLACES = 64 };
-    double x[PLACES], value[PLACES], most = 0;
-    for (int i = 0; i < PLACES; i++)
-        x[i] = (i + 0.5) / PLACES * (double)field->n * field->h;
-    br_function_evaluate(f, PLACES, x, t, value);
-    for (int i = 0; i < PLACES; i++)
+    enum { POINTS = 64 };
+    double x[POINTS], value[POINTS], most = 0;
+    for (int i = 0; i < POINTS; i++)
+        x[i] = (i + 0.5) / POINTS * (double)field->n * field->h;
+    br_function_evaluate(f, POINTS, x, t, value);
+    for (int i = 0; i < POINTS; i++)
         most = fmax(most, fabs(value[i]));
     return most;
 }
@@ -86,7 +86,7 @@ static enum br_status update(struct br_step_load *load, const struct br_field *f
 {
     struct br_drive *drive = &load->drive;
     enum br_status status = BR_OK;
-    bool other = false; /* than before, if it is a sum */
+    bool other = false; /* the sum differs from that of the last update */
     for (size_t i = 0; i < load->terms && !status; i++) {
         const struct br_product *term = &load->functions.term[i];
         const double before = load->factor[i];
@@ -120,7 +120,7 @@ static enum br_status update(struct br_step_load *load, const struct br_field *f
 enum br_status br_step_load_update(struct br_step_load *load, const struct br_field *field,
                                    double t, struct br_error *err)
 {
-    struct br_error inner; /* not cleared: this is every step */
+    struct br_error inner; /* not cleared: this runs in every step */
     const enum br_status status = update(load, field, t, &inner);
     if (!status)
         return BR_OK;

@@ -4,9 +4,10 @@
  * with the Lagrange polynomials L_j of m Chebyshev points x_j. Their load vectors are assembled
  * once; a step evaluates f at the x_j alone, where the direct way has five Gauss points an element.
  *
- * On a cell of width w the error is at most |d^m f / dx^m| / m! 2 (w/4)^m. That is enclosed over
- * all times of the march by interval arithmetic (function.h): nothing is sampled. Where f is not
- * smooth, or no few cells do, there is no fit, and the direct way is taken. */
+ * On a cell of width w the error is at most |d^m f / dx^m| / m! 2 (w/4)^m. The derivative is
+ * enclosed over all times of the march by interval arithmetic (function.h), not sampled. Where f is
+ * not smooth, or too many cells would be needed, there is no fit, and the load is assembled
+ * directly. */
 #include "solver/load.h"
 
 #include <math.h>
@@ -16,28 +17,28 @@
 
 enum { MOST_POINTS = BR_MOST_STATES, MOST_CELLS = 256, MOST_HALVINGS = 4 };
 
-/* Elements of a cell, or a share of all: equal cells share their vectors, which then stay in the
- * caches and take little memory. */
+/* A cell has at most so many elements, or this share of all: equal cells share their vectors, which
+ * then stay in the caches and take little memory. */
 enum { MOST_ELEMENTS = 512, LEAST_CELLS = 128 };
 
-/* Points of a cell that are tried, and how many cells' points may be evaluated for an element. */
+/* Numbers of points of a cell to try, and how many evaluations an element each may cost. */
 static const struct {
     size_t points;
     double evaluations;
 } kinds[] = {{8, 0.125}, {12, 0.25}, {MOST_POINTS, 1}};
 
-/* Of the error that is proved, relative to the largest value that is seen; and of a step's, which
- * may be smaller. */
+/* The error that is proved, relative to the largest sampled value; and the error that a step
+ * accepts, relative to its own largest value, which may be smaller. */
 static const double proved = 0x1p-66, wanted = 0x1p-54;
 
-/* Proofs that a march may spend, of an element and step: a quarter of what they may save. */
+/* Proofs for each element and step: they may cost a quarter of the time that a fit saves. */
 static const double proofs_a_step = 4e-4;
 
 struct br_load_fit {
     struct br_field field;
     double duration, error; /* s; N/m, at most */
     size_t points, cells;   /* of a cell */
-    size_t proofs;          /* that are left */
+    size_t proofs;          /* that may still be tried */
     size_t first[MOST_CELLS + 1];
     double *column[MOST_CELLS]; /* the load vectors of each cell's polynomials; those of equal cells
                                    are the same */
@@ -54,7 +55,7 @@ void br_load_fit_free(struct br_load_fit *fit)
     free(fit);
 }
 
-/* In [0, 1]. */
+/* Chebyshev point j in [0, 1]. */
 static double chebyshev_point(size_t points, size_t j)
 {
     const double angle = (2 * (double)j + 1) / (double)(2 * points) * 3.14159265358979323846;
@@ -63,7 +64,8 @@ static double chebyshev_point(size_t points, size_t j)
 
 /* ---- cells ---- */
 
-/* Whether the error is proved to be small on [x0, x1]; times are halved where it is not. */
+/* Whether the error is proved to be small on an interval of x; where a proof fails, the interval of
+ * times is halved. */
 static bool is_good(struct br_load_fit *fit, const struct br_function *f, struct br_interval x,
                     struct br_interval t, int halvings)
 {
@@ -80,7 +82,7 @@ static bool is_good(struct br_load_fit *fit, const struct br_function *f, struct
            is_good(fit, f, x, (struct br_interval){middle, t.high}, halvings - 1);
 }
 
-/* Adds the cells of elements [begin, end); false: they are too many. */
+/* Adds the cells of elements [begin, end); false: there would be too many. */
 static bool add_cells(struct br_load_fit *fit, const struct br_function *f, size_t begin,
                       size_t end, size_t most)
 {
@@ -100,7 +102,7 @@ static bool add_cells(struct br_load_fit *fit, const struct br_function *f, size
            add_cells(fit, f, middle, end, most);
 }
 
-/* At some times. A larger one elsewhere asks for less than is proved. */
+/* The peak at some times. A larger peak at another time would only allow a larger error. */
 static double peak_of(const struct br_field *field, const struct br_function *f, double duration)
 {
     enum { TIMES = 8 };
@@ -156,7 +158,7 @@ static struct br_field cell_field(const struct br_load_fit *fit, size_t cell)
     return field;
 }
 
-/* The first cell of as many elements. */
+/* The first cell with the same number of elements. */
 static size_t equal_cell(const struct br_load_fit *fit, size_t cell)
 {
     size_t i = 0;
@@ -218,7 +220,7 @@ enum br_status br_load_fit_create(const struct br_field *field, const struct br_
 
 /* ---- a step ---- */
 
-/* Whether what is proved is round-off of the largest value. */
+/* Whether the proved error is round-off of the largest value. */
 static bool is_round_off(const struct br_load_fit *fit)
 {
     double most = 0;
@@ -239,7 +241,7 @@ bool br_load_fit_assemble(struct br_load_fit *fit, const struct br_function *f, 
     if (!is_round_off(fit))
         return false;
     const size_t unknowns = br_field_unknowns(&fit->field);
-    double common[2] = {0}; /* the cells before have it at their last node */
+    double common[2] = {0}; /* the load of the cell before at their common node */
     for (size_t cell = 0; cell < fit->cells; cell++) {
         const struct br_field field = cell_field(fit, cell);
         const size_t rows = br_field_size(&field);

@@ -26,7 +26,7 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
                   : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
 }
 
-static enum br_status create_parts(struct br_march *m, size_t n, struct br_error *err)
+static enum br_status create_fields(struct br_march *m, size_t n, struct br_error *err)
 {
     struct br_stages stages;
     br_time_scheme_step(m->method.scheme, 0, &stages);
@@ -35,7 +35,7 @@ static enum br_status create_parts(struct br_march *m, size_t n, struct br_error
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         struct br_field field = br_field_of_scene(m->scene, kind, n, tau);
         field.degree = m->method.axial_degree;
-        status = br_field_march_create(&m->part[kind], m->scene, &field, &m->method, err);
+        status = br_field_march_create(&m->field[kind], m->scene, &field, &m->method, err);
     }
     if (!status && m->method.scheme->adaptive)
         status = br_adaptive_create(m, err);
@@ -56,7 +56,7 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->method = *method;
     m->steps = steps;
     const int rounding = br_rounding_set(method->rounding);
-    status = create_parts(m, n, err);
+    status = create_fields(m, n, err);
     br_rounding_restore(rounding);
     if (status) {
         br_march_free(m);
@@ -73,7 +73,7 @@ void br_march_free(struct br_march *m)
         return;
     free(m->adaptive);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        br_field_march_clear(&m->part[kind]);
+        br_field_march_clear(&m->field[kind]);
     free(m->path);
     free(m);
 }
@@ -90,7 +90,7 @@ enum br_status br_march_allow_lead(struct br_march *m, size_t steps, struct br_e
     return m->path ? BR_OK : br_no_memory(err, "a march");
 }
 
-/* t_n = n T / N, never summed. */
+/* t_n = n T / N, without a sum of steps. */
 static double time_level(const struct br_march *m, size_t n)
 {
     return m->scene->duration * (double)n / (double)m->steps;
@@ -100,34 +100,34 @@ static double time_level(const struct br_march *m, size_t n)
 
 static enum br_status fixed_step(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_field_march *part = &m->part[kind];
-    const struct br_step step = {time_level(m, part->done), time_level(m, part->done + 1),
+    struct br_field_march *fm = &m->field[kind];
+    const struct br_step step = {time_level(m, fm->done), time_level(m, fm->done + 1),
                                  m->scene->duration / (double)m->steps};
     struct br_stages stages;
-    br_time_scheme_step(m->method.scheme, part->since, &stages);
+    br_time_scheme_step(m->method.scheme, fm->since, &stages);
     const enum br_status status =
-        br_march_stages(m, kind, &stages, &step, &m->path[part->done % m->lead], err);
+        br_march_stages(m, kind, &stages, &step, &m->path[fm->done % m->lead], err);
     if (status)
         return status;
     const enum br_regime before = m->regime[kind];
     m->regime[kind] = br_march_regime(m, kind);
-    br_march_accept(m, kind, &stages, part->counts.steps > 0 && m->regime[kind] != before);
+    br_march_accept(m, kind, &stages, fm->counts.steps > 0 && m->regime[kind] != before);
     return BR_OK;
 }
 
 static enum br_status step_field(struct br_march *m, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_field_march *part = &m->part[kind];
+    struct br_field_march *fm = &m->field[kind];
     enum br_status status = BR_OK;
     if (m->adaptive && kind == BR_AXIAL) /* both fields */
         status = br_adaptive_advance(m, err);
-    else if (!m->adaptive && part->modelled)
+    else if (!m->adaptive && fm->modelled)
         status = fixed_step(m, kind, err);
     if (status)
         return status;
-    part->done++;
-    status = br_march_check_finite(m, kind, time_level(m, part->done), err);
-    return status || part->done < m->steps ? status : br_march_check_range(m, kind, err);
+    fm->done++;
+    status = br_march_check_finite(m, kind, time_level(m, fm->done), err);
+    return status || fm->done < m->steps ? status : br_march_check_range(m, kind, err);
 }
 
 enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
@@ -151,7 +151,7 @@ struct br_counts br_march_counts(const struct br_march *m)
 {
     struct br_counts counts = m->counts;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_counts *own = &m->part[kind].counts;
+        const struct br_counts *own = &m->field[kind].counts;
         counts.steps = own->steps > counts.steps ? own->steps : counts.steps;
         counts.stages = own->stages > counts.stages ? own->stages : counts.stages;
         counts.set_ups = own->set_ups > counts.set_ups ? own->set_ups : counts.set_ups;
@@ -207,13 +207,13 @@ size_t br_march_switches(const struct br_march *m, const struct br_switch **firs
 
 size_t br_march_steps_done(const struct br_march *m)
 {
-    const size_t axial = m->part[BR_AXIAL].done, bending = m->part[BR_BENDING].done;
+    const size_t axial = m->field[BR_AXIAL].done, bending = m->field[BR_BENDING].done;
     return axial < bending ? axial : bending;
 }
 
 size_t br_march_field_steps(const struct br_march *m, enum br_field_kind kind)
 {
-    return m->part[kind].done;
+    return m->field[kind].done;
 }
 
 double br_march_time(const struct br_march *m)
@@ -228,19 +228,19 @@ const struct br_tip *br_march_tip(const struct br_march *m)
 
 double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct br_field_march *part = &m->part[kind];
-    return part->modelled ? part->solver->tip_displacement(part->state) : 0;
+    const struct br_field_march *fm = &m->field[kind];
+    return fm->modelled ? fm->solver->tip_displacement(fm->state) : 0;
 }
 
 void br_march_get(const struct br_march *m, enum br_field_kind kind, double *displacement,
                   double *velocity)
 {
-    const struct br_field_march *part = &m->part[kind];
-    if (part->modelled) {
-        part->solver->get(part->state, displacement, velocity);
+    const struct br_field_march *fm = &m->field[kind];
+    if (fm->modelled) {
+        fm->solver->get(fm->state, displacement, velocity);
         return;
     }
-    const size_t bytes = br_field_size(&part->field) * sizeof(double);
+    const size_t bytes = br_field_size(&fm->field) * sizeof(double);
     if (displacement)
         memset(displacement, 0, bytes);
     if (velocity)
@@ -249,28 +249,28 @@ void br_march_get(const struct br_march *m, enum br_field_kind kind, double *dis
 
 void br_march_strain_rate(const struct br_march *m, enum br_field_kind kind, double *rate)
 {
-    const struct br_field_march *part = &m->part[kind];
-    if (part->modelled)
-        part->solver->strain_rate(part->state, rate);
+    const struct br_field_march *fm = &m->field[kind];
+    if (fm->modelled)
+        fm->solver->strain_rate(fm->state, rate);
     else
-        memset(rate, 0, part->field.n * br_field_unknowns(&part->field) * sizeof *rate);
+        memset(rate, 0, fm->field.n * br_field_unknowns(&fm->field) * sizeof *rate);
 }
 
 const struct br_field *br_march_field(const struct br_march *m, enum br_field_kind kind)
 {
-    return &m->part[kind].field;
+    return &m->field[kind].field;
 }
 
 bool br_march_models(const struct br_march *m, enum br_field_kind kind)
 {
-    return m->part[kind].modelled;
+    return m->field[kind].modelled;
 }
 
 void br_march_load(const struct br_march *m, enum br_field_kind kind, double *load)
 {
-    const struct br_field_march *part = &m->part[kind];
-    const struct br_drive *drive = &part->load.drive;
-    const size_t size = br_field_size(&part->field), unknowns = br_field_unknowns(&part->field);
+    const struct br_field_march *fm = &m->field[kind];
+    const struct br_drive *drive = &fm->load.drive;
+    const size_t size = br_field_size(&fm->field), unknowns = br_field_unknowns(&fm->field);
     for (size_t i = 0; i < size; i++)
         load[i] = drive->vector ? drive->factor * drive->vector[i] : 0;
     for (size_t c = 0; c < unknowns; c++)
@@ -279,29 +279,30 @@ void br_march_load(const struct br_march *m, enum br_field_kind kind, double *lo
 
 double br_march_compliance(const struct br_march *m, enum br_field_kind kind)
 {
-    const struct br_field_march *part = &m->part[kind];
-    return part->solver ? part->solver->tip_compliance(part->state) : 0;
+    const struct br_field_march *fm = &m->field[kind];
+    return fm->solver ? fm->solver->tip_compliance(fm->state) : 0;
 }
 
 bool br_march_contact_unstable(const struct br_march *m)
 {
     if (!m->was_closed || m->method.contact->at_new_step)
         return false;
-    return br_contact_grows(&m->part[BR_AXIAL].field, m->scene->contact.stiffness);
+    return br_contact_grows(&m->field[BR_AXIAL].field, m->scene->contact.stiffness);
 }
 
 double br_march_round_off(const struct br_march *m)
 {
-    /* What equal steps gather is a random walk: a tip that sticks was seen to creep by up to 35
-     * times 2^-52 sqrt(N) (bdf2 with plain, 1e6 steps; riccati by 4 times), whatever n. */
+    /* Round-off of equal steps adds up like a random walk: in measurements a tip that sticks crept
+     * by up to 35 times 2^-52 sqrt(N) (bdf2 with plain, 1e6 steps; with riccati 4 times), for all
+     * n. */
     const double walk = 64 * DBL_EPSILON * sqrt((double)m->steps);
     double largest = 0;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_field_march *part = &m->part[kind];
-        if (!part->solver)
+        const struct br_field_march *fm = &m->field[kind];
+        if (!fm->solver)
             continue;
-        const double own = part->solver->round_off ? part->solver->round_off(part->state, m->steps)
-                                                   : br_method_round_off(&m->method, &part->field);
+        const double own = fm->solver->round_off ? fm->solver->round_off(fm->state, m->steps)
+                                                 : br_method_round_off(&m->method, &fm->field);
         largest = fmax(largest, own + walk);
     }
     return largest;
@@ -309,13 +310,12 @@ double br_march_round_off(const struct br_march *m)
 
 /* ---- range ---- */
 
-/* Whether a march has stayed where double precision has all its digits. */
 static const char *const names[] = {"axial", "bending"};
 
-/* Products of a few numbers of this size with those of a matrix are no less than DBL_MIN / eps. */
+/* Products of a few numbers of this size with entries of a matrix are not below DBL_MIN / eps. */
 static const double least_size = 1e-280;
 
-/* Squares of these are doubles, and the next step's values, too. */
+/* Squares of such numbers do not overflow, nor do the next step's values. */
 const double br_most_size = 1e150;
 
 enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kind kind, double t,
@@ -335,12 +335,13 @@ enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kin
             return br_fail(err, BR_NOT_FINITE,
                            "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s %s "
                            "is %g %s",
-                           t, m->part[kind].done, m->steps, m->scene->duration / (double)m->steps,
+                           t, m->field[kind].done, m->steps, m->scene->duration / (double)m->steps,
                            names[kind], values[i].what, values[i].value, values[i].unit);
     return BR_OK;
 }
 
-/* What a field's own operator answers to a nodal displacement with, N/m: R of plain.h, and mass. */
+/* The size of the force per nodal displacement in the field's operator, N/m: R of plain.h, and
+ * mass. */
 static long double resistance(const struct br_field *f)
 {
     const long double h = f->h,
@@ -352,27 +353,28 @@ static long double resistance(const struct br_field *f)
 enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind kind,
                                     struct br_error *err)
 {
-    const struct br_field_march *part = &m->part[kind];
+    const struct br_field_march *fm = &m->field[kind];
     double size[2];
-    if (!part->solver)
+    if (!fm->solver)
         return BR_OK;
-    part->solver->size(part->state, 0, size);
-    if (!isfinite(size[0]) || !isfinite(size[1])) /* a tip that is finite may be in front of it */
+    fm->solver->size(fm->state, 0, size);
+    if (!isfinite(size[0]) || !isfinite(size[1])) /* the tip may still be finite */
         return br_fail(err, BR_NOT_FINITE,
                        "the march blew up by t = %g s: the %s strain is %g, its rate %g 1/s",
                        m->scene->duration, names[kind], size[0], size[1]);
-    /* Where nothing but forces and data far below the others' sizes moves a field, it has few
-     * digits, or none. What only decays to there has them, relative to what it was. */
-    const long double r = resistance(&part->field), force = part->moved_by;
-    const long double motion = fmaxl(force / r * fminl(part->field.k, 1), part->started_with);
-    const long double smaller = fminl(fmaxl(force, r * part->started_with), motion);
+    /* A field that is moved only by forces and data below least_size has lost digits to underflow.
+     * A field that was larger and decays to such values keeps its digits relative to its former
+     * size. */
+    const long double r = resistance(&fm->field), force = fm->moved_by;
+    const long double motion = fmaxl(force / r * fminl(fm->field.k, 1), fm->started_with);
+    const long double smaller = fminl(fmaxl(force, r * fm->started_with), motion);
     if (motion == 0 || smaller >= least_size)
         return BR_OK;
     return br_fail(err, BR_NOT_FINITE,
                    "the %s motion is lost to underflow: its largest nodal force is %Lg N and its "
                    "largest initial value %g m, which is to move an element by about %Lg m, "
                    "expected no less than %g: choose smaller units",
-                   names[part->field.kind], force, part->started_with, motion, least_size);
+                   names[fm->field.kind], force, fm->started_with, motion, least_size);
 }
 
 void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,

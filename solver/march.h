@@ -10,10 +10,10 @@
 /* What a march has cost so far. */
 struct br_counts {
     size_t steps;      /* accepted ones; an adaptive scheme's own */
-    size_t rejected;   /* steps of an adaptive scheme that were taken back */
+    size_t rejected;   /* rejected steps of an adaptive scheme */
     size_t stages;     /* linear solves a field */
     size_t iterations; /* of friction rules that iterate */
-    size_t set_ups;    /* changes of the linear solvers' step, the first not counted */
+    size_t set_ups;    /* changes of the linear solvers' step after the first set-up */
 };
 
 struct br_march;
@@ -56,9 +56,10 @@ void br_march_free(struct br_march *march); /* accepts NULL */
  * a march that blows up), BR_SINGULAR; the state is then lost. */
 enum br_status br_march_step(struct br_march *march, struct br_error *err);
 
-/* One step of one field. Nothing of the bending field acts on the axial one, so this may be ahead
- * by the steps that are allowed (1 at first), also in another thread, if the bending field waits
- * for it, and it for the bending field where that is behind by so many. Fails as br_march_step. */
+/* One step of one field. The bending field does not act on the axial one, so the axial field may be
+ * ahead, by up to the number of steps that br_march_allow_lead sets (1 at first). The fields may be
+ * in two threads; then the caller makes each field wait for the other one. Fails as br_march_step.
+ */
 enum br_status br_march_step_field(struct br_march *march, enum br_field_kind kind,
                                    struct br_error *err);
 enum br_status br_march_allow_lead(struct br_march *march, size_t steps, struct br_error *err);
@@ -76,7 +77,7 @@ struct br_counts br_march_counts(const struct br_march *march);
 enum { BR_MOST_SWITCHES = 1000 }; /* kept; all are counted */
 
 /* How many switches the scheme has found, and in *first (out, borrowed until the next step) the
- * first BR_MOST_SWITCHES of them; 0: the scheme looks for none, or there was none. */
+ * first BR_MOST_SWITCHES of them; 0: the scheme does not search for switches, or there was none. */
 size_t br_march_switches(const struct br_march *march, const struct br_switch **first);
 
 /* The tip's displacement in one field, m. */
@@ -101,13 +102,13 @@ void br_march_load(const struct br_march *march, enum br_field_kind kind, double
 /* z_tip of the field, m/s per N. */
 double br_march_compliance(const struct br_march *march, enum br_field_kind kind);
 
-/* Whether the march is beyond the stability limit of the lagged contact (laws.h), and its
- * contact has been closed in a step: that one grew, and the tip chatters, bounded or not, since the
- * contact opens. A contact that has never closed is not touched by it. */
+/* Whether the march is beyond the stability limit of the lagged contact (laws.h), and the contact
+ * has been closed in a step. Then errors grew in that step, and the tip chatters; the chatter may
+ * stay bounded, since the contact opens. A contact that has never closed is not affected. */
 bool br_march_contact_unstable(const struct br_march *march);
 
-/* From now on: asked between the steps that an adaptive scheme chooses, of which it may need very
- * many for one of the march's; true ends the march with BR_INTERRUPTED. May be NULL. */
+/* From now on an adaptive scheme calls `stop` between its own steps, of which one step of the march
+ * may need very many; true ends the march with BR_INTERRUPTED. May be NULL. */
 void br_march_stop_when(struct br_march *march, bool (*stop)(void *self), void *self);
 
 /* ---- watching ---- */
@@ -120,31 +121,31 @@ struct br_march_stage {
     double time, tau; /* of the stage, s */
 };
 
-/* Who looks at a march stage by stage. */
+/* Functions that are called after each stage and each step of a march. */
 struct br_march_watcher {
     void *self;
-    /* br_march_get, br_march_load and br_march_tip are of the stage. An adaptive scheme may take
-     * its stages back, and begin again with index 0. */
+    /* br_march_get, br_march_load and br_march_tip then give the values of the stage. An adaptive
+     * scheme may reject a step, and begin again with index 0. */
     void (*stage)(void *self, const struct br_march_stage *stage);
-    /* The field has taken a step of the stages that `stage` got last. switched: its next step
-     * starts anew. */
+    /* The field has accepted the step whose stages were the last ones. switched: the scheme
+     * restarts with the next step. */
     void (*step)(void *self, enum br_field_kind kind, bool switched);
 };
 
 enum { BR_MOST_WATCHERS = 4 };
 
-/* From now on, beside those that look already; false: there is no room for one more. */
+/* Adds a watcher; false: there are BR_MOST_WATCHERS already. */
 bool br_march_watch(struct br_march *march, const struct br_march_watcher *watcher);
 
-/* The watcher of that `self` looks no more. */
+/* Removes the watchers with that `self`. */
 void br_march_unwatch(struct br_march *march, const void *self);
 
-/* Predicted round-off of the displacements relative to the exact discrete solution, from the first
- * step on and with what equal steps gather: the larger of the modelled fields'. */
+/* Predicted round-off of the displacements relative to the exact discrete solution, for all steps,
+ * with the accumulation over equal steps: the larger of the modelled fields' values. */
 double br_march_round_off(const struct br_march *march);
 
-/* A march, seen in one of the measures of modes.h. view: out, with br_measure_size values where its
- * values point to; the tip has one, in m. */
+/* Samples a march in one of the measures of modes.h. view: out; its `values` point to room for
+ * br_measure_size numbers; the tip has one, in m. */
 void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
              struct br_view *view);
 

@@ -63,7 +63,7 @@ const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *sc
     return *rule;
 }
 
-/* Names the solvers that have what this one lacks. */
+/* Fails with the names of the solvers that have quadratic axial elements. */
 static enum br_status refuse_degree(const struct br_linear_solver *solver, struct br_error *err)
 {
     char names[256] = "";
@@ -83,7 +83,7 @@ static bool vibrates_undamped(const struct br_scene *s)
                               (s->bending.modelled && s->bending.viscosity == 0));
 }
 
-/* scene: NULL: any. */
+/* scene: NULL for the checks that need none. */
 static enum br_status check(const struct br_method *m, const struct br_scene *scene,
                             struct br_error *err)
 {
@@ -91,7 +91,7 @@ static enum br_status check(const struct br_method *m, const struct br_scene *sc
     if (m->axial_degree != 1 && m->axial_degree != 2)
         return br_fail(err, BR_BAD_INPUT, "the axial degree is %d, expected 1 or 2",
                        m->axial_degree);
-    /* Smaller tolerances are round-off's, larger ones are none. */
+    /* Smaller tolerances are below round-off, larger ones have no effect. */
     if (m->scheme->adaptive && !(m->tolerance > 1e-14 && m->tolerance < 1))
         return br_fail(err, BR_BAD_INPUT,
                        "the tolerance of time scheme '%s' is %g, expected a number above 1e-14 and "
@@ -144,12 +144,12 @@ enum br_status br_method_check_scene(const struct br_method *m, const struct br_
 
 static const double lobe_ends = 1.937, lobe_depth = 0.0710;
 
-/* The least that the elements have of a mode's stiffness where a spring at the tip has the rest: a
- * rod's lowest mode with c_H L / a of about 2 has 0.64. */
+/* The least share of a mode's stiffness that the elements have beside a spring at the tip: in a
+ * rod's lowest mode with c_H L / a of about 2 it is 0.64. */
 static const double beside_spring = 0.6;
 
-/* The squares of the lowest and an upper bound of the highest frequency, 1/s^2; those of a free
- * element bound the mesh's. */
+/* The squares of the lowest frequency and of an upper bound of the highest one, 1/s^2. The highest
+ * frequency of a free element bounds that of the mesh. */
 static void frequencies(const struct br_field *f, double square[2])
 {
     const double h = f->h, rod = br_field_is_quadratic(f) ? 60 : 12;
@@ -158,8 +158,8 @@ static void frequencies(const struct br_field *f, double square[2])
     square[1] = f->stiffness / f->density * highest;
 }
 
-/* With all of the lobe in reach, c / (2 a k) >= depth; with z to |om k| alone, c / (2 a k) >=
- * (om k)^2 / 4, so that k^3 <= 2 c / (a om^2). */
+/* If |om k| may reach the whole lobe, c / (2 a k) >= depth is sufficient; else c / (2 a k) >= (om
+ * k)^2 / 4, so that k^3 <= 2 c / (a om^2). */
 double br_damping_largest_step(const struct br_field *f, bool spring)
 {
     double square[2];
@@ -170,7 +170,8 @@ double br_damping_largest_step(const struct br_field *f, bool spring)
     return fmax(damping / (2 * lobe_depth), cbrt(2 * damping / square[1]));
 }
 
-/* Beyond the lobes even the slowest mode is damped by the scheme; a spring only makes it faster. */
+/* Whether even the slowest mode lies beyond the lobes, where the scheme damps it; a spring only
+ * raises its frequency. */
 static bool beyond_lobes(const struct br_field *f)
 {
     double square[2];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A method: a row of each registry, and what goes together. */
+/* A method: a row of each registry, and which rows can be combined. */
 #ifndef BR_SOLVER_METHOD_H
 #define BR_SOLVER_METHOD_H
 
@@ -17,46 +17,44 @@ struct br_method {
     const struct br_friction_rule *friction;
     struct br_iteration iteration; /* of friction rules that iterate */
     int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
-    size_t most_steps;             /* of an adaptive scheme, those taken back included: more end the
-                                      march with BR_INTERRUPTED; 0: no limit but the scheme's own */
-    int rounding;                  /* of the march's set-up and steps, as fesetround takes it;
-                                      FE_TONEAREST: as the caller's thread has it */
+    size_t most_steps; /* of an adaptive scheme, rejected ones included: more end the march with
+                          BR_INTERRUPTED; 0: no limit */
+    int rounding;      /* of the march's set-up and steps, as fesetround takes it;
+                          FE_TONEAREST: as the caller's thread has it */
 };
 
 /* The defaults: the first row of each registry, elements of degree 1. */
 struct br_method br_method_default(void);
 
-/* The linear solver of a field: the method's row, or the one that this stands for. */
+/* The linear solver of a field: the method's row, or, if that is a choice, the chosen row. */
 const struct br_linear_solver *br_method_solver(const struct br_method *method,
                                                 const struct br_field *field);
 
-/* The round_off of that solver, and its residual, 0 where it leaves none. */
+/* The round_off of that solver, and its residual (0 if it has none). */
 double br_method_round_off(const struct br_method *method, const struct br_field *field);
 double br_method_residual(const struct br_method *method, const struct br_field *field);
 
-/* What the linear solves of a step of all fields that the scene models cost on n elements, about,
- * ns; those of steps by a tolerance are not known. */
+/* Estimated time of the linear solves of one step, ns: of all modelled fields on n elements. The
+ * number of steps of an adaptive scheme is not known. */
 double br_method_cost(const struct br_method *method, const struct br_scene *scene, size_t n);
 
 /* The contact rule of a time scheme where none is chosen: the paper's where the scheme may lag,
  * else the first that takes its force at the new time level. */
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme);
 
-/* Refuses (BR_BAD_INPUT) what does not go together or is out of its range in any scene. */
+/* Refuses (BR_BAD_INPUT) a method that is invalid for every scene. */
 enum br_status br_method_check(const struct br_method *method, struct br_error *err);
 
-/* Refuses (BR_BAD_INPUT) what a march of this scene cannot do; what the scene does not model may
- * be anything. */
+/* Refuses (BR_BAD_INPUT) a method that is invalid for this scene; rules for what the scene does not
+ * model are not checked. */
 enum br_status br_method_check_scene(const struct br_method *method, const struct br_scene *scene,
                                      struct br_error *err);
 
 /* ---- damping ---- */
 
-/* Schemes that need damping: how much, for the vibration that a mesh has at a step. */
-
 /* The largest step, s, with which a scheme that needs damping lets no mode of a field grow:
- * INFINITY where any will do. spring: whether an undamped spring at the tip, the contact, may take
- * its part of a mode. */
+ * INFINITY where any will do. spring: whether an undamped spring at the tip, the contact, may
+ * contribute to a mode's stiffness. */
 double br_damping_largest_step(const struct br_field *field, bool spring);
 
 /* Refuses (BR_BAD_INPUT) a march of a scheme that needs damping on n elements with a step of k, s,

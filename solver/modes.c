@@ -43,7 +43,7 @@ void br_view_field(struct br_view *view, const struct br_field *field, enum br_m
         view->scale[1] = view->scale[0] / sqrt(3);
         return;
     }
-    /* Of a bubble, b (P_2/6 - 1/6). The two highest of bending from the curvature:
+    /* A bubble is b (P_2/6 - 1/6). The two highest modes of bending follow from the curvature:
      * P_2'' = 12 sqrt(5), P_3'' = 60 sqrt(7) (2x - 1). */
     view->layout = BR_BY_NODE;
     view->scale[0] = root / 2;

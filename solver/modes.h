@@ -24,7 +24,8 @@ struct br_elements {
 /* Modes an element: of a polynomial of its degree (3 for bending), or of its derivative. */
 size_t br_mode_count(struct br_elements elements, enum br_measure measure);
 
-/* Room for a measure on a mesh of n elements: all modes or the nodal values, or 1 for the tip. */
+/* Number of values of a measure on a mesh of n elements: all modes or the nodal values, or 1 for
+ * the tip. */
 size_t br_measure_size(struct br_elements elements, enum br_measure measure, size_t n);
 
 enum { BR_MOST_MODES = 4, BR_MOST_LANES = 8 };
@@ -42,20 +43,20 @@ enum br_layout {
     BR_IN_LANES,
 };
 
-/* A function on a mesh as somebody happens to have it. */
+/* A function on a mesh in one of these layouts. */
 struct br_view {
     enum br_layout layout;
-    size_t modes;                /* an element: 1 to 4; 0 for the tip's one value */
+    size_t modes;                /* modes an element: 1 to 4; 0 for the tip's one value */
     double scale[BR_MOST_MODES]; /* 1 in lanes */
-    double rest;                 /* the square of the L2 norm of what the modes leave out */
-    double *values;              /* room for br_measure_size of them */
+    double rest;    /* the squared L2 norm of the part of the function that is not in the modes */
+    double *values; /* room for br_measure_size of them */
 };
 
-/* The view (out, but its values) of a measure of a field by its march: displacements and velocities
- * by node; strain rates by element as br_field_solver's strain_rate gives them, m/s. */
+/* The view (out, except its values) of a measure of a field in a march: displacements and
+ * velocities by node; strain rates by element as br_field_solver's strain_rate gives them, m/s. */
 void br_view_field(struct br_view *view, const struct br_field *field, enum br_measure measure);
 
-/* The view (out, but its values) by elements, modes as they are. */
+/* The view (out, except its values) of modes by element, with scales of 1. */
 void br_view_modes(struct br_view *view, size_t modes);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* That a function is finite. */
+/* Proofs that a function is finite. */
 #include "solver/proof.h"
 
 #include <stdio.h>
@@ -8,7 +8,7 @@
 
 enum { MOST_BOXES = 20000 };
 
-void br_name_place(const struct br_function *f, struct br_box box, char text[80])
+void br_name_position(const struct br_function *f, struct br_box box, char text[80])
 {
     const char *between = f->uses_x && f->uses_t ? ", " : "";
     char x[40] = "", t[40] = "";
@@ -19,7 +19,7 @@ void br_name_place(const struct br_function *f, struct br_box box, char text[80]
     snprintf(text, 80, "%s%s%s", x, between, t);
 }
 
-/* The boxes that are still to be judged, the last one first: halves of halves. */
+/* The boxes that are still to be examined, as a stack: halves of halves. */
 struct proof {
     const struct br_function *f;
     struct br_box whole;
@@ -41,7 +41,8 @@ static bool take_in(struct proof *p, struct br_box box)
     return true;
 }
 
-/* Whether evaluation gives no finite number at a corner or in the middle; that is then p->where. */
+/* Whether evaluation gives no finite number at a corner or in the middle; that point is then
+ * p->where. */
 static bool is_no_number(struct proof *p, struct br_box box)
 {
     const double x[] = {middle(box.x), box.x.low, box.x.high},
@@ -58,7 +59,8 @@ static bool is_no_number(struct proof *p, struct br_box box)
     return false;
 }
 
-/* The variable whose halves are bounded rather; of equals the one that is less divided. */
+/* The variable with more bounded halves; if they have equally many, the one that has been divided
+ * less. */
 static enum br_variable choose_side(const struct proof *p, struct br_box box)
 {
     int bounded[2];
@@ -79,7 +81,7 @@ static enum br_variable choose_side(const struct proof *p, struct br_box box)
 }
 
 /* Whether the function's size grows by more than 1000 over the last 2^40 numbers before a face, on
- * the side on which there is room. */
+ * the side inside the whole box. */
 static bool grows(const struct proof *p, struct br_box box, enum br_variable v, double at,
                   double step)
 {
@@ -105,8 +107,8 @@ static bool is_guarded(const struct proof *p, const struct br_box face[2])
     return false;
 }
 
-/* Both faces have bounds, but f has none between them, where no number is: a pole if f grows
- * towards it; else a limit that is filled in. */
+/* Both faces have bounds, but f has none between them, although no double lies there: a pole if f
+ * grows towards it; else, at a guard, a limit that is filled in. */
 static enum br_finite judge_gap(const struct proof *p, struct br_box box, enum br_variable v,
                                 const struct br_box face[2])
 {
@@ -122,13 +124,14 @@ static bool is_steep(const struct proof *p, struct br_box box, enum br_variable 
     const double at = side(&box, v)->low, away = ldexp(nextafter(at, INFINITY) - at, 40);
     double value[3];
     for (int k = 0; k < 3; k++) {
-        const struct br_box place = with(box, v, point(at + (k - 1) * away));
-        value[k] = br_function_at(p->f, place.x.low, place.t.low);
+        const struct br_box position = with(box, v, point(at + (k - 1) * away));
+        value[k] = br_function_at(p->f, position.x.low, position.t.low);
     }
     return !(fabs(value[1]) <= 1000 * fmin(fabs(value[0]), fabs(value[2])));
 }
 
-/* Judges a box that has no bound: leaves its halves to be judged, or returns what it is. */
+/* Examines a box without a bound: pushes its halves without bounds on the stack, or returns the
+ * verdict. */
 static enum br_finite divide(struct proof *p, struct br_box box)
 {
     p->where = box;
@@ -153,13 +156,13 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
 {
     struct proof p = {.f = f, .whole = used_box(f, box)};
     enum br_finite found = BR_FINITE;
-    size_t looked = 0;
+    size_t examined = 0;
     if (!take_in(&p, p.whole))
         p.left[p.count++] = p.whole;
     while (p.count && found == BR_FINITE) {
         found = divide(&p, p.left[--p.count]);
         if (found == BR_FINITE && p.count &&
-            (++looked == (budget ? budget : MOST_BOXES) ||
+            (++examined == (budget ? budget : MOST_BOXES) ||
              p.count + 2 > sizeof p.left / sizeof *p.left))
             found = BR_UNBOUNDED;
     }
@@ -168,13 +171,13 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
     return found;
 }
 
-/* A box and what is proved of it. */
+/* A box and the enclosure of f on it. */
 struct piece {
     struct br_box box;
     iv value;
 };
 
-/* The piece that reaches highest, or, for sign -1, lowest. */
+/* The piece with the highest upper bound, or, for sign -1, the lowest lower bound. */
 static size_t find_worst(const struct piece *piece, size_t count, double sign)
 {
     size_t worst = 0;
@@ -185,7 +188,7 @@ static size_t find_worst(const struct piece *piece, size_t count, double sign)
     return worst;
 }
 
-/* Without bound: everything. */
+/* The enclosure is the whole line where f has no bound. */
 static struct piece piece_of(const struct br_function *f, struct br_box box)
 {
     struct piece p = {.box = box};
@@ -194,7 +197,7 @@ static struct piece piece_of(const struct br_function *f, struct br_box box)
     return p;
 }
 
-/* Halves piece i: one half takes its place, the other one the next. */
+/* Halves piece i: one half becomes piece i, the other one piece `next`. */
 static bool halve(const struct br_function *f, struct br_box whole, struct piece *piece, size_t i,
                   size_t next)
 {
@@ -232,7 +235,7 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
             !halve(f, whole, piece, above >= below ? top : bottom, count))
             break;
     }
-    struct br_box where; /* a limit that is filled in has a bound near it only */
+    struct br_box where; /* a filled-in limit has a bound in small boxes only */
     return (isfinite(value->low) && isfinite(value->high)) ||
            br_prove_bounded(f, box, 0, value, &where) == BR_FINITE;
 }
@@ -252,18 +255,18 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
 {
     iv value;
     struct br_box where;
-    char place[80];
+    char position[80];
     const enum br_finite found = br_prove_bounded(f, box, 0, &value, &where);
     if (found == BR_FINITE)
         return BR_OK;
-    br_name_place(f, where, place);
+    br_name_position(f, where, position);
     if (found == BR_POLE)
-        return br_fail(err, BR_BAD_INPUT, "it has a pole at %s", place);
+        return br_fail(err, BR_BAD_INPUT, "it has a pole at %s", position);
     const double at = br_function_at(f, where.x.low, where.t.low);
     if (found == BR_UNBOUNDED)
         return br_fail(err, BR_BAD_INPUT, "it cannot be proved to be finite near %s (found %g)",
-                       place, at);
-    return br_fail(err, BR_BAD_INPUT, "found %g at %s%s", isnan(at) ? NAN : at, place,
+                       position, at);
+    return br_fail(err, BR_BAD_INPUT, "found %g at %s%s", isnan(at) ? NAN : at, position,
                    isnan(at) && is_lonely(f, where)
                        ? " alone; if it has a limit there, write it as in x == 0 ? 1 : sin(x)/x"
                        : "");

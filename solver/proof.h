@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is proved of a function over a box of x and t by its enclosures (function.h): that it is
- * finite, where it breaks, and a mesh on which polynomials stand for it. Nothing is sampled: what
- * cannot be proved is refused. A function without bound (NULL in its ops) is refused. */
+ * finite, where it breaks, and a mesh on which polynomials approximate it. No proof rests on
+ * samples: what cannot be proved is refused. A function whose ops have no bound is refused. */
 #ifndef BR_SOLVER_PROOF_H
 #define BR_SOLVER_PROOF_H
 
@@ -9,60 +9,62 @@
 
 enum br_finite {
     BR_FINITE,     /* everywhere in the box */
-    BR_NOT_NUMBER, /* evaluate gives no finite number at `where`, which is one point */
-    BR_POLE,       /* it grows without bounds towards `where`, at most neighbouring numbers wide */
-    BR_UNBOUNDED,  /* it may have no bound in `where`, or the budget is used up there */
+    BR_NOT_NUMBER, /* evaluate gives no finite number at the point `where` */
+    BR_POLE,       /* it grows without bounds towards `where`, which is at most as wide as two
+                      neighbouring numbers */
+    BR_UNBOUNDED,  /* it may have no bound in `where`, or the budget is exhausted there */
 };
 
-/* Whether f is finite everywhere in the box. value: out, encloses all its values where it is,
- * perhaps by far; where: out where it is not. budget: how many boxes may be looked at, 0 for the
- * usual number. */
+/* Whether f is finite everywhere in the box. value: out if it is finite, encloses all its values,
+ * perhaps widely; where: out if it is not. budget: how many boxes may be examined, 0 for the
+ * default. */
 enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
                                 struct br_interval *value, struct br_box *where);
 
-/* Encloses the values of a function that is finite, about as tightly as a twentieth of their range,
- * or as `budget` boxes allow (0: the usual number). peak: out, a point where it is about as large
- * as anywhere. False: it has no bound. */
+/* Encloses the values of a finite function to about a twentieth of their range, or as tightly as
+ * `budget` boxes allow (0: the default). peak: out, a point where |f| is about largest. False: it
+ * has no bound. */
 bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
                        struct br_interval *value, struct br_box *peak);
 
-/* The same as br_prove_bounded as a status: BR_BAD_INPUT with what was found and where. */
+/* br_prove_bounded as a status: if f is not finite, BR_BAD_INPUT with a message of what was found
+ * and where. */
 enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
                                  struct br_error *err);
 
-/* Places along one variable, ascending and disjoint. Each is one number, or as wide as two
- * neighbouring numbers; wider where the place is not known better, as at a touched zero. */
+/* Breaks along one variable, ascending and disjoint intervals. Each is one number, or as wide as
+ * two neighbouring numbers; wider where the break is less exactly known, as at a double zero. */
 struct br_breaks {
     struct br_interval *at; /* count; owned */
     size_t count;
-    bool moving; /* a guard that depends on both variables changes sign at places of the one that
-                    depend on the other: these are not listed */
+    bool moving; /* a guard of both variables changes sign along a curve; such breaks are not listed
+                  */
 };
 void br_breaks_free(struct br_breaks *breaks);
 
-/* Adds all places of the box along one variable at which a guard of f changes sign or touches zero:
- * between them f is smooth, but for roots and the like at zero. Where the other variable is one
- * point, or for guards without it, none is missed. *breaks: in/out, zeroed at first; of several
- * functions one after the other. The box's ends are no breaks. Fails with BR_BAD_INPUT where they
+/* Adds all values of one variable in the box at which a guard of f changes sign or touches zero:
+ * between them f is smooth, except for functions like sqrt at zero. Where the other variable is one
+ * point, or for guards without it, none is missed. *breaks: in/out, zeroed at first; the breaks of
+ * several functions may be added. The box's ends are no breaks. Fails with BR_BAD_INPUT where there
  * are too many (20,000) or cannot be separated, naming where, or BR_NO_MEMORY. */
 enum br_status br_breaks_add(const struct br_function *f, enum br_variable along, struct br_box box,
                              struct br_breaks *breaks, struct br_error *err);
 
 /* Adds the times at which a guard that depends on x and t, such as x - c t, is zero at an end of
- * the box in x: where a front enters or leaves. *complete: out, whether no front can come or go
- * elsewhere: none turns back or is born inside of the box. Fails as br_breaks_add. */
+ * the box in x: there a front enters or leaves. *complete: out, whether these are all such times:
+ * no front turns back or begins inside the box. Fails as br_breaks_add. */
 enum br_status br_front_times(const struct br_function *f, struct br_box box,
                               struct br_breaks *breaks, bool *complete, struct br_error *err);
 
-/* What polynomials are to stand for a function. */
+/* How polynomials have to approximate a function. */
 struct br_mesh_aim {
     size_t degree;    /* of the interpolant at a cell's Chebyshev nodes, 1 to 15 */
     double tolerance; /* of |f - interpolant|, absolute, in f's unit */
 };
 
-/* Cells between count + 1 places, ascending. In a rough cell the function is bounded, but no
- * polynomial was proved: width * (range of values) is at most tolerance * (width of the box). Jumps
- * and roots are there. */
+/* Cells between count + 1 ascending points. In a rough cell the function is bounded, but no
+ * polynomial is proved to approximate it: width * (range of values) is at most tolerance * (width
+ * of the box). Jumps and zeros of sqrt are there. */
 struct br_mesh {
     double *at;  /* count + 1; owned */
     bool *rough; /* count; owned */

@@ -10,18 +10,18 @@ struct range {
     bool zero_allowed;
 };
 
-/* part: "axial: ", or "". */
-static enum br_status check_ranges(const char *part, const struct range *ranges, size_t count,
+/* prefix: "axial: ", or "". */
+static enum br_status check_ranges(const char *prefix, const struct range *ranges, size_t count,
                                    struct br_error *err)
 {
     for (const struct range *r = ranges; r < ranges + count; r++)
         if (!(isfinite(r->value) && (r->zero_allowed ? r->value >= 0 : r->value > 0)))
-            return br_fail(err, BR_BAD_INPUT, "%s%s is %g, expected a finite number %s 0", part,
+            return br_fail(err, BR_BAD_INPUT, "%s%s is %g, expected a finite number %s 0", prefix,
                            r->name, r->value, r->zero_allowed ? ">=" : ">");
     return BR_OK;
 }
 
-static enum br_status check_material(const char *part, double stiffness, double viscosity,
+static enum br_status check_material(const char *prefix, double stiffness, double viscosity,
                                      struct br_error *err)
 {
     const struct range ranges[] = {
@@ -29,7 +29,7 @@ static enum br_status check_material(const char *part, double stiffness, double 
         {"viscosity", viscosity, true},
         {"stiffness plus viscosity", stiffness + viscosity, false},
     };
-    return check_ranges(part, ranges, sizeof ranges / sizeof *ranges, err);
+    return check_ranges(prefix, ranges, sizeof ranges / sizeof *ranges, err);
 }
 
 static enum br_status check_laws(const struct br_scene *s, struct br_error *err)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene: all the data of problem (1)-(12), and nothing of how it is solved.
- * A part that is not modelled costs nothing. */
+/* A scene: all the data of problem (1)-(12), and nothing of how it is solved. A field or law that
+ * is not modelled costs nothing. */
 #ifndef BR_SOLVER_SCENE_H
 #define BR_SOLVER_SCENE_H
 
@@ -14,7 +14,7 @@ struct br_product {
 
 enum { BR_LOAD_TERMS = 8 };
 
-/* A load per length, N/m: the sum of its terms. Those that are zero cost nothing. */
+/* A load per length, N/m: the sum of its terms. Terms that are zero cost nothing. */
 struct br_load {
     struct br_product term[BR_LOAD_TERMS];
 };
@@ -56,9 +56,9 @@ struct br_bending {
     struct br_function tip_moment; /* of t, at x = L, N m: works on the slope w_x */
     struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
     struct br_function velocity, velocity_slope;         /* m/s and 1/s */
-    char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial part */
+    char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial field */
     struct br_function given;       /* that solution */
-    struct br_function stick_force; /* of t, N: lambda of that solution while its tip rests */
+    struct br_function stick_force; /* of t, N: lambda of that solution while its tip sticks */
 };
 
 /* Normal compliance (10). */
@@ -77,7 +77,7 @@ struct br_friction {
     double regularisation; /* mu of (29), m/s; 0: none given */
 };
 
-/* A number that a scene does not give, but what makes it: for reports. The texts are static. */
+/* A number that is computed from other data of the scene: for reports. The texts are static. */
 struct br_derived {
     const char *what, *from; /* as "axial.stiffness" and "young area" */
     const char *unit;
@@ -88,7 +88,7 @@ enum { BR_MOST_DERIVED = 12 };
 struct br_scene {
     char *name;      /* owned; one word */
     char *title;     /* owned; one line for a person */
-    char *remark;    /* owned; NULL, or what a reader should know beside the results */
+    char *remark;    /* owned; NULL, or a note for the reader of the results */
     double length;   /* L, m */
     double duration; /* T, s */
     double density;  /* rho, kg/m */

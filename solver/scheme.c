@@ -6,8 +6,8 @@
 
 /* ---- Runge-Kutta methods with one gamma on the diagonal, the last stage being the end ---- */
 
-/* As they are tabulated: Y_i = Y_{n-1} + k sum_j a_ij Y'_j at t_{n-1} + c_i k. With c_0 = 0 the
- * first of them is no stage, but Y_{n-1} itself. Without rows the stages themselves are given. */
+/* Butcher tableaus: Y_i = Y_{n-1} + k sum_j a_ij Y'_j at t_{n-1} + c_i k. With c_0 = 0 the first
+ * row is no stage, but Y_{n-1} itself. With rows = 0 the form gives the stages directly. */
 struct br_step_form {
     int rows;
     double gamma;
@@ -16,9 +16,9 @@ struct br_step_form {
     struct br_stages stages;
 };
 
-/* The weights of states (tau Y' is none) sum to 1. Rounded ones may miss that by 1e-16, which a
- * march of N steps would gather N times, always to the same side: what they miss goes into the
- * smallest, which has the digits for it. */
+/* The weights of states (without that of tau Y') sum to 1. The sum of rounded weights may be off by
+ * 1e-16, and a march of N steps would add that up N times with the same sign. So the smallest
+ * weight, which has the most digits after the point, is corrected. */
 static void balance(struct br_stage *stage)
 {
     const double round_off = 1e-14;
@@ -100,11 +100,11 @@ static const struct br_step_form sdirk4_form = {
     .embedded = {59.0 / 48, -17.0 / 96, 225.0 / 32, -85.0 / 12, 0},
 };
 
-/* A third-order and a fourth-order one whose stages are of second order each: what is stiff does
- * not lower their order as it does that of the ones above, which start them. */
+/* A third-order and a fourth-order one whose stages are of second order each: stiffness does not
+ * lower their order as it lowers that of the methods above, which start them. */
 #define C1 (2 * GAMMA3)
 #define C2 (3.0 / 5)
-/* What is left of 1/2 and 1/3 when the last stage has its share of sum b c and of sum b c^2. */
+/* 1/2 and 1/3 without the last stage's share of sum b c and of sum b c^2. */
 #define HALF (1.0 / 2 - GAMMA3)
 #define THIRD (1.0 / 3 - GAMMA3)
 #define A21 (C2 * (C2 - C1) / (2 * C1)) /* sum a_2j c_j = c_2^2 / 2 */
@@ -138,7 +138,7 @@ static const struct br_step_form esdirk4_form = {
 
 /* ---- stages that are given ---- */
 
-/* Their smallest weight is what the others leave of 1, see balance. */
+/* Their smallest weight is 1 minus the others, see balance. */
 
 static const struct br_step_form euler_form = {
     .stages = {.count = 1, .stage = {{1, 1, {[BR_NOW] = 1}}}},

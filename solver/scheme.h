@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes: a registry. All are made of one thing, the backward Euler step of linear_solver.h.
+/* Time schemes: a registry. All are sequences of the backward Euler step of linear_solver.h.
  *
  * A stage of an implicit scheme asks for the state Y = (w, v) with
  *     Y = Z + tau Y',    tau = gamma k,
@@ -43,32 +43,32 @@ struct br_time_scheme {
     const char *title; /* one line for a person */
     const char *citation;
     int order;          /* of the error where the solution is smooth */
-    int estimate_order; /* of the step's error estimate, O(k^that); 0: none */
+    int estimate_order; /* p of the step's error estimate O(k^p); 0: none */
     bool needs_damping; /* undamped vibration grows: refused */
-    bool may_lag;       /* takes the lagged contact of (16), too */
+    bool may_lag;       /* also accepts the lagged contact of (16) */
     bool adaptive;      /* chooses its steps by a tolerance, and finds the times of switching; the
-                           march's steps are then where it is looked at */
-    const struct br_step_form *form[3]; /* of a step, by how many there were: br_time_scheme_step */
+                           march's steps are then output times only */
+    const struct br_step_form *form[3]; /* of step 1, 2, and later ones */
 };
 
 /* NULL-terminated; the first is the default, the paper's. */
 extern const struct br_time_scheme *const br_time_schemes[];
 const struct br_time_scheme *br_time_scheme_find(const char *name);
 
-/* The stages (out) of a step; since: how many steps there were since t = 0 or since the solution
- * switched (stick, slip, contact opens or closes), 2 or more being alike. Nothing before that is
- * given a weight, nor is Y' of 0. */
+/* The stages (out) of a step; since: the number of steps since t = 0 or since the solution switched
+ * (stick, slip, contact opens or closes); all numbers from 2 on give the same stages. States before
+ * that time have no weight, nor has Y' at that time. */
 void br_time_scheme_step(const struct br_time_scheme *scheme, size_t since,
                          struct br_stages *stages);
 
-/* States that its steps look back to, beside the solver's own. */
+/* The number of states that its steps refer to, beside the solver's own. */
 int br_time_scheme_kept(const struct br_time_scheme *scheme);
 
-/* Passes over the states that a stage takes beside its solve, on average: a sum of states is one,
- * and each state in it is a fifth of another. 0 where each step starts where the last one ended. */
+/* The mean number of passes over the states that a stage needs beside its solve: a sum of states
+ * counts 1, and each state in it 1/5. 0 where each step starts where the last one ended. */
 double br_time_scheme_sums(const struct br_time_scheme *scheme);
 
-/* Linear solves a step, where it is not the first. */
+/* Linear solves a step, after the first steps. */
 int br_time_scheme_stages(const struct br_time_scheme *scheme);
 
 #endif

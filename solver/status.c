@@ -67,7 +67,7 @@ void *br_allocate_aligned(size_t count, size_t size)
     void *p = aligned_alloc(unit, bytes);
     if (!p)
         return NULL;
-    if (unit == HUGE_PAGE) /* fewer misses of the address tables; a refusal does no harm */
+    if (unit == HUGE_PAGE) /* fewer TLB misses; a refusal does no harm */
         madvise(p, bytes, MADV_HUGEPAGE);
     return memset(p, 0, bytes);
 }
@@ -78,7 +78,7 @@ struct br_block {
     struct br_block *before;
 };
 
-enum { LINE = 64 }; /* bytes: what was taken begins so far behind its block */
+enum { LINE = 64 }; /* bytes from a block's start to its data */
 
 void *br_store_take(struct br_store *store, size_t count, size_t size)
 {

@@ -35,14 +35,14 @@ __attribute__((format(printf, 3, 4))) enum br_status br_fail(struct br_error *er
 /* Out of memory, with the name of what was being made. */
 enum br_status br_no_memory(struct br_error *err, const char *what);
 
-/* The program's: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed. */
+/* The program's exit code: 0 success, 1 a verdict failed, 2 bad input, 3 the computation failed. */
 int br_status_exit_code(enum br_status status);
 
 /* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation
  * from now on (0 = the next one) fail once; a negative i switches it off. */
 void *br_allocate(size_t count, size_t size);
 
-/* The same at the start of a cache line. */
+/* Like br_allocate, but aligned to a cache line. */
 void *br_allocate_aligned(size_t count, size_t size);
 void br_allocation_fails_at(long i);
 
@@ -53,8 +53,8 @@ struct br_store {
     bool failed;           /* there was no memory for a piece */
 };
 
-/* count zeroed things of a size in bytes, at the start of a cache line. NULL where there is no room
- * or was none before: whoever takes several looks at `failed` after the last of them. */
+/* count zeroed things of a size in bytes, at the start of a cache line. NULL if memory is exhausted
+ * or was before: a caller that takes several pieces checks `failed` after the last one. */
 void *br_store_take(struct br_store *store, size_t count, size_t size);
 
 /* The array with room for one more than `count`: itself, or a larger copy. NULL as above. */

@@ -10,20 +10,19 @@
 
 /* ---- contact ---- */
 
-/* c_H (u - g)_+, or the branch that is held. */
+/* c_H (u - g)_+ by the law, or on the branch that is kept active. */
 static double contact_force(const struct br_march *m, const struct br_contact_state *state)
 {
     const struct br_contact *contact = &m->scene->contact;
-    if (!contact->modelled || (m->held[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
+    if (!contact->modelled || (m->keeps_branch[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
         return 0;
-    if (!m->held[BR_AXIAL])
+    if (!m->keeps_branch[BR_AXIAL])
         return m->method.contact->force(contact, state);
     const double depth = state->displacement + state->k * state->free_velocity - contact->gap;
     return contact->stiffness * depth / (1 + contact->stiffness * state->k * state->compliance);
 }
 
-/* (u - g)_+ at the stage's time. A contact force at u_n knows it without the loss of a difference.
- */
+/* (u - g)_+ at the stage's time. A contact force at u_n gives it without cancellation. */
 static double penetration(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;
@@ -34,29 +33,31 @@ static double penetration(const struct br_march *m)
 
 /* ---- friction ---- */
 
-/* (u - g)_+ at `part` of the step. The axial field may have had its stages at other times, where
- * one field starts anew and the other does not: then by the cubic that its ends determine. */
-static double penetration_at(const struct br_march *m, const struct br_tip_path *path, double part)
+/* (u - g)_+ at that fraction of the step. The axial field may have had its stages at other times,
+ * if one field has restarted and the other has not; then u is the cubic that the values at both
+ * ends determine. */
+static double penetration_at(const struct br_march *m, const struct br_tip_path *path,
+                             double fraction)
 {
     for (int i = 0; i < path->count; i++)
-        if (path->time[i] == part)
+        if (path->time[i] == fraction)
             return path->penetration[i];
-    const double s = part, r = 1 - part;
+    const double s = fraction, r = 1 - fraction;
     const double u = (1 + 2 * s) * r * r * path->start[0] + s * r * r * path->start[1] +
                      s * s * (3 - 2 * s) * path->end[0] - s * s * r * path->end[1];
     return br_penetration(&m->scene->contact, u);
 }
 
-/* lambda by the law, or on the branch that is held. */
+/* lambda by the law, or on the branch that is kept active. */
 static double friction_force(struct br_march *m, struct br_friction_state *state)
 {
     if (m->scene->friction.law == BR_FRICTIONLESS)
         return 0;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_STICK)
+    if (m->keeps_branch[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_STICK)
         return state->free_velocity / state->compliance;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_FORWARD)
+    if (m->keeps_branch[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_FORWARD)
         return state->bound;
-    if (m->held[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_BACKWARD)
+    if (m->keeps_branch[BR_BENDING] && m->regime[BR_BENDING] == BR_REGIME_BACKWARD)
         return -state->bound;
     return m->method.friction->force(state);
 }
@@ -73,19 +74,19 @@ static double friction_force(struct br_march *m, struct br_friction_state *state
  * at u_n, and `finish` v_n with v_n(L) = v* - r z. */
 static enum br_status axial_stage(struct br_march *m, double t, struct br_error *err)
 {
-    struct br_field_march *part = &m->part[BR_AXIAL];
+    struct br_field_march *fm = &m->field[BR_AXIAL];
     struct br_contact_state contact = {
-        .displacement = part->solver->tip_displacement(part->state),
-        .compliance = part->solver->tip_compliance(part->state),
-        .k = part->field.k,
+        .displacement = fm->solver->tip_displacement(fm->state),
+        .compliance = fm->solver->tip_compliance(fm->state),
+        .k = fm->field.k,
     };
-    const enum br_status status = br_field_march_predict(part, t, &contact.free_velocity, err);
+    const enum br_status status = br_field_march_predict(fm, t, &contact.free_velocity, err);
     if (status)
         return status;
     m->tip.contact_force = contact_force(m, &contact);
     m->was_closed |= m->tip.contact_force > 0;
-    m->tip.velocity[BR_AXIAL] = part->solver->finish(part->state, m->tip.contact_force);
-    m->tip.displacement = part->solver->tip_displacement(part->state);
+    m->tip.velocity[BR_AXIAL] = fm->solver->finish(fm->state, m->tip.contact_force);
+    m->tip.displacement = fm->solver->tip_displacement(fm->state);
     return BR_OK;
 }
 
@@ -101,15 +102,15 @@ static enum br_status axial_stage(struct br_march *m, double t, struct br_error 
 static enum br_status bending_stage(struct br_march *m, double depth, double t,
                                     struct br_error *err)
 {
-    struct br_field_march *part = &m->part[BR_BENDING];
+    struct br_field_march *fm = &m->field[BR_BENDING];
     struct br_friction_state friction = {
-        .compliance = part->solver->tip_compliance(part->state),
+        .compliance = fm->solver->tip_compliance(fm->state),
         .bound = br_friction_bound(m->scene, depth),
         .regularisation = m->scene->friction.regularisation,
         .last = m->tip.friction_force,
         .iteration = m->method.iteration,
     };
-    const enum br_status status = br_field_march_predict(part, t, &friction.free_velocity, err);
+    const enum br_status status = br_field_march_predict(fm, t, &friction.free_velocity, err);
     if (status)
         return status;
     m->tip.friction_bound = friction.bound;
@@ -122,7 +123,7 @@ static enum br_status bending_stage(struct br_march *m, double depth, double t,
                        "t = %g s, with the parameter %g; --friction exact needs none",
                        m->method.friction->name, friction.iteration.tolerance,
                        friction.iteration.most, t, friction.iteration.parameter);
-    m->tip.velocity[BR_BENDING] = part->solver->finish(part->state, m->tip.friction_force);
+    m->tip.velocity[BR_BENDING] = fm->solver->finish(fm->state, m->tip.friction_force);
     return BR_OK;
 }
 
@@ -141,10 +142,11 @@ static enum br_status stage(struct br_march *m, enum br_field_kind kind,
     return status;
 }
 
-/* Tells those who watch of a stage, or, with NULL, of a step that is taken. Who judges a march may
- * meet a NaN, and says so; and rounds to nearest, whatever the march does. */
-static void tell(const struct br_march *m, const struct br_march_stage *stage,
-                 enum br_field_kind kind, bool switched)
+/* Calls the watchers after a stage, or, with NULL, after an accepted step. They run without traps,
+ * since they may meet a NaN and report it, and they round to nearest, whatever mode the march has.
+ */
+static void notify(const struct br_march *m, const struct br_march_stage *stage,
+                   enum br_field_kind kind, bool switched)
 {
     const int traps = br_traps_lift(), rounding = fegetround();
     if (rounding != FE_TONEAREST)
@@ -163,31 +165,31 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
                                const struct br_stages *stages, const struct br_step *step,
                                struct br_tip_path *path, struct br_error *err)
 {
-    struct br_field_march *part = &m->part[kind];
+    struct br_field_march *fm = &m->field[kind];
     if (kind == BR_AXIAL) {
         path->count = stages->count;
         path->start[0] = m->tip.displacement;
         path->start[1] = step->k * m->tip.velocity[BR_AXIAL];
     }
     for (int i = 0; i < stages->count; i++) {
-        enum br_status status = br_field_march_start_stage(part, stages, i, step->k, err);
+        enum br_status status = br_field_march_start_stage(fm, stages, i, step->k, err);
         if (!status)
             status = stage(m, kind, &stages->stage[i], step, i, path, err);
         if (status)
             return status;
-        if (m->held[kind])
+        if (m->keeps_branch[kind])
             br_margins_add(&m->margins[kind], stages->stage[i].time, br_march_margin(m, kind));
-        const struct br_march_stage told = {
+        const struct br_march_stage report = {
             .kind = kind,
             .index = i,
             .count = stages->count,
             .from = step->from,
             .k = step->k,
             .time = br_step_time(step, stages->stage[i].time),
-            .tau = part->field.k,
+            .tau = fm->field.k,
         };
         if (m->watchers > 0)
-            tell(m, &told, kind, false);
+            notify(m, &report, kind, false);
     }
     if (kind == BR_AXIAL) {
         path->end[0] = m->tip.displacement;
@@ -199,14 +201,14 @@ enum br_status br_march_stages(struct br_march *m, enum br_field_kind kind,
 void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct br_stages *stages,
                      bool switched)
 {
-    br_field_march_accept(&m->part[kind], stages, switched);
+    br_field_march_accept(&m->field[kind], stages, switched);
     if (m->watchers > 0)
-        tell(m, NULL, kind, switched);
+        notify(m, NULL, kind, switched);
 }
 
 /* Where the contact has a stiffness, the sign of its force decides: a difference of displacements
- * would lose digits. A contact without stiffness does not switch the field, and equal steps go on.
- * But steps that end at switches end there, for the kink of Coulomb's bound. */
+ * would lose digits. A contact without stiffness does not switch the field, and fixed steps ignore
+ * it. But an adaptive scheme ends a step there, for the kink of Coulomb's bound. */
 static bool is_closed(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;
@@ -229,7 +231,7 @@ enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind
 double br_march_margin(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_tip *tip = &m->tip;
-    switch (m->held[kind] ? m->regime[kind] : BR_REGIME_NONE) {
+    switch (m->keeps_branch[kind] ? m->regime[kind] : BR_REGIME_NONE) {
     case BR_REGIME_OPEN:
         return m->scene->contact.gap - tip->displacement;
     case BR_REGIME_CLOSED:

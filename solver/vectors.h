@@ -26,8 +26,8 @@ typedef double vec __attribute__((vector_size(8 * WIDTH)));
 #if defined __clang__
 #define SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 #else
-typedef long long br_places __attribute__((vector_size(8 * WIDTH)));
-#define SHUFFLE(a, b, ...) __builtin_shuffle(a, b, (br_places){__VA_ARGS__})
+typedef long long br_indices __attribute__((vector_size(8 * WIDTH)));
+#define SHUFFLE(a, b, ...) __builtin_shuffle(a, b, (br_indices){__VA_ARGS__})
 #endif
 
 INLINE vec load(const double *from)
@@ -42,7 +42,7 @@ INLINE void store(vec v, double *to)
     memcpy(to, &v, sizeof v);
 }
 
-/* Of the blocks of `far` lanes, the even ones of a and b, and the odd ones. */
+/* From a and b, cut into blocks of 4, 2 or 1 lanes: the even blocks, and the odd ones. */
 #if WIDTH == 8
 #define EVEN_BLOCKS_4(a, b) SHUFFLE(a, b, 0, 1, 2, 3, 8, 9, 10, 11)
 #define ODD_BLOCKS_4(a, b) SHUFFLE(a, b, 4, 5, 6, 7, 12, 13, 14, 15)
@@ -60,7 +60,7 @@ INLINE void store(vec v, double *to)
 #define ODD_BLOCKS_1(a, b) SHUFFLE(a, b, 1, 3)
 #endif
 
-/* One pass of a transposition: blocks of `far` rows and lanes change places. */
+/* One pass of a transposition: exchanges blocks of `far` rows and lanes. */
 #define SWAP_BLOCKS(x, far)                           \
     for (int i = 0; i < WIDTH; i++)                   \
         if (!(i & (far))) {                           \
@@ -69,7 +69,7 @@ INLINE void store(vec v, double *to)
             (x)[i + (far)] = ODD_BLOCKS_##far(a, b);  \
         }
 
-/* Row i's lane j becomes row j's lane i. */
+/* Lane j of row i becomes lane i of row j. */
 INLINE void transpose(vec x[WIDTH])
 {
 #if WIDTH == 8

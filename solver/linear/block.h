@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of the tables of the flexibility form, 2 by 2 in long double, for recursion.c and
- * riccati/tables.c. Of a rod the first entry alone is not 0. */
+ * riccati/tables.c. For a rod only the first entry is not 0. */
 #ifndef BR_SOLVER_BLOCK_H
 #define BR_SOLVER_BLOCK_H
 
@@ -63,7 +63,7 @@ static inline struct block inverse_of(struct block a)
         {{a.e[1][1] / det, -a.e[0][1] / det}, {-a.e[1][0] / det, a.e[0][0] / det}}};
 }
 
-/* Of a symmetric one. */
+/* For a symmetric block. */
 static inline bool is_positive_definite(struct block a)
 {
     const wide det = determinant(a);

@@ -25,11 +25,11 @@ struct br_linear_options {
 
 extern const struct br_linear_options br_linear_defaults;
 
-/* What drives a field in one step: the load vector factor * vector, and forces on the tip. */
+/* The loads on a field in one step: the load vector factor * vector, and forces on the tip. */
 struct br_drive {
     const double *vector; /* br_field_size values, N; NULL: none */
     double factor;
-    bool changed;  /* the vector is another one than in the step before */
+    bool changed;  /* the vector differs from that of the step before */
     double tip[2]; /* on the tip's unknowns, N; bending: force and moment over h */
 };
 
@@ -49,8 +49,8 @@ struct br_field_solver {
     /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
     double (*tip_compliance)(const void *self);
 
-    /* What a row's round_off predicts, from what was measured when the step was set, for a march of
-     * so many steps; NULL: nothing is. */
+    /* Like a row's round_off, for a march of so many steps, but from measurements made when the
+     * step was set; NULL: there are none. */
     double (*round_off)(const void *self, size_t steps);
 
     /* Set or get nodal displacement, m, and velocity, m/s: arrays of
@@ -58,14 +58,13 @@ struct br_field_solver {
     void (*set)(void *self, const double *displacement, const double *velocity);
     void (*get)(const void *self, double *displacement, double *velocity);
 
-    /* What deforms the elements, by time: the rate of their elongation h u_x (if quadratic, of the
-     * pair elongation and bubble), or of the two curvature coefficients of br_curvature; n *
+    /* The strain rates of the elements: the rate of the elongation h u_x (if quadratic, of the pair
+     * elongation and bubble), or of the two curvature coefficients of br_curvature; n *
      * br_field_unknowns values (out), m/s. */
     void (*strain_rate)(const void *self, double *rate);
 
-    /* First half of a step: solves with what drives the field and no contact or friction;
-     * *velocity is the tip's free velocity v*, m/s. Fails with BR_SINGULAR where the
-     * solver itself finds it. */
+    /* First half of a step: solves with the loads, but without contact and friction; *velocity is
+     * the tip's free velocity v*, m/s. Fails with BR_SINGULAR where the solver itself finds it. */
     enum br_status (*predict)(void *self, const struct br_drive *drive, double *velocity,
                               struct br_error *err);
 
@@ -73,25 +72,25 @@ struct br_field_solver {
      * returns the tip's velocity, m/s. */
     double (*finish)(void *self, double force);
 
-    /* The tip's displacement, m. Cheap for axial; a pass over the elements for
-     * bending, whose laws do not need it. */
+    /* The tip's displacement, m. Cheap for axial; for bending, whose laws do not need it, a pass
+     * over the elements. */
     double (*tip_displacement)(const void *self);
 
     /* ---- for schemes of more than an Euler step (scheme.h); states.h has keep, exchange and
      * combine for a solver whose states are rows of numbers ---- */
 
-    /* Another length of the steps, s; the state stays. Fails as create does. */
+    /* Changes the length of the steps, s; the state does not change. Fails as create does. */
     enum br_status (*set_step)(void *self, double k, struct br_error *err);
 
-    /* Room for `count` more states, 1, 2, ..., at rest; state 0 is the one that all else is about.
-     * Called once, if at all. Fails with BR_NO_MEMORY. */
+    /* Adds `count` states, 1, 2, ..., at rest; state 0 is the one that all other functions use.
+     * Called at most once. Fails with BR_NO_MEMORY. */
     enum br_status (*keep)(void *self, size_t count, struct br_error *err);
 
-    /* Two states change places. */
+    /* Exchanges two states. */
     void (*exchange)(void *self, size_t a, size_t b);
 
-    /* State `into` = sum of weight[j] times state j, j < count, itself among them or not. Weights
-     * of 0 are skipped: what they belong to need not be finite. */
+    /* State `into` = sum of weight[j] times state j, j < count; `into` may be one of them. States
+     * with weight 0 are skipped, and need not be finite. */
     void (*combine)(void *self, size_t into, size_t count, const double *weight);
 
     /* L2 norms (out) of a state's strain (u_x or w_xx) by displacement and by velocity, from the
@@ -99,7 +98,7 @@ struct br_field_solver {
     void (*size)(void *self, size_t state, double size[2]);
 };
 
-/* Something of an element of each kind. */
+/* A number for each kind of element. */
 struct br_by_element {
     double axial, bending, quadratic; /* the last: axial, of degree 2; 0: there is none */
 };
@@ -111,7 +110,7 @@ struct br_linear_solver {
     const char *name;     /* as on the command line */
     const char *title;    /* one line for a person */
     const char *citation; /* where the method comes from */
-    const char *options;  /* which br_linear_options it accepts; "" for none */
+    const char *options;  /* the br_linear_options that it accepts; "" for none */
     const struct br_field_solver *axial, *bending;
     const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
     const struct br_factoriser *factoriser; /* of the assembled form (assembled.h), or NULL */
@@ -121,27 +120,26 @@ struct br_linear_solver {
     double (*round_off)(const struct br_linear_solver *row, const struct br_field *field,
                         const struct br_linear_options *options);
 
-    /* What its solves leave of the equations (27) and (28) beyond the rounding of nodal values:
-     * the norm of the normal force or the moment that is missing, relative to the terms' sum.
-     * NULL: nothing. */
+    /* The residual of its solves in the equations (27) and (28), beyond the rounding of nodal
+     * values: the norm of the error in the normal force or the moment, relative to the terms' sum.
+     * NULL: none. */
     double (*residual)(const struct br_linear_solver *row, const struct br_field *field,
                        const struct br_linear_options *options);
 
-    /* Bytes an element at most, as measured: with one state, while it is set up and after; and of
-     * each state more that a scheme keeps. tests/test_resources.c compares. */
+    /* The largest measured number of bytes an element: of the solver with one state, during its
+     * set-up and after; and of each further state that a scheme keeps. tests/test_resources.c
+     * checks them. */
     struct br_by_element bytes, state_bytes;
 
-    /* What a step of one stage takes a field, ns, with all that the march does beside it, as
-     * measured; sums: passes over the states that the scheme adds to a stage
-     * (br_time_scheme_sums). NULL: the row is no solver but a choice: it stands for the one of the
-     * others that costs least. */
+    /* The measured time of a step of one stage for a field, ns, with the march's own work; sums:
+     * passes over the states that the scheme adds to a stage (br_time_scheme_sums). NULL: the row
+     * is no solver but a choice, of the row that costs least. */
     double (*cost)(const struct br_linear_solver *row, const struct br_field *field, double sums);
-    double step_cost;                  /* ns, without sums: of a step, with the solve's start */
-    struct br_by_element element_cost; /* and of an element in it */
+    double step_cost;                  /* ns, without sums: of a step and the start of its solve */
+    struct br_by_element element_cost; /* and of each element */
 };
 
-/* The cost of a row that says so by its step_cost and element_cost; of an AMD EPYC with AVX-512 at
- * about 3 GHz. */
+/* The cost by step_cost and element_cost, on an AMD EPYC with AVX-512 at about 3 GHz. */
 double br_cost_by_elements(const struct br_linear_solver *row, const struct br_field *field,
                            double sums);
 
@@ -157,14 +155,14 @@ extern const struct br_linear_solver *const br_linear_solvers[];
 /* The solver of that name, or NULL. */
 const struct br_linear_solver *br_linear_solver_find(const char *name);
 
-/* The row itself; of a choice the one of those that have a solver for the field which costs least,
- * the first of equal ones: it depends on the field's kind, n and degree and on `sums` alone, not on
- * the machine. NULL: none has. */
+/* The row itself, or for a choice the cheapest row that has a solver for the field (the first of
+ * equal ones). That depends on the field's kind, n and degree and on `sums` alone, not on the
+ * machine. NULL: no row has a solver. */
 const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_solver *solver,
                                                       const struct br_field *field, double sums);
 
-/* Its solver for a field, of a choice that for a scheme without sums; NULL: it has none for
- * elements of that degree. */
+/* The row's solver for a field (for a choice with `sums` of 0); NULL: it has none for elements of
+ * that degree. */
 const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
                                                    const struct br_field *field);
 

@@ -101,7 +101,7 @@ static void strain_rate(const void *self, double *rate)
 }
 
 /* The square of u_x over an element is (kappa_0^2 + kappa_1^2 / 3) / h, of w_xx the same over h^3;
- * squares of small numbers are lost in double. */
+ * squares of small numbers would underflow in double. */
 static void size_of(void *self, size_t which, double size[2])
 {
     const struct plain *s = self;
@@ -137,8 +137,8 @@ const struct br_field_solver br_plain_form = {
     .size = size_of,
 };
 
-/* An upper estimate; the benchmark and tests/ measure less. A tip that sticks gathers round-off of
- * its own, whatever the mesh. */
+/* An upper estimate; the benchmark and tests/ measure less. The round-off of a tip that sticks does
+ * not depend on the mesh. */
 static double round_off(const struct br_linear_solver *row, const struct br_field *field,
                         const struct br_linear_options *options)
 {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The flexibility form of one Euler step, as two recursions.
  *
- * The unknown of an element is what deforms it (its scaled curvature, or its
- * elongation): the "control" kappa. The node's (w, h w_x), or u, is the "state"
+ * The unknown of an element is its strain (its scaled curvature, or its elongation): the "control"
+ * kappa. The node's (w, h w_x), or u, is the "state"
  *     y_{i+1} = T y_i + G kappa_i,    y_0 = 0,
  * and the step in increments, delta = v_n - v_{n-1},
  *     (M/k + C + kK) delta = F_n - K w_{n-1} - (C + kK) v_{n-1},
@@ -18,28 +18,27 @@
  * computed once, in long double (the Joseph form of P_i subtracts nothing). A step is
  *     backward:  s_i = R g_i + G'p_{i+1},   p_i = A'p_{i+1} - K'R g_i - F_i
  *     forward:   kappa_i = -(K y_i + S^-1 s_i),  y_{i+1} = A y_i - G S^-1 s_i.
- * The state is stored as curvature; nothing is ever differenced, so round-off
- * grows like 1/h where the assembled stiffness form loses 1/h^4.
+ * The state is stored as curvature, and no differences are formed: round-off grows like 1/h, in the
+ * assembled stiffness form like 1/h^4.
  *
  * A force r that resists the tip adds r e_tip to p_n. Its influence on element
  * i's control is r zeta_i, zeta_i = S^-1 G'pi_{i+1}, pi_i = A'pi_{i+1}, pi_n =
  * e_tip, so that
  *     delta*_tip = -sum_i zeta_i's_i      and      z_tip = sum_i zeta_i'S zeta_i:
- * the tip's free velocity is known when the backward sweep ends, the laws find
- * r, and the forward sweep already carries it.
+ * the tip's free velocity is known after the backward sweep, the laws find r, and the forward sweep
+ * includes it.
  *
- * recursion.c is that once for all elements, for numbers of the type `real`: compiled as double for
- * the solver (plain.c), and with BR_LONG as long double for the exact discrete solution
- * (reference/discrete_field.c), where the names begin with br_long. The state y has d numbers, the
- * control kappa m.
+ * recursion.c implements this for all kinds of elements, with numbers of the type `real`: compiled
+ * as double for the solver (plain.c), and with BR_LONG as long double for the exact discrete
+ * solution (reference/discrete_field.c), where the names begin with br_long. The state y has d
+ * numbers, the control kappa m.
  *
  *     rod             d = 1, m = 1    y = u             kappa = the elongation h u_x
  *     quadratic rod   d = 1, m = 2    y = u             kappa = the elongation, and the bubble
  *     beam            d = 2, m = 2    y = (w, h w_x)    kappa = the coefficients of h^2 w_xx
  *
  * A bubble (field.h) does not reach the nodes, but it has mass and bears load: with f its load,
- *     s_i = R g_i - (0 f)' + G'p_{i+1},    p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i.
- */
+ *     s_i = R g_i - (0 f)' + G'p_{i+1},    p_i = A'p_{i+1} - K'(R g_i - (0 f)') - F_i. */
 #ifndef BR_SOLVER_PLAIN_H
 #define BR_SOLVER_PLAIN_H
 
@@ -65,38 +64,39 @@ struct br_recursion {
     real h, density, stiffness, viscosity, k; /* as in struct br_field */
     real alpha, r[2];                         /* a / (c + ka); R, diagonal */
     real compliance;                          /* z_tip */
-    real *gain;                               /* n times, each by rows: A, K, S^-1, zeta */
+    real *gain;                               /* for each element, by rows: A, K, S^-1, zeta */
     real *drive;                              /* m n, workspace: S^-1 s, m/s */
 };
 
-/* What drives a step, as struct br_drive has it. */
+/* The loads in a step, as in struct br_drive. */
 struct br_recursion_load {
     const real *vector; /* NULL: none */
     real factor, tip[2];
 };
 
-/* Numbers of a state: of each element the controls of the displacement, m, and of the velocity,
- * m/s, which do not know the step; then the tip's own, its displacement (but see br_recursion_tip)
- * and its velocity with a stride of m. */
+/* The number of numbers in a state: for each element the controls of the displacement, m, and of
+ * the velocity, m/s, which do not depend on the step; then the tip's displacement (but see
+ * br_recursion_tip) and its velocity, with a stride of m. */
 static inline size_t br_recursion_size(const struct br_recursion *s)
 {
     return 2 * (size_t)s->m * (s->n + 1);
 }
 
-/* Where a state has the tip's velocity. */
+/* The index of the tip's velocity in a state. */
 static inline size_t br_recursion_tip_rate(const struct br_recursion *s)
 {
     return br_recursion_size(s) - (size_t)s->m;
 }
 
-/* Takes room for tables; where there is none the store has failed. */
+/* Takes memory for tables; if there is none, the store's `failed` is set. */
 void br_recursion_take(struct br_recursion *s, struct br_store *store);
 
-/* All tables, from n to k; who: for a message. Fails with BR_SINGULAR. */
+/* Computes all tables from the numbers n to k; who: for a message. Fails with BR_SINGULAR. */
 enum br_status br_recursion_fill(struct br_recursion *s, const char *who, struct br_error *err);
 
-/* Backward sweep: the tip's velocity without a force of the laws. Forward sweep: the state after
- * the step, and its tip's velocity; the force, N, resists the tip. */
+/* predict, the backward sweep, returns the tip's velocity without contact and friction. finish, the
+ * forward sweep, computes the state after the step and returns the tip's velocity; the force, N,
+ * resists the tip. */
 real br_recursion_predict(struct br_recursion *s, const real *state,
                           const struct br_recursion_load *by);
 real br_recursion_finish(struct br_recursion *s, real *state, real force);

@@ -14,7 +14,7 @@ INLINE int gain_size(int d, int m)
     return d * d + m * d + m * m + m;
 }
 
-/* G and T: of a rod both are 1 for the elongation, and G is 0 for the bubble. */
+/* G of a beam. For a rod G and T are 1 for the elongation, and G is 0 for the bubble. */
 static const real g[2][2] = {{(real)0.5, (real)(-1.0L / 6)}, {1, 0}};
 
 /* Row a of G kappa. */
@@ -23,7 +23,7 @@ INLINE real control(int d, int a, const real *kappa)
     return d == 1 ? kappa[0] : a == 1 ? kappa[0] : g[0][0] * kappa[0] + g[0][1] * kappa[1];
 }
 
-/* T y + G kappa: the node at an element's right end, from that at its left one. */
+/* y = T y + G kappa: from an element's left node to its right one. */
 INLINE void cross(int d, const real *kappa, real *y)
 {
     y[0] += d == 2 ? y[1] + control(d, 0, kappa) : control(d, 0, kappa);
@@ -31,7 +31,7 @@ INLINE void cross(int d, const real *kappa, real *y)
         y[1] += control(d, 1, kappa);
 }
 
-/* Row c of G'p; of a rod the first. */
+/* Row c of G'p; for a rod the first. */
 INLINE real transposed_control(int d, int c, const real *p)
 {
     return d == 2 ? g[0][c] * p[0] + g[1][c] * p[1] : p[0];
@@ -51,7 +51,7 @@ struct riccati {
     struct block p;             /* P */
     wide influence[2];          /* pi */
     wide compliance;            /* sum of zeta'S zeta so far */
-    struct block a, k, inverse; /* out, of an element: A, K, S^-1 */
+    struct block a, k, inverse; /* out, of the current element: A, K, S^-1 */
     wide zeta[2];               /* zeta */
 };
 
@@ -75,9 +75,9 @@ static bool rod_gain(struct riccati *rec)
     return true;
 }
 
-/* (1 -K') N (1 -K')' for m times the mass N of a quadratic element, as a sum of squares, in which
- * nothing is lost: of the Legendre modes of the function that is 1 and A at the nodes and has the
- * bubble -K_1. */
+/* (1 -K') N (1 -K')' for m times the mass N of a quadratic element, without cancellation: it is the
+ * sum of the squared Legendre modes of the function with nodal values 1 and A and the bubble -K_1.
+ */
 static wide mass_square(wide m, wide closed, wide elongation, wide bubble)
 {
     const wide mean = (1 + closed) / 2 - bubble / 6;
@@ -95,7 +95,7 @@ static bool quadratic_gain(struct riccati *rec)
     rec->inverse = inverse_of(s);
     rec->k = times(rec->inverse, h);
     const wide k0 = rec->k.e[0][0], k1 = rec->k.e[1][0];
-    /* 1 - K_0, whose P cancels */
+    /* 1 - K_0, in which P cancels */
     const wide closed = (r[0] * r[1] + m * (r[0] / 30 - r[1] / 6) + m * m / 720) / determinant(s);
     rec->p.e[0][0] =
         mass_square(m, closed, k0, -k1) + r[0] * k0 * k0 + r[1] * k1 * k1 + closed * closed * p;
@@ -244,12 +244,13 @@ INLINE real sweep_left(int d, int m, struct br_recursion *s, const real *state,
 }
 
 /* Forward sweep: the increment kappa of every element's rate, with the tip's force in it, and the
- * update of the state. The tip's motion is rebuilt from it: what is only incremented drifts. */
+ * update of the state. The tip's motion is summed from the strains: a motion that is only
+ * incremented would drift. */
 INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real force)
 {
     const size_t n = s->n;
     const real k = s->k;
-    real y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of the increment, and of the state */
+    real y[2] = {0}, u[2] = {0}, v[2] = {0}; /* at the node: of increment, displacement, velocity */
     const real *restrict gain = s->gain, *restrict drive = s->drive;
     real *restrict e = state;
     for (size_t i = 0; i < n; i++, e += 2 * m) {
@@ -271,7 +272,7 @@ INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real 
         }
         for (int a = 0; a < d; a++)
             y[a] = next[a];
-        if (d == 1) /* the laws do not ask for the beam's */
+        if (d == 1) /* the laws do not need that of a beam */
             cross(d, e, u);
         cross(d, e + m, v);
     }
@@ -279,7 +280,7 @@ INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real 
     e[m] = v[0];
 }
 
-/* Both with d and m as constants. */
+/* Both sweeps, with constants d and m. */
 
 BR_SWEEP
 real br_recursion_predict(struct br_recursion *s, const real *state,

@@ -3,7 +3,7 @@
 
 #include "solver/instruction_set.h"
 
-enum { BLOCK = 256 }; /* numbers that stay in the nearest cache while they gather */
+enum { BLOCK = 256 }; /* numbers that stay in the first-level cache while they are summed */
 
 enum br_status br_states_add(struct br_states *states, size_t size, size_t count,
                              struct br_error *err)
@@ -31,7 +31,7 @@ static void add_block(double *restrict sum, size_t size, double weight, const do
         sum[i] += weight * from[i];
 }
 
-/* The same of four, in their order: the sum stays in registers. */
+/* add_block for four states at once, in the same order: the sum stays in registers. */
 BR_SWEEP
 static void add_four(double *restrict sum, size_t size, const double *weight, double *const *from,
                      size_t first)

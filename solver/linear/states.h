@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* States of a field as rows of numbers, for schemes that keep several (scheme.h), and the memory of
- * the solver that has them. */
+/* States of a field as arrays of numbers, for schemes that keep several (scheme.h), and the memory
+ * of their solver. */
 #ifndef BR_SOLVER_STATES_H
 #define BR_SOLVER_STATES_H
 
@@ -11,7 +11,7 @@ enum { BR_MOST_STATES = 16 };
 struct br_states {
     size_t size, count;         /* numbers of a state; states */
     double *of[BR_MOST_STATES]; /* the first is the one that marches */
-    struct br_store store;      /* of the states, and of what else the solver takes from it */
+    struct br_store store;      /* memory of the states and of the solver's other arrays */
 };
 
 /* `count` more states of `size` numbers, all zero. Fails with BR_NO_MEMORY; clear it even then. */
@@ -24,8 +24,8 @@ void br_states_clear(struct br_states *states);
 void br_add_states(double *to, size_t size, size_t count, double *const *from,
                    const double *weight);
 
-/* free, keep, exchange and combine of a br_field_solver (linear_solver.h) whose record begins with
- * its states, and has no memory but their store. */
+/* free, keep, exchange and combine of a br_field_solver (linear_solver.h) whose struct begins with
+ * its states, and has no memory outside their store. */
 void br_free_states(void *self);
 enum br_status br_keep_states(void *self, size_t count, struct br_error *err);
 void br_exchange_states(void *self, size_t a, size_t b);

@@ -22,7 +22,7 @@ static double stiffness_entry(const struct br_field *f, size_t a, size_t b)
     return (first[a] * first[b] + second[a] * second[b] / 3) / (f->h * f->h * f->h);
 }
 
-/* Of the element's M/k + C + kK. */
+/* Entry of the element's M/k + C + kK. */
 static double entry(const struct br_field *f, size_t a, size_t b)
 {
     const double mass = f->kind == BR_AXIAL ? br_axial_mass[a][b] : br_bending_mass[a][b];
@@ -44,7 +44,7 @@ static void band_assemble(const struct br_field *f, struct br_band *m)
             }
 }
 
-/* Each element's right half is carried on to the next node. */
+/* `carried`: what an element adds to its right node. */
 static void add_axial(const struct br_field *f, double mass, const double *v, double stiffness,
                       const double *w, double *out)
 {
@@ -82,7 +82,7 @@ static void add_bending(const struct br_field *f, double mass, const double *v, 
 
 /* out += mass (consistent mass over h) v - stiffness (K of unit material) w, clamped node included.
  * Nodal arrays as in field.h: v, w in; out in/out. mass: kg or kg/s; stiffness: N, N m^2, or times
- * s. K w is formed from what deforms each element, which loses less than an assembled K would. */
+ * s. K w is formed from each element's strain, which loses less than an assembled K. */
 static void add_elements(const struct br_field *f, double mass, const double *v, double stiffness,
                          const double *w, double *out)
 {
@@ -123,21 +123,21 @@ void br_band_values(const struct br_band *a, bool both, double *value)
 /* ---- the system A x = b ---- */
 
 struct assembled {
-    struct br_states states; /* nodal: displacement, and behind it velocity */
+    struct br_states states; /* nodal: displacement, then velocity */
     struct br_field field;
     size_t unknowns; /* a node */
     size_t nodal;    /* length of a nodal array, clamped node included */
     size_t tip;      /* index of the tip's displacement in one */
     const struct br_factoriser *factoriser;
     void *factor;
-    int refinement; /* steps a solve, at most, where the factoriser does not do it */
+    int refinement; /* largest number of steps a solve; 0 where the factoriser refines */
     struct br_band matrix;
     double *free_velocity;               /* v* */
     double *tip_response;                /* z = A^-1 e_tip, nodal */
     double *rhs, *residual, *correction; /* workspace, nodal */
-    double loss;   /* of a solve, relative, as check_digits has it: the largest of all steps */
-    double safety; /* how much more a march may lose, see round_off */
-    double usual;  /* loss of a march as usual_loss has it */
+    double loss;   /* relative loss of a solve (check_digits): the largest for all step lengths */
+    double safety; /* a factor on that loss, see march_round_off */
+    double usual;  /* loss of a march by usual_loss */
 };
 
 /* Assembles and factorises A for s->field. */
@@ -150,13 +150,13 @@ static enum br_status factorise_matrix(struct assembled *s, struct br_error *err
         if (!isfinite(s->matrix.value[i]))
             return br_fail(err, BR_SINGULAR, "%s: the matrix has an entry %g, expected numbers",
                            s->factoriser->name, s->matrix.value[i]);
-    const int traps = br_traps_lift(); /* libraries may try a pivot of 0 */
+    const int traps = br_traps_lift(); /* libraries may divide by a pivot of 0 */
     const enum br_status status = s->factoriser->factorise(s->factor, &s->matrix, err);
     br_traps_restore(traps);
     return status;
 }
 
-/* NaN where one of them is. */
+/* The largest magnitude; NaN if one value is NaN. */
 static double largest(const double *x, size_t count)
 {
     double most = 0;
@@ -181,11 +181,11 @@ static enum br_status correct(struct assembled *s, const double *x, struct br_er
 }
 
 /* x = A^-1 rhs; nodal (out), and the clamped node of x stays as it is, zero. Then x += A^-1 (rhs -
- * A x), in double, until a correction is no longer half of the one before, or the next one would be
- * round-off. The residual is formed element by element from what deforms them, so that it is as
- * exact as one of more digits, and the error itself shrinks, not just the residual (N. J. Higham,
- * Accuracy and Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1). The march
- * reports what is not finite. */
+ * A x), in double, until a correction is more than half of the one before, or the next one would be
+ * round-off. The residual is formed from the elements' strains, so that it is as exact as one in
+ * higher precision, and the error itself shrinks, not only the residual (N. J. Higham, Accuracy and
+ * Stability of Numerical Algorithms, 2nd ed., SIAM 2002, section 12.1). The march reports what is
+ * not finite. */
 static enum br_status solve(struct assembled *s, double *x, struct br_error *err)
 {
     enum br_status status = solve_once(s, s->rhs, x, err);
@@ -214,9 +214,10 @@ static enum br_status solve(struct assembled *s, double *x, struct br_error *err
     return BR_OK;
 }
 
-/* Before a march: upper estimates of what was measured for n = 100 to 100,000 and k = 1e-2 to 1e-6
- * in the paper's examples and a vibration of little damping (study/extremes/extremes.h). For bending
- * first like the condition number, n^4, and from n = 1100 like n^3. A march measures its own. */
+/* Before a march: upper estimates of the losses that were measured for n = 100 to 100,000 and k =
+ * 1e-2 to 1e-6 in the paper's examples and a vibration of little damping
+ * (study/extremes/extremes.h). For bending first like the condition number, n^4, and from n = 1100
+ * like n^3. A march measures its own loss. */
 static double without_refinement(const struct br_field *f)
 {
     const double n = (double)f->n;
@@ -225,14 +226,14 @@ static double without_refinement(const struct br_field *f)
     return DBL_EPSILON * fmax(fmax(16, fmin(n / 4, 25)), fmin(n * n / 400, 3000)) * n * n * n;
 }
 
-/* What a refinement step leaves of an error. */
+/* The factor of an error that remains after a refinement step. */
 static double left_by_a_step(const struct br_field *f)
 {
     const double n = (double)f->n;
     return fmin(0.5, f->kind == BR_AXIAL ? without_refinement(f) : 4000 * DBL_EPSILON * n * n * n);
 }
 
-/* UMFPACK's refinement repairs residuals, not errors: with it, up to 10 times as much. */
+/* UMFPACK's refinement repairs residuals, not errors: with it the loss is up to 10 times larger. */
 static double usual_loss(const struct br_field *f, bool refines,
                          const struct br_linear_options *options)
 {
@@ -254,9 +255,10 @@ double br_assembled_round_off(const struct br_linear_solver *row, const struct b
 
 /* Elimination is backward stable: each row is solved for a nodal force that is off by a few last
  * bits of its terms, 24 C/h^3 |v| for bending and 2 C/h |v| for the rod (Higham, chapter 10). Such
- * forces are at random, and what balances them is a sum of them and of their levers: of moments
- * C |v|/L^2 the relative error is 0.5 times 2^-52 n^3.5, of normal forces 0.3 times 2^-52 n^1.5.
- * Eight times as much; a library's own refinement is of the rounded matrix. */
+ * forces are random, and a moment or normal force is off by their sum, with their levers: relative
+ * to moments C |v|/L^2 by 0.5 times 2^-52 n^3.5, to normal forces by 0.3 times 2^-52 n^1.5. This
+ * returns eight times as much. A library's own refinement does not help: it uses the rounded
+ * matrix. */
 double br_assembled_residual(const struct br_linear_solver *row, const struct br_field *f,
                              const struct br_linear_options *options)
 {
@@ -268,20 +270,21 @@ double br_assembled_residual(const struct br_linear_solver *row, const struct br
 
 /* ---- a field solver ---- */
 
-/* Each step's velocity is off by what a solve loses, which inertia keeps for so many steps. */
+/* Each step's velocity is off by the loss of a solve, and inertia keeps that error for so many
+ * steps. */
 static double kept(const struct assembled *s, double steps)
 {
     return fmin(1 + br_field_inertia(&s->field), steps);
 }
 
-/* A march that is more than a twentieth off has next to no digit left; near 1 the mass, or what the
- * clamp holds, is not in the factors any more, and steps grow without end. */
+/* A march with an error above a twentieth has hardly one correct digit. With a loss near 1 the
+ * factors contain neither the mass nor the clamp, and the steps grow without bound. */
 static const double most_loss = 0.05, few_steps = 10;
 
-/* What is lost is measured, not predicted: it depends on n, k, damping and the order of elimination
- * by factors of thousands, and only sometimes makes a pivot negative. A force at the tip asks for
- * the softest motion there is, which loses most: of that, relative to its largest value, the
- * correction is that one more step of refinement would make. */
+/* The loss of a solve is measured, not predicted: n, k, damping and the order of elimination change
+ * it by factors of thousands, and only sometimes a pivot becomes negative. The response to a force
+ * at the tip is the softest motion, which loses most. The measure is the correction that one more
+ * refinement step makes to it, relative to its largest value. */
 static enum br_status check_digits(struct assembled *s, struct br_error *err)
 {
     const struct br_field *f = &s->field;
@@ -302,7 +305,7 @@ static enum br_status check_digits(struct assembled *s, struct br_error *err)
         most_loss);
 }
 
-/* All that depends on the step's length. */
+/* Computes all that depends on the step's length. */
 static enum br_status factorise(struct assembled *s, struct br_error *err)
 {
     enum br_status status = factorise_matrix(s, err);
@@ -376,11 +379,11 @@ static enum br_status assembled_set_step(void *self, double k, struct br_error *
     return factorise(s, err);
 }
 
-/* What is measured is one right side's, at one length of the step; at another, in another stage
- * say, the factors' errors are others, and chance may make any of them small: of 6000 random scenes
- * on up to 12800 elements, in all schemes, the worst lost 30 times as much. So no less than what is
- * usual is predicted, which by the time that inertia keeps it is spread over 1 + inertia solves,
- * and no less a solve than its sums lose. In those scenes some lost 1.7 times the usual. */
+/* The measurement is for one right side and one length of the step. With another length the
+ * factors' errors differ, and a measured loss may be small by chance: of 6000 random scenes on up
+ * to 12800 elements, in all schemes, the worst lost 30 times as much. So the prediction is at least
+ * the usual loss, spread over the 1 + inertia solves whose errors inertia keeps, and at least the
+ * loss of a solve's sums. In those scenes some lost 1.7 times the usual. */
 static double march_round_off(const void *self, size_t steps)
 {
     const struct assembled *s = self;
@@ -414,7 +417,7 @@ static void assembled_get(const void *self, double *displacement, double *veloci
         memcpy(velocity, s->states.of[0] + s->nodal, bytes);
 }
 
-/* What deforms element i, from nodal values: its elongation or its two curvatures. */
+/* The strain of element i, from nodal values: its elongation or its two curvatures. */
 static void strain(const struct assembled *s, const double *nodal, size_t i, double *out)
 {
     if (s->field.kind == BR_AXIAL)
@@ -470,9 +473,9 @@ static void assembled_size(void *self, size_t which, double size[2])
     const struct assembled *s = self;
     struct br_view view;
     br_view_field(&view, &s->field, BR_STRAIN_RATE); /* the modes of a strain: the same scales */
-    for (int part = 0; part < 2; part++) {
-        const double *nodal = s->states.of[which] + (part ? s->nodal : 0);
-        long double squares = 0; /* those of small numbers are lost in double */
+    for (int rate = 0; rate < 2; rate++) {
+        const double *nodal = s->states.of[which] + (rate ? s->nodal : 0);
+        long double squares = 0; /* squares of small numbers underflow in double */
         double modes[2];
         for (size_t i = 0; i < s->field.n; i++) {
             strain(s, nodal, i, modes);
@@ -481,7 +484,7 @@ static void assembled_size(void *self, size_t which, double size[2])
                 squares += mode * mode;
             }
         }
-        size[part] = (double)sqrtl(squares);
+        size[rate] = (double)sqrtl(squares);
     }
 }
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The assembled form by LAPACK's banded Cholesky: dpbtrf once, dpbtrs a step.
  *
- * The unknowns are numbered from the tip to the clamp. What is left of a beam whose clamped end has
- * been eliminated is as soft as a cantilever, n^-3 of an element's stiffness, and a difference of
- * numbers as large as that: in this order w(L) loses a hundred times more at n = 12800, and pivots
- * turn negative. What is left of a free end's elimination resists by its mass alone, and every
- * pivot is about as large as an element's stiffness. */
+ * The unknowns are numbered from the tip to the clamp. In the other order, elimination from the
+ * clamp leaves pivots as soft as a cantilever, n^-3 of an element's stiffness, as differences of
+ * numbers as large as that stiffness: w(L) loses a hundred times more at n = 12800, and pivots
+ * become negative. After elimination of the free end only its mass resists, and every pivot is
+ * about as large as an element's stiffness. */
 #include <lapacke.h>
 
 #include "solver/linear/assembled/assembled.h"
 
 struct banded {
     lapack_int order, band;
-    double *value; /* U of A = U'U in that order, in the place of A's upper band */
+    double *value; /* A's upper band in that order, then U of A = U'U */
     double *work;  /* workspace for the solve: order */
     struct br_store store;
 };
@@ -41,8 +41,7 @@ static void banded_free(void *factor)
     free(b);
 }
 
-/* A lower band by columns, from its end to its beginning, is the upper band of the matrix whose
- * unknowns are numbered the other way. */
+/* A lower band by columns, read backwards, is the upper band for the reversed numbering. */
 static void reverse(const double *from, double *to, size_t count)
 {
     for (size_t i = 0; i < count; i++)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The assembled form by SuiteSparse's CHOLMOD: L L', analysed once, factorised for each length of
- * the steps, cholmod_solve2 a step, which keeps its workspaces. Simplicial: a band of 3 has no
- * blocks that would repay supernodes (as fast, and no more exact). AMD's ordering begins at the
- * tip; see banded.c why the other one would not do. */
+ * the steps, solved once a step by cholmod_solve2, which keeps its workspaces. Simplicial: a band
+ * of 3 has no blocks that would repay supernodes (as fast, and no more exact). AMD's ordering
+ * begins at the tip; banded.c explains why the other order is worse. */
 #include <string.h>
 #include <suitesparse/cholmod.h>
 
@@ -85,7 +85,7 @@ static enum br_status cholmod_solve_it(void *factor, const double *rhs, double *
                        .x = x,
                        .xtype = CHOLMOD_REAL,
                        .dtype = CHOLMOD_DOUBLE};
-    memcpy(x, rhs, c->factor->n * sizeof *x); /* which spares a cast: b is not const */
+    memcpy(x, rhs, c->factor->n * sizeof *x); /* avoids a cast: b is not const */
     if (!cholmod_solve2(CHOLMOD_A, c->factor, &b, NULL, &c->solution, NULL, &c->y, &c->e,
                         &c->common))
         return failed(c, err);

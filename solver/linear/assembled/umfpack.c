@@ -7,7 +7,7 @@
 
 struct umfpack {
     int order;
-    int *column, *row; /* both triangles, by columns; order + 1 and as many as values */
+    int *column, *row; /* both triangles, by columns: order + 1 numbers, and one a value */
     int *iwork;        /* workspace: 2 * order, of which the solve needs one */
     double *value;
     double *work; /* workspace for the solve: 5 * order */
@@ -83,9 +83,10 @@ static void umfpack_destroy(void *factor)
     free(u);
 }
 
-/* LU takes indefinite matrices, too. Where rows and columns were permuted alike, the diagonal of U
- * has the signs of the pivots of a symmetric elimination: all positive if and only if A is positive
- * definite (Sylvester's law of inertia). Else only the tip's compliance is looked at, as always. */
+/* LU also factorises indefinite matrices. Where rows and columns were permuted alike, the diagonal
+ * of U has the signs of the pivots of a symmetric elimination: all positive if and only if A is
+ * positive definite (Sylvester's law of inertia). Else only the tip's compliance is checked, as for
+ * all libraries. */
 static enum br_status check_definite(struct umfpack *u, struct br_error *err)
 {
     int *rows = u->iwork, *columns = u->iwork + u->order, scaled;

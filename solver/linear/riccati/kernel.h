@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The loops of the fast solver: BR_LANES equal spans of the beam side by side, one in each lane of
- * the vectors. A span is cut into pieces, which are worked on while they are in the nearest cache.
- * All arrays go from the left end to the right one and hold BR_LANES values for each entry, tables
- * one for all lanes. d is the number of unknowns a node: 1 axial, 2 bending; it is a constant of
- * the loops. The mathematics is in pieces.h. */
+ * the vectors. A span is cut into pieces, each of which fits the first-level cache. All arrays go
+ * from the left end to the right one and have BR_LANES values for each entry; tables have one for
+ * all lanes. d is the number of unknowns a node: 1 axial, 2 bending; it is a constant of the loops.
+ * The mathematics is in pieces.h. */
 #ifndef BR_SOLVER_KERNEL_H
 #define BR_SOLVER_KERNEL_H
 
@@ -14,14 +14,14 @@
 
 enum { BR_LANES = 16 };
 
-/* What the end values of a piece are, d * BR_LANES each. */
+/* The end values of a piece, d * BR_LANES each. */
 enum {
     BR_END_Q,      /* what its state adds to its left costate */
     BR_END_Z,      /* and to its right increment */
     BR_END_LOAD_Q, /* what a load of factor 1 adds to these */
     BR_END_LOAD_Z,
-    BR_END_H,     /* right costate in front of C y */
-    BR_END_DRIFT, /* z with the load */
+    BR_END_H,     /* right costate without C y */
+    BR_END_DRIFT, /* z with that of the load */
     BR_ENDS
 };
 
@@ -33,8 +33,8 @@ enum {
     BR_JOIN_COSTATE,  /* C */
     BR_JOIN_TRANSFER, /* Phi'C M */
     BR_SPAN_JOINS,
-    BR_JOIN_LEAD = BR_SPAN_JOINS, /* what z adds to the span's */
-    BR_JOIN_LAG,                  /* and what h takes from it */
+    BR_JOIN_LEAD = BR_SPAN_JOINS, /* what z adds to the span's z */
+    BR_JOIN_LAG,                  /* and what h subtracts from it */
     BR_JOIN_REACH,                /* h for a unit costate at the span's right end */
     BR_JOINS
 };
@@ -45,7 +45,7 @@ struct br_strip {
     double *weight;        /* per element what g adds to z and q: 2 d^2 */
     double *join;          /* BR_JOINS d^2 a piece */
     double *span_join;     /* BR_SPAN_JOINS d^2, each for every lane */
-    size_t lanes;          /* in use, from the first on; the others rest */
+    size_t lanes;          /* number in use, from the first on; the others stay 0 */
     double alpha, k;       /* g = alpha kappa_w + kappa_v; the time step, s */
     double *state;         /* 2 d an element: kappa_w and kappa_v */
     double *load;    /* d an element: F / R at its left node; NULL: none, or the same everywhere */
@@ -53,7 +53,7 @@ struct br_strip {
     double *scratch; /* d an element of one piece */
 };
 
-/* What drives a strip in one step. */
+/* The load on a strip in one step. */
 struct br_strip_drive {
     double factor;     /* of the load */
     double uniform[2]; /* F / R at every node, for a factor of 1; used where strip->load is NULL */
@@ -63,7 +63,7 @@ struct br_strip_drive {
 struct br_strip_ends {
     double *right, *left; /* in: the costates at the right ends, the increments at the left ones */
     double *velocity;     /* out: at the right ends, relative to fixed left ends */
-    double *displacement; /* out: the same, axial only */
+    double *displacement; /* out: the displacement, axial only */
 };
 
 struct br_loops {
@@ -71,10 +71,10 @@ struct br_loops {
      * z (out, d each). */
     void (*gather)(const struct br_strip *strip, double factor, double *q, double *z);
 
-    /* The recursion over the spans of a strip. To the left: h is that of its right end (in), and
-     * of its left end (out); `right` (out, d each) keeps it for each span. Then to the right: y is
-     * the increment at its left end (in), and at its right end (out), and `left` and `right` (out)
-     * what advance takes. */
+    /* The recursion over the spans of a strip. join_left goes to the left: h belongs to the strip's
+     * right end (in), then to its left end (out); `right` (out, d each) keeps h for each span.
+     * join_right goes to the right: y is the increment at the strip's left end (in), then at its
+     * right end (out); `left` and `right` (out) are those of struct br_strip_ends. */
     void (*join_left)(const struct br_strip *strip, const double *q, const double *z, double *h,
                       double *right);
     void (*join_right)(const struct br_strip *strip, const double *z, double *y, double *left,
@@ -87,9 +87,9 @@ struct br_loops {
     /* What the load adds to the ends of the pieces. */
     void (*charge)(const struct br_strip *strip, const double uniform[2]);
 
-    /* The state becomes the sum over j < count of weight[j] times the states from[j], itself among
-     * them or not; with count 0 it stays. What it adds to the ends of the pieces, q and z, is
-     * found: advance leaves that, too. */
+    /* The state becomes the sum over j < count of weight[j] times the states from[j], one of which
+     * may be the state itself; with count 0 it does not change. Also computes what the state adds
+     * to the ends of the pieces, q and z, as advance does. */
     void (*blend)(const struct br_strip *strip, size_t count, const double *const *from,
                   const double *weight);
 
@@ -100,8 +100,8 @@ struct br_loops {
      * each). */
     void (*carry)(const struct br_strip *strip, bool rate, double *across);
 
-    /* The same at every node but the left end of the first span, in order (out, d a node); left:
-     * at the spans' left ends (in, d each). */
+    /* The displacement or its rate at every node except the left end of the first span, in order
+     * (out, d a node); left: its values at the spans' left ends (in, d each). */
     void (*expand)(const struct br_strip *strip, bool rate, const double *left, double *nodal);
 };
 
@@ -122,15 +122,15 @@ const struct br_kernel *br_kernel_find(const char *name);
 
 /* ---- cost ---- */
 
-/* What the element loops of sweep.c do for one element in each lane of a vector, for the
- * benchmark, which holds their time against the machine's limits. To be counted anew when the loops
- * change: element_left, element_right, element_state, strain, pass_on and the weights. Instructions
- * that only move values are not counted, nor are the joins. */
+/* What the element loops of sweep.c do for one element in each lane of a vector, for the benchmark,
+ * which compares their time with the machine's limits. Count again when the loops change:
+ * element_left, element_right, element_state, strain, pass_on and the weights. Instructions that
+ * only move values are not counted, nor are the joins. */
 
 struct br_sweep_cost {
     int fma, multiply, add; /* instructions on vectors of BR_LANES */
-    int state;              /* doubles of a piece that stay from step to step; each is read and
-                               written once a step from where all pieces fit */
+    int state; /* doubles that persist from step to step; each is read and written once a step, in
+                  the cache or memory where all pieces fit */
 };
 
 /* By br_field_kind. To the left, then to the right. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The flexibility form, fast: where everything lies, the way from and to nodal
- * values, and a step; see pieces.h. */
+/* The fast flexibility form: the layout of arrays, conversion from and to nodal values, and a step;
+ * see pieces.h. */
 #include <fenv.h>
 #include <math.h>
 #include <string.h>
@@ -35,11 +35,11 @@ static size_t all_strands(const struct br_pieces *s)
     return size;
 }
 
-/* Of a state, behind those of the strands. The bias is the mean of what the joins' increment lacks
- * of the field's, m/s. */
+/* The numbers of a state after those of the strands. The bias is the mean difference between the
+ * tip's increment in the field and that of the joins, m/s. */
 enum { TIP_VELOCITY, TIP_DISPLACEMENT, TIP_BIAS, TIP_NUMBERS };
 
-/* The strips' states and the tip's are in the first of the states. */
+/* Points the strips and the tip at state 0. */
 static void point_at_first(struct br_pieces *s)
 {
     double *at = s->states.of[0];
@@ -50,7 +50,7 @@ static void point_at_first(struct br_pieces *s)
     s->tip = at;
 }
 
-/* Arrays of a strand. */
+/* Takes the arrays of a strand. */
 static void lay_out(struct br_pieces *s, struct br_strand *t)
 {
     const size_t d = (size_t)s->d, entry = d * BR_LANES;
@@ -84,7 +84,7 @@ static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
     const enum br_status status = br_states_add(&s->states, all_strands(s) + TIP_NUMBERS, 1, err);
     if (status)
         return status;
-    for (int i = 0; i < s->strands; i++) { /* gains go by the distance to the right end */
+    for (int i = 0; i < s->strands; i++) { /* gains are indexed by the distance to the right end */
         struct br_strip *strip = &s->strand[i].strip;
         strip->gain = gain + (longest - strip->length) * 3 * d * d;
         strip->scratch = scratch;
@@ -93,7 +93,7 @@ static enum br_status lay_out_all(struct br_pieces *s, struct br_error *err)
     return BR_OK;
 }
 
-/* kappa_w of an element, kappa_v after it. */
+/* kappa_w of an element; its kappa_v follows. */
 static double *state_at(const struct br_pieces *s, const struct br_strand *t, size_t lane, size_t e)
 {
     return t->strip.state + e * 2 * (size_t)s->d * BR_LANES + lane;
@@ -101,8 +101,8 @@ static double *state_at(const struct br_pieces *s, const struct br_strand *t, si
 
 /* ---- to nodal values ---- */
 
-/* What each span has at its left end, given what it is across each; y: at the left end of the first
- * (in), and at the right end of the last (out). */
+/* The values at each span's left end, from the differences across the spans; y: at the left end of
+ * the first span (in), and at the right end of the last one (out). */
 static void find_left_ends(const struct br_pieces *s, const struct br_strand *t,
                            const double *across, double *y, double *left)
 {
@@ -155,7 +155,7 @@ static void pieces_strain_rate(const void *self, double *rate)
     }
 }
 
-/* Read off the field, m. */
+/* Sums the tip's displacement over the elements, m. */
 static double find_tip_displacement(const struct br_pieces *s)
 {
     _Alignas(64) double across[2 * BR_LANES];
@@ -169,7 +169,7 @@ static double find_tip_displacement(const struct br_pieces *s)
 
 /* ---- from nodal values ---- */
 
-/* What deforms an element, in the units of tables.c, from its nodes into its lane. */
+/* Writes an element's strain, in the units of tables.c, from its nodes into its lane. */
 static void put_strain(int d, const double *node, double *to)
 {
     double strain[2] = {node[1] - node[0]};
@@ -203,7 +203,7 @@ static void pieces_set(void *self, const double *displacement, const double *vel
 
 /* ---- loads: what they add to the recursions of the pieces ---- */
 
-/* Whether all nodes but the clamped and the last one have one load. */
+/* Whether all nodes have the same load, except the clamped and the last one. */
 static bool is_uniform(const struct br_pieces *s, const double *vector)
 {
     const size_t d = (size_t)s->d;
@@ -225,7 +225,7 @@ static void spread(const struct br_pieces *s, struct br_strand *t, const double 
             to[i * BR_LANES + lane] = from[i] / r;
 }
 
-/* Another load vector, N; NULL: none. */
+/* Sets another load vector, N; NULL: none. */
 static enum br_status set_load(struct br_pieces *s, const double *vector, struct br_error *err)
 {
     const size_t d = (size_t)s->d;
@@ -257,8 +257,8 @@ static enum br_status set_load(struct br_pieces *s, const double *vector, struct
 /* Round-off of the tip's increment is small beside the velocity that it leads to. */
 static const double most_bias = 1e-8;
 
-/* The increments and costates at the ends of all spans, for the tip's costate h; the tip's
- * increment goes into y (out). */
+/* Computes the increments and costates at the ends of all spans, for the tip's costate h, and the
+ * tip's increment y (out). */
 static void join(struct br_pieces *s, double *h, double *y)
 {
     for (int i = s->strands; i-- > 0;) {
@@ -272,7 +272,7 @@ static void join(struct br_pieces *s, double *h, double *y)
     }
 }
 
-/* Tables for the field's step, and what a unit force at the tip does with them. */
+/* Computes the tables for the field's step, and the response to a unit force at the tip. */
 static enum br_status prepare(struct br_pieces *s, struct br_error *err)
 {
     const enum br_status status = br_pieces_tables(s, err);
@@ -340,16 +340,16 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
     join(s, costate, s->tip_increment);
     *velocity = s->tip[TIP_VELOCITY] + s->tip_increment[0];
     if (!(fabs(s->tip[TIP_BIAS]) <= most_bias * fabs(*velocity)))
-        s->tip[TIP_BIAS] = 0; /* that of a motion which has died away since */
+        s->tip[TIP_BIAS] = 0; /* it belongs to a motion that has died away */
     s->tip_increment[0] += s->tip[TIP_BIAS];
     *velocity += s->tip[TIP_BIAS];
     return BR_OK;
 }
 
-/* Reads the tip off the field: what is only incremented drifts. The round-off of the joins'
- * increment hardly changes from step to step; what it was is taken off the next one, or a tip that
- * sticks would creep by it. */
-static void look_at_tip(struct br_pieces *s, double told)
+/* Computes the tip's values from the field: values that are only incremented would drift. The
+ * round-off of the joins' increment hardly changes from step to step, and a tip that sticks would
+ * creep by it; so the next increment is corrected by the difference to `expected`. */
+static void look_at_tip(struct br_pieces *s, double expected)
 {
     double velocity[2] = {0}, displacement[2] = {0}, left[2 * BR_LANES];
     for (int i = 0; i < s->strands; i++) {
@@ -358,7 +358,7 @@ static void look_at_tip(struct br_pieces *s, double told)
             find_left_ends(s, &s->strand[i], s->strand[i].ends.displacement, displacement, left);
     }
     s->tip[TIP_VELOCITY] = velocity[0];
-    s->tip[TIP_BIAS] += s->tip[TIP_VELOCITY] - told;
+    s->tip[TIP_BIAS] += s->tip[TIP_VELOCITY] - expected;
     if (s->d == 1)
         s->tip[TIP_DISPLACEMENT] = displacement[0];
 }
@@ -382,7 +382,7 @@ static double pieces_finish(void *self, double force)
 static double pieces_tip_displacement(const void *self)
 {
     const struct br_pieces *s = self;
-    return s->d == 1 ? s->tip[TIP_DISPLACEMENT] : find_tip_displacement(s); /* the laws need u */
+    return s->d == 1 ? s->tip[TIP_DISPLACEMENT] : find_tip_displacement(s); /* laws need only u */
 }
 
 /* ---- other steps and sums of states, for schemes of several stages ---- */
@@ -404,7 +404,7 @@ static void pieces_exchange(void *self, size_t a, size_t b)
     s->stale_ends = true;
 }
 
-/* Those that have a weight, first; returns how many. */
+/* Picks the states whose weights are not 0; returns how many. */
 static size_t pick(const struct br_pieces *s, size_t count, const double *weight,
                    double *of[BR_MOST_STATES], double by[BR_MOST_STATES])
 {
@@ -417,7 +417,7 @@ static size_t pick(const struct br_pieces *s, size_t count, const double *weight
     return picked;
 }
 
-/* br_add_states of the odd rest, whose other lanes stay 0. */
+/* br_add_states for the odd rest, whose other lanes stay 0. */
 static void add_one_lane(double *to, size_t size, size_t count, double *const *from,
                          const double *weight)
 {
@@ -453,7 +453,7 @@ static void pieces_combine(void *self, size_t into, size_t count, const double *
     }
 }
 
-/* The same of numbers whose squares are no doubles. */
+/* Sums squares in long double: in double they would overflow or underflow. */
 static void add_squares(const struct br_pieces *s, const struct br_strip *strip, size_t numbers,
                         const double *state, long double sum[2])
 {
@@ -464,7 +464,7 @@ static void add_squares(const struct br_pieces *s, const struct br_strip *strip,
         }
 }
 
-/* What overflows here is summed again, and no reason to stop. */
+/* Sums squares in double, without traps: after an overflow pieces_size sums again. */
 static void sum_squares(const struct br_pieces *s, size_t state, double sum[2])
 {
     const double *at = s->states.of[state];
@@ -483,20 +483,21 @@ static void sum_squares(const struct br_pieces *s, size_t state, double sum[2])
 static void pieces_size(void *self, size_t state, double size[2])
 {
     const struct br_pieces *s = self;
-    const double least = 1e-280, most = 1e280; /* of squares that have lost nothing */
+    const double least = 1e-280, most = 1e280; /* of sums without overflow or underflow */
     double sum[2];
     long double wide[2] = {0};
     sum_squares(s, state, sum);
     const double *at = s->states.of[state];
-    const bool told = isgreater(fmin(sum[0], sum[1]), least) && isless(fmax(sum[0], sum[1]), most);
-    for (int i = 0; i < s->strands && !told; i++) {
+    const bool in_range =
+        isgreater(fmin(sum[0], sum[1]), least) && isless(fmax(sum[0], sum[1]), most);
+    for (int i = 0; i < s->strands && !in_range; i++) {
         const size_t numbers = strand_size(s, &s->strand[i]);
         add_squares(s, &s->strand[i].strip, numbers, at, wide);
         at += numbers;
     }
     const long double h = s->field.h, unit = s->d == 1 ? h : h * h * h;
     for (int rate = 0; rate < 2; rate++)
-        size[rate] = (double)sqrtl((told ? sum[rate] : wide[rate]) / unit);
+        size[rate] = (double)sqrtl((in_range ? sum[rate] : wide[rate]) / unit);
 }
 
 const struct br_field_solver br_pieces = {

@@ -14,7 +14,7 @@
 /* The second curvature of bending is the one of br_curvature over this. */
 #define BR_PIECES_ROOT3 1.732050807568877293527446341505872367L
 
-/* Spans side by side, and what a step hands them. */
+/* Spans side by side, and their end values in a step. */
 struct br_strand {
     struct br_strip strip;
     size_t first; /* element */
@@ -25,23 +25,23 @@ struct br_strand {
 enum { BR_MOST_STRANDS = 2 };
 
 struct br_pieces {
-    struct br_states states; /* the strips have the first */
+    struct br_states states; /* the strips use the first one */
     struct br_field field;
     const struct br_loops *loops;
     int d;                                    /* unknowns a node: 1 or 2 */
     double r;                                 /* R, see tables.c */
-    struct br_strand strand[BR_MOST_STRANDS]; /* from the clamped end: the odd rest, and the equal
-                                                 spans; what the cut has of them */
+    struct br_strand strand[BR_MOST_STRANDS]; /* from the clamped end: the odd rest and the equal
+                                                 spans, if the cut has them */
     int strands;
-    double *loads; /* of the strips, where they differ from node to node; NULL so far */
+    double *loads; /* of the strips; NULL until a load is not uniform */
     struct br_strip_drive drive;
     double tip_load[2]; /* of the last node over R, for a factor of 1 */
     double tip_increment[2], force_increment[2];
-    double *tip; /* of the first of the states */
+    double *tip; /* of state 0 */
     double compliance;
     bool stale_load; /* loads are those of another step */
     bool stale_ends; /* the ends' q and z are those of another step or state */
-    bool advanced;   /* the strands' ends have the velocities across the spans */
+    bool advanced;   /* the strands' ends contain the velocities across the spans */
 };
 
 /* How a beam is cut: pieces of a length in each span, and the odd rest, in elements. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The row of the registry: its kernels, how the beam is cut, what that costs and loses. Nothing
- * here takes the best kernel: a program may put another choice in the place of this one when it is
- * linked (tests/golden). */
+/* The row of the registry: its kernels, how the beam is cut, what that costs and loses. No function
+ * here calls br_kernel_best: a program may replace it when it is linked (tests/golden). */
 #include <float.h>
 #include <math.h>
 
@@ -38,7 +37,8 @@ enum {
     SPAN_COST = 16,   /* of all spans */
 };
 
-/* Element loops of a step. Elements of the odd rest have all vectors to themselves. */
+/* Element loops of a step. An element of the odd rest costs as much as an element loop of all
+ * spans. */
 static double cost_of(const struct br_cut *cut)
 {
     return (double)(cut->pieces * (cut->length + JOIN_COST) + cut->odd) +
@@ -58,12 +58,12 @@ struct br_cut br_choose_cut(size_t n)
 }
 
 /* ns, of an AMD EPYC with AVX-512 at about 3 GHz: of a step, of an element of all spans, of the odd
- * rest and of its elements; and what a pass over the states adds to each. */
+ * rest and of its elements; and, as another struct, what a pass over the states adds to each. */
 struct cost {
     double step, loop, rest, odd;
 };
 
-/* A beam that is all odd rest has nothing to join. */
+/* A beam that is only an odd rest has no joins. */
 static double price(const struct cost *of, const struct br_cut *cut)
 {
     const double joins = cut->pieces ? of->step : 0, rest = cut->odd ? of->rest : 0;
@@ -89,18 +89,18 @@ static double pieces_cost(const struct br_linear_solver *row, const struct br_fi
 
 /* ---- the row ---- */
 
-/* Where a wave does not cross an element in a step, the step is the mass's alone, whose condition
- * in strains is n for a rod and n^2 for a beam: no more than that is lost. Measured for n = 40 to
- * 3200 and rho / (c k) up to 1e25. */
+/* Where a wave does not cross an element in a step, only the mass matters in the step. Its
+ * condition number in strains, n for a rod and n^2 for a beam, bounds the loss. Measured for n = 40
+ * to 3200 and rho / (c k) up to 1e25. */
 static double most_excess(const struct br_field *f)
 {
     const double n = (double)f->n;
     return f->kind == BR_AXIAL ? 1e4 + 64 * n : 1e5 + 4 * n * n;
 }
 
-/* The strain g is larger than the increment that it leads to by br_field_inertia, in the lowest
- * mode of free vibration. The joins add the round-off of their sums: where inertia rules, pieces
- * that are free at one end answer by far more than what is left when they are joined. Short beams
+/* In the lowest mode of free vibration the strain g is larger than the increment that it leads to,
+ * by the factor br_field_inertia. The joins add the round-off of their sums: where inertia
+ * dominates, pieces that are free at one end respond by far more than the joined beam. Short beams
  * are one piece. */
 static double riccati_round_off(const struct br_linear_solver *row, const struct br_field *field,
                                 const struct br_linear_options *options)

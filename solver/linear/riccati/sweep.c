@@ -24,7 +24,7 @@ INLINE void store_all(const vec *from, double *to)
         store(from[i], to + i * BR_LANES);
 }
 
-/* sum += sign a x, and so with a'; d by d */
+/* sum += sign a x; add_transposed: sum += sign a'x; d by d */
 INLINE void add(int sign, const double *a, const vec *x, vec *sum)
 {
     for (int i = 0; i < d; i++)
@@ -50,7 +50,7 @@ INLINE void pass_on(const vec *kappa, vec *y)
     y[1] += kappa[0];
 }
 
-/* Where a piece's lanes begin. */
+/* The arrays of a piece, from one lane on. */
 struct piece {
     double *state, *end;
     const double *load;
@@ -88,7 +88,7 @@ INLINE void element_left(const double *gain, const vec *g, const vec *minus_f, v
         p[i] = next[i];
 }
 
-/* kappa = -(K y + S^-1 s), and y goes on */
+/* kappa = -(K y + S^-1 s), and y = T y + G kappa */
 INLINE void element_right(const double *gain, const vec *s, vec *y, vec *kappa)
 {
     for (int i = 0; i < d; i++)
@@ -116,7 +116,7 @@ INLINE void strain(double alpha, const vec *w, const vec *v, vec *g)
 
 /* ---- a piece ---- */
 
-/* Costates p to the left, s into the scratch; minus_f: the load that is the same everywhere. */
+/* Computes costates p to the left, and s into the scratch; minus_f: minus a uniform load. */
 INLINE void piece_left(int vectors, bool loaded, const struct br_strip *s, const struct piece *at,
                        const vec *minus_f, double factor, vec p[VECTORS][2])
 {
@@ -141,13 +141,13 @@ INLINE void piece_left(int vectors, bool loaded, const struct br_strip *s, const
         }
 }
 
-/* What goes from piece to piece along a span, for one vector. */
+/* Values that are passed from piece to piece along a span, for one vector. */
 struct along {
     vec y[2], velocity[2], displacement;
 };
 
-/* Increments y to the right, the new state, and what it adds to z and q. The lines of the piece
- * that comes next are asked for meanwhile. */
+/* Computes the increments y to the right, the new state, and what it adds to z and q. Prefetches
+ * the cache lines of the next piece. */
 INLINE void piece_right(int vectors, const struct br_strip *s, const struct piece *at,
                         struct along *go)
 {
@@ -156,7 +156,7 @@ INLINE void piece_right(int vectors, const struct br_strip *s, const struct piec
     for (int v = 0; v < vectors; v++)
         for (int i = 0; i < d; i++)
             z[v][i] = q[v][i] = (vec){0};
-    const double *next = at->state + s->length * 4 * entry; /* its right end is wanted first */
+    const double *next = at->state + s->length * 4 * entry; /* its right end is used first */
     for (size_t e = 0; e < s->length; e++) {
         next -= 2 * entry;
 #pragma GCC unroll 2
@@ -258,7 +258,7 @@ INLINE void advance_by(int vectors, bool loaded, const struct br_strip *strip,
     }
 }
 
-/* The odd rest, one lane, has no use for a second vector. */
+/* The odd rest has one lane and needs no second vector. */
 static void advance(const struct br_strip *s, const struct br_strip_drive *drive,
                     const struct br_strip_ends *ends)
 {
@@ -272,7 +272,8 @@ static void advance(const struct br_strip *s, const struct br_strip_drive *drive
         advance_by(VECTORS, false, s, drive, ends);
 }
 
-/* z and q of a state that no step has led to: the sum of others, or with none its own. */
+/* z and q of a state that is not the result of a step: of a sum of states, or with count 0 of the
+ * state itself. */
 INLINE void blend_piece(const struct br_strip *s, const struct piece *at, size_t count,
                         const double *const *from, const double *weight)
 {
@@ -282,12 +283,12 @@ INLINE void blend_piece(const struct br_strip *s, const struct piece *at, size_t
     for (size_t e = 0; e < s->length; e++) {
         const double *weights = s->weight + e * (size_t)(2 * d * d);
         double *state = at->state + e * 2 * entry;
-        const size_t place = (size_t)offset + e * 2 * entry;
+        const size_t position = (size_t)offset + e * 2 * entry;
         vec w[2] = {{0}}, rate[2] = {{0}}, g[2];
         for (size_t j = 0; j < count; j++)
             for (int i = 0; i < d; i++) {
-                w[i] += weight[j] * load(from[j] + place + i * BR_LANES);
-                rate[i] += weight[j] * load(from[j] + place + entry + i * BR_LANES);
+                w[i] += weight[j] * load(from[j] + position + i * BR_LANES);
+                rate[i] += weight[j] * load(from[j] + position + entry + i * BR_LANES);
             }
         if (count > 0) {
             store_all(w, state);
@@ -322,21 +323,21 @@ static void square(const struct br_strip *s, const double *state, double total[2
     for (size_t lane = 0; lane < s->lanes; lane += WIDTH) {
         vec of[2] = {{0}};
         for (size_t e = 0; e < length; e++)
-            for (int part = 0; part < 2; part++)
+            for (int rate = 0; rate < 2; rate++)
                 for (int i = 0; i < d; i++) {
                     const vec x =
-                        load(state + (2 * e + (size_t)part) * entry + i * BR_LANES + lane);
-                    of[part] += x * x;
+                        load(state + (2 * e + (size_t)rate) * entry + i * BR_LANES + lane);
+                    of[rate] += x * x;
                 }
         store(of[0], sum[0] + lane);
         store(of[1], sum[1] + lane);
     }
     for (size_t lane = 0; lane < s->lanes; lane++)
-        for (int part = 0; part < 2; part++)
-            total[part] += sum[part][lane];
+        for (int rate = 0; rate < 2; rate++)
+            total[rate] += sum[rate][lane];
 }
 
-/* The recursions with no state. */
+/* The recursions without a state, for a load of factor 1. */
 INLINE void charge_piece(const struct br_strip *s, const double *uniform, size_t j, size_t lane)
 {
     const size_t entry = (size_t)d * BR_LANES;
@@ -370,7 +371,7 @@ static void charge(const struct br_strip *s, const double uniform[2])
 
 /* ---- joins ---- */
 
-/* z or q of a piece with its load's */
+/* z or q of a piece, with that of its load */
 INLINE void load_end(const double *end, int which, double factor, vec *value)
 {
     const int entry = d * BR_LANES;
@@ -379,7 +380,7 @@ INLINE void load_end(const double *end, int which, double factor, vec *value)
                    factor * load(end + (which + BR_END_LOAD_Q - BR_END_Q) * entry + i * BR_LANES);
 }
 
-/* One piece further to the left: h goes through its join, and the span's z gathers. */
+/* Goes one piece to the left: h passes the join, and the span's z is summed. */
 INLINE void gather_piece(const double *join, double *end, double factor, vec *h, vec *sum)
 {
     const int entry = d * BR_LANES;
@@ -396,7 +397,7 @@ INLINE void gather_piece(const double *join, double *end, double factor, vec *h,
         h[i] = next[i];
 }
 
-/* A span ends free. */
+/* A span has a free right end here: h = 0. */
 static void gather(const struct br_strip *s, double factor, double *q, double *z)
 {
     for (size_t lane = 0; lane < s->lanes; lane += GO) {
@@ -415,7 +416,8 @@ static void gather(const struct br_strip *s, double factor, double *q, double *z
     }
 }
 
-/* Lane by lane, but all that does not wait for the neighbour at once. */
+/* sum += a x, with a matrix of the span joins in each lane: all lanes at once. Only the recursion
+ * over the lanes goes lane by lane. */
 INLINE void add_lanewise(const struct br_strip *s, int which, const double *x, double *sum)
 {
     const double *a = s->span_join + which * d * d * BR_LANES;
@@ -492,7 +494,7 @@ static void carry(const struct br_strip *s, bool rate, double *across)
     }
 }
 
-/* Block after block of WIDTH values of each lane: rows of lanes become lanes of rows. */
+/* Transposes block after block of WIDTH values of each lane. */
 static void expand(const struct br_strip *s, bool rate, const double *left, double *nodal)
 {
     for (size_t lane = 0; lane < s->lanes; lane += GO) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of a piece, of its joins and of those of the spans, in long double; see pieces.h. One
  * Euler step of either field is the linear-quadratic problem of plain.h. Bending's second curvature
- * is divided by sqrt(3) here, so that R is a number; costates, P and loads are divided by it, so
- * that it is 1. */
+ * is divided by sqrt(3) here, so that R is a number; costates, P and loads are divided by R, so
+ * that R becomes 1. */
 #include <math.h>
 
 #include "solver/linear/block.h"
@@ -85,15 +85,15 @@ static void pack(int d, int sign, struct block from, double *to)
             to[i * d + j] = (double)(sign * from.e[i][j]);
 }
 
-/* What a piece or a span does as a whole. */
+/* The matrices of a piece or a span as a whole (solver/README.md). */
 struct whole {
     struct block phi, z, p;
 };
 
 /* ---- pieces ---- */
 
-/* The gains of the elements of a piece by their distance to its right end, and P in front of each:
- * longest + 1 of them, of which the first is 0. `gains`: of the leftmost element first. */
+/* The gains of the elements of a piece by their distance to its right end, and P at the right end
+ * of each: longest + 1 of them, of which the first is 0. `gains`: the leftmost element's first. */
 static bool fill_gains(const struct lq *lq, size_t longest, double *gains, struct gain *gain,
                        struct block *p)
 {
@@ -110,8 +110,8 @@ static bool fill_gains(const struct lq *lq, size_t longest, double *gains, struc
     return true;
 }
 
-/* The weights of a piece, transposed responses of -kappa to c and of kappa to y_l; returns what it
- * does as a whole, without P. zeta: workspace, length of them. */
+/* The weights of a piece, transposed responses of -kappa to c and of kappa to y_l; returns the
+ * matrices of the piece without P. zeta: workspace, `length` of them. */
 static struct whole fill_weights(const struct lq *lq, const struct gain *gain, size_t length,
                                  struct block *zeta, double *weight)
 {
@@ -137,8 +137,8 @@ struct join {
     struct block of[BR_SPAN_JOINS];
 };
 
-/* From the right to the left; c: of the right end, becomes that of the left end. (1 + Z C)^-1 has a
- * determinant of at least 1. */
+/* The join of a piece or span; c: C of the right end (in), and of the left end (out). (1 + Z C)^-1
+ * has a determinant of at least 1. */
 static struct join join_of(const struct whole *w, struct block *c)
 {
     const struct block phi_t = transpose(w->phi), m = inverse_of(plus_times(identity, w->z, *c));
@@ -150,13 +150,13 @@ static struct join join_of(const struct whole *w, struct block *c)
                                   [BR_JOIN_TRANSFER] = times(times(phi_t, *c), m),
                               }};
     const struct block next = plus_times(w->p, join.of[BR_JOIN_TRANSFER], w->phi);
-    for (int i = 0; i < 2; i++) /* symmetric but for round-off */
+    for (int i = 0; i < 2; i++) /* symmetric except for round-off */
         for (int j = 0; j < 2; j++)
             c->e[i][j] = (next.e[i][j] + next.e[j][i]) / 2;
     return join;
 }
 
-/* The joins of a span; returns what it does as a whole. */
+/* The joins of a span; returns the matrices of the span. */
 static struct whole fill_span(int d, const struct whole *piece, size_t pieces, double *to)
 {
     struct block c = {{{0}}}, ahead = identity, reach = identity, response = {{{0}}};
