@@ -108,7 +108,7 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
 }
 
 /* An option that no study would use is refused, not ignored. */
-static enum br_status check_heeded(const struct run *r, struct br_error *err)
+static enum br_status check_accepted(const struct run *r, struct br_error *err)
 {
     const struct br_method **method = br_allocate(r->count * BR_VERIFY_KINDS + 1, sizeof *method);
     size_t count = 0;
@@ -118,8 +118,8 @@ static enum br_status check_heeded(const struct run *r, struct br_error *err)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             if (r->check[i].verify && r->check[i].verify->study[kind].count)
                 method[count++] = &r->check[i].verify->study[kind].method;
-    const enum br_status status = br_method_check_heeded(&r->session.options->given[BR_OPT_METHOD],
-                                                         BR_METHOD_OPTION, method, count, err);
+    const enum br_status status = br_method_check_used(&r->session.options->given[BR_OPT_METHOD],
+                                                       BR_METHOD_OPTION, method, count, err);
     free(method);
     return status;
 }
@@ -255,7 +255,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
             r.all ? "--all and scenes are given, expected one of the two"
                   : "no scene is given, expected files, names of bundled scenes, or --all");
     const bool writes = r.session.writes;
-    bool failed = read_scenes(&r, err) || check_heeded(&r, err);
+    bool failed = read_scenes(&r, err) || check_accepted(&r, err);
     if (!failed && br_option_given(options, BR_OPT_DRY_RUN))
         failed = foresee(&r, err);
     else if (!failed)

@@ -137,7 +137,7 @@ static enum br_status run_experiment(struct run *r, size_t i, struct br_error *e
     const struct br_extremes_output to = {&r->session, &r->session.document[i], &r->verdict[i]};
     const enum br_status status = experiment->run(&job, &to, err);
     br_progress_end();
-    br_session_tell_kept(&r->session, &kept);
+    br_session_report_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, experiment->name);
     br_put_provenance(to.report, &provenance);

@@ -104,7 +104,7 @@ static void print_users(FILE *out, size_t i)
     fprintf(out, "  --%-21s --%s", br_method_fields[i].name, br_method_fields[f->by].name);
     for (size_t row = 0; by->words->name(row); row++) {
         by->set(&m, (double)row);
-        if (br_method_field_heeded(f, &m)) {
+        if (br_method_field_used(f, &m)) {
             fprintf(out, "%s%s", between, by->words->name(row));
             between = ", ";
         }

@@ -71,7 +71,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
     r->plan.request.observer = br_progress_start(name, r->session.quiet);
     const enum br_status status = br_plan_make(&r->plan, err);
     br_progress_end();
-    br_session_tell_kept(&r->session, &r->kept);
+    br_session_report_kept(&r->session, &r->kept);
     if (!status)
         return br_progress_result(status, err);
     br_failed_in(err, name);

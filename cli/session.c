@@ -77,7 +77,7 @@ enum br_status br_session_keep(const struct br_session *s, const char *text, con
     return BR_OK;
 }
 
-void br_session_tell_kept(const struct br_session *s, const struct br_kept *k)
+void br_session_report_kept(const struct br_session *s, const struct br_kept *k)
 {
     const size_t taken = atomic_load(&k->taken), bad = atomic_load(&k->bad);
     const size_t lost = atomic_load(&k->lost);

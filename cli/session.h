@@ -65,7 +65,7 @@ enum br_status br_session_keep(const struct br_session *session, const char *tex
                                struct br_kept *kept, struct br_error *err);
 
 /* Prints how much stored work was used, and warns of stored files that are damaged. */
-void br_session_tell_kept(const struct br_session *session, const struct br_kept *kept);
+void br_session_report_kept(const struct br_session *session, const struct br_kept *kept);
 
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,

@@ -322,7 +322,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
         status = run_differences(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
-        br_session_tell_kept(r->session, &r->work[i].kept);
+        br_session_report_kept(r->session, &r->work[i].kept);
     const double wall = br_seconds() - start;
     for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
         const struct br_error *no_meshes = &page->work->no_meshes;

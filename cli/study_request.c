@@ -54,7 +54,7 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     if (isfinite(solver))
         r->reference_method.solver = br_linear_solvers[(size_t)solver];
     const struct br_method *const both[] = {&r->method, &r->reference_method};
-    if (br_method_check_heeded(given, BR_METHOD_OPTION, both, isfinite(solver) ? 2 : 1, err) ||
+    if (br_method_check_used(given, BR_METHOD_OPTION, both, isfinite(solver) ? 2 : 1, err) ||
         (reference && read_reference(reference, r, err)))
         return err->status;
     return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;

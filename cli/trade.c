@@ -170,7 +170,7 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     if (!status)
         status = br_trade_run(trade, err);
     br_progress_end();
-    br_session_tell_kept(&r->session, &item->kept);
+    br_session_report_kept(&r->session, &item->kept);
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 

@@ -280,7 +280,7 @@ static enum br_status check_method(const struct br_method *m, struct br_error *e
 }
 
 /* The tip as the field has it. */
-static void look_at_tip(struct br_discrete *d, enum br_field_kind kind)
+static void sample_tip(struct br_discrete *d, enum br_field_kind kind)
 {
     const struct br_discrete_field *f = &d->part[kind].field;
     d->tip.displacement[kind] = br_recursion_tip(&f->recursion, f->state[0]);
@@ -298,7 +298,7 @@ static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind
     const enum br_status status =
         br_discrete_field_init(&part->field, d->scene, kind, d->n, d->degree, states, err);
     if (!status)
-        look_at_tip(d, kind);
+        sample_tip(d, kind);
     return status;
 }
 

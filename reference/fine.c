@@ -73,7 +73,7 @@ static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i
 static void fine_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     const struct fine *f = self;
-    br_look(f->march[at->kind], at->kind, at->measure, view);
+    br_march_sample(f->march[at->kind], at->kind, at->measure, view);
 }
 
 /* The predicted round-off at the end, relative to the largest displacement of all times: cells are

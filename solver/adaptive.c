@@ -225,7 +225,7 @@ static enum br_status find_switch(struct search *s, double longest)
 
 /* Records the switches. The first step after a switch shows the new branch of the law. Both fields
  * may have switched. */
-static void tell_switches(struct br_march *m)
+static void report_switches(struct br_march *m)
 {
     struct br_adaptive *a = m->adaptive;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
@@ -248,7 +248,7 @@ static void accept(struct br_march *m, const struct trial *trial, bool switched)
 {
     struct br_adaptive *a = m->adaptive;
     if (a->since == 0 && a->now > 0)
-        tell_switches(m);
+        report_switches(m);
     memcpy(a->old, m->regime, sizeof a->old);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         a->largest[kind] = fmax(a->largest[kind], trial->strain[kind]);

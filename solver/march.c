@@ -377,8 +377,8 @@ enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind
                    names[fm->field.kind], force, fm->started_with, motion, least_size);
 }
 
-void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
-             struct br_view *view)
+void br_march_sample(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
+                     struct br_view *view)
 {
     br_view_field(view, br_march_field(march, kind), measure);
     switch (measure) {

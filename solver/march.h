@@ -146,7 +146,7 @@ double br_march_round_off(const struct br_march *march);
 
 /* Samples a march in one of the measures of modes.h. view: out; its `values` point to room for
  * br_measure_size numbers; the tip has one, in m. */
-void br_look(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
-             struct br_view *view);
+void br_march_sample(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,
+                     struct br_view *view);
 
 #endif

@@ -30,7 +30,7 @@ void br_put_method_facts(struct br_document *d, const char *key, const struct br
         const struct br_value value = value_of(f, m, text);
         if (!f->group)
             br_hide_fact(d, value, NULL, "%s.%s", key, br_method_field_key(f));
-        else if (br_method_field_heeded(f, m))
+        else if (br_method_field_used(f, m))
             br_hide_fact(d, value, NULL, "%s.%s.%s", key, f->group, f->member);
         else if (f->group != group)
             br_hide_fact(d, br_nothing(), NULL, "%s.%s", key, f->group);

@@ -215,9 +215,9 @@ static struct br_method any_method(struct br_test_random *r)
     while (br_kernels[kernels])
         kernels++;
     const struct br_kernel *kernel = br_kernels[br_test_index(r, kernels)];
-    if (br_linear_solver_heeds(m.solver, "--kernel") && kernel->available())
+    if (br_linear_solver_accepts(m.solver, "--kernel") && kernel->available())
         m.linear.kernel = kernel;
-    if (br_linear_solver_heeds(m.solver, "--refinement"))
+    if (br_linear_solver_accepts(m.solver, "--refinement"))
         m.linear.refinement = (int)br_test_index(r, 4);
     m.axial_degree = m.solver->axial_quadratic ? 1 + (int)br_test_index(r, 2) : 1;
     return m;

@@ -116,12 +116,12 @@ TEST(test_hues)
     struct br_panel *p = br_panel_add(&f, "x", "y");
     for (size_t i = 0; i < 8; i++) {
         const struct br_series *s = br_series_add(&f, BR_PEN_CURVE, "%zu", i);
-        assert_true(i >= BR_HUES || s->look == i + 1);
+        assert_true(i >= BR_HUES || s->style == i + 1);
         assert_int_equal(s->pen, i < BR_HUES ? BR_PEN_CURVE : BR_PEN_OTHERS);
         br_point_add(p->series[i], 1, 1, NULL);
     }
     br_panel_add(&f, "x", "y");
-    assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->look, 4);
+    assert_int_equal(br_series_add(&f, BR_PEN_CURVE, "3")->style, 4);
     br_figure_clear(&f);
 }
 

@@ -85,7 +85,7 @@ TEST(test_look)
     for (int measure = 0; measure < BR_TIP; measure++) {
         double values[4 * N];
         struct br_view view = {.values = values};
-        br_look(march, BR_AXIAL, (enum br_measure)measure, &view);
+        br_march_sample(march, BR_AXIAL, (enum br_measure)measure, &view);
         const double *v = nodal[measure == BR_DISPLACEMENT ? 0 : 1];
         double sum = 0, expected = 0;
         for (size_t e = 0; e < N; e++, v += 2)

@@ -93,7 +93,7 @@ static bool has_markup(const char *text)
 
 static size_t files_seen;
 
-static int look_at_file(const char *path, const struct stat *info, int kind, struct FTW *place)
+static int check_file(const char *path, const struct stat *info, int kind, struct FTW *place)
 {
     static const char *const binary[] = {".png", ".svg", ".pdf", ".h5", ".yaml"};
     (void)info;
@@ -124,7 +124,7 @@ static int look_at_file(const char *path, const struct stat *info, int kind, str
 
 static void look_at_all(void)
 {
-    assert_int_equal(nftw(cli_folder(), look_at_file, 8, FTW_PHYS), 0);
+    assert_int_equal(nftw(cli_folder(), check_file, 8, FTW_PHYS), 0);
 }
 
 /* ---- every command ---- */

@@ -75,7 +75,7 @@ const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver
     return taken ? own_solver(taken, field) : NULL;
 }
 
-bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option)
+bool br_linear_solver_accepts(const struct br_linear_solver *solver, const char *option)
 {
     return strstr(solver->options, option) != NULL;
 }

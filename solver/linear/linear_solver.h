@@ -167,6 +167,6 @@ const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver
                                                    const struct br_field *field);
 
 /* Whether the solver accepts an option, "--scaling" for example. */
-bool br_linear_solver_heeds(const struct br_linear_solver *solver, const char *option);
+bool br_linear_solver_accepts(const struct br_linear_solver *solver, const char *option);
 
 #endif

@@ -36,9 +36,9 @@ static void add_solvers(struct br_floors *f)
         if (!(*s)->cost) /* it chooses one of the others */
             continue;
         add_method(f, "%s", (*s)->name);
-        if (br_linear_solver_heeds(*s, "--scaling"))
+        if (br_linear_solver_accepts(*s, "--scaling"))
             add_method(f, "%s+scaled", (*s)->name);
-        if (br_linear_solver_heeds(*s, "--refinement"))
+        if (br_linear_solver_accepts(*s, "--refinement"))
             add_method(f, "%s+refined", (*s)->name);
     }
     f->solvers = f->methods;

@@ -108,7 +108,7 @@ static void measure_cell(struct br_lockstep *l, size_t index, size_t level)
         if (!is_used(f, f->at.kind, last))
             continue;
         const double *reference = projection_at(l, f, level);
-        br_look(r->march, f->at.kind, f->at.measure, &r->view);
+        br_march_sample(r->march, f->at.kind, f->at.measure, &r->view);
         const double size = f->ladder ? br_ladder_distance(f->ladder, br_study_row(l->study, index),
                                                            &r->view, reference)
                                       : fabs(r->view.values[0] - *reference);

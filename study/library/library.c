@@ -99,7 +99,7 @@ enum br_status br_library_method(const char *const *list, struct br_method *meth
         text[i] = at[1];
     }
     const enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, method, err);
-    return status ? status : br_method_check_heeded(text, BR_METHOD_IN_SCENE, methods, 1, err);
+    return status ? status : br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, err);
 }
 
 /* If another thread is in this function, the report is left out. */

@@ -403,7 +403,7 @@ static void add_method(unsigned long long *hash, const struct br_method *m)
     char text[BR_METHOD_VALUE];
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        if (!f->unsaid && br_method_field_heeded(f, m))
+        if (!f->unsaid && br_method_field_used(f, m))
             add(hash, br_method_field_text(f, m, text));
     }
 }

@@ -80,7 +80,7 @@ static bool is_row(const struct run *r)
 }
 
 /* Whether this is a chosen level; `look` gets each once. */
-static bool is_look(struct run *r)
+static bool is_sample(struct run *r)
 {
     const struct br_history_request *q = r->request;
     if (r->next_level >= q->levels || q->level[r->next_level] != r->row.step)
@@ -93,7 +93,7 @@ static enum br_status tell(struct run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
     const struct br_history_observer *end = q->observer + q->observers;
-    const bool row = is_row(r), look = is_look(r);
+    const bool row = is_row(r), look = is_sample(r);
     enum br_status status = BR_OK;
     for (const struct br_history_observer *o = q->observer; o < end && !status; o++)
         if (o->step) {
@@ -129,7 +129,7 @@ static void append_last(const struct run *r, struct br_error *err)
 
 /* Gives `row` the last good row, if it has not had it: without the bending displacement, which is
  * lost. */
-static void tell_last(const struct run *r)
+static void report_last(const struct run *r)
 {
     const struct br_history_request *q = r->request;
     if (!q->stride || is_row(r))
@@ -158,7 +158,7 @@ static enum br_status march(struct run *r, struct br_error *err)
         status = br_march_step(r->march, err);
         if (status) {
             append_last(r, err);
-            tell_last(r);
+            report_last(r);
             return status;
         }
         fill_row(r);
@@ -232,20 +232,20 @@ static size_t field_offset(const struct br_history_record *h, enum br_field_kind
     return (h->n + 1) * (before + (velocity ? h->unknowns[kind] : 0));
 }
 
-static enum br_status keep_look(void *self, const struct br_march *march,
-                                const struct br_history_row *row, struct br_error *err)
+static enum br_status keep_sample(void *self, const struct br_march *march,
+                                  const struct br_history_row *row, struct br_error *err)
 {
     struct br_history_record *h = self;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         h->unknowns[kind] = br_field_unknowns(br_march_field(march, (enum br_field_kind)kind));
     const size_t size = values_of(h) * (h->n + 1);
-    size_t most = h->most_looks;
+    size_t most = h->most_samples;
     if (!grow((void **)&h->at, h->looks, &most, sizeof *h->at))
         return br_no_memory(err, "the fields");
-    most = h->most_looks;
+    most = h->most_samples;
     if (!grow((void **)&h->field, h->looks, &most, size * sizeof *h->field))
         return br_no_memory(err, "the fields");
-    h->most_looks = most;
+    h->most_samples = most;
     double *field = h->field + h->looks * size;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const enum br_field_kind k = (enum br_field_kind)kind;
@@ -258,7 +258,7 @@ static enum br_status keep_look(void *self, const struct br_march *march,
 struct br_history_observer br_history_recorder(struct br_history_record *record, size_t n)
 {
     record->n = n;
-    return (struct br_history_observer){.self = record, .row = keep_row, .look = keep_look};
+    return (struct br_history_observer){.self = record, .row = keep_row, .look = keep_sample};
 }
 
 void br_history_record_clear(struct br_history_record *h)

@@ -103,7 +103,7 @@ struct br_history_record {
     size_t rows, most_rows;
     struct br_history_row *at; /* looks: the tip there */
     double *field;             /* looks times n + 1 nodes' values, see br_history_field */
-    size_t looks, most_looks;
+    size_t looks, most_samples;
 };
 
 /* An observer that fills a record (in: zeroed; it must outlive the march). */

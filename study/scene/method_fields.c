@@ -220,19 +220,19 @@ bool br_method_field_depends(const struct br_method_field *f)
     return f != &br_method_fields[f->by];
 }
 
-bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m)
+bool br_method_field_used(const struct br_method_field *f, const struct br_method *m)
 {
     char option[BR_METHOD_VALUE];
     snprintf(option, sizeof option, "--%s", f->name);
     return !br_method_field_depends(f)   ? true
            : f->by == BR_METHOD_SCHEME   ? m->scheme->adaptive
            : f->by == BR_METHOD_FRICTION ? m->friction->iterates
-                                         : br_linear_solver_heeds(m->solver, option);
+                                         : br_linear_solver_accepts(m->solver, option);
 }
 
 bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m)
 {
-    return f->quiet || br_method_field_heeded(f, m);
+    return f->quiet || br_method_field_used(f, m);
 }
 
 bool br_methods_equal(const struct br_method *a, const struct br_method *b)
@@ -300,7 +300,7 @@ static const char *example(const struct br_method_field *f, enum br_method_style
     text[0] = '\0';
     for (size_t row = 0; !*text && by->words->name(row); row++) {
         by->set(&m, (double)row);
-        if (br_method_field_heeded(f, &m))
+        if (br_method_field_used(f, &m))
             snprintf(text, 2 * BR_METHOD_VALUE, ", as %s%s %s does", name_of(by, style, name),
                      style == BR_METHOD_IN_SCENE ? ":" : "", by->words->name(row));
     }
@@ -321,15 +321,15 @@ static enum br_status refuse(const struct br_method_field *f, enum br_method_sty
                    example(f, style, text));
 }
 
-enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
-                                      enum br_method_style style,
-                                      const struct br_method *const *method, size_t count,
-                                      struct br_error *err)
+enum br_status br_method_check_used(const char *const text[BR_METHOD_FIELDS],
+                                    enum br_method_style style,
+                                    const struct br_method *const *method, size_t count,
+                                    struct br_error *err)
 {
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         bool used = !text[i];
         for (size_t j = 0; j < count && !used; j++)
-            used = br_method_field_heeded(&br_method_fields[i], method[j]);
+            used = br_method_field_used(&br_method_fields[i], method[j]);
         if (!used)
             return refuse(&br_method_fields[i], style, method, count, err);
     }
@@ -408,7 +408,7 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const bool modelled = !f->in || f->in(scene);
-        if (!br_method_field_heeded(f, &used) || (f->quiet && (!modelled || is_default(f, m))) ||
+        if (!br_method_field_used(f, &used) || (f->quiet && (!modelled || is_default(f, m))) ||
             (br_method_field_depends(f) && !modelled))
             continue;
         br_append(text, BR_METHOD_TEXT, "%s%s%s", f->before,
@@ -427,7 +427,7 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const bool always = i == BR_METHOD_TOLERANCE; /* a plan's choice must be visible */
-        if ((f->in && !f->in(scene)) || !br_method_field_heeded(f, m) || f->unsaid ||
+        if ((f->in && !f->in(scene)) || !br_method_field_used(f, m) || f->unsaid ||
             (is_default(f, m) && !always))
             continue;
         br_append(text, BR_METHOD_TEXT, " --%s %s", f->name, br_method_field_text(f, m, value));

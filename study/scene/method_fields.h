@@ -70,7 +70,7 @@ const char *br_method_field_text(const struct br_method_field *f, const struct b
 
 /* Whether another field decides if this one is used; whether this one is used. */
 bool br_method_field_depends(const struct br_method_field *f);
-bool br_method_field_heeded(const struct br_method_field *f, const struct br_method *m);
+bool br_method_field_used(const struct br_method_field *f, const struct br_method *m);
 
 /* Whether a report states the value: the method uses it, or the field is quiet. */
 bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m);
@@ -89,10 +89,10 @@ enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_
                               struct br_method *m, struct br_error *err);
 
 /* Refuses (BR_BAD_INPUT) a given field that none of `count` methods uses. */
-enum br_status br_method_check_heeded(const char *const text[BR_METHOD_FIELDS],
-                                      enum br_method_style style,
-                                      const struct br_method *const *method, size_t count,
-                                      struct br_error *err);
+enum br_status br_method_check_used(const char *const text[BR_METHOD_FIELDS],
+                                    enum br_method_style style,
+                                    const struct br_method *const *method, size_t count,
+                                    struct br_error *err);
 
 /* A scene and the meshes that a method is used on, by their numbers of elements. Borrowed. */
 struct br_meshes {

@@ -79,7 +79,7 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
                             struct br_error *err)
 {
     for (size_t i = 0; i < KINDS; i++)
-        if (taken[i] && kinds[i]->word && !br_method_field_heeded(kinds[i], m))
+        if (taken[i] && kinds[i]->word && !br_method_field_used(kinds[i], m))
             return br_fail(err, BR_BAD_INPUT, "solver %s does not heed '%s'", m->solver->name,
                            kinds[i]->word[0].word);
     return br_method_check(m, err);
@@ -202,7 +202,8 @@ void br_named_methods_default(const struct br_scene *scene, struct br_named_meth
         add(scene, all, "%s+%s", base, br_friction_rules[i]->name);
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
         add(scene, all, "%s+%s", base, (*s)->name);
-        if (br_linear_solver_heeds(*s, "--scaling") && br_linear_solver_heeds(*s, "--refinement"))
+        if (br_linear_solver_accepts(*s, "--scaling") &&
+            br_linear_solver_accepts(*s, "--refinement"))
             add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
     }
 }

@@ -228,7 +228,7 @@ static enum br_status read_method(struct block *b)
     const char *const *text = b->text + FIELDS;
     enum br_status status = br_method_read(text, BR_METHOD_IN_SCENE, m, &inner);
     if (!status)
-        status = br_method_check_heeded(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
+        status = br_method_check_used(text, BR_METHOD_IN_SCENE, methods, 1, &inner);
     return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 

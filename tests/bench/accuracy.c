@@ -42,7 +42,7 @@ static void run_solver(const struct br_test_golden *row, const struct br_linear_
     struct br_method method = br_test_method(solver->name, "lagged", "exact");
     run_row(row, &method);
     method.linear.refinement = REFINEMENT;
-    if (br_linear_solver_heeds(solver, "--refinement"))
+    if (br_linear_solver_accepts(solver, "--refinement"))
         run_row(row, &method);
 }
 

@@ -105,7 +105,7 @@ static void run_series(const struct series *s)
 static void run_solver(struct series *s)
 {
     s->kernel = "-";
-    if (!s->method.solver->cost || !br_linear_solver_heeds(s->method.solver, "--kernel")) {
+    if (!s->method.solver->cost || !br_linear_solver_accepts(s->method.solver, "--kernel")) {
         run_series(s);
         return;
     }
