@@ -349,7 +349,7 @@ static enum br_status pieces_predict(void *self, const struct br_drive *drive, d
 /* Computes the tip's values from the field: values that are only incremented would drift. The
  * round-off of the joins' increment hardly changes from step to step, and a tip that sticks would
  * creep by it; so the next increment is corrected by the difference to `expected`. */
-static void find_tip_error(struct br_pieces *s, double expected)
+static void compute_tip(struct br_pieces *s, double expected)
 {
     double velocity[2] = {0}, displacement[2] = {0}, left[2 * BR_LANES];
     for (int i = 0; i < s->strands; i++) {
@@ -375,7 +375,7 @@ static double pieces_finish(void *self, double force)
         s->loops->advance(&t->strip, &s->drive, &t->ends);
     }
     s->advanced = true;
-    find_tip_error(s, s->tip[TIP_VELOCITY] + s->tip_increment[0] + force * s->force_increment[0]);
+    compute_tip(s, s->tip[TIP_VELOCITY] + s->tip_increment[0] + force * s->force_increment[0]);
     return s->tip[TIP_VELOCITY];
 }
 
