@@ -90,7 +90,7 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
     const size_t looks = steps < LOOKS ? steps : LOOKS;
     for (size_t i = 0; i < looks; i++)
         level[i] = (i + 1) * steps / looks;
-    const struct br_history_observer observer = {.self = size, .look = measure};
+    const struct br_history_observer observer = {.self = size, .sample = measure};
     const struct br_history_request request = {
         .scene = scene,
         .method = &method,
