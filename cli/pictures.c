@@ -103,7 +103,7 @@ static enum br_status keep_step(void *self, const struct br_march *march,
         return BR_OK;
     struct br_history_row whole = *row;
     whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
-    if (frame && p->keep.look(p->keep.self, march, &whole, err))
+    if (frame && p->keep.sample(p->keep.self, march, &whole, err))
         return err->status;
     return kept ? p->keep.row(p->keep.self, &whole, err) : BR_OK;
 }
@@ -130,10 +130,10 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
     if (br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err))
         return err->status;
     g.observer = br_progress_start("drawing", p->quiet);
-    g.pictures = p->record.looks;
+    g.pictures = p->record.samples;
     enum br_status status = br_gnuplot_end(&g, err);
     br_progress_end();
-    for (size_t i = 0; i < (p->format->frames ? p->record.looks : 1) && !status; i++) {
+    for (size_t i = 0; i < (p->format->frames ? p->record.samples : 1) && !status; i++) {
         char name[512], path[2048];
         br_movie_file(movie, i, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
@@ -194,7 +194,7 @@ static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct 
 enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
 {
     if ((p->plot && letters && p->record.rows > 1 && draw_letters(p, letters, err)) ||
-        (p->animate && p->record.looks > 0 && draw_movie(p, err)))
+        (p->animate && p->record.samples > 0 && draw_movie(p, err)))
         return err->status;
     if (p->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "

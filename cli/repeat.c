@@ -106,8 +106,8 @@ static enum br_status restore_scene(struct run *r, struct br_error *err)
 
 /* ---- at work ---- */
 
-/* Into a folder of its own, or, as it was, one file. What would write elsewhere, or ask, is left
- * out. */
+/* Sends output to a temporary folder, or to one file if it was one. Options that write elsewhere,
+ * or ask questions, are left out. */
 static enum br_status redirect(struct run *r, struct br_error *err)
 {
     static const enum br_option_id left_out[] = {
@@ -133,7 +133,7 @@ static enum br_status redirect(struct run *r, struct br_error *err)
     return failed ? err->status : BR_OK;
 }
 
-/* Whether it fails or not, it may have written its report. */
+/* A command that fails may have written its report, too. */
 static enum br_status run_command(struct run *r, struct br_error *err)
 {
     struct br_error inner = {0};

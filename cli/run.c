@@ -191,7 +191,7 @@ static enum br_status march(struct run *r, struct br_error *err)
     size_t outputs = 0;
     if (r->out)
         output[outputs++] =
-            (struct br_history_observer){.self = r, .row = write_row, .look = write_sample};
+            (struct br_history_observer){.self = r, .row = write_row, .sample = write_sample};
     if (r->animate || br_option_given(o, BR_OPT_PLOT))
         output[outputs++] = br_pictures_observer(&r->pictures);
     struct br_run_request request = r->plan.request;

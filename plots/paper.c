@@ -16,7 +16,7 @@ static void add_field(const struct br_example *e, enum br_field_kind kind, const
     const struct br_history_record *r = &e->record;
     const size_t unknowns = r->unknowns[kind], every = r->n > 200 ? r->n / 200 : 1;
     BR_SAY(br_panel_add(f, "x (m)", kind == BR_AXIAL ? horizontal : vertical)->title, "%s", title);
-    for (size_t sample = 0; sample < r->looks; sample++) {
+    for (size_t sample = 0; sample < r->samples; sample++) {
         const double *nodal = br_history_field(r, sample, kind, false);
         struct br_series *s = br_series_add(f, BR_PEN_LINE, "t = %.4g s", r->at[sample].time);
         for (size_t i = 0; i <= r->n; i += every)

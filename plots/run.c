@@ -82,14 +82,14 @@ void br_movie_write_data(FILE *out, const struct br_movie *m)
     fputs("# index 0, the tip: t (s) | u (m) | w (m) | dw/dt (m/s) | contact force (N) | friction "
           "force (N) | its bound (N)\n",
           out);
-    for (size_t frame = 0; frame < r->looks; frame++) {
+    for (size_t frame = 0; frame < r->samples; frame++) {
         const struct br_history_row *at = &r->at[frame];
         fprintf(out, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", at->time, at->displacement[BR_AXIAL],
                 at->displacement[BR_BENDING], at->velocity[BR_BENDING], at->contact_force,
                 isnan(at->friction_force) ? 0 : at->friction_force, at->friction_bound);
     }
 
-    for (size_t frame = 0; frame < r->looks; frame++) {
+    for (size_t frame = 0; frame < r->samples; frame++) {
         const double *u = br_history_field(r, frame, BR_AXIAL, false);
         const double *w = br_history_field(r, frame, BR_BENDING, false);
         fprintf(out, "\n\n# index %zu: x (m) | u (m) | w (m) at t = %.9g s\n", frame + 1,
@@ -212,7 +212,7 @@ void br_movie_write_script(FILE *out, const struct br_movie *m)
             "frames = %zu\nlength = %.9g; gap = %.9g # m\n"
             "touches = %d; rubs = %d # whether there is an obstacle, friction\n%s"
             "set terminal %s size 900,520 rounded font 'DejaVu Sans,13'\nset label 1 ",
-            m->record->looks, s->length, s->contact.modelled ? s->contact.gap : 0,
+            m->record->samples, s->length, s->contact.modelled ? s->contact.gap : 0,
             s->contact.modelled, s->friction.law != BR_FRICTIONLESS, scales, m->format->terminal);
     br_quote(out, &br_for_gnuplot, s->title);
     fprintf(out, " noenhanced at screen 0.03,0.95 left font ',17'\n%s%s", stage, bars);

@@ -16,8 +16,8 @@ struct path {
     real u[2], slope[2];          /* u and k u_t at both ends, m */
 };
 
-/* One field, and where its scheme is. */
-struct part {
+/* One field and the state of its scheme. */
+struct marched {
     bool modelled;
     struct br_discrete_field field;
     size_t since; /* steps since t = 0 or the last switch */
@@ -29,8 +29,8 @@ struct br_discrete {
     const char *scheme;
     bool implicit, regularised;
     size_t n, steps, done;
-    int degree;          /* of the axial elements */
-    struct part part[2]; /* by br_field_kind */
+    int degree;                /* of the axial elements */
+    struct marched marched[2]; /* by br_field_kind */
     struct path path;
     struct {
         real displacement[2], velocity[2];   /* m, m/s, by br_field_kind */
@@ -57,7 +57,8 @@ static real between(real x, real bound)
     return x > bound ? bound : x < -bound ? -bound : x;
 }
 
-/* (u - g)_+ at `time` of the step: of the stage there, else by the cubic of the step's ends. */
+/* (u - g)_+ at `time` of the step: that of a stage at this time, else of the cubic through the
+ * step's ends. */
 static real depth_at(const struct br_discrete *d, real time)
 {
     const struct path *p = &d->path;
@@ -74,7 +75,7 @@ static real depth_at(const struct br_discrete *d, real time)
 static real contact_force(const struct br_discrete *d, real u, real free_velocity)
 {
     const struct br_contact *c = &d->scene->contact;
-    const struct br_discrete_field *f = &d->part[BR_AXIAL].field;
+    const struct br_discrete_field *f = &d->marched[BR_AXIAL].field;
     if (!c->modelled)
         return 0;
     if (!d->implicit)
@@ -86,7 +87,7 @@ static real contact_force(const struct br_discrete *d, real u, real free_velocit
 /* Equation (12), or (29). */
 static real friction_force(const struct br_discrete *d, real free_velocity)
 {
-    const real z = d->part[BR_BENDING].field.recursion.compliance, bound = d->tip.friction_bound;
+    const real z = d->marched[BR_BENDING].field.recursion.compliance, bound = d->tip.friction_bound;
     if (d->scene->friction.law == BR_FRICTIONLESS)
         return 0;
     if (d->regularised)
@@ -108,7 +109,7 @@ static real friction_bound(const struct br_discrete *d, real time)
 static enum br_status stage(struct br_discrete *d, enum br_field_kind kind, real time, real tau,
                             struct br_error *err)
 {
-    struct br_discrete_field *f = &d->part[kind].field;
+    struct br_discrete_field *f = &d->marched[kind].field;
     const double from = d->scene->duration * (double)d->done / (double)d->steps;
     const double to = d->scene->duration * (double)(d->done + 1) / (double)d->steps;
     const double t = time == 1 ? to : (double)(from + time * ((real)to - from));
@@ -158,8 +159,8 @@ static void copy_state(struct br_discrete_field *f, int from, int into)
     memcpy(f->state[into], f->state[from], br_recursion_size(&f->recursion) * sizeof(real));
 }
 
-/* Y' of the stage that has ended in state 0: of displacement the velocity, of velocity what the
- * step has added to Z, which is in state `into`, over tau. */
+/* Y' of the stage that has ended in state 0. The rate of the displacement is the velocity. The rate
+ * of the velocity is its change from Z, which is in state `into`, over tau. */
 static void find_rate(struct br_discrete_field *f, int into)
 {
     const size_t m = (size_t)f->recursion.m, size = br_recursion_size(&f->recursion);
@@ -175,7 +176,7 @@ static void find_rate(struct br_discrete_field *f, int into)
 static enum br_status runge_kutta(struct br_discrete *d, enum br_field_kind kind,
                                   const struct br_textbook *book, real k, struct br_error *err)
 {
-    struct br_discrete_field *f = &d->part[kind].field;
+    struct br_discrete_field *f = &d->marched[kind].field;
     const bool keeps = f->states > 1;
     int state[ROWS + 1] = {BR_DISCRETE_START};
     real weight[ROWS + 1] = {1};
@@ -206,11 +207,11 @@ static enum br_status runge_kutta(struct br_discrete *d, enum br_field_kind kind
 }
 
 /* Y_n = sum_j past_j Y_{n-1-j} + beta k Y'_n */
-static enum br_status look_back(struct br_discrete *d, enum br_field_kind kind,
-                                const struct br_textbook *book, real k, struct br_error *err)
+static enum br_status difference_step(struct br_discrete *d, enum br_field_kind kind,
+                                      const struct br_textbook *book, real k, struct br_error *err)
 {
     static const int state[3] = {BR_DISCRETE_START, BR_DISCRETE_PAST, BR_DISCRETE_PAST + 1};
-    struct br_discrete_field *f = &d->part[kind].field;
+    struct br_discrete_field *f = &d->marched[kind].field;
     copy_state(f, BR_DISCRETE_NOW, BR_DISCRETE_START);
     sum_states(f, BR_DISCRETE_NOW, book->back, state, book->past);
     return stage(d, kind, 1, k * book->beta, err);
@@ -219,32 +220,33 @@ static enum br_status look_back(struct br_discrete *d, enum br_field_kind kind,
 static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
                                  struct br_error *err)
 {
-    struct part *part = &d->part[kind];
-    struct br_discrete_field *f = &part->field;
+    struct marched *marched = &d->marched[kind];
+    struct br_discrete_field *f = &marched->field;
     const real k = (real)d->scene->duration / (real)d->steps;
-    const struct br_textbook *book = br_textbook_step(d->scheme, part->since);
+    const struct br_textbook *book = br_textbook_step(d->scheme, marched->since);
     struct path *path = &d->path;
     if (kind == BR_AXIAL) {
         path->count = 0;
         path->u[0] = d->tip.displacement[kind];
         path->slope[0] = k * d->tip.velocity[kind];
     }
-    const enum br_status status = (book->back ? look_back : runge_kutta)(d, kind, book, k, err);
+    const enum br_status status =
+        (book->back ? difference_step : runge_kutta)(d, kind, book, k, err);
     if (status)
         return status;
     if (kind == BR_AXIAL) {
         path->u[1] = d->tip.displacement[kind];
         path->slope[1] = k * d->tip.velocity[kind];
     }
-    if (f->states > 1) { /* the oldest is forgotten */
+    if (f->states > 1) { /* the oldest is dropped */
         copy_state(f, BR_DISCRETE_PAST, BR_DISCRETE_PAST + 1);
         copy_state(f, BR_DISCRETE_START, BR_DISCRETE_PAST);
     }
-    const enum br_regime before = part->regime;
-    part->regime = br_textbook_regime(
+    const enum br_regime before = marched->regime;
+    marched->regime = br_textbook_regime(
         d->scene, kind, kind == BR_AXIAL ? d->tip.contact_force : d->tip.friction_force,
         d->tip.friction_bound);
-    part->since = d->done > 0 && part->regime != before ? 0 : part->since + 1;
+    marched->since = d->done > 0 && marched->regime != before ? 0 : marched->since + 1;
     if (!isfinite(d->tip.velocity[kind]))
         return br_fail(err, BR_NOT_FINITE, "the exact discrete solution is %Lg m/s at step %zu",
                        d->tip.velocity[kind], d->done + 1);
@@ -254,7 +256,7 @@ static enum br_status step_field(struct br_discrete *d, enum br_field_kind kind,
 enum br_status br_discrete_step(struct br_discrete *d, struct br_error *err)
 {
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_status status = d->part[kind].modelled ? step_field(d, kind, err) : BR_OK;
+        const enum br_status status = d->marched[kind].modelled ? step_field(d, kind, err) : BR_OK;
         if (status)
             return status;
     }
@@ -282,21 +284,21 @@ static enum br_status check_method(const struct br_method *m, struct br_error *e
 /* The tip as the field has it. */
 static void sample_tip(struct br_discrete *d, enum br_field_kind kind)
 {
-    const struct br_discrete_field *f = &d->part[kind].field;
+    const struct br_discrete_field *f = &d->marched[kind].field;
     d->tip.displacement[kind] = br_recursion_tip(&f->recursion, f->state[0]);
     d->tip.velocity[kind] = f->state[0][br_recursion_tip_rate(&f->recursion)];
 }
 
-static enum br_status create_part(struct br_discrete *d, enum br_field_kind kind,
-                                  struct br_error *err)
+static enum br_status create_field(struct br_discrete *d, enum br_field_kind kind,
+                                   struct br_error *err)
 {
-    struct part *part = &d->part[kind];
-    part->modelled = kind == BR_AXIAL ? d->scene->axial.modelled : d->scene->bending.modelled;
-    if (!part->modelled)
+    struct marched *marched = &d->marched[kind];
+    marched->modelled = kind == BR_AXIAL ? d->scene->axial.modelled : d->scene->bending.modelled;
+    if (!marched->modelled)
         return BR_OK;
     const size_t states = strcmp(d->scheme, "euler") == 0 ? 1 : BR_DISCRETE_STATES;
     const enum br_status status =
-        br_discrete_field_init(&part->field, d->scene, kind, d->n, d->degree, states, err);
+        br_discrete_field_init(&marched->field, d->scene, kind, d->n, d->degree, states, err);
     if (!status)
         sample_tip(d, kind);
     return status;
@@ -324,7 +326,7 @@ enum br_status br_discrete_create(struct br_discrete **out, const struct br_scen
     d->n = n;
     d->steps = steps;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        status = create_part(d, kind, err);
+        status = create_field(d, kind, err);
     if (status)
         br_discrete_free(d);
     else
@@ -337,20 +339,21 @@ void br_discrete_free(struct br_discrete *d)
     if (!d)
         return;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        br_discrete_field_clear(&d->part[kind].field);
+        br_discrete_field_clear(&d->marched[kind].field);
     free(d);
 }
 
-/* ---- looking ---- */
+/* ---- sampling ---- */
 
 void br_discrete_get(const struct br_discrete *d, enum br_field_kind kind,
                      long double *displacement, long double *velocity)
 {
-    const struct part *part = &d->part[kind];
+    const struct marched *marched = &d->marched[kind];
     const size_t unknowns = kind == BR_AXIAL ? (size_t)d->degree : 2;
     const size_t bytes = unknowns * (d->n + 1) * sizeof(long double);
-    if (part->modelled) {
-        br_recursion_get(&part->field.recursion, part->field.state[0], displacement, velocity);
+    if (marched->modelled) {
+        br_recursion_get(&marched->field.recursion, marched->field.state[0], displacement,
+                         velocity);
         return;
     }
     if (displacement)

@@ -19,11 +19,11 @@ static void gauss(real x[POINTS], real weight[POINTS])
 {
     const real inner = sqrtl(5 - 2 * sqrtl(10 / 7.0L)) / 6;
     const real outer = sqrtl(5 + 2 * sqrtl(10 / 7.0L)) / 6;
-    const real place[POINTS] = {-outer, -inner, 0, inner, outer};
+    const real point[POINTS] = {-outer, -inner, 0, inner, outer};
     const real heavy = (322 + 13 * sqrtl(70)) / 1800, light = (322 - 13 * sqrtl(70)) / 1800;
     const real share[POINTS] = {light, heavy, 64 / 225.0L, heavy, light};
     for (int q = 0; q < POINTS; q++) {
-        x[q] = 0.5L + place[q];
+        x[q] = 0.5L + point[q];
         weight[q] = share[q];
     }
 }
@@ -56,7 +56,7 @@ static size_t nodal_size(const struct br_discrete_field *f)
     return (size_t)f->recursion.m * (f->recursion.n + 1);
 }
 
-/* vector = int f(x, t) shape: of a function of t alone the rule is exact, too. */
+/* vector = int f(x, t) shape; the rule is exact where f depends on t alone. */
 static enum br_status assemble(const struct br_discrete_field *field, const struct br_function *f,
                                double t, real *vector, struct br_error *err)
 {
@@ -108,7 +108,7 @@ static enum br_status take_forces(struct br_discrete_field *f, const struct br_s
     return status;
 }
 
-/* The load at time t, s, and what is at the tip's unknowns (out), N. */
+/* Sets the load at time t, s. tip (out): the forces on the tip's unknowns, N. */
 static enum br_status update_forces(struct br_discrete_field *f, double t, real tip[2],
                                     struct br_error *err)
 {
@@ -134,8 +134,8 @@ static enum br_status update_forces(struct br_discrete_field *f, double t, real 
 
 /* ---- initial data ---- */
 
-/* nodal[stride i] = unit f(first + i h), i < count: of a function of the scene, which other threads
- * may use. x is a double, as the data are given. */
+/* nodal[stride i] = unit f(first + i h), i < count. Other threads may use f, too. x is a double, as
+ * the data are given. */
 static enum br_status fill(const struct br_discrete_field *field, const struct br_function *f,
                            double first, size_t count, real unit, real *nodal, struct br_error *err)
 {
@@ -151,8 +151,9 @@ static enum br_status fill(const struct br_discrete_field *field, const struct b
     return status;
 }
 
-/* The interpolant of a function, with its slope, or with what the middle of each element lacks of
- * its chord, four times. The clamped node stays zero. */
+/* Interpolates a function: nodal values, with the slopes of a beam, or with the bubbles of a
+ * quadratic rod: four times the distance of the middle from the chord. The clamped node stays zero.
+ */
 static enum br_status interpolate(const struct br_discrete_field *field,
                                   const struct br_function *f, const struct br_function *slope,
                                   real *nodal, struct br_error *err)

@@ -9,7 +9,7 @@
 #include "solver/linear/plain.h"
 
 enum {
-    BR_DISCRETE_NOW = 0,        /* the state that steps are taken with */
+    BR_DISCRETE_NOW = 0,        /* the current state */
     BR_DISCRETE_START,          /* of the step */
     BR_DISCRETE_PAST,           /* Y_{n-2}, Y_{n-3} */
     BR_DISCRETE_RATE = 4,       /* Y' of the rows of a tableau */
@@ -25,7 +25,7 @@ struct br_discrete_field {
     struct br_load functions;        /* clones, as the next two */
     struct br_function tip_force, tip_moment;
     real *vector[BR_LOAD_TERMS]; /* of each term, by nodes; NULL: there is none */
-    real *load;                  /* N: now, without those at the tip */
+    real *load;                  /* N: at the current time, without those at the tip */
 };
 
 /* A field of a scene at t = 0; degree: of axial elements; `states`: 1, or BR_DISCRETE_STATES. Fails

@@ -6,7 +6,7 @@
 #include "reference/judge.h"
 #include "solver/clock.h"
 
-/* Fields that go together are marched twice, each time for one of them. */
+/* Where a step advances both fields, each field has a march of its own. */
 struct fine {
     struct br_march *march[2]; /* by br_field_kind; the same where fields go apart */
     bool together;             /* a step is one of both fields */
@@ -69,7 +69,7 @@ static enum br_status fine_advance(void *self, enum br_field_kind kind, size_t i
     return status;
 }
 
-/* Its own mesh is the only one. */
+/* Its own mesh is the only mesh. */
 static void fine_sample(void *self, const struct br_sample_at *at, struct br_view *view)
 {
     const struct fine *f = self;
@@ -101,7 +101,7 @@ static struct br_judge_report fine_report(const void *self)
     return report;
 }
 
-static void fine_tell(const void *self, FILE *out)
+static void fine_print_notes(const void *self, FILE *out)
 {
     (void)self, (void)out;
 }
@@ -117,5 +117,5 @@ const struct br_judge br_judge_fine = {
     .advance = fine_advance,
     .sample = fine_sample,
     .report = fine_report,
-    .tell = fine_tell,
+    .print_notes = fine_print_notes,
 };

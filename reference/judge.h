@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What cells are judged by: a registry. A judge knows the solution at the time
- * levels t_i = i T / levels and gives it in the measures of solver/modes.h that it was
- * asked for, on its meshes. */
+/* A registry of judges. A judge gives the solution at the time levels t_i = i T / levels, in the
+ * measures of solver/modes.h and on the meshes that were requested. */
 #ifndef BR_REFERENCE_JUDGE_H
 #define BR_REFERENCE_JUDGE_H
 
@@ -23,11 +22,11 @@ struct br_judge_request {
     bool (*stop)(void *self);      /* true: give up soon, with BR_INTERRUPTED; may be NULL */
     void *stop_self;
     void (*preparing)(void *self,
-                      double share); /* exact only: gets the share of the most work
+                      double share); /* exact only: gets the share of the allowed work
                                         that it may take; self: stop_self; may be NULL */
 };
 
-/* What a judge knows of itself. */
+/* What a judge reports of its accuracy and cost. */
 struct br_judge_report {
     double own_error[2][BR_MEASURES]; /* by br_field_kind, largest over time; m^(3/2) and
                                          its rates, the tip's in m; NaN: not known */
@@ -56,31 +55,31 @@ struct br_judge {
                              struct br_error *err);
     void (*free)(void *self); /* accepts NULL */
 
-    /* Goes on to time level i in one field, never back. The two fields may be advanced and looked
-     * at in different threads; the axial one is there first, and by at most the request's lead. */
+    /* Advances one field to time level i, never back. Two threads may advance and sample the two
+     * fields. The axial field is advanced first, by at most the request's lead. */
     enum br_status (*advance)(void *self, enum br_field_kind kind, size_t i, struct br_error *err);
 
-    /* A measure of the solution there, on the mesh of that index. view: out, and the values where
-     * its values point to; the tip has one, in m. */
+    /* Samples a measure at that time level, on the mesh of that index. view: out, and the values
+     * where its pointer points; the tip has one, in m. */
     void (*sample)(void *self, const struct br_sample_at *at, struct br_view *view);
 
     struct br_judge_report (*report)(const void *self);
 
-    /* What a reader should know of the solution, one line after the other (events at
-     * the tip, with the errors of their times), or nothing. */
-    void (*tell)(const void *self, FILE *out);
+    /* Prints notes on the solution, one per line (events at the tip, with the errors of their
+     * times), or nothing. */
+    void (*print_notes)(const void *self, FILE *out);
 };
 
 extern const struct br_judge br_judge_fine, br_judge_exact, br_judge_mms;
 
-/* No judge, a row all the same: its functions are NULL (study/grid/sweep.h). */
+/* Stands for no judge: its functions are NULL (study/grid/sweep.h). */
 extern const struct br_judge br_judge_none;
 
 /* NULL-terminated. */
 extern const struct br_judge *const br_judges[];
 const struct br_judge *br_judge_find(const char *name);
 
-/* Who knows the solution of a scene best: the one it was manufactured from, if any. */
+/* The best judge of a scene: `mms` where a solution is given, else `exact`. */
 const struct br_judge *br_judge_best(const struct br_scene *scene);
 
 #endif

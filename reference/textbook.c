@@ -161,8 +161,8 @@ const struct br_element *br_element_of(enum br_field_kind kind, int axial_degree
     return kind == BR_BENDING ? &beam : axial_degree == 2 ? &quadratic_rod : &rod;
 }
 
-/* Nodal values. A rigid motion has no elastic forces, so that of the element's first node is then
- * taken off beforehand, exactly but for the last bits. */
+/* Copies nodal values. For the stiffness, subtracts the rigid motion of the first node, which
+ * causes no elastic force; this is exact but for the last bits. */
 static inline void take(const struct br_element *e, enum br_element_matrix matrix, size_t size,
                         const double *nodal, long double out[4])
 {
@@ -176,8 +176,8 @@ static inline void take(const struct br_element *e, enum br_element_matrix matri
         out[3] -= turned;
 }
 
-/* Of so many unknowns: a number, so that the loops are unrolled. Without its rigid motion the first
- * node has no part. */
+/* `size` is a constant in each call, so that loops are unrolled. Without the rigid motion the first
+ * node's values are zero. */
 static inline void forces(const struct br_element *e, enum br_element_matrix matrix, size_t size,
                           const long double v[4], long double out[4])
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes, laws and element matrices as the literature prints them, written down apart from
- * the solver, for all who judge it. */
+/* Time schemes, laws and element matrices as the literature prints them. Judges of the solver use
+ * them; the solver does not. */
 #ifndef BR_REFERENCE_TEXTBOOK_H
 #define BR_REFERENCE_TEXTBOOK_H
 
@@ -22,8 +22,8 @@ struct br_textbook {
  * scheme that is not known here. */
 const struct br_textbook *br_textbook_step(const char *scheme, size_t since);
 
-/* The branch of its law that a tip is on: force, N, of the contact or of friction, whose bound is
- * told. */
+/* The branch of the law at the tip, for the given force, N, of contact or friction, and the given
+ * friction bound. */
 enum br_regime br_textbook_regime(const struct br_scene *scene, enum br_field_kind kind,
                                   long double force, long double bound);
 
@@ -34,16 +34,16 @@ enum br_element_matrix { BR_MASS, BR_STIFFNESS };
 /* An element's matrices in the unknowns of solver/field.h: u at both nodes of a rod, (u, b) of a
  * quadratic one, (w, h w_x) of a beam. */
 struct br_element {
-    size_t unknowns;    /* of a node */
-    int power;          /* of h */
+    size_t unknowns;       /* of a node */
+    int power;             /* of h */
     double entry[2][4][4]; /* by br_element_matrix; entry / over times rho h or a / h^power */
     int over[2];
 };
 
 const struct br_element *br_element_of(enum br_field_kind kind, int axial_degree);
 
-/* factor times the entries, without what they are over, times nodal values: forces on the element's
- * nodes (out, 2 * unknowns values). */
+/* out (2 * unknowns values) = factor times the entries, not divided by `over`, times nodal values:
+ * forces on the element's nodes. */
 void br_element_forces(const struct br_element *element, enum br_element_matrix matrix,
                        long double factor, const double *nodal, long double out[4]);
 

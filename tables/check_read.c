@@ -78,8 +78,8 @@ static bool read_value(const json_t *o, char value[BR_METHOD_VALUE])
     return true;
 }
 
-/* A key that is not there means what there was before it: the default. The rows of the registries
- * were always there, but for the time schemes. */
+/* A missing key means the default, as before the key existed. The rows of the registries were
+ * always there, but for the time schemes. */
 static bool read_method(const json_t *o, struct br_old_method *m)
 {
     const struct br_method method = br_method_default();
@@ -138,15 +138,15 @@ static enum br_status read_scene(const char *path, const json_t *o, const json_t
     return BR_OK;
 }
 
-static enum br_status read_document(const char *path, const json_t *root, struct br_old_check *old,
-                                    struct br_error *err)
+static enum br_status read_document(const char *path, const json_t *document,
+                                    struct br_old_check *old, struct br_error *err)
 {
-    const char *format = json_string_value(json_object_get(root, "format"));
+    const char *format = json_string_value(json_object_get(document, "format"));
     const bool first = format && strcmp(format, "beamrate check 1") == 0;
     const bool present = format && strcmp(format, "beamrate check") == 0 &&
-                         json_integer_value(json_object_get(root, "version")) == 2;
-    const json_t *tables = json_object_get(root, "tables");
-    const json_t *list = json_object_get(first ? root : tables, "scenes");
+                         json_integer_value(json_object_get(document, "version")) == 2;
+    const json_t *tables = json_object_get(document, "tables");
+    const json_t *list = json_object_get(first ? document : tables, "scenes");
     const json_t *orders = first ? NULL : json_object_get(tables, "orders");
     if (!first && !present)
         return refuse(path, "format", "beamrate check, version 2, or beamrate check 1", err);
@@ -158,7 +158,7 @@ static enum br_status read_document(const char *path, const json_t *root, struct
     if (!old->check || !old->method)
         return br_no_memory(err, "the earlier check");
     for (size_t i = 0; i < json_array_size(list) && !status; i++) {
-        const json_t *o = json_array_get(list, i), *methods = json_object_get(root, "methods");
+        const json_t *o = json_array_get(list, i), *methods = json_object_get(document, "methods");
         char number[32];
         snprintf(number, sizeof number, "%zu", i);
         status =

@@ -8,14 +8,14 @@
 #include "study/fit/fit.h"
 #include "tables/document.h"
 
-/* jansson forgets a member that it has no memory for. From the first call on this remembers: false
- * where no memory of jansson's has been refused. Call it before any document is made, and before
- * one is put in place. */
+/* jansson silently drops a member that it has no memory for. This function notices it from its
+ * first call on: false where no memory of jansson's has been refused. Call it before any document
+ * is made, and before one is put in place. */
 bool br_json_lacked_memory(void);
 
-/* The document in an open file, or NULL, why being said. jansson's parser does not survive a failed
- * allocation: it loses characters, and frees what it must not. So the program ends there, with exit
- * code 3 and its own words; results that were not yet in place stay whole for the next command. */
+/* The document in an open file, or NULL, with the reason. After a failed allocation jansson's
+ * parser loses characters, and frees what it must not. So the program ends there, with a message
+ * and exit code 3; results that were not yet in place stay whole for the next command. */
 json_t *br_json_read(int file, json_error_t *why);
 
 json_t *br_json_number(double value);     /* what is not finite is null */

@@ -7,10 +7,9 @@
 
 #include "tables/reports.h"
 
-enum { PLACE = 300 };
+enum { MOST_TEXT = 300 };
 
-/* Below this part of what a number is measured by, round-off makes differences, where a report does
- * not state more. */
+/* Relative differences below this are round-off, where a report does not state more. */
 static const double usual_round_off = 1e-9;
 
 struct comparison {
@@ -23,12 +22,12 @@ struct comparison {
 /* Whether a key is one of the words of a list, which stand between blanks. */
 static bool is_one_of(const char *key, const char *words)
 {
-    char word[PLACE];
+    char word[MOST_TEXT];
     return (size_t)snprintf(word, sizeof word, " %s ", key) < sizeof word && strstr(words, word);
 }
 
-/* Times of the clock, estimates of what a reference is off, what is derived from them, texts that
- * say numbers again, what is the machine's own, and sums that are round-off alone. */
+/* Measured times, estimated errors of a reference, values derived from them, texts that repeat
+ * numbers, values of the machine, and sums that are round-off alone. */
 static bool is_skipped(const char *key)
 {
     static const char words[] =
@@ -38,7 +37,7 @@ static bool is_skipped(const char *key)
     return strstr(key, "second") || strstr(key, "own_") || is_one_of(key, words);
 }
 
-/* Which trials are held, and which are best, depends on the clock. */
+/* Which trials are kept, and which are best, depends on the clock. */
 static bool depends_on_clock(const char *format)
 {
     return format &&
@@ -46,14 +45,14 @@ static bool depends_on_clock(const char *format)
 }
 
 /* One value as a text of a row; nothing where there is none. */
-static const char *text_of(const json_t *value, char text[PLACE])
+static const char *text_of(const json_t *value, char text[MOST_TEXT])
 {
     if (json_is_number(value))
-        snprintf(text, PLACE, "%.17g", json_number_value(value));
+        snprintf(text, MOST_TEXT, "%.17g", json_number_value(value));
     else if (json_is_string(value))
-        snprintf(text, PLACE, "%.290s", json_string_value(value));
+        snprintf(text, MOST_TEXT, "%.290s", json_string_value(value));
     else
-        snprintf(text, PLACE, "%s",
+        snprintf(text, MOST_TEXT, "%s",
                  json_is_true(value)     ? "true"
                  : json_is_false(value)  ? "false"
                  : json_is_array(value)  ? "a list"
@@ -63,22 +62,22 @@ static const char *text_of(const json_t *value, char text[PLACE])
     return text;
 }
 
-static void put_difference(struct comparison *c, const char *place, const json_t *was,
+static void put_difference(struct comparison *c, const char *path, const json_t *was,
                            const json_t *is)
 {
-    char text[PLACE];
+    char text[MOST_TEXT];
     if (c->found->different++ >= BR_LONG_TABLE)
         return; /* enough to begin with */
-    BR_PUT_ROW(c->d, br_text(place), br_text(text_of(was, text)));
-    BR_PUT_CELLS(c->d, br_text(text_of(is, text))); /* into the same place */
+    BR_PUT_ROW(c->d, br_text(path), br_text(text_of(was, text)));
+    BR_PUT_CELLS(c->d, br_text(text_of(is, text))); /* into the same cell */
 }
 
 /* The interval that is stated beside a number: KEY_low and KEY_high, or low and high. */
 static bool has_interval(const json_t *object, const char *key, double *low, double *high)
 {
-    char name[2][PLACE];
-    snprintf(name[0], PLACE, "%.280s_low", key);
-    snprintf(name[1], PLACE, "%.280s_high", key);
+    char name[2][MOST_TEXT];
+    snprintf(name[0], MOST_TEXT, "%.280s_low", key);
+    snprintf(name[1], MOST_TEXT, "%.280s_high", key);
     const bool own = json_object_get(object, name[0]) && json_object_get(object, name[1]);
     if (!own && !is_one_of(key, " order error value "))
         return false;
@@ -93,8 +92,8 @@ static bool has_interval(const json_t *object, const char *key, double *low, dou
 static bool is_end(const json_t *object, const char *key)
 {
     const char *end = strrchr(key, '_');
-    char base[PLACE];
-    snprintf(base, sizeof base, "%.*s", (int)(end && end - key < PLACE ? end - key : 0), key);
+    char base[MOST_TEXT];
+    snprintf(base, sizeof base, "%.*s", (int)(end && end - key < MOST_TEXT ? end - key : 0), key);
     const char *name = end ? end + 1 : key;
     if (strcmp(name, "low") != 0 && strcmp(name, "high") != 0)
         return false;
@@ -103,15 +102,15 @@ static bool is_end(const json_t *object, const char *key)
                      json_object_get(object, "value");
 }
 
-static void compare(struct comparison *c, const char *place, const json_t *was, const json_t *is);
+static void compare(struct comparison *c, const char *path, const json_t *was, const json_t *is);
 
-/* Numbers are held against the larger of both, and the two fields against the larger of these. */
-static void compare_member(struct comparison *c, const char *place, const json_t *object,
+/* The scale of two numbers is the larger one; of the two fields, the largest of both. */
+static void compare_member(struct comparison *c, const char *path, const json_t *object,
                            const char *key, const json_t *is)
 {
     const json_t *was = json_object_get(object, key);
-    char inner[PLACE];
-    snprintf(inner, sizeof inner, "%.200s%s%.90s", place, *place ? "." : "", key);
+    char inner[MOST_TEXT];
+    snprintf(inner, sizeof inner, "%.200s%s%.90s", path, *path ? "." : "", key);
     if (!json_is_number(was) || !json_is_number(is)) {
         compare(c, inner, was, is);
         return;
@@ -128,37 +127,37 @@ static void compare_member(struct comparison *c, const char *place, const json_t
         put_difference(c, inner, was, is);
 }
 
-static void compare_objects(struct comparison *c, const char *place, const json_t *was,
+static void compare_objects(struct comparison *c, const char *path, const json_t *was,
                             const json_t *is)
 {
     const char *key;
     const json_t *value;
     json_object_foreach ((json_t *)was, key, value)
         if (!is_skipped(key) && !is_end(was, key))
-            compare_member(c, place, was, key, json_object_get(is, key));
+            compare_member(c, path, was, key, json_object_get(is, key));
     json_object_foreach ((json_t *)is, key, value)
         if (!is_skipped(key) && !json_object_get(was, key)) {
-            char inner[PLACE];
-            snprintf(inner, sizeof inner, "%.200s%s%.90s", place, *place ? "." : "", key);
+            char inner[MOST_TEXT];
+            snprintf(inner, sizeof inner, "%.200s%s%.90s", path, *path ? "." : "", key);
             put_difference(c, inner, NULL, value);
         }
 }
 
-static void compare(struct comparison *c, const char *place, const json_t *was, const json_t *is)
+static void compare(struct comparison *c, const char *path, const json_t *was, const json_t *is)
 {
     if (json_is_object(was) && json_is_object(is)) {
-        compare_objects(c, place, was, is);
+        compare_objects(c, path, was, is);
         return;
     }
     if (!json_is_array(was) || !json_is_array(is) || json_array_size(was) != json_array_size(is)) {
         c->found->compared++;
         if (!json_equal(was, is))
-            put_difference(c, place, was, is);
+            put_difference(c, path, was, is);
         return;
     }
     for (size_t i = 0; i < json_array_size(was); i++) {
-        char inner[PLACE];
-        snprintf(inner, sizeof inner, "%.270s[%zu]", place, i);
+        char inner[MOST_TEXT];
+        snprintf(inner, sizeof inner, "%.270s[%zu]", path, i);
         compare(c, inner, json_array_get(was, i), json_array_get(is, i));
     }
 }
@@ -172,26 +171,26 @@ static bool is_same_trial(const json_t *a, const json_t *b)
     return same;
 }
 
-/* Trials need not be the same: errors of those that both have, where both came to their end. */
+/* Trials may differ: compares errors of those in both reports, where both ended well. */
 static void compare_trials(struct comparison *c, const json_t *was, const json_t *is)
 {
     static const char *const keys[] = {"relative_error", "error", "axial", "bending", "scale"};
     for (size_t i = 0; i < json_array_size(was); i++)
         for (size_t j = 0; j < json_array_size(is); j++) {
             const json_t *a = json_array_get(was, i), *b = json_array_get(is, j);
-            char place[PLACE];
-            snprintf(place, sizeof place, "tables.trials[%zu]", i);
+            char path[MOST_TEXT];
+            snprintf(path, sizeof path, "tables.trials[%zu]", i);
             for (size_t k = 0; is_same_trial(a, b) && k < sizeof keys / sizeof *keys; k++)
                 if (json_is_number(json_object_get(a, keys[k])) &&
                     json_is_number(json_object_get(b, keys[k])))
-                    compare_member(c, place, a, keys[k], json_object_get(b, keys[k]));
+                    compare_member(c, path, a, keys[k], json_object_get(b, keys[k]));
         }
 }
 
-/* The number at a place, or 0. */
-static double number_at(const json_t *root, const char *object, const char *key)
+/* A member of an object of the report, or 0. */
+static double number_at(const json_t *report, const char *object, const char *key)
 {
-    const double value = json_number_value(json_object_get(json_object_get(root, object), key));
+    const double value = json_number_value(json_object_get(json_object_get(report, object), key));
     return isfinite(value) ? fabs(value) : 0;
 }
 

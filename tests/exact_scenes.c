@@ -42,14 +42,14 @@ void release(struct solved *s)
     br_exact_free(s->exact);
 }
 
-double value_of(const struct solved *s, struct br_exact_part part, double x)
+double value_of(const struct solved *s, struct br_exact_quantity part, double x)
 {
     double value = NAN;
     assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, 1, &x, &value, NULL), BR_OK);
     return value;
 }
 
-double square_of(const struct solved *s, struct br_exact_part part)
+double square_of(const struct solved *s, struct br_exact_quantity part)
 {
     struct br_exact_projection *projection = NULL;
     const struct br_exact_mesh mesh = {.elements = 1, .degree = 3};

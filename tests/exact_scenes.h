@@ -29,10 +29,10 @@ struct solved solve(const struct br_scene *scene, double tolerance);
 void release(struct solved *solved);
 
 /* One value of a part now. */
-double value_of(const struct solved *solved, struct br_exact_part part, double x);
+double value_of(const struct solved *solved, struct br_exact_quantity part, double x);
 
 /* Square of the L2 norm of a part over the beam. */
-double square_of(const struct solved *solved, struct br_exact_part part);
+double square_of(const struct solved *solved, struct br_exact_quantity part);
 
 /* Room for a text that is made from numbers. */
 struct text {
@@ -43,7 +43,7 @@ __attribute__((format(printf, 1, 2))) struct text text_of(const char *format, ..
 /* What a solution must be: a part of it, or a force at the tip, as an expression in x and t. */
 struct expected {
     enum { PART, CONTACT_FORCE, FRICTION_FORCE } what;
-    struct br_exact_part part;
+    struct br_exact_quantity part;
     struct text f;
     double allowed;
 };

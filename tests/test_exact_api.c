@@ -15,7 +15,7 @@ TEST(test_derivatives)
     const double x = 0.4, h = 1e-3;
     for (unsigned field = 0; field < 2; field++)
         for (unsigned order = 0; order <= field + 1; order++) {
-            struct br_exact_part part = {(enum br_exact_field)field, false, order}, next = part;
+            struct br_exact_quantity part = {(enum br_exact_field)field, false, order}, next = part;
             next.order++;
             const double difference =
                 8 * value_of(&solved, part, x + h) - 8 * value_of(&solved, part, x - h) -
@@ -75,8 +75,8 @@ TEST(test_refusals)
     struct solved solved = solve(&good, 1e-8);
     const double x = 0.5;
     double value;
-    const struct br_exact_part axial = {BR_EXACT_AXIAL, false, 0},
-                               high = {BR_EXACT_BENDING, false, 4};
+    const struct br_exact_quantity axial = {BR_EXACT_AXIAL, false, 0},
+                                   high = {BR_EXACT_BENDING, false, 4};
     assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &axial, 1, &x, &value, NULL),
                      BR_BAD_INPUT);
     assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &high, 1, &x, &value, NULL),
@@ -116,7 +116,7 @@ TEST(test_allocations)
 {
     struct br_scene scene = br_test_bundled("example2");
     const struct br_exact_options options = {.tolerance = 1e-4};
-    const struct br_exact_part part = {BR_EXACT_BENDING, false, 0};
+    const struct br_exact_quantity part = {BR_EXACT_BENDING, false, 0};
     const struct br_exact_mesh mesh = {4, 3};
     enum br_status status = BR_NO_MEMORY;
     long failures = 0;

@@ -7,11 +7,11 @@
 
 #include "tests/exact_scenes.h"
 
-static const struct br_exact_part u = {BR_EXACT_AXIAL, false, 0}, v = {BR_EXACT_AXIAL, true, 0},
-                                  u_xt = {BR_EXACT_AXIAL, true, 1},
-                                  w = {BR_EXACT_BENDING, false, 0},
-                                  w_t = {BR_EXACT_BENDING, true, 0},
-                                  w_xxt = {BR_EXACT_BENDING, true, 2};
+static const struct br_exact_quantity u = {BR_EXACT_AXIAL, false, 0}, v = {BR_EXACT_AXIAL, true, 0},
+                                      u_xt = {BR_EXACT_AXIAL, true, 1},
+                                      w = {BR_EXACT_BENDING, false, 0},
+                                      w_t = {BR_EXACT_BENDING, true, 0},
+                                      w_xxt = {BR_EXACT_BENDING, true, 2};
 
 /* Solves, checks up to the end, and clears all. */
 static void check_forms(struct br_scene *scene, int times, size_t count,
@@ -44,13 +44,13 @@ static void oscillate(double d, double square, struct text *q, struct text *rate
 
 /* A vibration of a shape, with the estimate put to the test. square: of the wave number, to the
  * power of the field, over the density. reaction: at the tip, a shape; NULL: none. */
-static void check_vibration(struct br_scene *scene, struct br_exact_part part, const char *shape,
-                            double square, const char *reaction)
+static void check_vibration(struct br_scene *scene, struct br_exact_quantity part,
+                            const char *shape, double square, const char *reaction)
 {
     const bool axial = part.field == BR_EXACT_AXIAL;
     const double a = axial ? scene->axial.stiffness : scene->bending.stiffness,
                  c = axial ? scene->axial.viscosity : scene->bending.viscosity;
-    const struct br_exact_part velocity = {part.field, true, 0};
+    const struct br_exact_quantity velocity = {part.field, true, 0};
     struct text q, rate;
     oscillate(square * c, square * a, &q, &rate);
     struct solved s = solve(scene, 1e-10);

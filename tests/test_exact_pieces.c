@@ -57,7 +57,7 @@ TEST(test_needless_ends)
         scene[i].bending.load = br_test_load(loads[i]);
         s[i] = solve(&scene[i], 1e-10);
     }
-    const struct br_exact_part part = {BR_EXACT_BENDING, false, 0};
+    const struct br_exact_quantity part = {BR_EXACT_BENDING, false, 0};
     const double largest = br_exact_report(s[0].exact, BR_EXACT_BENDING).largest.displacement;
     for (int n = 0; n <= 40; n++) {
         for (int i = 0; i < 2; i++)

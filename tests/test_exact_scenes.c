@@ -167,7 +167,8 @@ struct power {
     struct br_exact_projection *rate[2], *strain[2]; /* of the velocity, on one element */
 };
 
-static struct br_exact_projection *project(const struct br_exact *exact, struct br_exact_part part)
+static struct br_exact_projection *project(const struct br_exact *exact,
+                                           struct br_exact_quantity part)
 {
     struct br_exact_projection *projection = NULL;
     const struct br_exact_mesh mesh = {.elements = 1, .degree = 0};
@@ -203,7 +204,7 @@ static double energy(const struct power *p)
     double sum = s->contact.stiffness * in * in / 2;
     for (unsigned i = 0; i < 2; i++) {
         const enum br_exact_field field = (enum br_exact_field)i;
-        const struct br_exact_part strain = {field, false, i + 1}, rate = {field, true, 0};
+        const struct br_exact_quantity strain = {field, false, i + 1}, rate = {field, true, 0};
         sum += stiffness[i] / 2 * square_of(p->solved, strain);
         sum += s->density / 2 * square_of(p->solved, rate);
     }
@@ -238,8 +239,8 @@ TEST(test_energy)
     struct power p = {.scene = &b->scene, .solved = &b->tight};
     for (unsigned i = 0; i < 2; i++) {
         const enum br_exact_field field = (enum br_exact_field)i;
-        p.rate[i] = project(exact, (struct br_exact_part){field, true, 0});
-        p.strain[i] = project(exact, (struct br_exact_part){field, true, i + 1});
+        p.rate[i] = project(exact, (struct br_exact_quantity){field, true, 0});
+        p.strain[i] = project(exact, (struct br_exact_quantity){field, true, i + 1});
     }
     size_t count;
     const struct br_exact_event *event = br_exact_events(exact, &count);

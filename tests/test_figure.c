@@ -330,7 +330,7 @@ static void make_record(struct br_history_record *r, struct br_history_row row[L
                                     .row = row,
                                     .rows = LOOKS,
                                     .at = row,
-                                    .looks = LOOKS,
+                                    .samples = LOOKS,
                                     .field = field};
 }
 

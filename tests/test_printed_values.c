@@ -87,7 +87,7 @@ static void march_and_write(struct watched *w)
     char path[64];
     const struct br_history_observer output[] = {
         br_history_recorder(&w->record, ELEMENTS),
-        {.self = w, .look = write_fields},
+        {.self = w, .sample = write_fields},
     };
     const struct br_run_request request = {.scene = &w->scene,
                                            .wanted = 3,

@@ -197,7 +197,7 @@ static void check_rows_and_looks(int degree)
     assert_int_equal(record.row[66].step, 198);
     assert_int_equal(record.row[67].step, 200);
     assert_int_equal(end.last.step, 200);
-    assert_int_equal(record.looks, 3);
+    assert_int_equal(record.samples, 3);
     struct br_march *again = br_test_march(&scene, N, 200, &method);
     double y[2][2 * (N + 1)];
     for (size_t i = 0; i < 6; i++) {

@@ -123,8 +123,9 @@ static void values(const struct side *s, const struct what *what, size_t count, 
                    double *value)
 {
     const int order = what->kind == BR_AXIAL ? 1 : 2;
-    const struct br_exact_part part = {what->kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING,
-                                       what->velocity, (unsigned)(what->derived ? order : 0)};
+    const struct br_exact_quantity part = {what->kind == BR_AXIAL ? BR_EXACT_AXIAL
+                                                                  : BR_EXACT_BENDING,
+                                           what->velocity, (unsigned)(what->derived ? order : 0)};
     if (s->exact) {
         assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, count, x, value, NULL),
                          BR_OK);

@@ -9,7 +9,7 @@
 
 typedef long double real;
 
-/* A stage adds up to six velocities, by weights up to 8, of steps that grow by 5. */
+/* A stage adds up to six velocities with weights up to 8; steps grow by up to 5. */
 enum { MOST_WEIGHT = 240 };
 
 /* ---- scalars; each of these passes a NaN on ---- */
@@ -44,8 +44,8 @@ static double with_last_bit(const struct br_step *s, enum br_field_kind kind, en
     return br_worse_of(size, DBL_EPSILON * *largest);
 }
 
-/* a over a size, or over the last bit of the largest such size so far (in/out: in the step) where
- * that is more; 0 for 0. */
+/* a over a size, or over the last bit of the largest such size so far (in/out: in the step) if that
+ * is larger; 0 for 0. */
 static double over_scale(const struct br_step *s, enum br_field_kind kind, enum br_scale scale,
                          double a, double size)
 {
@@ -76,8 +76,8 @@ static double at_tip(const struct br_step *s, enum br_field_kind kind, const dou
     return nodal[s->n * br_step_unknowns(s->method, kind)];
 }
 
-/* What a field's displacements are rounded to; over k, what its velocities are: a solver
- * finds them from differences of displacements. */
+/* The size to which displacements are rounded; over k, that of velocities, which a solver finds
+ * from differences of displacements. */
 static double field_scale(const struct br_step *s, enum br_field_kind kind)
 {
     const size_t size = size_of(s, kind);
@@ -86,8 +86,8 @@ static double field_scale(const struct br_step *s, enum br_field_kind kind)
            s->k * (magnitude(f->velocity, size) + magnitude(f->velocity_before, size));
 }
 
-/* What a force moves the tip in the step, m: no more than if nothing had mass. */
-static double way_of(const struct br_step *s, enum br_field_kind kind, double force)
+/* The distance that a force moves the tip in the step, m, at most: that without mass. */
+static double static_distance(const struct br_step *s, enum br_field_kind kind, double force)
 {
     const struct br_scene *c = s->scene;
     const double length = c->length;
@@ -98,7 +98,7 @@ static double way_of(const struct br_step *s, enum br_field_kind kind, double fo
     return s->k * smaller(s->compliance[kind], still) * fabs(force);
 }
 
-/* u_n = u_{n-1} + k v_n, and the tip's velocity as told. */
+/* Error of u_n = u_{n-1} + k v_n, and of the stated velocity of the tip. */
 static double update_error(const struct br_step *s, enum br_field_kind kind)
 {
     if (!modelled(s, kind))
@@ -111,8 +111,8 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
             (real)f->displacement[i] - f->displacement_before[i] - (real)s->k * f->velocity[i];
         most = br_worse_of((double)fabsl(error), most);
     }
-    const double told = fabs(s->tip.velocity[kind] - at_tip(s, kind, f->velocity));
-    return over_scale(s, kind, BR_SCALE_FIELD, br_worse_of(most, s->k * told),
+    const double stated = fabs(s->tip.velocity[kind] - at_tip(s, kind, f->velocity));
+    return over_scale(s, kind, BR_SCALE_FIELD, br_worse_of(most, s->k * stated),
                       field_scale(s, kind));
 }
 
@@ -126,9 +126,9 @@ static double tip_displacement_error(const struct br_step *s)
                       magnitude(u, size_of(s, BR_AXIAL)));
 }
 
-/* Velocities are sums of increments: what those that a step starts from were rounded to remains in
- * its own, m/s. */
-static double stillness(const struct br_step *s, enum br_field_kind kind)
+/* Velocities are sums of increments: the rounding errors of the velocities that a step starts from
+ * stay in its own velocity, m/s. */
+static double velocity_round_off(const struct br_step *s, enum br_field_kind kind)
 {
     const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
@@ -137,18 +137,18 @@ static double stillness(const struct br_step *s, enum br_field_kind kind)
     return MOST_WEIGHT * DBL_EPSILON * br_worse_of(own, s->speed[kind]);
 }
 
-/* c_H (u - g) for a depth of any sign, less what rounding leaves of velocities. */
+/* Error of the force c_H (u - g), for any sign of the depth, less the round-off of velocities. */
 static double force_error(const struct br_step *s, double force, double wanted)
 {
-    const double way = s->k * stillness(s, BR_AXIAL);
+    const double way = s->k * velocity_round_off(s, BR_AXIAL);
     return positive(fabs(force - wanted) - s->scene->contact.stiffness * way);
 }
 
-/* What a contact force is relative to, N. */
+/* The scale of a contact force, N. */
 static double contact_scale(const struct br_step *s, double force)
 {
     const struct br_contact *c = &s->scene->contact;
-    const double ways = field_scale(s, BR_AXIAL) + way_of(s, BR_AXIAL, force);
+    const double ways = field_scale(s, BR_AXIAL) + static_distance(s, BR_AXIAL, force);
     return fabs(force) + c->stiffness * (ways + c->gap);
 }
 
@@ -191,27 +191,27 @@ static double bound_of(const struct br_step *s)
     return scene->friction.coefficient * positive(depth_of(s));
 }
 
-/* How far the bound is from `wanted`, N, less what rounding leaves of the axial velocities: the
- * march has the depth from its contact force, the certificate from the nodes. */
+/* Distance of the bound from `wanted`, N, less the round-off of the axial velocities: the march has
+ * the depth from its contact force, the certificate from the nodes. */
 static double bound_error(const struct br_step *s, double wanted)
 {
     const double way = s->scene->friction.law == BR_COULOMB && s->scene->axial.modelled
-                           ? s->k * stillness(s, BR_AXIAL)
+                           ? s->k * velocity_round_off(s, BR_AXIAL)
                            : 0;
     return positive(fabs(s->tip.friction_bound - wanted) - s->scene->friction.coefficient * way);
 }
 
-/* What the bound is rounded to, where it is found from u_n - g. */
+/* The size to which the bound is rounded where it is found from u_n - g. */
 static double bound_scale(const struct br_step *s)
 {
     if (s->scene->friction.law != BR_COULOMB)
         return 0;
-    const double ways = field_scale(s, BR_AXIAL) + way_of(s, BR_AXIAL, s->tip.contact_force);
+    const double ways =
+        field_scale(s, BR_AXIAL) + static_distance(s, BR_AXIAL, s->tip.contact_force);
     return s->scene->friction.coefficient * (ways + s->scene->contact.gap);
 }
 
-/* What an iteration may leave: of lambda, and of v = v* - lambda z; and what rounding leaves of v.
- */
+/* Errors of lambda and of v = v* - lambda z that an iteration may leave, and the round-off of v. */
 struct slack {
     double force, speed;
 };
@@ -239,30 +239,30 @@ static double regularised_law(double v, double lambda, double bound, double mu, 
     return smaller(in_force, positive(fabs(v - mu * lambda / bound) - left.speed));
 }
 
-/* The march's own bound, which is that of the nodes to their round-off, and the law with it. */
+/* Checks the march's own bound against that of the nodes, and the law with this bound. */
 static double friction_error(const struct br_step *s)
 {
     const double lambda = s->tip.friction_force;
     if (s->scene->friction.law == BR_FRICTIONLESS)
         return lambda == 0 ? 0 : NAN;
     const double *nodal = s->field[BR_BENDING].velocity;
-    const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
+    const double ways = field_scale(s, BR_BENDING) + static_distance(s, BR_BENDING, lambda);
     const double speed = with_last_bit(s, BR_BENDING, BR_SCALE_FIELD, ways) / s->k;
     const double bound = bound_of(s);
     const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
                                        br_worse_of(fabs(lambda), bound) + bound_scale(s));
-    const double told = ratio(bound_error(s, bound), force);
+    const double stated = ratio(bound_error(s, bound), force);
     const double v = ratio(at_tip(s, BR_BENDING, nodal), speed);
     const double l = ratio(lambda, force), b = ratio(s->tip.friction_bound, force);
     const double tolerance = s->method->friction->iterates ? s->method->iteration.tolerance : 0;
-    const struct slack left = {
-        tolerance * b,
-        ratio(tolerance * bound * s->compliance[BR_BENDING] + stillness(s, BR_BENDING), speed)};
+    const struct slack left = {tolerance * b, ratio(tolerance * bound * s->compliance[BR_BENDING] +
+                                                        velocity_round_off(s, BR_BENDING),
+                                                    speed)};
     if (!s->method->friction->needs_regularisation)
-        return br_worse_of(told, exact_law(v, l, b, left));
+        return br_worse_of(stated, exact_law(v, l, b, left));
     if (speed == 0)
-        return br_worse_of(told, fabs(l));
-    return br_worse_of(told,
+        return br_worse_of(stated, fabs(l));
+    return br_worse_of(stated,
                        regularised_law(v, l, b, s->scene->friction.regularisation / speed, left));
 }
 
@@ -281,32 +281,33 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
     return 2;
 }
 
-/* The bound of a contact that is prolonged beyond its end: none of one that stays open. */
+/* The bound of a contact whose phase is prolonged beyond its end: 0 for an open one. */
 static double prolonged_bound(const struct br_step *s)
 {
     const bool open = s->scene->contact.stiffness > 0 && s->tip.contact_force == 0;
     return open ? 0 : s->scene->friction.coefficient * depth_of(s);
 }
 
-/* The bound is that of a contact which may be prolonged, too. */
+/* The bound may also be that of a prolonged contact. */
 static int friction_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
 {
     const struct br_scene *scene = s->scene;
     if (scene->friction.law == BR_FRICTIONLESS || s->method->friction->needs_regularisation)
         return 0;
     const double lambda = s->tip.friction_force, bound = s->tip.friction_bound;
-    const double ways = field_scale(s, BR_BENDING) + way_of(s, BR_BENDING, lambda);
+    const double ways = field_scale(s, BR_BENDING) + static_distance(s, BR_BENDING, lambda);
     const double speed = with_last_bit(s, BR_BENDING, BR_SCALE_FIELD, ways) / s->k;
     const double force = with_last_bit(s, BR_BENDING, BR_SCALE_LAW,
                                        br_worse_of(fabs(lambda), fabs(bound)) + bound_scale(s));
-    double told = bound_error(s, bound_of(s));
+    double stated = bound_error(s, bound_of(s));
     if (scene->friction.law == BR_COULOMB)
-        told = smaller(told, bound_error(s, prolonged_bound(s)));
-    told = ratio(told, force);
+        stated = smaller(stated, bound_error(s, prolonged_bound(s)));
+    stated = ratio(stated, force);
     const double v = fabs(at_tip(s, BR_BENDING, s->field[BR_BENDING].velocity));
-    distance[0] = br_worse_of(told, ratio(positive(v - stillness(s, BR_BENDING)), speed));
-    distance[1] = br_worse_of(told, ratio(fabs(lambda - bound), force));
-    distance[2] = br_worse_of(told, ratio(fabs(lambda + bound), force));
+    distance[0] =
+        br_worse_of(stated, ratio(positive(v - velocity_round_off(s, BR_BENDING)), speed));
+    distance[1] = br_worse_of(stated, ratio(fabs(lambda - bound), force));
+    distance[2] = br_worse_of(stated, ratio(fabs(lambda + bound), force));
     return 3;
 }
 
@@ -318,8 +319,8 @@ int br_branch_distances(const struct br_step *s, enum br_field_kind kind,
 
 /* ---- the residual of (27) and (28) ---- */
 
-/* The terms of (27) and (28), whose sum is the residual; and those of the state before,
- * which a solver starts from, for the size of a motion that stops in this step. */
+/* The terms of (27) and (28), whose sum is the residual. The terms of the state before, from which
+ * a solver starts, give the size of a motion that stops in this step. */
 enum term {
     INERTIA_AFTER,  /*  M v_n / k */
     INERTIA_BEFORE, /* -M v_{n-1} / k */
@@ -432,12 +433,12 @@ static double largest_inertia(const struct balance *b)
     return (double)(b->density * (real)most / b->k * length * length / 2 * sqrtl(length / 5));
 }
 
-/* Where inertia rules by far, a force moves the elements where it acts, and almost nothing else. A
- * solver's velocities are then right to the round-off of inertia, r, of the largest, wherever they
- * are: off by so much together, they make moments with the lever of the beam. The motion makes its
- * own with that of an element, which are n^2 times less. Seen are 0.17 r and 3 n^2 last bits of
- * largest_inertia, of beams that start bent, for n = 21 to 800 and inertia up to 1e25; of a rod,
- * whose lever counts once, nothing. */
+/* Where inertia dominates, a force moves almost nothing but the elements where it acts. A solver's
+ * velocities then have errors of r times the largest velocity everywhere, where r is the round-off
+ * of inertia. The moments of these errors have the lever of the beam; the moments of the motion
+ * have the lever of an element, and are n^2 times less. Measured are 0.17 r and 3 n^2 last bits of
+ * largest_inertia, for beams that start bent, n = 21 to 800 and inertia up to 1e25; nothing for a
+ * rod, whose lever counts once. */
 static double dragged_along(const struct balance *b)
 {
     const double nodes = (double)b->step->n + 1, r = b->step->inertia_round_off;
@@ -446,8 +447,8 @@ static double dragged_along(const struct balance *b)
     return fmin(r / 2, 4 * nodes * nodes * DBL_EPSILON) * largest_inertia(b);
 }
 
-/* A residual, less what rounding leaves of states that were larger: where motion and load cross
- * zero at once, all terms are small, but a velocity is still a sum of larger ones. */
+/* A residual, less the round-off of larger earlier states: where motion and load cross zero at
+ * once, all terms are small, but a velocity is still a sum of larger ones. */
 static double beyond_rounding(const struct balance *b, double residual)
 {
     const double inherited = MOST_WEIGHT * DBL_EPSILON * b->step->size[b->kind];
@@ -566,15 +567,16 @@ void br_certificate_merge(struct br_certificate *worst, const struct br_certific
         value[i] = br_worse_of(value[i], entry(other, i));
 }
 
-/* Of an adaptive step that ends at a switch, relative to the tip's force or way; seen are 7e-14. */
+/* Accuracy of an adaptive step that ends at a switch, relative to the tip's force or displacement;
+ * measured: 7e-14. */
 static const double switch_accuracy = 1e-12;
 
-/* The first adaptive step is 1e-7 of the duration: of a beam that starts bent, inertia is then all
- * that balances, and the velocities that riccati finds have 8 digits. */
+/* The first adaptive step is 1e-7 of the duration: in a beam that starts bent, only inertia
+ * balances then, and the velocities of riccati have 8 digits. */
 static const double small_steps = 64;
 
-/* The laws are scalar, and right to some of the tip's last bits; an update or a sum
- * over the nodes is right to n of them. */
+/* The laws are scalar, and accurate to some of the tip's last bits; an update or a sum over the
+ * nodes is accurate to n of them. */
 struct br_certificate br_certificate_limits(const struct br_time_scheme *scheme, size_t n,
                                             double round_off)
 {

@@ -11,7 +11,7 @@
  *
  * The norm of a residual. The residual of (28) is a set of nodal forces r. Its size as
  * a vector means nothing on a fine mesh: nodal values are rounded to one part in 1e16,
- * and K w magnifies that by h^-4. What it does to the beam is told by the bending
+ * and K w magnifies that by h^-4. Its effect on the beam is measured by the bending
  * moment m that balances it, r'z = int m z_xx dx for every z of the space, and
  *     |m|_L2 = sup { r'z : |z_xx|_L2 = 1 },
  * found from the free end by summing forces and levers: no system is solved. For (27)
@@ -28,13 +28,14 @@
 struct br_certificate {
     double axial_residual;   /* of (27) */
     double bending_residual; /* of (28) */
-    double update;           /* u_n - u_{n-1} - k v_n of both fields, or Y - Z - tau Y'; the tip's
-                                values told; the stage's time and tau */
-    double friction;         /* distance of (v, lambda) from the graph of (12) or (29), lambda
-                                relative to the bound, k v to the largest nodal value and to the
-                                way that lambda alone would take the tip */
-    double contact; /* force - c_H (u - g)_+ at u_{n-1} or u_n, relative to the force, and to
-                       c_H times displacements and the way that the force alone makes */
+    double update; /* u_n - u_{n-1} - k v_n of both fields, or Y - Z - tau Y'; the stated values of
+                      the tip; the stage's time and tau */
+    double friction; /* distance of (v, lambda) from the graph of (12) or (29); lambda relative to
+                        the bound, k v to the largest nodal value and to the distance that lambda
+                        alone would move the tip */
+    /* force - c_H (u - g)_+ at u_{n-1} or u_n, relative to the force, and to c_H times
+     * displacements and the distance that the force alone would move the tip */
+    double contact;
 };
 enum { BR_CERTIFICATE_ENTRIES = sizeof(struct br_certificate) / sizeof(double) };
 
@@ -54,7 +55,7 @@ struct br_step_field {
 /* What a certificate's numbers are relative to. */
 enum br_scale {
     BR_SCALE_RESIDUAL, /* norms of an equation's terms */
-    BR_SCALE_FIELD,    /* displacements, and ways of the velocities */
+    BR_SCALE_FIELD,    /* displacements, and k times velocities */
     BR_SCALE_LAW,      /* forces of the contact or friction law */
     BR_SCALES
 };
@@ -71,14 +72,13 @@ struct br_step {
     const double *axial_tip;       /* u(L), m, at the time of a stage of the bending field where
                                       field[BR_AXIAL] is not of that time; else NULL */
     struct br_tip tip;
-    /* In/out: the largest scales of the march so far, BR_SCALES by br_field_kind. What has decayed
-     * below their last bit counts as nothing: down there are numbers that underflow. NULL: the
-     * step counts alone. */
+    /* In/out: the largest scales of the march so far, BR_SCALES by br_field_kind. Values below
+     * their last bit count as nothing, since they may underflow. NULL: only this step counts. */
     double (*largest)[BR_SCALES];
     double speed[2];  /* the largest by br_field_kind in the steps that this one's states were found
                          from, m/s; 0: the step counts alone */
-    double size[2];   /* the same of the norms of the equation's terms, as `size_now` told them */
-    double *size_now; /* out, by br_field_kind: the sum of these norms; NULL: nobody asks */
+    double size[2];   /* the same of the norms of the equation's terms, from `size_now` */
+    double *size_now; /* out, by br_field_kind: the sum of these norms; NULL: not wanted */
     double inertia_round_off; /* what inertia adds to the predicted relative round-off of the field
                                  that is certified; 0: nothing */
 };
@@ -88,9 +88,9 @@ struct br_step {
 enum br_status br_certificate_check(const struct br_certificate *certificate,
                                     const struct br_certificate *limits, struct br_error *err);
 
-/* What a sound step on n elements stays below, given the predicted relative round-off
- * of the solver's displacements (br_march_round_off). Steps that end at a switch of the adaptive
- * scheme obey the laws as well as the switch has been found. */
+/* Limits of a sound step on n elements, given the predicted relative round-off of the solver's
+ * displacements (br_march_round_off). Adaptive steps that end at a switch obey the laws as
+ * accurately as the switch was found. */
 struct br_certificate br_certificate_limits(const struct br_time_scheme *scheme, size_t n,
                                             double round_off);
 
@@ -126,12 +126,12 @@ static inline size_t br_step_unknowns(const struct br_method *method, enum br_fi
 /* The larger of two numbers; NaN where one is. */
 double br_worse_of(double a, double b);
 
-/* What a certificate says of one field: the other's entries are 0. */
+/* The certificate of one field: the entries of the other are 0. */
 struct br_certificate br_certify_field(const struct br_step *step, enum br_field_kind kind);
 
-/* Distances (out) from each branch of a field's law prolonged beyond its end: contact that may
- * pull or be pressed and open, |lambda| beyond the bound. Returns how many there are; 0: the law
- * has no branches that could be held. */
+/* Distances (out) from each branch of a field's law prolonged beyond its end: a closed contact that
+ * pulls, an open one that is penetrated, |lambda| beyond the bound. Returns the number of branches;
+ * 0: the law has none that can be kept active. */
 int br_branch_distances(const struct br_step *step, enum br_field_kind kind,
                         double distance[BR_MOST_BRANCHES]);
 

@@ -19,12 +19,12 @@ struct tip_path {
 /* What is known of the step that a field is in. */
 struct trial {
     struct br_certificate worst;     /* of this step's stages so far */
-    double branch[BR_MOST_BRANCHES]; /* the worst so far of each branch that may be held */
+    double branch[BR_MOST_BRANCHES]; /* the worst so far of each branch that may be kept active */
     double law;                      /* the worst so far of the law itself */
 };
 
-/* A step looks back at most three steps, to states that look back as far, and the tip's increments
- * are set right by those of the step before. */
+/* A step uses at most three steps before it, whose states use as many, and the tip's increments are
+ * corrected by those of the step before. */
 enum { REMEMBERED = 8 };
 
 struct br_step_checker {
@@ -43,36 +43,36 @@ static const struct br_certificate not_good = {NAN, NAN, NAN, NAN, NAN};
 
 /* How far a stage's times are from the textbook's, over k; adaptive steps meet a time level to
  * 1e-13 of the duration. */
-static double time_error(const struct br_step_checker *w, const struct br_march_stage *told,
+static double time_error(const struct br_step_checker *w, const struct br_march_stage *stage,
                          real tau, real c)
 {
     const double slack = 1e-12 * w->seen.scene->duration;
-    const double begun = fabs(told->from - w->seen.field[told->kind].began) - slack;
-    const double at = (double)fabsl(told->time - (told->from + c * (real)told->k)) - slack;
-    const double step = (double)fabsl(told->tau - tau);
-    return br_worse_of(0, br_worse_of(begun, br_worse_of(at, step))) / told->k;
+    const double begun = fabs(stage->from - w->seen.field[stage->kind].began) - slack;
+    const double at = (double)fabsl(stage->time - (stage->from + c * (real)stage->k)) - slack;
+    const double step = (double)fabsl(stage->tau - tau);
+    return br_worse_of(0, br_worse_of(begun, br_worse_of(at, step))) / stage->k;
 }
 
 /* ---- the tip ---- */
 
-static void path_stage(struct br_step_checker *w, const struct br_march_stage *told)
+static void path_stage(struct br_step_checker *w, const struct br_march_stage *stage)
 {
     const struct br_watched_field *f = &w->seen.field[BR_AXIAL];
     struct tip_path *p = &w->path;
     const size_t tip = w->seen.n * br_step_unknowns(w->seen.method, BR_AXIAL);
     const struct br_nodal *now = &f->y.row[f->last];
-    if (told->index == 0)
-        *p = (struct tip_path){.from = told->from,
-                               .k = told->k,
+    if (stage->index == 0)
+        *p = (struct tip_path){.from = stage->from,
+                               .k = stage->k,
                                .u_from = f->y.past[0].displacement[tip],
                                .v_from = f->y.past[0].velocity[tip]};
-    p->time[p->count] = told->time;
+    p->time[p->count] = stage->time;
     p->u[p->count++] = p->u_to = now->displacement[tip];
     p->v_to = now->velocity[tip];
 }
 
-/* u(L), m, at the time of a stage, s; where the axial field had none then, by the cubic that the
- * ends of its step determine. */
+/* u(L), m, at the time of a stage, s. Where the axial field had no stage then: of the cubic through
+ * the ends of its step. */
 static double tip_path_at(const struct tip_path *p, double time)
 {
     for (int i = 0; i < p->count; i++)
@@ -85,9 +85,11 @@ static double tip_path_at(const struct tip_path *p, double time)
 
 /* ---- a stage ---- */
 
-/* An adaptive step either holds a branch: all its stages are on it, and the last obeys the law. Or
- * it is a short one over a switch, and each of its stages obeys the law. */
-static double hold(struct trial *f, const double *distance, int count, bool last, double law)
+/* Error of the law in an adaptive step. Either one branch is kept active: all stages are on it, and
+ * the last one obeys the law. Or the step is a short one over a switch, and each stage obeys the
+ * law. */
+static double adaptive_error(struct trial *f, const double *distance, int count, bool last,
+                             double law)
 {
     double nearest = INFINITY;
     for (int i = 0; i < count; i++) {
@@ -96,8 +98,8 @@ static double hold(struct trial *f, const double *distance, int count, bool last
             nearest = f->branch[i];
     }
     f->law = br_worse_of(law, f->law);
-    const double held = last ? br_worse_of(nearest, law) : nearest;
-    return f->law < held ? f->law : held;
+    const double on_branch = last ? br_worse_of(nearest, law) : nearest;
+    return f->law < on_branch ? f->law : on_branch;
 }
 
 /* A field's last stage, after Z or another state. */
@@ -158,7 +160,7 @@ static double inertia_round_off(const struct br_step_checker *w, enum br_field_k
     return br_method_round_off(method, field) - br_method_round_off(method, &massless);
 }
 
-static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *told,
+static struct br_certificate certify(struct br_step_checker *w, const struct br_march_stage *stage,
                                      const double *axial_tip)
 {
     const struct br_watched *seen = &w->seen;
@@ -167,7 +169,7 @@ static struct br_certificate certify(struct br_step_checker *w, const struct br_
         .scene = seen->scene,
         .method = seen->method,
         .n = seen->n,
-        .k = told->tau,
+        .k = stage->tau,
         .compliance = {br_march_compliance(w->seen.march, BR_AXIAL),
                        br_march_compliance(w->seen.march, BR_BENDING)},
         .axial_tip = axial_tip,
@@ -176,52 +178,52 @@ static struct br_certificate certify(struct br_step_checker *w, const struct br_
         .speed = {largest_of(w->speed[BR_AXIAL]), largest_of(w->speed[BR_BENDING])},
         .size = {largest_of(w->size[BR_AXIAL]), largest_of(w->size[BR_BENDING])},
         .size_now = size_now,
-        .inertia_round_off = inertia_round_off(w, told->kind)};
-    const struct br_watched_field *own = &seen->field[told->kind], *rod = &seen->field[BR_AXIAL];
-    step.field[told->kind] = stage_after(&own->y.start, own);
-    /* The axial field lends its size to the bound's round-off. Its step may have been taken. */
-    if (told->kind == BR_BENDING)
+        .inertia_round_off = inertia_round_off(w, stage->kind)};
+    const struct br_watched_field *own = &seen->field[stage->kind], *rod = &seen->field[BR_AXIAL];
+    step.field[stage->kind] = stage_after(&own->y.start, own);
+    /* The bound's round-off depends on the axial field, whose step may be complete. */
+    if (stage->kind == BR_BENDING)
         step.field[BR_AXIAL] = stage_after(&rod->y.past[0], rod);
-    struct br_certificate excess = excess_of(w, told->kind);
-    struct br_certificate c = br_certify_field(&step, told->kind);
-    double *size = &w->size[told->kind][seen->field[told->kind].steps % REMEMBERED];
-    *size = br_worse_of(size_now[told->kind], *size);
+    struct br_certificate excess = excess_of(w, stage->kind);
+    struct br_certificate c = br_certify_field(&step, stage->kind);
+    double *size = &w->size[stage->kind][seen->field[stage->kind].steps % REMEMBERED];
+    *size = br_worse_of(size_now[stage->kind], *size);
     for (size_t i = 0; i < BR_CERTIFICATE_ENTRIES; i++)
         br_certificate_entries(&c)[i] /= br_certificate_entries(&excess)[i];
     double distance[BR_MOST_BRANCHES];
     const int branches =
-        seen->method->scheme->adaptive ? br_branch_distances(&step, told->kind, distance) : 0;
-    const double by = told->kind == BR_AXIAL ? excess.contact : excess.friction;
+        seen->method->scheme->adaptive ? br_branch_distances(&step, stage->kind, distance) : 0;
+    const double by = stage->kind == BR_AXIAL ? excess.contact : excess.friction;
     for (int i = 0; i < branches; i++)
         distance[i] /= by;
-    double *law = told->kind == BR_AXIAL ? &c.contact : &c.friction;
+    double *law = stage->kind == BR_AXIAL ? &c.contact : &c.friction;
     if (branches > 0)
-        *law =
-            hold(&w->trial[told->kind], distance, branches, told->index + 1 == told->count, *law);
+        *law = adaptive_error(&w->trial[stage->kind], distance, branches,
+                              stage->index + 1 == stage->count, *law);
     return c;
 }
 
-static void watch_stage(void *self, const struct br_march_stage *told)
+static void watch_stage(void *self, const struct br_march_stage *stage)
 {
     struct br_step_checker *w = self;
-    struct trial *trial = &w->trial[told->kind];
-    if (told->index == 0)
+    struct trial *trial = &w->trial[stage->kind];
+    if (stage->index == 0)
         *trial = (struct trial){0};
-    const real tau = br_watched_stage(&w->seen, told);
-    const int row = w->seen.field[told->kind].last;
+    const real tau = br_watched_stage(&w->seen, stage);
+    const int row = w->seen.field[stage->kind].last;
     if (row < 0) {
         trial->worst = not_good;
         return;
     }
-    remember(w, told->kind);
+    remember(w, stage->kind);
     double axial_tip = 0;
-    if (told->kind == BR_AXIAL)
-        path_stage(w, told);
+    if (stage->kind == BR_AXIAL)
+        path_stage(w, stage);
     else if (w->seen.scene->axial.modelled)
-        axial_tip = tip_path_at(&w->path, told->time);
-    struct br_certificate c = certify(w, told, told->kind == BR_AXIAL ? NULL : &axial_tip);
-    const struct br_textbook *t = br_watched_textbook(&w->seen, told->kind);
-    c.update = br_worse_of(time_error(w, told, tau, t->rows > 0 ? t->c[row] : 1), c.update);
+        axial_tip = tip_path_at(&w->path, stage->time);
+    struct br_certificate c = certify(w, stage, stage->kind == BR_AXIAL ? NULL : &axial_tip);
+    const struct br_textbook *t = br_watched_textbook(&w->seen, stage->kind);
+    c.update = br_worse_of(time_error(w, stage, tau, t->rows > 0 ? t->c[row] : 1), c.update);
     br_certificate_merge(&trial->worst, &c);
 }
 

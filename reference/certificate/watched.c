@@ -52,7 +52,7 @@ static void sample(struct br_watched *w, enum br_field_kind kind, struct br_noda
     br_march_get(w->march, kind, into->displacement, into->velocity);
 }
 
-/* The velocity's rate of change as the stage's own equation has it: (v - Z) / tau. */
+/* The velocity's rate of change from the stage's own equation: (v - Z) / tau. */
 static void find_acceleration(struct br_watched_field *f, real tau)
 {
     struct br_nodal *y = &f->y.row[f->last];
@@ -65,20 +65,20 @@ const struct br_textbook *br_watched_textbook(const struct br_watched *w, enum b
     return br_textbook_step(w->method->scheme->name, w->field[kind].since);
 }
 
-real br_watched_stage(struct br_watched *w, const struct br_march_stage *told)
+real br_watched_stage(struct br_watched *w, const struct br_march_stage *stage)
 {
-    struct br_watched_field *f = &w->field[told->kind];
-    const struct br_textbook *t = br_watched_textbook(w, told->kind);
+    struct br_watched_field *f = &w->field[stage->kind];
+    const struct br_textbook *t = br_watched_textbook(w, stage->kind);
     const int skipped = t->rows > 0 && t->c[0] == 0, rows = t->rows > 0 ? t->rows : 1;
-    f->last = told->index + skipped;
-    f->now = told->time;
-    if (f->last >= rows || told->count != rows - skipped) {
+    f->last = stage->index + skipped;
+    f->now = stage->time;
+    if (f->last >= rows || stage->count != rows - skipped) {
         f->last = -1;
         return NAN;
     }
-    const real tau = start_of_row(&f->y, t, f->last, told->k);
-    sample(w, told->kind, &f->y.row[f->last]);
-    br_march_load(w->march, told->kind, f->load);
+    const real tau = start_of_row(&f->y, t, f->last, stage->k);
+    sample(w, stage->kind, &f->y.row[f->last]);
+    br_march_load(w->march, stage->kind, f->load);
     find_acceleration(f, tau);
     return tau;
 }
@@ -92,8 +92,8 @@ static void swap(struct br_nodal *a, struct br_nodal *b)
     *b = old;
 }
 
-/* An adaptive scheme says itself where it has found a switch; for the others a switch is what the
- * tip's regime shows. */
+/* An adaptive scheme reports its switches; for other schemes a switch is a change of the tip's
+ * regime. */
 void br_watched_step(struct br_watched *w, enum br_field_kind kind, bool switched)
 {
     struct br_watched_field *f = &w->field[kind];
@@ -124,21 +124,21 @@ static void find_needs(struct br_watched *w)
     }
 }
 
-static double *place(struct br_nodal *y, size_t size, double *memory)
+static double *take_arrays(struct br_nodal *y, size_t size, double *memory)
 {
     *y = (struct br_nodal){memory, memory + size, memory + 2 * size};
     return memory + 3 * size;
 }
 
 /* Gives a field its arrays; returns what is left of the memory. */
-static double *place_field(struct br_watched *w, enum br_field_kind kind, double *memory)
+static double *take_field_arrays(struct br_watched *w, enum br_field_kind kind, double *memory)
 {
     struct br_watched_field *f = &w->field[kind];
     f->y.size = br_field_size(br_march_field(w->march, kind));
     for (int i = 0; i < w->back; i++)
-        memory = place(&f->y.past[i], f->y.size, memory);
+        memory = take_arrays(&f->y.past[i], f->y.size, memory);
     for (int i = 0; i < w->rows; i++)
-        memory = place(&f->y.row[i], f->y.size, memory);
+        memory = take_arrays(&f->y.row[i], f->y.size, memory);
     f->y.start = (struct br_nodal){.displacement = memory, .velocity = memory + f->y.size};
     f->load = memory + 2 * f->y.size;
     return memory + 3 * f->y.size;
@@ -163,7 +163,7 @@ enum br_status br_watched_init(struct br_watched *w, struct br_march *march,
         return br_no_memory(err, "a certificate");
     double *memory = w->memory;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        memory = place_field(w, kind, memory);
+        memory = take_field_arrays(w, kind, memory);
         sample(w, kind, &w->field[kind].y.past[0]);
     }
     if (!br_march_watch(march, watcher))

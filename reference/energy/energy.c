@@ -38,7 +38,7 @@ double br_energy_stored(const struct br_field *field, const double *displacement
                     product(field, BR_STIFFNESS, displacement, displacement) / 2);
 }
 
-/* Of one field's state, J, with the contact's potential of an axial one. */
+/* Energies of one field's state, J; of the axial field with the contact's potential. */
 struct field_energy {
     real kinetic, stored, contact;
 };
@@ -138,7 +138,7 @@ double br_energy_limit(size_t n, double round_off)
 struct power {
     real load, viscous, tip; /* tip: of the contact or the friction force, which resists */
     real load_size;          /* the sum of the sizes of the nodes' shares */
-    real residual;           /* of what a sound stage's residual may do, over its relative size */
+    real residual; /* power that a sound stage's residual may have, over its relative size */
 };
 
 /* Since t = 0, J. */
@@ -234,17 +234,17 @@ static struct power power_of(const struct br_energy_meter *m, enum br_field_kind
     return p;
 }
 
-static void watch_stage(void *self, const struct br_march_stage *told)
+static void watch_stage(void *self, const struct br_march_stage *stage)
 {
     struct br_energy_meter *m = self;
-    const real tau = br_watched_stage(&m->seen, told);
-    const int row = m->seen.field[told->kind].last;
+    const real tau = br_watched_stage(&m->seen, stage);
+    const int row = m->seen.field[stage->kind].last;
     if (row >= 0)
-        m->field[told->kind].row[row] = power_of(m, told->kind, tau);
-    m->field[told->kind].k = told->k;
+        m->field[stage->kind].row[row] = power_of(m, stage->kind, tau);
+    m->field[stage->kind].k = stage->k;
 }
 
-/* ---- what a scheme takes ---- */
+/* ---- what a scheme dissipates ---- */
 
 /* <Y, Z> of displacements and velocities. */
 static real inner(const struct br_field *f, const double *const y[2], const double *const z[2])
@@ -358,20 +358,20 @@ static double relative(real a, real size)
     return a == 0 ? 0 : (double)(fabsl(a) / size);
 }
 
-/* Displacements are sums of ways k v, and as good as these, also where a step annihilates the
- * velocity it begins with: with what the certificate allows their update, relative to |w| + k |v|,
- * stored energy has that times |k v| |w|, J, in the norms of K. */
-static real noise_of_ways(const struct br_energy_meter *m, const struct meter_field *f,
-                          const struct br_watched_field *seen)
+/* Displacements are sums of increments k v and have their accuracy, also where a step stops the
+ * velocity it starts with. The certificate allows the update an error relative to |w| + k |v|. The
+ * stored energy then has an error of that times |k v| |w|, J, in the norms of K. */
+static real noise_of_increments(const struct br_energy_meter *m, const struct meter_field *f,
+                                const struct br_watched_field *seen)
 {
-    const real ways = norm(&f->field, BR_STIFFNESS, seen->y.past[0].velocity) +
-                      norm(&f->field, BR_STIFFNESS, seen->y.start.velocity);
+    const real speeds = norm(&f->field, BR_STIFFNESS, seen->y.past[0].velocity) +
+                        norm(&f->field, BR_STIFFNESS, seen->y.start.velocity);
     const real size = norm(&f->field, BR_STIFFNESS, seen->y.row[seen->last].displacement);
-    return (real)m->update * (real)f->field.stiffness * f->k * ways * size;
+    return (real)m->update * (real)f->field.stiffness * f->k * speeds * size;
 }
 
-/* What an imbalance is relative to, J: what has decayed below the last bit of the largest so far
- * counts as nothing. */
+/* The scale of an imbalance, J. Energies below the last bit of the largest scale so far count as
+ * nothing. */
 static real scale_of(struct br_energy_meter *m, struct meter_field *f, real size, real noise)
 {
     size += noise / m->limit;
@@ -380,7 +380,7 @@ static real scale_of(struct br_energy_meter *m, struct meter_field *f, real size
     return size > least ? size : least;
 }
 
-/* Takes the energies at the step's end into the sums. Returns the imbalance. */
+/* Adds the energies at the step's end to the sums. Returns the imbalance. */
 static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
 {
     struct meter_field *f = &m->field[kind];
@@ -398,7 +398,7 @@ static double add_step(struct br_energy_meter *m, enum br_field_kind kind)
     const real size = scale_of(m, f,
                                works.size + taken.size + total(&f->now) + total(&before) +
                                    f->now.contact + before.contact,
-                               noise_of_ways(m, f, seen));
+                               noise_of_increments(m, f, seen));
     f->work.scheme += taken.value;
     f->work.contact += contact;
     f->work.noise += m->limit * size;
@@ -423,7 +423,7 @@ static void watch_step(void *self, enum br_field_kind kind, bool switched)
 
 /* ---- setting up ---- */
 
-/* A field by the scene, not by the solver, and its energies at t = 0. */
+/* Sets up a field from the scene, not from the solver, and its energies at t = 0. */
 static enum br_status set_up(struct br_energy_meter *m, enum br_field_kind kind,
                              struct br_error *err)
 {

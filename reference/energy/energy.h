@@ -13,8 +13,8 @@
  * d being the backward difference. D_scheme is thus found from the states and the tables of
  * textbook.h, and the balance is a check. Implicit Euler's is 1/2 |d Y|^2. A contact force r_i adds
  *     sum_i b_i k r_i u_t,i(L) - the change of the contact's potential,
- * negative where it gives energy, as a lagged one may. What viscosity and friction take in one step
- * is signed like b_i, too.
+ * negative where it gives energy, as a lagged one may. What viscosity and friction dissipate in one
+ * step is signed like b_i, too.
  */
 #ifndef BR_REFERENCE_ENERGY_ENERGY_H
 #define BR_REFERENCE_ENERGY_ENERGY_H
@@ -46,8 +46,8 @@ double br_energy_total(const struct br_energy *energy);
 double br_energy_imbalance(const struct br_energy *start, const struct br_energy *now,
                            const struct br_work *work);
 
-/* The energy that a scheme has added to a field in all, beyond round-off, J; 0 where it took some.
- * Single steps of a sound scheme may add what others take. */
+/* The energy that a scheme has added to a field in all, beyond round-off, J; 0 where it removed
+ * some. Single steps of a sound scheme may add what others remove. */
 double br_energy_added(const struct br_work *work, enum br_field_kind kind);
 
 /* What was put into a field: its energy at first and the work of its loads, where that is positive,
@@ -60,18 +60,18 @@ double br_energy_put_in(const struct br_energy *start, const struct br_work *wor
 double br_energy_kinetic(const struct br_field *field, const double *velocity);
 double br_energy_stored(const struct br_field *field, const double *displacement);
 
-/* Of a march as it is (out), in a scene that models no more than it does. Fails with BR_NO_MEMORY.
- */
+/* Energies of a march at its time (out), in a scene that models no more than the march does. Fails
+ * with BR_NO_MEMORY. */
 enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,
                                 struct br_energy *energy, struct br_error *err);
 
-/* What the imbalance of a step of one field stays below, relative to the sum of the sizes of its
- * terms, given the predicted relative round-off of the solver's displacements (br_march_round_off):
- * nodal values are rounded, which costs 2^-53 where forces are smooth, and 2^-53 n^2 squared in the
- * energy of their noise; and what the certificate allows residuals to do. The terms are those
- * of the balance and, stage by stage, those that a residual is relative to, times k and the
- * velocity they work on. At most br_energy_useless: where round-off alone may be more, a balance
- * says nothing, good or bad. */
+/* The limit of the imbalance of a step of one field, relative to the sum of the sizes of its terms,
+ * given the predicted relative round-off of the solver's displacements (br_march_round_off).
+ * Rounding of nodal values costs 2^-53 where forces are smooth, and 2^-53 n^2 squared in the energy
+ * of their noise; residuals that the certificate allows cost more. The terms are those of the
+ * balance and, for each stage, those that a residual is relative to, times k and the velocity they
+ * work on. At most br_energy_useless: where round-off alone may be more, a balance proves nothing.
+ */
 extern const double br_energy_useless;
 double br_energy_limit(size_t n, double round_off);
 
@@ -87,9 +87,9 @@ enum br_status br_energy_meter_create(struct br_energy_meter **meter, struct br_
                                       struct br_error *err);
 void br_energy_meter_free(struct br_energy_meter *meter); /* accepts NULL */
 
-/* To be called after every step of the march: the largest imbalance of a field in one of the
- * scheme's steps since the last call, as br_energy_limit has it. NAN where there was no step or one
- * that is not of the textbook. */
+/* Call this after every step of the march. Returns the largest imbalance of a field in one of the
+ * scheme's steps since the last call, to be compared with br_energy_limit; NAN where there was no
+ * step or one that is not in the textbook. */
 double br_energy_meter_step(struct br_energy_meter *meter);
 
 /* Energies when the meter was created (start) and at its last step (now); the works between. */

@@ -28,7 +28,7 @@ INLINE void sum_block(const struct sum *s, size_t j, size_t rows, size_t vectors
             store(sum[r][i], s->out + r * s->width + j + i * WIDTH);
 }
 
-/* Some rows; what fills no vector column by column. */
+/* Some rows; columns that fill no vector one by one. */
 INLINE void sum_rows(const struct sum *s, size_t rows)
 {
     size_t j = 0;

@@ -8,16 +8,16 @@
 
 /* ---- two solutions ---- */
 
-/* The estimate is this many times the distance of two solutions: either may be
- * the worse one, but hardly by less than that. */
+/* The error estimate is this multiple of the distance of two solutions, since either may be the
+ * worse one. */
 static const double safety = 2;
 
-/* After an event, a jump of the data or a blow that is as short, velocity and force are not
- * compared for this part of T. */
+/* Velocity and force are not compared for this share of T after an event, a jump of the data or a
+ * load pulse that is as short. */
 static const double layer = 1e-6;
 
-/* Times of a step at which solutions are compared: where it begins, where velocities are at their
- * worst, and some of its nodes, where displacements are. */
+/* Times of a step at which solutions are compared: its start, where velocities are least accurate,
+ * and some of its nodes, where displacements are. */
 static const double inside[] = {0, 0.0913, 0.3719, 0.5452, 0.8556};
 enum { INSTANTS = sizeof inside / sizeof *inside };
 
@@ -172,8 +172,8 @@ static double step_work(const struct pair *p)
     return 3e-4 * a * b + 0.035 * a;
 }
 
-/* Compares at each step of either solution, in order of time. What is begun is ended, though no
- * work be left for it; but not where somebody stops it. */
+/* Compares at each step of either solution, in order of time. A comparison that has begun is
+ * completed even if no work is left for it, but not where `stop` ends it. */
 static enum br_status compare_field(struct pair *p, double duration, struct br_effort *effort,
                                     struct br_exact_report *report, struct br_error *err)
 {
@@ -246,7 +246,7 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
         const struct br_history *track = exact->solution->track[which];
         for (size_t i = 0; track && i < track->entries; i++) {
             const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
-            /* a phase that goes on through an event of the other field is none */
+            /* no event: a phase continues through an event of the other field */
             if (i == 0 || track->entry[i].phase != track->entry[i - 1].phase)
                 exact->event[exact->events++] = (struct br_exact_event){
                     .time = t,
@@ -257,7 +257,7 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
         }
     }
     qsort(exact->event, exact->events, sizeof *exact->event, by_time);
-    for (size_t i = 1; i < exact->events; i++) /* errors are handed on, agreement may be luck */
+    for (size_t i = 1; i < exact->events; i++) /* errors never fall: agreement may be luck */
         grow(&exact->event[i].error, exact->event[i - 1].error);
     return BR_OK;
 }
@@ -355,8 +355,8 @@ struct search {
     size_t round, modes; /* of the next solution */
     struct br_exact_solution *before;
     double missed;              /* the largest of the outlines */
-    double worst, worst_before; /* of the last two pairs, infinite where that cannot be said */
-    struct br_error cause;      /* why not */
+    double worst, worst_before; /* of the last two pairs, infinite where unknown */
+    struct br_error cause;      /* why it is unknown */
 };
 
 /* ---- one solution ---- */
@@ -399,9 +399,9 @@ static size_t count_modes(const struct search *s, size_t which, size_t modes)
     return count;
 }
 
-/* One field. Every second solution has finer steps, so that any two that follow each other differ
- * in time as well as in space. A singular value decomposition is most of what its modes cost. Why
- * it fails is in s->cause. */
+/* Solves one field. Every second solution has finer steps, so that consecutive ones differ in time
+ * as well as in space. A singular value decomposition is most of the cost of its modes. The cause
+ * of a failure is in s->cause. */
 static enum br_status solve(struct search *s, enum br_exact_field which,
                             struct br_exact_solution *into)
 {
@@ -432,8 +432,8 @@ static enum br_status solve(struct search *s, enum br_exact_field which,
 
 /* ---- solutions until two agree ---- */
 
-/* The next solution, and how far it is from the last one. Where it fails, more modes may help;
- * where no work is left the last pair stays. */
+/* Finds the next solution and its distance from the last one. If it fails, more modes may help; if
+ * no work is left, the last pair stays. */
 static enum br_status next_round(struct search *s)
 {
     struct br_exact *exact = s->exact;
@@ -466,7 +466,8 @@ static bool is_spent(const struct search *s)
     return s->effort.done > s->effort.most;
 }
 
-/* Modes of a next round, 0 if it may not be: elements multiply what is allowed for one by six. */
+/* Modes of the next round, 0 if there may be none: on several elements six times as many as on one
+ * are allowed. */
 static size_t next_modes(const struct search *s)
 {
     const size_t most = s->o->max_modes, more = s->modes * 3 / 2;
@@ -477,7 +478,7 @@ static size_t next_modes(const struct search *s)
     return s->modes == most || is_spent(s) ? 0 : next;
 }
 
-/* Whether the last pair is all but what was wished for, and more modes do not help: the steps' own
+/* Whether the last pair nearly has the wanted accuracy, and more modes do not help: the steps' own
  * errors are left. */
 static bool is_stuck(const struct search *s)
 {
@@ -485,9 +486,9 @@ static bool is_stuck(const struct search *s)
            s->worst > 0.5 * s->worst_before && s->worst < 2 * s->worst_before;
 }
 
-/* Whether the last pair will do though it is not what was wished for: either it is all but that, or
- * the distances shrink, and what is to come is added to the estimate. */
-static bool will_do(struct search *s)
+/* Whether the last pair is accepted without the wanted accuracy: it nearly has it, or the distances
+ * shrink, and the expected rest is added to the estimate. */
+static bool is_acceptable(struct search *s)
 {
     const double near = 100, slow = 0.8, ratio = s->worst / s->worst_before;
     if (!(s->worst <= s->o->acceptable / s->o->tolerance) || (s->cause.status && !is_spent(s)))
@@ -499,8 +500,9 @@ static bool will_do(struct search *s)
     return ratio <= slow;
 }
 
-/* What no two solutions show, relative: places that nobody can look into, proofs' remainders, and
- * the rounding of the stages' times, independent of each other, where the load changes fast. */
+/* Relative errors that the distance of solutions does not show: intervals too narrow to be
+ * examined, remainders of proofs, and the rounding of the stages' times, independent of each other,
+ * where the load changes fast. */
 static double unproved(const struct search *s, size_t which)
 {
     const struct br_history *track = s->exact->solution->track[which];
@@ -528,7 +530,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     }
     if (status)
         return br_fail(err, status, "%s", s->cause.message);
-    if (!(s->worst <= enough) && !will_do(s))
+    if (!(s->worst <= enough) && !is_acceptable(s))
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
         add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);

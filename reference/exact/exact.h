@@ -4,8 +4,8 @@
  * with an estimate of what is left of the error. It shares the scene with the
  * finite element solver and nothing else.
  *
- * What is proved of the loads and initial data (solver/proof.h) says where elements and steps end:
- * where they jump or bend, and wherever a polynomial would miss something of them. Where fronts of
+ * Proofs about the loads and initial data (solver/proof.h) determine where elements and steps end:
+ * where the data jump or bend, and where a polynomial would not resolve them. Where fronts of
  * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is
  * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
  * handler is switched off. */
@@ -41,14 +41,15 @@ enum br_phase {
 struct br_exact_options {
     double tolerance;  /* 1e-10: of displacements, 2e-11 to 1e-3; ten times that of velocities and
                           forces */
-    double acceptable; /* the tolerance: up to this, 1e-3 at most, will do where max_modes are
-                          not enough for the tolerance; the report has what was reached */
+    double acceptable; /* the tolerance. Where max_modes are not enough for the tolerance, errors up
+                          to this, 1e-3 at most, are accepted; the report has what was reached */
     size_t max_modes;  /* 256 per field, 18 to 1000; on several elements six times as many in
                           all */
     size_t max_steps;  /* 20000 per field */
-    bool (*stop)(void *self); /* asked every step; true: give up, with BR_INTERRUPTED */
+    bool (*stop)(void *self); /* called every step; true: give up, with BR_INTERRUPTED */
     void *stop_self;
-    /* gets, every step, the share of the most work that is done, 0 to 1; self is stop_self */
+    /* called every step with the share of the allowed work that is done, 0 to 1; self is stop_self
+     */
     void (*progress)(void *self, double share);
 };
 
@@ -61,15 +62,15 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
                                const struct br_exact_options *options, struct br_error *err);
 void br_exact_free(struct br_exact *exact);
 
-/* One exact solution for all who ask for a scene's while somebody has it: a fine run's auditor
- * and the exact reference beside it need the same one. */
-/* *out: as br_exact_create would make it with at most max_modes modes (0: its default), or one
- * that somebody has and that would be the same. Give it back, and not later than the scene ends.
- * For any thread. Fails like br_exact_create. */
+/* All users of a scene share one exact solution while one of them has it: a fine run's auditor and
+ * the exact reference beside it need the same one. */
+/* *out: the solution of br_exact_create with at most max_modes modes (0: its default), or the same
+ * one that another user has. Give it back before the scene ends. For any thread. Fails like
+ * br_exact_create. */
 enum br_status br_exact_borrow(const struct br_exact **out, const struct br_scene *scene,
                                const struct br_exact_options *options, struct br_error *err);
 
-/* The last one to give it back frees it. Accepts NULL. */
+/* The last user to give it back frees it. Accepts NULL. */
 void br_exact_give_back(const struct br_exact *exact);
 
 enum br_exact_field { BR_EXACT_AXIAL, BR_EXACT_BENDING, BR_EXACT_FIELDS };
@@ -79,17 +80,17 @@ struct br_exact_size {
     double displacement; /* root of the mean square over the beam, or the tip's if larger, m */
     double velocity;     /* the same, m/s */
     double force;        /* at the tip, N */
-    double strain_rate;  /* root of the mean square over the beam of v_x, 1/s, or w_xxt, 1/(m s);
-                            decides nothing */
+    double strain_rate; /* root of the mean square over the beam of v_x, 1/s, or w_xxt, 1/(m s); not
+                           used for the tolerance */
 };
 
 /* What is known about a field, 0 everywhere if it is not modelled. */
 struct br_exact_report {
     struct br_exact_size largest; /* over time */
-    struct br_exact_size error;   /* estimate, over time. Velocity, its strain and force have layers
-                                     after an event, force like (t - t*)^(1/4): theirs leave out
-                                     what is within 1e-6 T of it, of a jump of the data, or of a
-                                     blow that is shorter than that */
+    /* Estimate, over time. Velocity, strain rate and force have layers after an event, force like
+     * (t - t*)^(1/4): their errors leave out times within 1e-6 T of an event, of a jump of the
+     * data, or of a load pulse shorter than that. */
+    struct br_exact_size error;
     size_t modes, steps;
 };
 struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field);
@@ -107,7 +108,7 @@ struct br_exact_event {
 const struct br_exact_event *br_exact_events(const struct br_exact *exact, size_t *count);
 const char *br_phase_text(enum br_phase phase);
 
-/* The solution at one time. Each thread reads with its own. */
+/* The solution at one time. Each thread needs a state of its own. */
 struct br_exact_state {
     double time; /* s */
     struct {
@@ -125,39 +126,39 @@ enum br_status br_exact_state_create(struct br_exact_state **out, const struct b
                                      struct br_error *err);
 void br_exact_state_free(struct br_exact_state *state);
 
-/* Moves state to the time t in [0, T] (others are taken to its ends). All times
- * cost the same and are as accurate as the steps' ends. */
+/* Moves state to the time t, which is limited to [0, T]. All times cost the same and are as
+ * accurate as the steps' ends. */
 void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state);
 
-/* The same for what the state has of one field; the other field's may be at another time. */
+/* The same for one field; the other field may be at another time. */
 void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
                        struct br_exact_state *state);
 
 /* A function of x: a modelled field's displacement or velocity, derived. */
-struct br_exact_part {
+struct br_exact_quantity {
     enum br_exact_field field;
     bool velocity;
     unsigned order; /* of the derivative in x: axial 0 to 2, bending 0 to 3 */
 };
 
-/* value[i] (out) = part at x[i] in [0, L], i < count; m or m/s per m^order.
+/* value[i] (out) = quantity at x[i] in [0, L], i < count; m or m/s per m^order.
  * Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
 enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
-                                 const struct br_exact_part *part, size_t count, const double *x,
-                                 double *value, struct br_error *err);
+                                 const struct br_exact_quantity *quantity, size_t count,
+                                 const double *x, double *value, struct br_error *err);
 
-/* L2 projection of a part on polynomials of a degree on each of n equal elements. */
+/* L2 projection of a quantity on polynomials of a degree on each of n equal elements. */
 struct br_exact_projection;
 struct br_exact_mesh {
     size_t elements; /* n */
     size_t degree;   /* at most 8 */
 };
 
-/* *out (owned by the caller). The part's order may be at most 1 (axial) or 2
+/* *out (owned by the caller). The quantity's order may be at most 1 (axial) or 2
  * (bending). Fails with BR_BAD_INPUT, BR_NO_MEMORY or BR_SINGULAR. */
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
                                           const struct br_exact *exact,
-                                          const struct br_exact_part *part,
+                                          const struct br_exact_quantity *quantity,
                                           const struct br_exact_mesh *mesh, struct br_error *err);
 void br_exact_projection_free(struct br_exact_projection *projection);
 

@@ -121,7 +121,7 @@ static enum br_status set_initial(struct br_oscillators *f, struct br_error *err
         status = br_quadrature_project(&modes->quadrature, d->velocity, 0, NULL, c, err);
         cblas_dgemv(CblasColMajor, CblasTrans, rows, m, 1, modes->shape, rows, c, 1, 0, f->velocity,
                     1);                           /* Y' c */
-        for (size_t i = 0; i < modes->count; i++) /* one smaller than round-off carries none */
+        for (size_t i = 0; i < modes->count; i++) /* modes below round-off carry none */
             f->velocity[i] *=
                 modes->size[i] > DBL_EPSILON * modes->size[0] ? 1 / modes->size[i] : 0;
     }

@@ -41,7 +41,7 @@ static inline double br_pieces_width(const struct br_pieces *p, size_t e)
     return (p->end[e + 1] - p->end[e]) / p->length;
 }
 
-/* The element that holds x, m; where two meet the left one. */
+/* The element that contains x, m; where two meet the left one. */
 size_t br_pieces_find(const struct br_pieces *pieces, double x);
 
 /* Integral over all x / L of a series. */
@@ -68,8 +68,8 @@ void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces,
                         struct br_store *store);
 
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
- * against the polynomials. Elements that hold some of `fronts`, places in m where f jumps or bends
- * at t (NULL: none), are cut there. Fails with BR_NO_MEMORY. */
+ * against the polynomials. Elements that contain some of `fronts`, points in m where f jumps or
+ * bends at t (NULL: none), are cut there. Fails with BR_NO_MEMORY. */
 enum br_status br_quadrature_project(const struct br_quadrature *q, const struct br_function *f,
                                      double t, const struct br_breaks *fronts, double *c,
                                      struct br_error *err);
@@ -97,15 +97,16 @@ void br_piecewise_apply(struct br_piecewise *piecewise, const double *series, do
  *
  * What is known of a field's data before it is solved: on which elements, and at which steps. It
  * comes from what is proved of a scene's functions (solver/proof.h): where they jump, and meshes on
- * whose cells polynomials stand for them, in proportion to their size nearby. A function of which
- * nothing is proved is taken for smooth. */
+ * whose cells polynomials represent them, in proportion to their size nearby. A function of which
+ * nothing is proved is assumed to be smooth. */
 
 /* ---- one function (sight.c) ---- */
 
-/* What a polynomial may miss, of the largest value in its cell or of the mean, if that is more. */
+/* The allowed error of a polynomial, relative to the largest value in its cell, or to the mean if
+ * that is larger. */
 #define BR_SIGHT_TOLERANCE 1e-11
 
-/* Of the polynomials on an element, and of those that the rules over a step integrate. */
+/* Degree of the polynomials on an element, and of those that the rules over a step integrate. */
 enum { BR_SIGHT_DEGREE = 15 };
 
 /* Numbers. */
@@ -117,7 +118,7 @@ struct br_list {
 /* After a failure, which the store keeps, the value is missing. */
 void br_list_add(struct br_list *list, double value, struct br_store *store);
 
-/* Sorts, and keeps one of those that are the same. */
+/* Sorts, and keeps one of equal numbers. */
 void br_list_sort(struct br_list *list);
 
 static inline struct br_interval *br_side(struct br_box *box, enum br_variable along)
@@ -125,7 +126,7 @@ static inline struct br_interval *br_side(struct br_box *box, enum br_variable a
     return along == BR_X ? &box->x : &box->t;
 }
 
-/* Of how much a polynomial along one variable misses f in the box at most; infinite where f is not
+/* A bound on the error of a polynomial along one variable in the box; infinite where f is not
  * smooth. */
 double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,
                       size_t degree);
@@ -133,13 +134,13 @@ double br_sight_error(const struct br_function *f, enum br_variable along, struc
 /* The mean of |f| over a box of one or two variables, at least half of it where it can be found. */
 double br_sight_mean(const struct br_function *f, struct br_box box);
 
-/* A function and where it is needed: of a variable that it does not use, or of whose other values
- * none matters, the box has one. */
+/* A function and the box where it is needed. The box has one value of a variable that the function
+ * does not use, or whose other values do not matter. */
 struct br_sight {
     const struct br_function *f;
     struct br_box box;
     double mean;   /* br_sight_mean of the box */
-    double missed; /* out: share of its integral that cells may hold unseen, in all */
+    double missed; /* out: share of its integral that cells may hide, in all */
 };
 
 /* Adds the ends of cells inside of a part of the box along each of its variables. For a function
@@ -150,7 +151,7 @@ enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct 
 
 /* ---- all data of a field (outline.c) ---- */
 
-/* What axial and bending have in common. */
+/* The data of a field, axial or bending. */
 struct br_exact_data {
     double stiffness, viscosity;
     const struct br_load *load;
@@ -167,9 +168,9 @@ struct br_outline {
     struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
                               that no step may overlook, from 0 to T */
     struct br_breaks jump; /* times inside of (0, T) at which the data jump or bend */
-    bool fronts;           /* places where the load jumps move */
-    double missed;         /* of the load's integral: what proofs could not exclude */
-    double proved;         /* likewise, what polynomials were proved to be away from the data */
+    bool fronts;           /* the load's jumps move */
+    double missed;         /* share of the load's integral that proofs could not exclude */
+    double proved;         /* likewise, the proved error of polynomials */
     struct br_store store;
 };
 
@@ -179,14 +180,14 @@ enum br_status br_outline_init(struct br_outline *outline, const struct br_scene
                                size_t degree, struct br_error *err);
 void br_outline_clear(struct br_outline *outline);
 
-/* The number of polynomials on element e in a solution where `modes` would do on one. */
+/* The number of polynomials on element e in a solution that would have `modes` on one element. */
 size_t br_outline_terms(const struct br_outline *outline, size_t e, size_t modes);
 
 /* Whether the data change so fast within `width` of t that a cell is shorter than that. */
 bool br_outline_is_sharp(const struct br_outline *outline, double t, double width);
 
-/* The length of the cell that holds t, infinite where it is the only one; where two meet the later
- * one. */
+/* The length of the cell that contains t, infinite where it is the only one; where two meet the
+ * later one. */
 double br_outline_cell(const struct br_outline *outline, double t);
 
 /* How long a step from t may be: not longer than any cell that it touches. */
@@ -196,7 +197,7 @@ double br_outline_reach(const struct br_outline *outline, double t);
  *
  * One field of the beam, axial or bending, as independent damped oscillators
  *     mass_i q_i'' + damping q_i' + stiffness q_i = load_i(t) - tip_i force,
- * held together only by the force at the tip: equations (3), (4), (8), (9), (11). */
+ * coupled only by the force at the tip: equations (3), (4), (8), (9), (11). */
 
 /* Modes of a clamped-free rod or beam of unit length, by a spectral Galerkin
  * method on elements.
@@ -243,7 +244,7 @@ struct br_oscillators {
     double *mass;              /* width, kg; behind the modes 1 */
     double damping, stiffness; /* N s/m, N/m */
     struct br_exact_data data; /* borrowed */
-    bool fronts;               /* places where the load jumps move */
+    bool fronts;               /* the load's jumps move */
     double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
                                   in time */
     double *load_series;       /* BR_STAGES x br_modes_length(0), workspace for one that is not */
@@ -272,7 +273,7 @@ double br_oscillators_work(const struct br_oscillators *field);
 /* L2 norm over the beam of sum_i q_i mode_i. */
 double br_oscillators_norm(const struct br_oscillators *field, const double *q);
 
-/* How much work an exact solution may take, and who may end it and gets its progress. */
+/* The work that an exact solution may take, and the functions that stop it and get its progress. */
 struct br_effort {
     double done, most; /* units of about 1.4 microseconds of a core: counted, not measured */
     const struct br_exact_options *who;
@@ -307,15 +308,15 @@ struct br_entry {
 struct br_history {
     size_t modes;
     double gap;           /* m */
-    double free_velocity; /* largest root mean square over the beam of a step's mean velocity,
-                             had the tip been let go for that step, m/s */
+    double free_velocity; /* largest root mean square over the beam of a step's mean velocity with a
+                             free tip, m/s */
     double impulse;       /* sum over the steps of the velocity that their loads alone give, L2 */
-    double blurred;       /* sum of squares of what the rounding of t may do to it */
+    double blurred;       /* sum of squares of its changes by the rounding of t */
     size_t steps, step_room;
     struct br_tip_step *tip; /* steps */
     size_t entries, entry_room;
     struct br_entry *entry; /* phases in order of time, the first at t = 0 */
-    struct br_store *store; /* that it is from */
+    struct br_store *store; /* owns the arrays */
 };
 
 /* Values at one time. */
@@ -326,7 +327,7 @@ struct br_tip_state {
     enum br_phase phase;
 };
 
-/* The step that holds t; where two steps meet the later one. */
+/* The step that contains t; where two steps meet the later one. */
 size_t br_history_find(const struct br_history *track, double t);
 
 /* The tip at the time start + theta length. */
@@ -348,9 +349,9 @@ struct br_law {
 /* The friction bound b(t), N. */
 double br_law_bound(const struct br_law *law, double t);
 
-/* What the law says of a tip in its phase. */
+/* The law at a tip in its phase. */
 struct br_law_state {
-    double force;       /* on it, N: the series' value only where the law does not give it */
+    double force;       /* on the tip, N; from the series only where the law does not give it */
     double guard;       /* distance to the end of the phase: negative when it is over */
     enum br_phase next; /* the phase that follows when the guard ends it */
 };
@@ -363,9 +364,8 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
 
 /* ---- one step (step.c) ---- */
 
-/* A field at one time. The tip's own values are carried along by increments,
- * and set when an event fixes them: summed over modes they would lose what is
- * small just after an event. */
+/* A field at one time. The tip's values are sums of increments, and are set when an event fixes
+ * them: a sum over modes would lose values that are small just after an event. */
 struct br_stepper {
     const struct br_oscillators *field; /* borrowed */
     const struct br_law *law;           /* borrowed */
@@ -373,7 +373,7 @@ struct br_stepper {
 
     double time;     /* s */
     double from, to; /* s: the load is taken between these, where it does not jump */
-    double blur;     /* of the load: what the rounding of t does to it, relative */
+    double blur;     /* relative change of the load by the rounding of t */
     enum br_phase phase;
     double *q, *v;                         /* modes: m, m/s */
     double tip_displacement, tip_velocity; /* less the gap, m, m/s */
@@ -383,7 +383,7 @@ struct br_stepper {
     double free_size;       /* m^(3/2)/s: mean velocity in L2 as if the tip were free: where a tip
                                force cancels it, its round-off is what remains */
 
-    double work; /* of the trial steps, see br_effort; whoever reads it sets it to zero */
+    double work; /* of the trial steps, see br_effort; the reader sets it to zero */
 
     double length;                 /* s, of the step that the responses are for */
     struct br_stage_system system; /* of this length, over stiffness h */
@@ -391,8 +391,8 @@ struct br_stepper {
     double tip_length; /* s, of the step that this is for: only phases that need it have it */
     double tip_response[BR_STAGES][BR_STAGES]; /* velocity over force, m/(N s) */
     double *load;                              /* BR_STAGES x width, at the stages, N */
-    double *rest;          /* the same size: series of what the state leaves of it, N */
-    double load_noise;     /* m^(3/2)/s: what a load's round-off may do to the velocity, in L2 */
+    double *rest;          /* the same size: series of the load less the forces of the state, N */
+    double load_noise;     /* m^(3/2)/s: error of the velocity by a load's round-off, in L2 */
     double impulse;        /* m^(3/2)/s: velocity that the loads alone give in the step, in L2 */
     double noise_response; /* the same of a load of 1 N of every shape */
 };
@@ -418,9 +418,9 @@ void br_stepper_settle(struct br_stepper *s);
 struct br_march_options {
     double duration;                     /* T, s */
     const struct br_outline *outline[2]; /* of this field, and NULL or the one that it depends on:
-                                            the steps that they ask for */
+                                            both limit the steps */
     double gap;                          /* of the contact, m; 0 for friction */
-    double tolerance;  /* what the last coefficients of a step may be of the largest value */
+    double tolerance;  /* limit of a step's last coefficients, relative to the largest value */
     double first_step; /* s: length of the first step of a phase, always accepted */
     size_t max_steps;
     struct br_effort *effort;

@@ -36,9 +36,9 @@ static void exact_free(void *self)
     free(e);
 }
 
-static struct br_exact_part part_of(enum br_field_kind kind, enum br_measure measure)
+static struct br_exact_quantity quantity_of(enum br_field_kind kind, enum br_measure measure)
 {
-    return (struct br_exact_part){
+    return (struct br_exact_quantity){
         .field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING,
         .velocity = measure != BR_DISPLACEMENT,
         .order = measure != BR_STRAIN_RATE ? 0
@@ -54,14 +54,14 @@ static enum br_status create_projections(struct exact_judge *e, const struct br_
     enum br_status status = e->projection ? BR_OK : br_no_memory(err, "the exact reference");
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (enum br_measure measure = 0; measure < BR_TIP; measure++) {
-            const struct br_exact_part part = part_of(kind, measure);
+            const struct br_exact_quantity quantity = quantity_of(kind, measure);
             const struct br_elements elements = {kind, r->axial_degree};
             const size_t meshes = r->measured[kind][measure] ? r->mesh_count : 0;
             for (size_t i = 0; i < meshes && !status; i++) {
                 const struct br_exact_mesh mesh = {r->mesh[i],
                                                    br_mode_count(elements, measure) - 1};
                 status = br_exact_projection_create(projection_at(e, kind, measure, i), e->exact,
-                                                    &part, &mesh, err);
+                                                    &quantity, &mesh, err);
             }
         }
     return status;
@@ -86,7 +86,7 @@ static enum br_status exact_create(void **self, const struct br_judge_request *r
     options.stop_self = r->stop_self;
     options.progress = r->preparing;
     if (r->preparing)
-        r->preparing(r->stop_self, 0); /* the loads are looked at first */
+        r->preparing(r->stop_self, 0); /* the loads are examined first */
     enum br_status status = br_exact_borrow(&e->exact, r->scene, &options, err);
     if (!status)
         status = br_exact_state_create(&e->state, e->exact, err);
@@ -102,7 +102,7 @@ static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t 
     struct exact_judge *e = self;
     (void)err;
     const double start = br_seconds();
-    br_exact_field_at(e->exact, part_of(kind, BR_TIP).field,
+    br_exact_field_at(e->exact, quantity_of(kind, BR_TIP).field,
                       e->scene->duration * (double)i / (double)e->levels, e->state);
     e->seconds[kind] += br_seconds() - start;
     return BR_OK;
@@ -113,7 +113,7 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
     struct exact_judge *e = self;
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        *view->values = e->state->tip[part_of(at->kind, BR_TIP).field].displacement;
+        *view->values = e->state->tip[quantity_of(at->kind, BR_TIP).field].displacement;
         return;
     }
     br_view_modes(view,
@@ -130,7 +130,7 @@ static struct br_judge_report exact_report(const void *self)
     struct br_judge_report report = {.seconds = e->seconds[BR_AXIAL] + e->seconds[BR_BENDING]};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_exact_size error = /* zeros where nothing is modelled */
-            br_exact_report(e->exact, part_of((enum br_field_kind)kind, BR_TIP).field).error;
+            br_exact_report(e->exact, quantity_of((enum br_field_kind)kind, BR_TIP).field).error;
         double *own = report.own_error[kind];
         own[BR_DISPLACEMENT] = error.displacement * sqrt(length);
         own[BR_VELOCITY] = error.velocity * sqrt(length);
@@ -140,8 +140,8 @@ static struct br_judge_report exact_report(const void *self)
     return report;
 }
 
-/* One line an event; of very many, the first ones. */
-static void exact_tell(const void *self, FILE *out)
+/* One line per event; the first ones of very many. */
+static void exact_print_notes(const void *self, FILE *out)
 {
     enum { MOST = 20 };
     const struct exact_judge *e = self;
@@ -171,5 +171,5 @@ const struct br_judge br_judge_exact = {
     .advance = exact_advance,
     .sample = exact_sample,
     .report = exact_report,
-    .tell = exact_tell,
+    .print_notes = exact_print_notes,
 };

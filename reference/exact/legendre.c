@@ -14,7 +14,7 @@ static double to_gsl(double xi)
     return fmin(fmax(2 * xi - 1, -1), 1);
 }
 
-/* Roots and quotients take longer than all else: those of low degrees are kept. */
+/* Square roots and quotients cost the most: those of low degrees are stored. */
 enum { KEPT = 32 };
 static double norms[KEPT], couplings[KEPT], inverses[KEPT];
 

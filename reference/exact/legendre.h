@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orthonormal Legendre polynomials p_k on [0, 1], and their integrals.
  *
- * Both directions of the exact reference live on these: the beam's modes are
+ * The exact reference uses them in space and time: the beam's modes are
  * repeated integrals of p_k(x / L), a time step is a polynomial in p_k((t - t0) / h). */
 #ifndef BR_REFERENCE_EXACT_LEGENDRE_H
 #define BR_REFERENCE_EXACT_LEGENDRE_H

@@ -36,7 +36,7 @@ struct scale {
     double of[VALUES];
 };
 
-/* The value that a phase's guard is about. */
+/* The value that a phase's guard monitors. */
 static const int guarded[] = {
     [BR_FREE] = FORCE,  [BR_OPEN] = TIP_DISPLACEMENT, [BR_CLOSED] = TIP_DISPLACEMENT,
     [BR_STICK] = FORCE, [BR_SLIP_UP] = TIP_VELOCITY,  [BR_SLIP_DOWN] = TIP_VELOCITY,
@@ -87,8 +87,7 @@ static double force_noise(const struct march *m, const struct scale *scale)
     return 10 * DBL_EPSILON * scale->of[VELOCITY] / sqrt(m->s->field->length) / response;
 }
 
-/* What the trial step leaves unresolved, over what is allowed: the last two
- * coefficients of its polynomials. */
+/* The trial step's error over the allowed one: the last two coefficients of its polynomials. */
 static double step_error(const struct march *m, const struct scale *scale)
 {
     const struct br_stepper *s = m->s;
@@ -260,7 +259,7 @@ static void end_phase(struct march *m, size_t i)
     enter(m, br_law_at(s->law, s->time, &over).next, error);
 }
 
-/* How long a step may be, lest it overlook something that the data do. */
+/* The longest step that skips no detail of the data. */
 static double reach(const struct march *m)
 {
     double most = INFINITY;
@@ -270,7 +269,7 @@ static double reach(const struct march *m)
     return fmax(most, m->options->first_step);
 }
 
-/* What half a unit in the last place of t does to a load that changes within its cells. */
+/* Relative change of a load, within its cells, by half a unit in the last place of t. */
 static double blur(const struct march *m, double h)
 {
     const double t = m->s->time + h / 2;
@@ -281,8 +280,7 @@ static double blur(const struct march *m, double h)
     return DBL_EPSILON * t / cell;
 }
 
-/* A step of h, or a little less, that ends on a number, so that steps leave nothing out between
- * them. */
+/* A step of h, or a little less, that ends on a double, so that steps leave no gaps. */
 static double exact_step(const struct br_stepper *s, double h)
 {
     double end = s->time + h;
@@ -295,10 +293,10 @@ static double exact_step(const struct br_stepper *s, double h)
 static void step(struct march *m, double limit)
 {
     struct br_stepper *s = m->s;
-    const double left = limit - s->time, wish = fmin(m->h, reach(m));
-    const bool last = wish >= left;
+    const double left = limit - s->time, wanted = fmin(m->h, reach(m));
+    const bool last = wanted >= left;
     const double h =
-        last ? left : exact_step(s, fmin(wish, fmax(left / 2, m->options->first_step)));
+        last ? left : exact_step(s, fmin(wanted, fmax(left / 2, m->options->first_step)));
     s->blur = blur(m, h);
     m->status = br_stepper_try(s, h, m->err);
     if (m->status)

@@ -86,9 +86,9 @@ static void list_subjects(struct work *w)
     list(w, d->tip_moment, w->all[BR_T]);
 }
 
-/* ---- parts between places where functions jump ---- */
+/* ---- intervals between points where functions jump ---- */
 
-/* At this distance from a place, relative to it, guards that vanish there surely have a sign. */
+/* At this distance from a point, relative to it, guards that vanish there surely have a sign. */
 static const double apart = 8 * DBL_EPSILON;
 
 /* Part i of an axis (breaks' count + 1 of them), as far as functions are surely smooth there. */
@@ -99,11 +99,11 @@ static struct br_interval part(const struct work *w, enum br_variable v, size_t 
                                 i < breaks->count ? breaks->at[i].low * (1 - apart) : w->all[v]};
 }
 
-/* A gap this narrow, relative to the axis, belongs to the places on both sides, or to the end. */
+/* A gap this narrow, relative to the axis, belongs to the points on both sides, or to the end. */
 static const double narrow = 1e-13;
 
-/* Joins places that only round-off separates. count_hidden counts what a function may do within
- * the joined place. */
+/* Joins points that only round-off separates. count_hidden counts the integrals of functions within
+ * the joined interval. */
 static void join_breaks(struct work *w, enum br_variable v)
 {
     struct br_breaks *breaks = &w->breaks[v];
@@ -135,7 +135,7 @@ static void add_parts(struct work *w, enum br_variable v)
     add(w, v, 0);
     for (size_t i = 0; i < w->breaks[v].count; i++) {
         const struct br_interval at = w->breaks[v].at[i];
-        const bool wide = at.high - at.low > narrow * all; /* the place is not known better */
+        const bool wide = at.high - at.low > narrow * all; /* the point is not known more exactly */
         if (at.high < all && (wide || at.low > 0))
             add(w, v, at.high);
         if (at.low > 0 && (wide || at.high == all))
@@ -151,7 +151,7 @@ static void add_breaks(struct work *w, enum br_variable v, const struct br_funct
         w->status = br_breaks_add(f, v, box, &w->breaks[v], w->err);
 }
 
-/* Finds the places or times at which functions jump or bend, and at which fronts come or go. */
+/* Finds the points or times at which functions jump or bend, and at which fronts come or go. */
 static void find_breaks(struct work *w, enum br_variable v)
 {
     for (const struct br_sight *s = w->subject; s < w->subject + w->subjects; s++) {
@@ -240,9 +240,9 @@ static void join_elements(struct work *w)
     end->count = kept + 1;
 }
 
-/* ---- what hides in places that are wide ---- */
+/* ---- integrals within wide breaks ---- */
 
-/* Counts what functions may do within places that are wider than two neighbouring numbers. */
+/* Counts the integrals of functions within breaks that are wider than two neighbouring numbers. */
 static void count_hidden(struct work *w, enum br_variable v)
 {
     for (const struct br_sight *s = w->subject; s < w->subject + w->subjects; s++)
@@ -265,7 +265,7 @@ static void count_hidden(struct work *w, enum br_variable v)
 
 /* ---- layers ---- */
 
-/* Of T: a change as short as what estimates leave out (exact.c). */
+/* Share of T: the estimates leave out changes as short as this (exact.c). */
 static const double shortest = 1e-6;
 
 /* Adds elements that grow from one end of the beam as a layer there grows, since velocities
@@ -371,8 +371,9 @@ void br_outline_clear(struct br_outline *o)
     *o = (struct br_outline){0};
 }
 
-/* Waves need polynomials in proportion to an element's width, more at its ends; and each element
- * some of its own, growing with the others, lest its share of the error stay the same. */
+/* Waves need polynomials in proportion to an element's width, and more at its ends. Each element
+ * has some more of its own, whose number grows with the others, so that its share of the error
+ * falls. */
 size_t br_outline_terms(const struct br_outline *o, size_t e, size_t modes)
 {
     const struct br_list *end = &o->end[BR_X];
@@ -382,7 +383,7 @@ size_t br_outline_terms(const struct br_outline *o, size_t e, size_t modes)
     return end->count == 2 || terms > modes ? modes : terms;
 }
 
-/* The cell that holds t; where two meet the later one. */
+/* The cell that contains t; where two meet the later one. */
 static size_t cell_of(const struct br_outline *o, double t)
 {
     return gsl_interp_bsearch(o->end[BR_T].at, t, 0, o->end[BR_T].count - 1);

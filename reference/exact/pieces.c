@@ -41,8 +41,8 @@ double br_pieces_integral(const struct br_pieces *p, size_t extra, const double 
     return sum;
 }
 
-/* Inside of an element by Legendre's recurrence; what it gathers is handed to all elements to
- * its right as a constant. */
+/* Integrates each element by Legendre's recurrence; its integral is a constant in all elements to
+ * its right. */
 void br_pieces_integrate(const struct br_pieces *p, size_t extra, double *c)
 {
     for (size_t e = p->count; e-- > 1;)
@@ -73,7 +73,7 @@ static size_t rule_points(size_t terms, size_t elements)
     return points;
 }
 
-/* A place xi of [low, high], but neither end: a function may jump there. */
+/* A point xi of [low, high], but neither end: a function may jump there. */
 static double inside(double low, double high, double xi)
 {
     return fmin(fmax(low + (high - low) * xi, nextafter(low, high)), nextafter(high, low));
@@ -110,7 +110,7 @@ void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces,
         fill_rule(q, e, start, store);
 }
 
-/* c[k] += sum over i of here[i] p_k, by Legendre's recurrence at all places y[i] = 2 xi[i] - 1 at
+/* c[k] += sum over i of here[i] p_k, by Legendre's recurrence at all points y[i] = 2 xi[i] - 1 at
  * once, in LANES sums, so that their order is the same on every machine. count: a multiple of them;
  * here: destroyed; before: zeros, destroyed. */
 static void add_moments(size_t count, const double *y, double *here, double *before, size_t terms,
@@ -145,7 +145,7 @@ static enum br_status add_part(const struct br_quadrature *q, const struct br_fu
     double *at = br_allocate(3 * points, sizeof *at), *here = at + points, *before = here + points;
     if (!at)
         return br_no_memory(err, "a quadrature");
-    for (size_t i = 0; i < points; i++) /* the rule's own places are those of the whole element */
+    for (size_t i = 0; i < points; i++) /* the rule's own points are those of the whole element */
         at[i] = inside(part[0], part[1], (q->x[start + i] - a) / h);
     br_function_evaluate(f, points, at, t, here);
     const double factor = sqrt(br_pieces_width(p, e)) * (part[1] - part[0]) / h;

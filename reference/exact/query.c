@@ -77,40 +77,42 @@ void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *
 
 /* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the
  * field's (1 axial, 2 bending) plus extra. */
-static enum br_status check_part(const struct br_exact *exact, const struct br_exact_part *part,
-                                 size_t extra, struct br_error *err)
+static enum br_status check_quantity(const struct br_exact *exact,
+                                     const struct br_exact_quantity *quantity, size_t extra,
+                                     struct br_error *err)
 {
     const struct br_oscillators *field =
-        part->field < BR_EXACT_FIELDS ? exact->solution->field[part->field] : NULL;
+        quantity->field < BR_EXACT_FIELDS ? exact->solution->field[quantity->field] : NULL;
     if (!field)
         return br_fail(err, BR_BAD_INPUT, "a field that is not modelled was asked for");
-    if (part->order > field->modes.degree + extra)
+    if (quantity->order > field->modes.degree + extra)
         return br_fail(err, BR_BAD_INPUT,
-                       "a derivative of order %u was asked for, expected at most %zu", part->order,
-                       field->modes.degree + extra);
+                       "a derivative of order %u was asked for, expected at most %zu",
+                       quantity->order, field->modes.degree + extra);
     return BR_OK;
 }
 
 enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
-                                 const struct br_exact_part *part, size_t count, const double *x,
-                                 double *value, struct br_error *err)
+                                 const struct br_exact_quantity *quantity, size_t count,
+                                 const double *x, double *value, struct br_error *err)
 {
-    const enum br_status status = check_part(exact, part, 1, err);
+    const enum br_status status = check_quantity(exact, quantity, 1, err);
     if (status)
         return status;
-    const struct br_oscillators *field = exact->solution->field[part->field];
+    const struct br_oscillators *field = exact->solution->field[quantity->field];
     const struct br_pieces *pieces = &field->modes.pieces;
     const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
-    const bool derive = part->order > degree;
-    const size_t extra = derive ? 0 : degree - part->order;
+    const bool derive = quantity->order > degree;
+    const size_t extra = derive ? 0 : degree - quantity->order;
     double *c = br_allocate(3 * room, sizeof *c);
     if (!c)
         return br_no_memory(err, "a series");
     double *p = c + room, *dp = p + room;
-    const size_t order = derive ? degree : part->order; /* of the series; it is derived once more */
-    br_modes_expand(&field->modes, order, state->mode[part->field][part->velocity], c);
+    const size_t order =
+        derive ? degree : quantity->order; /* of the series; it is derived once more */
+    br_modes_expand(&field->modes, order, state->mode[quantity->field][quantity->velocity], c);
     cblas_dscal((int)br_modes_length(&field->modes, order),
-                pow(field->length, -(double)part->order), c, 1);
+                pow(field->length, -(double)quantity->order), c, 1);
     for (size_t i = 0; i < count; i++) {
         const size_t e = br_pieces_find(pieces, x[i]), terms = pieces->terms[e] + extra;
         const double h = br_pieces_width(pieces, e), *here = &c[br_pieces_at(pieces, e, extra)];
@@ -125,8 +127,8 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
 
 /* ---- shared solutions ---- */
 
-/* A scene is known by its address, which is its own as long as somebody has the solution. Without
- * users: none. What finds no room is not shared. */
+/* A scene is identified by its address, which is unique while a user has the solution. Without
+ * users: a free entry. A solution that finds no free entry is not shared. */
 static struct loan {
     const struct br_scene *scene;
     struct br_exact_options options;
@@ -147,7 +149,8 @@ static bool below(const struct br_exact *exact, size_t limit)
     return exact->report[0].modes < limit && exact->report[1].modes < limit;
 }
 
-/* Whether a loan is what `o` would give: a limit to the modes that was not met changes nothing. */
+/* Whether a loan is the solution for `o`: a limit to the modes that was not reached changes
+ * nothing. */
 static bool serves(const struct loan *loan, const struct br_scene *scene,
                    const struct br_exact_options *o)
 {
@@ -200,8 +203,8 @@ void br_exact_give_back(const struct br_exact *exact)
 /* ---- projections ---- */
 
 struct br_exact_projection {
-    struct br_exact_part part;
-    size_t modes, length; /* of the field, of its part's series */
+    struct br_exact_quantity quantity;
+    size_t modes, length; /* of the field, of its quantity's series */
     double *expand;       /* modes x length: each mode's series */
     double *series;       /* length, workspace */
     struct br_piecewise *piecewise;
@@ -213,9 +216,9 @@ static enum br_status projection_init(struct br_exact_projection *p,
                                       const struct br_exact_mesh *mesh, struct br_error *err)
 {
     const struct br_modes *modes = &field->modes;
-    const double scale = pow(field->length, -(double)p->part.order);
+    const double scale = pow(field->length, -(double)p->quantity.order);
     p->modes = modes->count;
-    p->length = br_modes_length(modes, p->part.order);
+    p->length = br_modes_length(modes, p->quantity.order);
     p->expand = br_store_take(&p->store, p->modes * p->length, sizeof *p->expand);
     p->series = br_store_take(&p->store, p->length, sizeof *p->series);
     double *q = br_store_take(&p->store, p->modes, sizeof *q);
@@ -224,22 +227,22 @@ static enum br_status projection_init(struct br_exact_projection *p,
         return br_no_memory(err, "a projection");
     for (size_t i = 0; i < p->modes; i++) {
         q[i] = 1;
-        br_modes_expand(modes, p->part.order, q, longest);
+        br_modes_expand(modes, p->quantity.order, q, longest);
         for (size_t k = 0; k < p->length; k++)
             p->expand[i * p->length + k] = scale * longest[k];
         q[i] = 0;
     }
-    return br_piecewise_create(&p->piecewise, &modes->pieces, modes->degree - p->part.order, mesh,
-                               &p->store, err);
+    return br_piecewise_create(&p->piecewise, &modes->pieces, modes->degree - p->quantity.order,
+                               mesh, &p->store, err);
 }
 
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
                                           const struct br_exact *exact,
-                                          const struct br_exact_part *part,
+                                          const struct br_exact_quantity *quantity,
                                           const struct br_exact_mesh *mesh, struct br_error *err)
 {
     *out = NULL;
-    enum br_status status = check_part(exact, part, 0, err);
+    enum br_status status = check_quantity(exact, quantity, 0, err);
     if (!status && (!mesh->elements || mesh->degree > 8))
         status = br_fail(err, BR_BAD_INPUT,
                          "%zu elements of degree %zu, expected 1 or more of at most 8",
@@ -249,8 +252,8 @@ enum br_status br_exact_projection_create(struct br_exact_projection **out,
     struct br_exact_projection *p = br_allocate(1, sizeof *p);
     if (!p)
         return br_no_memory(err, "a projection");
-    p->part = *part;
-    status = projection_init(p, exact->solution->field[part->field], mesh, err);
+    p->quantity = *quantity;
+    status = projection_init(p, exact->solution->field[quantity->field], mesh, err);
     if (status)
         br_exact_projection_free(p);
     else
@@ -269,7 +272,7 @@ void br_exact_projection_free(struct br_exact_projection *p)
 void br_exact_projection_apply(struct br_exact_projection *p, const struct br_exact_state *state,
                                double *c, double *rest)
 {
-    br_combine(1, p->modes, state->mode[p->part.field][p->part.velocity], p->length, p->expand,
-               p->series);
+    br_combine(1, p->modes, state->mode[p->quantity.field][p->quantity.velocity], p->length,
+               p->expand, p->series);
     br_piecewise_apply(p->piecewise, p->series, c, rest);
 }

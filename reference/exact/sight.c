@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mesh for a function along one variable. Its box is halved until in each part a polynomial
- * stands for the function; or, where it is not smooth, until little is left there.
+/* Meshes for a function along one variable. Its box is halved until a polynomial represents the
+ * function in each part; or, where it is not smooth, until little of its integral is left there.
  *
- * A function of x and t that is no product has guards that move. Its box is halved along either
- * variable, whichever helps more, until in each part a polynomial along the one stands for it, or a
- * guard goes through that never lets go. What counts as an end of a cell is where smooth functions
- * ask for more, not where a guard does: that moves, and quadratures are cut at it. */
+ * A function of x and t that is no product has guards that move. Its box is halved along the
+ * variable that helps more, until in each part a polynomial along `one` represents the function, or
+ * a guard crosses the part all along. Cells end where smooth functions need it, not at a guard:
+ * that moves, and quadratures are cut at it. */
 #include "reference/exact/inside.h"
 
 #include <gsl/gsl_sort.h>
@@ -76,7 +76,7 @@ double br_sight_error(const struct br_function *f, enum br_variable v, struct br
 
 /* ---- the mean ---- */
 
-/* Halves of halves, of which the one is halved whose share is least known. */
+/* Repeated halves: the one whose share is known least is halved next. */
 struct share {
     struct br_box box;
     double low, high; /* of the integral of |f| over it */
@@ -123,8 +123,8 @@ enum { MOST_BOXES = 40000, MOST_HALVINGS = 10 };
 /* Of the polynomials by br_variable: on an element, and over a Radau step. */
 static const size_t degrees[] = {[BR_X] = BR_SIGHT_DEGREE, [BR_T] = 8};
 
-/* Of a function's integral, what a cell may hold unseen; and of the box, below which width cells
- * are not looked into. */
+/* The share of a function's integral that a cell may hide, and the share of the box below which
+ * cells are not examined. */
 static const double little = 1e-13, least = 1e-15;
 
 struct cover {
@@ -171,8 +171,8 @@ static enum br_status too_fine(const struct cover *c, struct br_box box)
                    c->one == BR_X ? "m" : "s");
 }
 
-/* A guard goes through the box, which is not halved any more: how much more than its values at
- * some places the function may take there. */
+/* A guard crosses the box, which is not halved any more: by how much the function may exceed its
+ * sampled values there. */
 static double excess(const struct cover *c, struct br_box box, struct br_interval value)
 {
     double low = INFINITY, high = -INFINITY;
@@ -191,8 +191,8 @@ static double excess(const struct cover *c, struct br_box box, struct br_interva
 
 static enum br_status cover(struct cover *c, struct br_box box);
 
-/* Covers both halves along v; cells: they are such, and their ends are added, but the whole's own.
- */
+/* Covers both halves along v. cells: the halves are cells, whose ends are added, but not the
+ * whole's own. */
 static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_variable v,
                                    bool cells)
 {
@@ -211,9 +211,9 @@ static enum br_status cover_halves(struct cover *c, struct br_box box, enum br_v
     return status;
 }
 
-/* In a box in which no polynomial stands for the function: halves, unless it holds little, or is
- * narrow, or holds a guard that moves and does not let go. The error is infinite where the function
- * is not smooth. */
+/* Halves a box in which no polynomial represents the function, unless little of the integral is in
+ * it, it is narrow, or a moving guard crosses it all along. The error is infinite where the
+ * function is not smooth. */
 static enum br_status divide(struct cover *c, struct br_box box, double error, bool bounded,
                              struct br_interval value)
 {

@@ -42,8 +42,7 @@ static double tip_sum(const struct br_stepper *s, const double *x)
 
 /* ---- responses ---- */
 
-/* 1 / (stiffness h), by which the equations are multiplied. Without stiffness one that does not
- * count takes its place. */
+/* 1 / (stiffness h), which multiplies the equations. A negligible one replaces a stiffness of 0. */
 static double weight(const struct br_stepper *s)
 {
     return 1 / (s->field->stiffness * s->length + 1e-30 * s->field->damping);
@@ -110,8 +109,8 @@ static void set_rest(struct br_stepper *s)
     }
 }
 
-/* The velocity that the tip's series starts from. A tip that sticks is held by
- * what the modes add up to, lest their rounding errors add up over the steps. */
+/* The velocity that the tip's series starts from. For a tip that sticks it is the sum over the
+ * modes, so that their rounding errors do not add up over the steps. */
 static double tip_start(const struct br_stepper *s)
 {
     return s->phase == BR_STICK ? tip_sum(s, s->v) : s->tip_velocity;
@@ -160,7 +159,7 @@ static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
     const lapack_int info = LAPACKE_dgesv(LAPACK_ROW_MAJOR, S, 1, &a[0][0], S, pivot, x, 1);
     if (info == LAPACK_TRANSPOSE_MEMORY_ERROR || info == LAPACK_WORK_MEMORY_ERROR)
         return br_no_memory(err, "the tip's force");
-    if (info < 0) /* LAPACKE looks for NaN */
+    if (info < 0) /* LAPACKE checks for NaN */
         return br_fail(err, BR_NOT_FINITE, "the tip's force is not finite");
     return info ? br_fail(err, BR_SINGULAR, "the tip's force is not determined") : BR_OK;
 }

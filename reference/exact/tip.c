@@ -39,7 +39,7 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
 struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip)
 {
     const double force = tip->force, pressed = fmax(tip->displacement, 0);
-    /* a force that cannot hold is against the slip that follows */
+    /* a force beyond the bound opposes the slip that follows */
     const enum br_phase slip = force > 0 ? BR_SLIP_UP : BR_SLIP_DOWN;
     switch (tip->phase) {
     case BR_OPEN:

@@ -32,7 +32,7 @@ static double sample(double size, int i, int count)
     return size * i / (count - 1);
 }
 
-/* Points where no kink is likely to be hit, and nearer and nearer to 0. */
+/* Points that hardly hit a kink, and points that approach 0. */
 static void scatter(double size, double point[MIDPOINTS + NEAR])
 {
     for (int i = 0; i < MIDPOINTS; i++)
@@ -56,7 +56,7 @@ static double largest_of(const struct br_given *s, struct br_function *d)
     return largest;
 }
 
-/* Proves that it has no pole. */
+/* Proves that the derivative has no pole. */
 static enum br_status check_finite(const struct br_given *s, const struct br_function *d,
                                    struct br_partial order, struct br_error *err)
 {
@@ -85,7 +85,7 @@ static enum br_status check_clamp(const struct br_given *s, const struct br_func
 
 /* ---- derivatives that miss nothing ---- */
 
-/* A function that is derived by x or by t: its jumps would be lost. */
+/* A function that is differentiated by x or by t: its jumps would be lost. */
 struct derived {
     const struct br_given *solution;
     struct br_function function;
@@ -114,7 +114,7 @@ static enum br_status find_breaks(const struct derived *d, enum br_variable by, 
     return br_breaks_add(&d->function, by, box, breaks, err);
 }
 
-/* On both sides of each break it is the same. */
+/* Checks that the function is the same on both sides of each break. */
 static enum br_status check_line(const struct derived *d, double other, struct br_error *err)
 {
     struct br_breaks breaks = {0};
@@ -137,8 +137,8 @@ static enum br_status check_line(const struct derived *d, double other, struct b
 
 enum { LINES = 9 };
 
-/* On lines through the middle of each stretch between its breaks along the other variable, and on
- * some more for those that move. */
+/* Checks lines through the middle of each interval between the breaks along the other variable, and
+ * some more where breaks move. */
 static enum br_status check_lines(const struct derived *d, struct br_error *err)
 {
     const enum br_variable across = d->by == BR_X ? BR_T : BR_X;
@@ -157,8 +157,8 @@ static enum br_status check_lines(const struct derived *d, struct br_error *err)
     return status;
 }
 
-/* The derivative of that order: finite, clamped where it is a clamped value, and of a function
- * that does not jump. */
+/* Checks the derivative of that order: it is finite, zero at the clamp where it must be, and of a
+ * function that does not jump. */
 static enum br_status check_order(const struct br_given *s, struct br_partial order,
                                   struct br_error *err)
 {

@@ -9,8 +9,8 @@
 #include "solver/clock.h"
 #include "solver/modes.h"
 
-/* Twelve Gauss points know the modes up to degree 10 of a polynomial of degree 13; the last two
- * degrees tell how well they are known. */
+/* Twelve Gauss points give the modes up to degree 10 of a polynomial of degree 13 exactly; the last
+ * two degrees measure the error. */
 enum { POINTS = 12, MODES = 11, TAIL = 2 };
 
 struct mms_judge {
@@ -20,7 +20,7 @@ struct mms_judge {
     int axial_degree;
     double xi[POINTS], weight[POINTS][MODES]; /* Gauss weight times mode */
     double *x[2];                             /* by br_field_kind: the points of a mesh, m; */
-    double *value[2];                         /* there */
+    double *value[2];                         /* values at these points */
     double time[2];                           /* by br_field_kind, s */
     double tail[2][BR_MEASURES];              /* the largest sum of squares of the last modes */
     double seconds[2];                        /* by br_field_kind */
@@ -54,7 +54,8 @@ static enum br_status derive(struct mms_judge *j, enum br_field_kind kind, struc
     return status;
 }
 
-/* Room for the points of the finest mesh, for each field its own: they may be in two threads. */
+/* Allocates the points of the finest mesh, for each field its own: two threads may use the two
+ * fields. */
 static enum br_status make_points(struct mms_judge *j, struct br_error *err)
 {
     size_t most = 0;
@@ -112,8 +113,8 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
     return BR_OK;
 }
 
-/* The modes on n elements into the view, and what they leave out, up to degree 10; returns the sum
- * of squares of the last ones. */
+/* Writes the modes on n elements, and the rest up to degree 10, to the view; returns the sum of
+ * squares of the last ones. */
 static double project(struct mms_judge *j, const struct br_sample_at *at, struct br_view *view)
 {
     const size_t n = j->mesh[at->mesh], kept = view->modes;
@@ -155,7 +156,7 @@ static void mms_sample(void *self, const struct br_sample_at *at, struct br_view
     j->seconds[at->kind] += br_seconds() - start;
 }
 
-/* The modes fall quickly: what lies beyond the last ones is no larger than they are. */
+/* The modes decay fast: the rest beyond the last ones is no larger than they are. */
 static struct br_judge_report mms_report(const void *self)
 {
     const struct mms_judge *j = self;
@@ -166,7 +167,7 @@ static struct br_judge_report mms_report(const void *self)
     return report;
 }
 
-static void mms_tell(const void *self, FILE *out)
+static void mms_print_notes(const void *self, FILE *out)
 {
     const struct mms_judge *j = self;
     const char *u = j->scene->axial.solution, *w = j->scene->bending.solution;
@@ -184,5 +185,5 @@ const struct br_judge br_judge_mms = {
     .advance = mms_advance,
     .sample = mms_sample,
     .report = mms_report,
-    .tell = mms_tell,
+    .print_notes = mms_print_notes,
 };

@@ -115,7 +115,7 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
     *t = (struct br_track){.samples = *q->samples, .finite = true};
     struct recorder recorder = {.request = q, .track = t};
     const struct br_history_observer observer = {
-        .self = &recorder, .step = record_step, .look = record};
+        .self = &recorder, .step = record_step, .sample = record};
     size_t level[BR_TRACK_LEVELS + 1];
     for (size_t i = 0; i < t->samples.levels; i++)
         level[i] = t->samples.level[i] * q->shorter;
@@ -157,7 +157,7 @@ static bool stop(void *self)
 
 /* Values of one field, or its slope, at the points (out). */
 static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
-                               const struct br_exact_part *part, double length,
+                               const struct br_exact_quantity *part, double length,
                                const struct br_exact_state *state, double value[BR_TRACK_POINTS])
 {
     double x[BR_TRACK_POINTS];
@@ -170,7 +170,8 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
                                  enum br_field_kind kind, double length,
                                  const struct br_exact_state *state)
 {
-    struct br_exact_part part = {kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING, false, 0};
+    struct br_exact_quantity part = {kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING, false,
+                                     0};
     double *value = t->value[kind][t->seen], slope[BR_TRACK_POINTS];
     enum br_status status = evaluate(exact, t, &part, length, state, value);
     for (size_t p = 0; p < t->samples.points && !status; p++)

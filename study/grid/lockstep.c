@@ -343,7 +343,7 @@ static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
     FILE *out = open_memstream(&study->events, &size);
     if (!out)
         return br_no_memory(err, "the events");
-    l->reference.judge->tell(l->reference.self, out);
+    l->reference.judge->print_notes(l->reference.self, out);
     return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
 }
 

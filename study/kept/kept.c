@@ -22,7 +22,7 @@ enum {
 
 /* ---- names ---- */
 
-/* With its end, so that no two lists of texts are the same bytes. */
+/* With its final 0, so that different lists of texts have different bytes. */
 void br_kept_add(struct br_sha256 *base, const char *text)
 {
     br_sha256_add(base, text, strlen(text) + 1);
@@ -148,7 +148,7 @@ bool br_kept_read_into(struct br_kept *k, const char *key, void *into, size_t si
     return found == size;
 }
 
-/* Nothing waits for the disk: what a failing machine leaves half is found by its sum. */
+/* Does not wait for the disk: an entry that a crash leaves incomplete is found by its sum. */
 static bool write_file(const char *path, const char *head, const void *bytes, size_t size)
 {
     FILE *file = fopen(path, "we");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finished work that is kept in a folder, an entry a file, so that it need not be done again.
+/* Finished work that is kept in a folder, one file per entry, so that it is not done again.
  *
  * An entry is named after all that its bytes follow from: a SHA-256 of this executable and this
  * machine, the scene's text, and what the work is. So another version never takes it, nor another
@@ -16,13 +16,14 @@
 #include "study/orders/sha256.h"
 
 struct br_kept {
-    char folder[1100];     /* "": nothing is kept */
-    bool take;             /* entries that are there; else they are written anew */
-    double slice;          /* s of work that a study does between two times of keeping, */
-    double most_reference; /* the part of it that may be the reference, marched again in each */
+    char folder[1100]; /* "": nothing is kept */
+    bool take;         /* entries that are there; else they are written anew */
+    double slice;      /* s of work between two times of writing, */
+    double
+        most_reference; /* the share of it that the reference may take, which is marched in each */
     struct br_sha256 base; /* executable, machine and scene */
     atomic_size_t taken;   /* cells, trials, cases */
-    atomic_size_t bad;     /* entries that were not what they should be, */
+    atomic_size_t bad;     /* entries that were damaged, */
     atomic_size_t lost;    /* or could not be written */
 };
 
@@ -56,11 +57,11 @@ const char *br_kept_method(const struct br_method *method, char text[BR_KEPT_MET
 
 /* ---- studies ---- */
 
-/* As br_lockstep, of prepared studies that keep (study->kept): cells that are kept are not marched
- * again, and the others are kept as soon as their slice is done. Each bit is that of the whole
- * study in one go, if the kept cells are of studies with the same lists of n and k; else they are
- * off by the round-off of the reference, whose meshes and time levels these lists determine. Fails
- * besides with BR_IO, where an entry goes meanwhile. */
+/* Like br_lockstep, for prepared studies with study->kept: kept cells are not marched again, and
+ * the others are written as soon as their slice is done. Results have the bits of the whole study
+ * in one run, if the kept cells are of studies with the same lists of n and k; else they differ by
+ * the round-off of the reference, whose meshes and time levels these lists determine. Fails also
+ * with BR_IO, where an entry disappears meanwhile. */
 enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int threads,
                                 const struct br_observer *observer, struct br_error *err);
 

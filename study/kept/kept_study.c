@@ -20,7 +20,7 @@ struct kept_study {
 
 /* ---- what the work is ---- */
 
-/* Who judges, in which norm, and by what. */
+/* Describes the norm, the judge and its method. */
 static size_t describe(const struct br_study *s, const char *what, char work[WORK])
 {
     char method[BR_KEPT_METHOD];
@@ -41,7 +41,7 @@ static void key_of_cell(const struct br_study *s, size_t cell, char key[BR_SHA25
     br_kept_key(&s->kept->base, work, key);
 }
 
-/* What a study says of its reference follows from all cells' meshes and time levels. */
+/* A study's results on its reference depend on all cells' meshes and time levels. */
 static void key_of_study(const struct br_study *s, char key[BR_SHA256_TEXT])
 {
     struct br_sha256 grid = s->kept->base;
@@ -110,7 +110,7 @@ static void write_cell(const struct br_study *s, size_t cell)
     br_kept_write(s->kept, key, &s->cell[cell], sizeof s->cell[cell]);
 }
 
-/* The auditor as it was asked for: its key must not depend on what became of it. */
+/* auditor: as requested, since the key must not depend on its success. */
 static enum br_status write_study(struct br_study *s, const struct br_judge *auditor,
                                   struct br_error *err)
 {

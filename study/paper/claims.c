@@ -120,7 +120,7 @@ static const struct br_exact_event *last_event(const struct br_example *e, enum 
 static double most_of_beam(const struct br_history_record *record)
 {
     double value = 0;
-    for (size_t sample = 0; sample < record->looks; sample++) {
+    for (size_t sample = 0; sample < record->samples; sample++) {
         const double *nodal = br_history_field(record, sample, BR_BENDING, false);
         for (size_t node = 0; node <= record->n; node++)
             value = larger(value, fabs(nodal[2 * node]));

@@ -89,7 +89,7 @@ static enum br_status run(const struct br_paper *p, const struct br_scene *scene
     const size_t samples = steps < SAMPLES ? steps : SAMPLES;
     for (size_t i = 0; i < samples; i++)
         level[i] = (i + 1) * steps / samples;
-    const struct br_history_observer observer = {.self = size, .look = measure};
+    const struct br_history_observer observer = {.self = size, .sample = measure};
     const struct br_history_request request = {
         .scene = scene,
         .method = &method,

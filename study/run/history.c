@@ -79,8 +79,8 @@ static bool is_row(const struct run *r)
     return q->stride && (r->row.step % q->stride == 0 || r->row.step == q->steps);
 }
 
-/* Whether this is a chosen level; `look` gets each once. */
-static bool is_sample(struct run *r)
+/* Whether this is a chosen level; true once for each. */
+static bool is_chosen(struct run *r)
 {
     const struct br_history_request *q = r->request;
     if (r->next_level >= q->levels || q->level[r->next_level] != r->row.step)
@@ -89,25 +89,25 @@ static bool is_sample(struct run *r)
     return true;
 }
 
-static enum br_status tell(struct run *r, struct br_error *err)
+static enum br_status report(struct run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
     const struct br_history_observer *end = q->observer + q->observers;
-    const bool row = is_row(r), look = is_sample(r);
+    const bool row = is_row(r), sample = is_chosen(r);
     enum br_status status = BR_OK;
     for (const struct br_history_observer *o = q->observer; o < end && !status; o++)
         if (o->step) {
             status = o->step(o->self, r->march, &r->row, err);
             br_step_cost_mark(&o->mark, r->row.step);
         }
-    if (row || look)
+    if (row || sample)
         complete_row(r);
     for (const struct br_history_observer *o = q->observer; o < end && !status; o++) {
         if (row && o->row)
             status = o->row(o->self, &r->row, err);
-        if (look && o->look && !status)
-            status = o->look(o->self, r->march, &r->row, err);
-        if ((row && o->row) || (look && o->look))
+        if (sample && o->sample && !status)
+            status = o->sample(o->self, r->march, &r->row, err);
+        if ((row && o->row) || (sample && o->sample))
             br_step_cost_mark(&o->mark, r->row.step);
     }
     return status;
@@ -115,7 +115,7 @@ static enum br_status tell(struct run *r, struct br_error *err)
 
 /* ---- the march ---- */
 
-/* By how much a march that left the numbers had grown. */
+/* Appends the velocities before a march left the range of numbers. */
 static void append_last(const struct run *r, struct br_error *err)
 {
     if (!err)
@@ -127,8 +127,8 @@ static void append_last(const struct run *r, struct br_error *err)
               last->step, last->time, last->velocity[BR_AXIAL], last->velocity[BR_BENDING]);
 }
 
-/* Gives `row` the last good row, if it has not had it: without the bending displacement, which is
- * lost. */
+/* Gives the last good row to `row`, if it has not had it: without the bending displacement, which
+ * is lost. */
 static void report_last(const struct run *r)
 {
     const struct br_history_request *q = r->request;
@@ -153,7 +153,7 @@ static enum br_status march(struct run *r, struct br_error *err)
 {
     enum br_status status = begin(r, err);
     if (!status)
-        status = tell(r, err);
+        status = report(r, err);
     while (!status && r->row.step < r->request->steps) {
         status = br_march_step(r->march, err);
         if (status) {
@@ -162,7 +162,7 @@ static enum br_status march(struct run *r, struct br_error *err)
             return status;
         }
         fill_row(r);
-        status = tell(r, err);
+        status = report(r, err);
     }
     if (!status)
         complete_row(r);
@@ -240,25 +240,25 @@ static enum br_status keep_sample(void *self, const struct br_march *march,
         h->unknowns[kind] = br_field_unknowns(br_march_field(march, (enum br_field_kind)kind));
     const size_t size = values_of(h) * (h->n + 1);
     size_t most = h->most_samples;
-    if (!grow((void **)&h->at, h->looks, &most, sizeof *h->at))
+    if (!grow((void **)&h->at, h->samples, &most, sizeof *h->at))
         return br_no_memory(err, "the fields");
     most = h->most_samples;
-    if (!grow((void **)&h->field, h->looks, &most, size * sizeof *h->field))
+    if (!grow((void **)&h->field, h->samples, &most, size * sizeof *h->field))
         return br_no_memory(err, "the fields");
     h->most_samples = most;
-    double *field = h->field + h->looks * size;
+    double *field = h->field + h->samples * size;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const enum br_field_kind k = (enum br_field_kind)kind;
         br_march_get(march, k, field + field_offset(h, k, false), field + field_offset(h, k, true));
     }
-    h->at[h->looks++] = *row;
+    h->at[h->samples++] = *row;
     return BR_OK;
 }
 
 struct br_history_observer br_history_recorder(struct br_history_record *record, size_t n)
 {
     record->n = n;
-    return (struct br_history_observer){.self = record, .row = keep_row, .look = keep_sample};
+    return (struct br_history_observer){.self = record, .row = keep_row, .sample = keep_sample};
 }
 
 void br_history_record_clear(struct br_history_record *h)
@@ -269,8 +269,8 @@ void br_history_record_clear(struct br_history_record *h)
     *h = (struct br_history_record){0};
 }
 
-const double *br_history_field(const struct br_history_record *h, size_t look,
+const double *br_history_field(const struct br_history_record *h, size_t sample,
                                enum br_field_kind kind, bool velocity)
 {
-    return h->field + look * values_of(h) * (h->n + 1) + field_offset(h, kind, velocity);
+    return h->field + sample * values_of(h) * (h->n + 1) + field_offset(h, kind, velocity);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One scene marched from 0 to T, and watched: rows of the tip as they come, and the nodal fields at
- * chosen time levels. Nothing is kept but what an observer keeps, so 1e7 steps take no memory. */
+/* Marches one scene from 0 to T, and gives rows of the tip, and the nodal fields at chosen time
+ * levels, to observers. Only observers store values, so 1e7 steps take no memory. */
 #ifndef BR_STUDY_RUN_HISTORY_H
 #define BR_STUDY_RUN_HISTORY_H
 
@@ -38,19 +38,19 @@ enum br_cost_part {
         BR_COST_PARTS
 };
 
-/* What an observer does is a part of the step's cost; cost NULL: of none. */
+/* The cost of an observer is added to a part of the step's cost; cost NULL: to none. */
 struct br_cost_mark {
     struct br_step_cost *cost;
     enum br_cost_part part;
 };
 
-/* ---- a march that is watched ---- */
+/* ---- a march with observers ---- */
 
-/* Who watches a march; every function may be NULL. A status other than BR_OK ends the march and is
- * what br_history_run returns. The march is at the row's time level. */
+/* An observer of a march; every function may be NULL. A status other than BR_OK ends the march and
+ * is what br_history_run returns. The march is at the row's time level. */
 struct br_history_observer {
     void *self;
-    /* Once, at t = 0: who wants to may watch the march's stages. */
+    /* Once, at t = 0: an observer may begin to watch the march's stages. */
     enum br_status (*begin)(void *self, struct br_march *march, struct br_error *err);
     /* Every time level, from 0 on. The bending displacement of the row is NAN: it costs a pass over
      * the elements, which br_march_tip_displacement makes. */
@@ -60,8 +60,8 @@ struct br_history_observer {
      * fails the last good one, its bending displacement NAN where it had not been asked for. */
     enum br_status (*row)(void *self, const struct br_history_row *row, struct br_error *err);
     /* The chosen levels: br_march_get has the fields. */
-    enum br_status (*look)(void *self, const struct br_march *march,
-                           const struct br_history_row *row, struct br_error *err);
+    enum br_status (*sample)(void *self, const struct br_march *march,
+                             const struct br_history_row *row, struct br_error *err);
     struct br_cost_mark mark;
 };
 
@@ -71,7 +71,7 @@ struct br_history_request {
     const struct br_method *method;
     size_t n, steps;
     size_t stride;       /* steps between rows; 0: no rows */
-    const size_t *level; /* levels, ascending, of 0 .. steps: where `look` is called */
+    const size_t *level; /* levels, ascending, of 0 .. steps: where `sample` is called */
     size_t levels;
     const struct br_history_observer *observer; /* observers */
     size_t observers;
@@ -95,23 +95,23 @@ size_t br_history_stride(size_t steps, size_t most_rows);
 
 /* ---- an observer that keeps what it gets ---- */
 
-/* Rows, and the nodal fields at the looks; clear it. */
+/* Rows, and the nodal fields at the samples; clear it. */
 struct br_history_record {
     size_t n;
-    size_t unknowns[2];         /* of a node, by br_field_kind, where there is a look */
+    size_t unknowns[2];         /* of a node, by br_field_kind, where there is a sample */
     struct br_history_row *row; /* rows */
     size_t rows, most_rows;
-    struct br_history_row *at; /* looks: the tip there */
-    double *field;             /* looks times n + 1 nodes' values, see br_history_field */
-    size_t looks, most_samples;
+    struct br_history_row *at; /* samples: the tip there */
+    double *field;             /* samples times n + 1 nodes' values, see br_history_field */
+    size_t samples, most_samples;
 };
 
 /* An observer that fills a record (in: zeroed; it must outlive the march). */
 struct br_history_observer br_history_recorder(struct br_history_record *record, size_t n);
 void br_history_record_clear(struct br_history_record *record);
 
-/* The kept nodal values of a look, laid out as in solver/field.h: displacement or velocity. */
-const double *br_history_field(const struct br_history_record *record, size_t look,
+/* The kept nodal values of a sample, laid out as in solver/field.h: displacement or velocity. */
+const double *br_history_field(const struct br_history_record *record, size_t sample,
                                enum br_field_kind kind, bool velocity);
 
 /* ---- what happens at the tip ---- */

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Element-steps between two signs of life. */
+/* Element-steps between two reports of progress. */
 enum { BETWEEN_SIGNS = 1 << 18 };
 
 struct run {
@@ -37,7 +37,7 @@ static enum br_status start_checks(void *self, struct br_march *march, struct br
     return status;
 }
 
-/* The certificate first: it says more of what is wrong. */
+/* The certificate first: its message is more specific. */
 static enum br_status judge_step(const struct br_run_report *report, const struct br_certificate *c,
                                  double imbalance, struct br_error *verdict)
 {
@@ -137,7 +137,7 @@ static enum br_status read_energies(struct run *r, const struct br_march *march,
     return BR_OK;
 }
 
-/* What only the march itself knows. */
+/* Reads what only the march has. */
 static void ask_march(struct br_run_report *p, const struct br_march *march)
 {
     const struct br_switch *first;
@@ -149,7 +149,7 @@ static void ask_march(struct br_run_report *p, const struct br_march *march)
         memcpy(p->switched, first, kept * sizeof *first);
 }
 
-/* What a march does by itself is a result; what its observers fail with is not. */
+/* A failure of the march is a result; one of its observers is not. */
 static bool is_result(enum br_status status)
 {
     return status == BR_NOT_FINITE || status == BR_SINGULAR;

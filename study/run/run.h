@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One scene, marched once, with all that can be reported of it: what is modelled, what is skipped,
+/* Marches one scene once, and reports all that is known of it: what is modelled, what is skipped,
  * and why. */
 #ifndef BR_STUDY_RUN_RUN_H
 #define BR_STUDY_RUN_RUN_H
@@ -49,10 +49,10 @@ struct br_run_request {
     bool explain;  /* what the parts of a step cost */
     const struct br_history_observer *output; /* outputs: who writes rows and fields */
     size_t outputs;                           /* at most BR_MOST_OUTPUTS */
-    const struct br_observer *progress;       /* NULL: nobody */
+    const struct br_observer *progress;       /* may be NULL */
 };
 
-/* What has come out. */
+/* The results. */
 struct br_run_report {
     const struct br_scene *scene; /* of the request */
     struct br_scene marched;      /* borrows from it */

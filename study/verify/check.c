@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The part of one study of one check in all that is marched: over space and time a chain of norms
- * for each pair of neighbours, jointly one for the whole path. */
+/* The studies of one kind of one check: over space and time a chain of norms for each pair of
+ * neighbours, jointly one for the whole path. */
 struct section {
     const struct br_check *check;
     enum br_verify_kind kind;
@@ -19,7 +19,7 @@ struct section {
 struct plan {
     struct section *section;
     size_t sections;
-    struct br_study *study; /* the heads of all chains, then what comes next in them, ... */
+    struct br_study *study; /* the first norms of all chains, then the second ones, ... */
     size_t heads, norms;    /* in the longest chain */
 };
 
@@ -126,14 +126,14 @@ static void clear_plan(struct plan *plan)
 
 /* ---- the results ---- */
 
-/* h/L or k/T: what the orders of a study are in; 0 for the continuous problem. */
+/* h/L or k/T, the variable of a study's order; 0 for the continuous problem. */
 static double refinement(enum br_verify_kind kind, struct br_resolution at)
 {
     const size_t parts = kind == BR_VERIFY_SPACE ? at.n : at.steps;
     return parts ? 1 / (double)parts : 0;
 }
 
-/* Point i of a section in one norm and part. */
+/* Point i of a section in one norm and component. */
 static struct br_point point_at(const struct plan *plan, const struct section *s, size_t i,
                                 const struct br_expectation *e)
 {
@@ -156,7 +156,7 @@ static struct br_point point_at(const struct plan *plan, const struct section *s
         p.error = cell->error[e->part];
         p.flag = cell->flag[e->part];
         if (p.flag == BR_FLAG_NONE && study->judged_by.unstable)
-            p.flag = BR_FLAG_UNSTABLE; /* what it is compared with */
+            p.flag = BR_FLAG_UNSTABLE; /* the march that it is compared with */
     }
     if (s->kind == BR_VERIFY_SPACE)
         snprintf(p.label, sizeof p.label, "n = %zu", p.at.n);
@@ -186,8 +186,8 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
     return br_verdict_reach(c, err);
 }
 
-/* A scene that a method refuses, or whose solution the reference cannot promise: there is nothing
- * to verify. Any other failure of a march is a verdict. */
+/* Where a method refuses the scene, or the reference cannot solve it, there is nothing to verify.
+ * Any other failure of a march is a verdict. */
 static enum br_status check_verifiable(const struct plan *plan, const struct section *s,
                                        struct br_error *err)
 {

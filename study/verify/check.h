@@ -28,11 +28,11 @@ struct br_point {
     char failure[256];                /* of the march; "": it went well */
 };
 
-/* An expectation with what was seen. */
+/* An expectation and what was observed. */
 struct br_case {
     enum br_verify_kind kind;
     struct br_expectation expected; /* order: NaN where nothing is expected */
-    const char *measure, *part;     /* what the errors are of: a norm, or a column; borrowed */
+    const char *measure, *part;     /* norm, or column, of the errors; borrowed */
     const char *unit;               /* of the errors; "": not known; borrowed */
     struct br_point *point;         /* points, from coarse to fine; owned */
     size_t points, used;
@@ -41,7 +41,7 @@ struct br_case {
     double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
-    char reason[768]; /* why it does not pass, and what would make it conclusive; or "" */
+    char reason[768]; /* why it does not pass, and what would make it pass or fail; or "" */
     char note[512];   /* what was left out; or "" */
 };
 
@@ -53,7 +53,7 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
 /* The verdict on what was observed. */
 void br_case_judge(struct br_case *c);
 
-/* Both, for an order that needs BR_VERIFY_LEAST_POINTS. */
+/* br_case_observe and br_case_judge, for an order that needs BR_VERIFY_LEAST_POINTS. */
 enum br_status br_verdict_reach(struct br_case *c, struct br_error *err);
 
 /* ---- checks of scenes ---- */
@@ -64,7 +64,7 @@ struct br_check {
     /* in; borrowed */
     const char *path;               /* of the scene, for messages */
     const char *name;               /* of the scene, or of the study of another program */
-    const struct br_scene *scene;   /* NULL: of another program; its cases are there before */
+    const struct br_scene *scene;   /* NULL: of another program, whose cases are given */
     const struct br_verify *verify; /* NULL likewise */
     char problem[40];               /* a hash of what is solved, for comparisons; "": none */
     /* out */

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { SUBJECT = 192 }; /* characters of who differs */
+enum { SUBJECT = 192 }; /* characters of a difference's subject */
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
 
@@ -143,8 +143,8 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
         100 * (c->constant / old->constant - 1));
 }
 
-/* Cases of now, and earlier ones that should be there again, and are not. NULL: the scene is not
- * there now, or was not. */
+/* Compares cases, and reports earlier ones that are missing now. NULL: the scene is missing now, or
+ * was missing before. */
 static void compare_cases(struct br_comparison *out, const struct br_check *check,
                           const struct br_check *old)
 {
@@ -174,7 +174,7 @@ void br_old_method_of(const struct br_method *m, struct br_old_method *old)
             br_method_field_text(&br_method_fields[i], m, old->value[i]);
 }
 
-/* Another method is no fault, but may be why other things have moved. */
+/* Another method is no fault, but may explain other differences. */
 static void compare_method(struct br_comparison *out, const struct br_check *check,
                            enum br_verify_kind kind, const struct br_old_method *old)
 {
@@ -224,7 +224,7 @@ static int by_severity(const void *a, const void *b)
                                       : strcmp(x->subject, y->subject);
 }
 
-/* Numbers of two problems differ for more reasons than a comparison can tell. */
+/* Results of two different problems cannot be compared. */
 static enum br_status check_problem(const struct br_check *check, const struct br_check *old,
                                     struct br_error *err)
 {

@@ -17,22 +17,22 @@ enum br_severity {
 };
 extern const char *const br_severity_names[];
 
-/* The method of a study, each field as br_method_field_text has it; "": it was not heeded. */
+/* The method of a study, each field as br_method_field_text has it; "": it was not used. */
 struct br_old_method {
     bool known; /* the study was made */
     char value[BR_METHOD_FIELDS][BR_METHOD_VALUE];
 };
 
-/* What a method is to a later check (out). */
+/* The text of a method for a later check (out). */
 void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 
-/* What an earlier check has left behind: of each scene its name, problem and cost, and of its cases
- * what they are of, the order, the constant, the expectation and the verdict. */
+/* The results of an earlier check: name, problem and cost of each scene; norm, order, constant,
+ * expectation and verdict of each case. */
 struct br_old_check {
     struct br_check *check;                          /* count; owned with their cases */
     struct br_old_method (*method)[BR_VERIFY_KINDS]; /* of each; owned */
     size_t count;
-    struct json_t *json; /* of jansson, whose words are borrowed; owned */
+    struct json_t *json; /* owned; its strings are borrowed above */
 };
 void br_old_check_clear(struct br_old_check *old);
 
@@ -49,7 +49,7 @@ struct br_comparison {
     size_t tally[BR_SERIOUS + 1];
 };
 
-/* Whether a comparison makes sense, before anything is run: scenes are told apart by their names,
+/* Whether a comparison makes sense, before anything is run: the names of the scenes must differ,
  * and at least one of them must have been there before, of the same problem. Fails with
  * BR_BAD_INPUT. */
 enum br_status br_compare_check(const struct br_check *checks, size_t count,

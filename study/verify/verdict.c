@@ -22,7 +22,7 @@ __attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
     va_end(args);
 }
 
-/* ---- what is seen ---- */
+/* ---- the observation ---- */
 
 /* The finest points that are not left out. */
 static void choose_points(struct br_case *c)
@@ -85,7 +85,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     return status;
 }
 
-/* ---- what it means ---- */
+/* ---- the verdict ---- */
 
 /* The order that the two finest points show by themselves. */
 static double last_order(const struct br_case *c)
@@ -99,7 +99,8 @@ static double last_order(const struct br_case *c)
     return coarse ? log(coarse->error / fine->error) / log(coarse->z / fine->z) : NAN;
 }
 
-/* A tolerance that would hold the interval, rounded up; none that would hold any order. */
+/* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
+ */
 static void advise_tolerance(struct br_case *c)
 {
     const double expected = c->expected.order;
@@ -109,7 +110,7 @@ static void advise_tolerance(struct br_case *c)
         br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
 }
 
-/* What would make it conclusive. */
+/* Names what would make the verdict conclusive. */
 static void advise(struct br_case *c)
 {
     const double expected = c->expected.order, last = last_order(c);
@@ -140,7 +141,7 @@ static void judge_too_few(struct br_case *c)
                       : "coarser grids have errors that are not lost in what limits them");
 }
 
-/* An error that stays where it is belongs to another solution, a reference or a tolerance. */
+/* An error that does not fall shows another solution, or the error of a reference or tolerance. */
 static const struct br_point *first_stalled(const struct br_case *c)
 {
     for (size_t i = 0; i < c->points; i++)

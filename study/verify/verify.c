@@ -148,8 +148,8 @@ static const struct br_expectation *find(const struct br_verify_study *v,
     return NULL;
 }
 
-/* The total is no larger than the sum of its parts and no less than either: its order is that of
- * the part with the lower one. */
+/* The total is at most the sum of its components and at least each of them: its order is the lower
+ * one of theirs. */
 static enum br_status check_total(const struct br_verify_study *v,
                                   const struct br_expectation *total, struct br_error *err)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a scene is expected to show: its `verify` part. Three studies that are apart, so that
+/* What a scene is expected to show: its section `verify`. Three separate studies, so that
  * no error hides behind another. Each is a list of cells in order of refinement; an expectation
  * is an order with a tolerance, and a range for the error constant. */
 #ifndef BR_STUDY_VERIFY_VERIFY_H
@@ -11,15 +11,15 @@ enum br_verify_kind {
     BR_VERIFY_SPACE, /* over h, at one k: each mesh against the next, so the time error is the same
                       */
     BR_VERIFY_TIME,  /* over k, on one mesh: each step against the next, likewise */
-    BR_VERIFY_JOINT, /* h and k together, against the solution of the continuous problem: what is
-                        consistent with another problem converges, too, but not to this one */
+    BR_VERIFY_JOINT, /* h and k together, against the solution of the continuous problem: a scheme
+                        for another problem converges, too, but not to this solution */
     BR_VERIFY_KINDS,
 };
 extern const char *const br_verify_names[BR_VERIFY_KINDS];
 
-/* An order needs as many errors, at least: two fitted, two to see how well. Of more than
- * five the finest five count: coarse ones would outvote a stall at the end, or hold back an order
- * that has been reached since. */
+/* An order needs at least four errors: two to fit it, two to check it. Of more than five errors the
+ * finest five count: coarse ones would outweigh a stall at the end, or hide an order that is
+ * reached later. */
 enum { BR_VERIFY_LEAST_POINTS = 4, BR_VERIFY_MOST_POINTS = 5 };
 
 /* e = C z^order, with z = h/L over space and z = k/T over time and jointly. */
@@ -43,24 +43,24 @@ struct br_verify_study {
 };
 
 struct br_verify {
-    bool by_default; /* the scene has no `verify` part */
+    bool by_default; /* the scene has no section `verify` */
     struct br_verify_study study[BR_VERIFY_KINDS];
 };
 
 /* How many errors a study with so many cells gives: one less where neighbours are compared. */
 size_t br_verify_points(enum br_verify_kind kind, size_t cells);
 
-/* What is expected of a scene that does not say: the orders of the default method, 2 for the axial
- * and 4 for the bending part in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY.
+/* The default expectations of a scene: the orders of the default method, 2 for the axial
+ * and 4 for the bending field in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY.
  */
 enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
                                  struct br_error *err);
 
-/* What the methods of such studies let expect: the orders of their schemes and elements. */
+/* Sets the orders that are expected of the methods' schemes and elements. */
 void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify);
 
 /* Refuses (BR_BAD_INPUT) what cannot be verified: too few cells, meshes or time levels that do not
- * nest, a part that is not modelled, a band that contains 0, expectations that are given twice or
+ * nest, a field that is not modelled, a band that contains 0, expectations that are given twice or
  * contradict each other. *line: out, where. */
 enum br_status br_verify_check(const struct br_scene *scene, const struct br_verify *verify,
                                size_t *line, struct br_error *err);
@@ -70,7 +70,7 @@ void br_verify_clear(struct br_verify *verify);
 struct br_scene_reader;
 struct yaml_node_s;
 
-/* Reads and checks the `verify` part of a scene's file (an example is in
+/* Reads and checks the section `verify` of a scene's file (an example is in
  * study/scenes/example1.yaml); the reader's scene is whole. Fails with BR_BAD_INPUT, naming file,
  * line and key, or BR_NO_MEMORY; the caller clears `verify` even then. */
 enum br_status br_verify_read(const struct br_scene_reader *r, const struct yaml_node_s *node,

@@ -11,7 +11,7 @@
 
 enum { MESHES, STEPS, FIELDS, KEYS = FIELDS + BR_METHOD_FIELDS };
 
-/* One study on its way. */
+/* One study while it is read. */
 struct block {
     const struct br_scene_reader *r;
     enum br_verify_kind kind;
@@ -117,7 +117,7 @@ static enum br_status make_cells(struct block *b)
 
 /* ---- expectations ---- */
 
-/* "l2", "l2 axial": the norm and the part; false: it is neither. */
+/* "l2", "l2 axial": the norm and the component; false: it is neither. */
 static bool parse_what(const char *text, struct br_expectation *e)
 {
     char norm[64], part[64] = "total", rest;
@@ -214,7 +214,7 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
     return BR_OK;
 }
 
-/* The fields one by one, which say in what line they are refused, then all together. */
+/* Reads the fields one by one, so that an error has its line; then all together. */
 static enum br_status read_method(struct block *b)
 {
     struct br_method *m = &b->study->method;
