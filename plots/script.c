@@ -382,11 +382,11 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
             width / l->width, height / l->height);
     if (i == 0)
         write_titles(out, f, l);
-    if (l->bar && i == 0)
+    if (l->bar > 0 && i == 0)
         fprintf(out, "set colorbox user origin screen %.4f,%.4f size screen 0.018,%.4f\n",
                 1 - l->bar / l->width, (l->bottom + 95) / l->height,
                 (l->height - l->top - l->bottom - 150) / l->height);
-    else if (l->bar)
+    else if (l->bar > 0)
         fputs("unset colorbox\n", out);
     write_text(out, "title", p->title);
     write_text(out, "xlabel", p->x_label);

@@ -61,9 +61,9 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
         snprintf(at, sizeof at, "n = %zu, k = T/%zu", p->at.n, p->at.steps);
         br_put_verdict_detail(d, "%s against %s: error %.4e, constant %.4e%s%s",
                               p->at.n ? at : p->label,
-                              p->against.n   ? against
-                              : p->z_against ? "the next finer one"
-                                             : "the solution",
+                              p->against.n       ? against
+                              : p->z_against > 0 ? "the next finer one"
+                                                 : "the solution",
                               p->error, p->constant,
                               p->flag    ? ", left out: "
                               : !p->used ? ", coarser than those that count"

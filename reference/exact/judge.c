@@ -17,8 +17,9 @@ struct exact_judge {
     double seconds[2]; /* by br_field_kind */
 };
 
-static struct br_exact_projection **projection_at(const struct exact_judge *e, int kind,
-                                                  int measure, size_t mesh)
+static struct br_exact_projection **projection_at(const struct exact_judge *e,
+                                                  enum br_field_kind kind, enum br_measure measure,
+                                                  size_t mesh)
 {
     return &e->projection[((size_t)kind * BR_MEASURES + (size_t)measure) * e->meshes + mesh];
 }

@@ -282,9 +282,15 @@ INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real 
 
 /* Both sweeps, with constants d and m. */
 
+/* Functions with copies are static, since Clang 14 gives others no name that other files see; but
+ * it shows their resolvers, so that both types need names of their own. */
+#ifdef BR_LONG
+#define predict long_predict
+#define finish long_finish
+#endif
+
 BR_SWEEP
-real br_recursion_predict(struct br_recursion *s, const real *state,
-                          const struct br_recursion_load *by)
+static real predict(struct br_recursion *s, const real *state, const struct br_recursion_load *by)
 {
     return s->d == 2   ? sweep_left(2, 2, s, state, by)
            : s->m == 2 ? sweep_left(1, 2, s, state, by)
@@ -292,7 +298,7 @@ real br_recursion_predict(struct br_recursion *s, const real *state,
 }
 
 BR_SWEEP
-real br_recursion_finish(struct br_recursion *s, real *state, real force)
+static void finish(struct br_recursion *s, real *state, real force)
 {
     if (s->d == 2)
         sweep_right(2, 2, s, state, force);
@@ -300,6 +306,17 @@ real br_recursion_finish(struct br_recursion *s, real *state, real force)
         sweep_right(1, 2, s, state, force);
     else
         sweep_right(1, 1, s, state, force);
+}
+
+real br_recursion_predict(struct br_recursion *s, const real *state,
+                          const struct br_recursion_load *by)
+{
+    return predict(s, state, by);
+}
+
+real br_recursion_finish(struct br_recursion *s, real *state, real force)
+{
+    finish(s, state, force);
     return state[br_recursion_tip_rate(s)];
 }
 

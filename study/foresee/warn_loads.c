@@ -381,7 +381,8 @@ static void add_piece(void *self, size_t e, struct br_interval piece, bool ends)
     struct loss *loss = self;
     const struct input *d = loss->input;
     const double length = loss->planned->scene->length, n = (double)loss->planned->n;
-    const double h = length / n, end[2] = {(double)e * h, e + 1 < n ? (double)(e + 1) * h : length};
+    const double h = length / n,
+                 end[2] = {(double)e * h, (double)e + 1 < n ? (double)(e + 1) * h : length};
     const struct points p = points_of(d->data, BR_X, (struct br_box){{0, length}, {0, 0}}, piece);
     double value[2], slope[2];
     (void)ends;

@@ -269,7 +269,7 @@ static void decided(const struct recurrence *r)
 
 /* Operations without a row use `decided`, except ?:, which `apply` handles. */
 static const struct rule rules[BR_OP_CHOOSE + 1] = {
-    [BR_OP_NEGATE] = {negative},
+    [BR_OP_NEGATE] = {.series = negative},
     [BR_OP_SIN] = {flow, .sign = 1, .next = SLOPE, .slope = -1, .partner = BR_OP_COS},
     [BR_OP_COS] = {flow, .sign = -1, .next = SLOPE, .slope = 1, .partner = BR_OP_SIN},
     [BR_OP_TAN] = {flow, .sign = 1, .next = SQUARE, .slope = 1},
@@ -284,16 +284,16 @@ static const struct rule rules[BR_OP_CHOOSE + 1] = {
     [BR_OP_ATANH] = {inverse, .constant = 1, .sign = -1, .slope = 1},
     [BR_OP_EXP] = {flow, .sign = 1, .partner = BR_OP_EXP},
     [BR_OP_EXPM1] = {flow, .sign = 1, .partner = BR_OP_EXP},
-    [BR_OP_LOG] = {logarithm},
+    [BR_OP_LOG] = {.series = logarithm},
     [BR_OP_LOG2] = {logarithm, .slope = 2},
     [BR_OP_LOG10] = {logarithm, .slope = 10},
-    [BR_OP_SQRT] = {root},
-    [BR_OP_ABS] = {absolute},
+    [BR_OP_SQRT] = {.series = root},
+    [BR_OP_ABS] = {.series = absolute},
     [BR_OP_ADD] = {sum, .sign = 1},
     [BR_OP_SUBTRACT] = {sum, .sign = -1},
-    [BR_OP_MULTIPLY] = {product},
-    [BR_OP_DIVIDE] = {quotient},
-    [BR_OP_POW] = {power},
+    [BR_OP_MULTIPLY] = {.series = product},
+    [BR_OP_DIVIDE] = {.series = quotient},
+    [BR_OP_POW] = {.series = power},
     [BR_OP_MIN] = {extreme, .sign = 1},
     [BR_OP_MAX] = {extreme, .sign = -1},
 };

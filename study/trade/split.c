@@ -100,7 +100,7 @@ const struct br_source br_sources[] = {
     {"lag", "contact force from the step before", lag, false},
     {"time", "time steps", time_steps, true},
     {"space", "elements", space, true},
-    {NULL},
+    {.name = NULL},
 };
 
 /* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
