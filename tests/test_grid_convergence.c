@@ -406,11 +406,11 @@ TEST(test_fits_of_the_paper)
         assert_int_equal(r.fit.observed, rows[i].observed);
         CLOSE(r.fit.power[0], rows[i].power, 1e-7);
         CLOSE(r.safety, rows[i].safety, 0);
-        if (!rows[i].b)
+        if (rows[i].b == 0)
             CLOSE(r.order, rows[i].order, 1e-7);
-        if (rows[i].observed || rows[i].b)
+        if (rows[i].observed || rows[i].b != 0)
             CLOSE(r.fit.limit, 7, 1e-7);
-        if (rows[i].b)
+        if (rows[i].b != 0)
             CLOSE(r.uncertainty, 3 * (2.0 / 16 - 1.9 / 256), 1e-12);
     }
 }

@@ -183,7 +183,7 @@ TEST(test_pairs)
             put_products(&s, &d, kind, false);
         struct br_scene other = second_way(&s, &d, w);
         struct answer a, b;
-        const bool both = solve(&s, &a) & solve(&other, &b);
+        const bool one = solve(&s, &a), two = solve(&other, &b), both = one && two;
         refused += !both;
         size_t events = 0;
         if (both) {
