@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whole marches against values that were computed in other ways: in closed form, and in quadruple
- * precision (generate_discrete.c). Orders in time: test_mms_orders; steps of either contact rule:
+ * precision (generate_discrete.c). Orders in time: 'check --all'; steps of either contact rule:
  * test_extreme_marches. */
 #include <math.h>
 #include <stdio.h>
