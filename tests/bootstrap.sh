@@ -8,7 +8,7 @@ failures=0
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 mkdir "$work/bin" || exit 1
-for tool in sh env cat grep sed awk dirname readlink mkdir rm; do
+for tool in sh env cat grep sed awk sort tail dirname readlink mkdir rm; do
     ln -s "$(command -v $tool)" "$work/bin/$tool" || exit 1
 done
 
@@ -29,6 +29,8 @@ exit 1
 END
 made cc </dev/null
 made ninja </dev/null
+made bash </dev/null
+made ps </dev/null
 made gnuplot </dev/null
 # Keeps what was chosen, as Meson does; has one test, which passes.
 made meson <<'END'
@@ -134,26 +136,85 @@ configured 'the program alone' '--buildtype=release$'
 starts 0 0 'the program again'
 configured 'the program again'
 starts 3 4 'a part that is not to be had' --with mpi build
-printf '%s\n' openmpi-bin libopenmpi-dev libhdf5-dev >"$work/to_be_had"
-starts 0 4 'two parts' --with mpi --with=hdf5 build
-configured 'two parts' '-Dmpi=enabled -Dhdf5=enabled --wipe$'
-for program in mpirun mpicc h5cc; do made $program </dev/null; done
-starts 0 0 'the same parts' --with mpi --with hdf5 build
-configured 'the same parts'
+echo libopenmpi-dev >"$work/to_be_had"
+made mpirun </dev/null
+echo 'exit 1' | made mpicc
+starts 0 4 'a part whose compiler finds no header' --with=mpi build
+configured 'a part' '-Dmpi=enabled --reconfigure$'
+made mpicc </dev/null
+starts 0 0 'the same part' --with mpi build
+configured 'the same part'
 echo libcmocka-dev >"$work/to_be_had"
 starts 0 4 'its tests' test
 configured 'its tests' '-Dtests=enabled --reconfigure$'
+echo zsh >"$work/to_be_had" && sed -i /^zsh/d "$work/installed"
+starts 0 4 'a package more' test
+configured 'what was installed is looked for' '--reconfigure$'
+BUILD=$work/elsewhere starts 0 0 'a folder of its own' build
+configured 'a folder of its own' "^setup $work/elsewhere "
+made clang <<'END'
+echo clang
+END
+CC=clang BUILD=$work/clang starts 3 4 'Clang wants an OpenMP of its own'
+rm "$work/bin/clang"
+CC=clang BUILD=$work/clang starts 3 4 'Clang is a package'
+grep -q ' clang libomp-dev$' "$work/calls" || failures=$((failures + 1))
+CC=acc starts 2 0 'CC is no program'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build
+
+# prints LINES WHAT: the last start has printed so many lines, and what apt-get, Meson and Ninja say is
+# not among them.
+prints() {
+    [ "$(wc -l <"$work/said")" -eq "$1" ] && ! grep -q noise "$work/said" && return
+    echo "$2: printed as follows, expected $1 lines without noise"
+    sed 's/^/    /' "$work/said"
+    failures=$((failures + 1))
+}
+ln -s "$(command -v seq)" "$work/bin/seq"
+for tool in meson ninja apt-get; do
+    sed -i '2a [ "$1" = --version ] || { seq 200 | sed "s/^/noise /" && echo noise >\&2; }' "$work/bin/$tool"
+done
+machine "$1" libgsl-dev
+echo libgsl-dev >"$work/to_be_had"
+starts 0 4 'much noise'
+prints 3 'installs, configures, builds'
+grep -q 'installing 1 package: libgsl-dev$' "$work/said" || failures=$((failures + 1))
+starts 0 0 'much noise again'
+prints 1 'builds'
+made meson <<'END'
+[ "$1" != compile ] || { seq 200 | sed 's/^/noise /' && echo 'x.c:1: error' >&2 && exit 1; }
+END
+starts 1 0 'a build that fails'
+for text in 'x.c:1: error' 'noise 200' "the whole log: $work/tree/build/bootstrap.log"; do
+    grep -qF "$text" "$work/said" && continue
+    echo "a build that fails: does not show '$text'"
+    failures=$((failures + 1))
+done
 
 # A message that quotes "\nnot ok 2" is no failed case.
 mkdir -p "$work/log/meson-logs"
 printf '%s\n' '{"stdout": "# has \\\\nnot ok 2\nok 1 - a\nnot ok 2 - b\n", "result": "FAIL"}' \
     >"$work/log/meson-logs/testlog.json"
 eval "$(sed -n '/^count_cases()/,/^}/p' "${0%/*}/../bootstrap")"
+eval "$(sed -n '/^list_skipped()/,/^}/p' "${0%/*}/../bootstrap")"
 count=$(build=$work/log count_cases 1)
 [ "$count" = '1 passed, 1 failed' ] || {
     echo "the count of one good and one bad case is '$count'"
+    failures=$((failures + 1))
+}
+
+# What is skipped, in each form.
+cat >"$work/log/meson-logs/testlog.json" <<'END'
+{"name": "a", "stdout": "1..2\nok 1 - b\n# skipped: no \"x\"\nok 2 - c # SKIP no y\n", "result": "OK"}
+{"name": "d", "stdout": "skipped: no z\n", "result": "SKIP", "returncode": 77}
+{"name": "e", "stdout": "is skipped: no\nok 1 - skipped: no\n", "result": "OK"}
+END
+skipped=$(build=$work/log list_skipped)
+[ "$skipped" = 'skipped: a: c # SKIP no y
+skipped: a: no x
+skipped: d: no z' ] || {
+    echo "skipped is listed as '$skipped'"
     failures=$((failures + 1))
 }
 

@@ -3,6 +3,7 @@
 # What the shells complete: every command, option, value and scene. bash by its own compgen; fish where
 # it is installed; zsh by its parser. $BEAMRATE is the program.
 set -u
+for tool in fish zsh shellcheck; do command -v $tool >/dev/null || echo "skipped: $tool is not installed"; done
 
 failures=0
 work=$(mktemp -d)

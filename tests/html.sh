@@ -10,7 +10,9 @@ cd "$folder"
 mkdir bin
 ln -s "$BEAMRATE" bin/beamrate
 pictures=0
-command -v gnuplot >/dev/null && pictures=1
+if gnuplot --version >/dev/null 2>&1; then pictures=1; else echo "skipped: gnuplot is not installed"; fi
+for tool in python3 xmllint pdflatex; do command -v $tool >/dev/null || echo "skipped: $tool is not installed"; done
+command -v chromium chromium-browser google-chrome >/dev/null || echo "skipped: no browser is installed"
 
 # shellcheck disable=SC2016
 sed 's/^title:.*/title: "<script>alert(1)<\/script> \\"q\\" \x27s\x27 \\u202E <b id=gpDot>"/' \

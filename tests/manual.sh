@@ -3,6 +3,7 @@
 # docs/options.md and docs/beamrate.1 are what the program writes of itself; roff takes the page, where
 # it is installed. The files that name the version name the same. $BEAMRATE is the program, $BEAMRATE_DATA the project.
 set -u
+command -v groff >/dev/null || echo "skipped: groff is not installed"
 
 failures=0
 for file in options.md beamrate.1; do

@@ -45,7 +45,7 @@ TEST(test_refused)
     struct br_error err = {0};
     struct br_floors f;
     if (br_test_quick())
-        skip();
+        SKIP("too long for this run");
     MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
     for (size_t s = 0; s < f.solvers; s++) {

@@ -64,7 +64,7 @@ static double allowed(enum br_operation operation, const double a[3])
 TEST(test_accuracy)
 {
     if (LDBL_MANT_DIG < 64)
-        skip();
+        SKIP("long double is double here");
     struct br_test_random r = {.state = 11};
     for (int operation = FIRST; operation <= LAST; operation++)
         for (int i = 0; i < (br_test_long() ? 1000000 : 20000); i++) {

@@ -246,6 +246,12 @@ static void test_not_joined(void **state)
     assert_false(cli_is_there("alone"));
 }
 
+static void test_under_mpirun(void **state)
+{
+    (void)state;
+    SKIP("no mpirun, or a program without MPI");
+}
+
 int main(void)
 {
     /* In a container one is root; on a desktop a rank may not have a core of its own. */
@@ -258,7 +264,8 @@ int main(void)
         cmocka_unit_test(test_killed),      cmocka_unit_test(test_silent),
         cmocka_unit_test(test_interrupted), cmocka_unit_test(test_not_joined),
     };
-    const struct CMUnitTest without[] = {cmocka_unit_test(test_not_joined)};
+    const struct CMUnitTest without[] = {cmocka_unit_test(test_not_joined),
+                                         cmocka_unit_test(test_under_mpirun)};
     return getenv("MPIRUN") ? cmocka_run_group_tests(with_mpi, cli_make_folder, cli_remove_folder)
                             : cmocka_run_group_tests(without, cli_make_folder, cli_remove_folder);
 }

@@ -5,6 +5,7 @@
  *   @ FILE | TEXT               the file is written
  *   COMMAND | CODE | MESSAGE    runs `beamrate COMMAND`: its exit code, a part of its output
  *   $ COMMAND | CODE            runs a line of sh, where $BEAMRATE is the program
+ *   needs PROGRAM ...           the rest of the test is skipped where one cannot run
  *   with NAME=VALUE ...         circumstances of the next command, see set_circumstance
  *   says TEXT, silent TEXT      whether the last command has printed the text
  *   has FILE | TEXT, lacks FILE | TEXT
@@ -109,6 +110,21 @@ static void check_count(const char *folder, const char *count)
         fail_msg("%zu files in %s, expected %zu", found, folder, expected);
 }
 
+/* Whether the rest of a test can run. gnuplot is that of $GNUPLOT: the build may have left one out
+ * that does not run. */
+static bool has_needs(char *programs)
+{
+    char *rest, command[128];
+    for (char *word = strtok_r(programs, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
+        snprintf(command, sizeof command, "command -v %s >/dev/null", word);
+        if (strcmp(word, "gnuplot") == 0 ? !getenv("GNUPLOT") : system(command) != 0) {
+            print_message("# skipped: %s is not installed\n", word);
+            return false;
+        }
+    }
+    return true;
+}
+
 /* Handles each word of a row: sets a circumstance, or checks whether a file exists. */
 static void take_words(char *words, bool are_files, bool there)
 {
@@ -164,7 +180,10 @@ static void test_rows(void **state)
         if (*t->row[i] == '#' || !*t->row[i])
             continue;
         print_message("# line %zu: %.100s\n", t->first + i, t->row[i]);
-        run_row(t->row[i]);
+        if (strncmp(t->row[i], "needs ", 6) != 0)
+            run_row(t->row[i]);
+        else if (!has_needs(t->row[i] + 6))
+            return;
     }
 }
 
