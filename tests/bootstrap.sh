@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What bootstrap installs and when, on a made-up Debian: a second start asks for nothing. Arguments:
 # bootstrap. No command but those below is in its PATH.
+# shellcheck disable=SC2016 # what a made-up program expands
 set -u
 
 failures=0
@@ -92,6 +93,15 @@ starts() {
 
 machine "$1"
 starts 0 0 'everything is there'
+
+made pkg-config <<'END'
+[ "$2" = fish ] # which has a module of its own
+END
+machine "$1" fish
+starts 0 6 'a program whose module only is there' test
+made pkg-config <<'END'
+exit 1
+END
 
 machine "$1" gnuplot-nox
 starts 0 0 'an optional program is there, from another package'
