@@ -216,7 +216,7 @@ count=$(build=$work/log count_cases 1)
 
 # What is skipped, in each form.
 cat >"$work/log/meson-logs/testlog.json" <<'END'
-{"name": "a", "stdout": "1..2\nok 1 - b\n# skipped: no \"x\"\nok 2 - c # SKIP no y\n", "result": "OK"}
+{"name": "beamrate:cli / a", "stdout": "1..2\nok 1 - b\n# skipped: no \"x\"\nok 2 - c # SKIP no y\n", "result": "OK"}
 {"name": "d", "stdout": "skipped: no z\n", "result": "SKIP", "returncode": 77}
 {"name": "e", "stdout": "is skipped: no\nok 1 - skipped: no\n", "result": "OK"}
 END

@@ -35,11 +35,11 @@ skip() { # WHAT WHY
 
 check "meson install" meson install -C "$build" --no-rebuild --destdir "$folder/root" \
     --tags runtime,devel,python-runtime
-module=$(dirname "$(find "$folder/root" -name beamrate.pc)")
-prefix=$folder/root$(sed -n 's/^prefix=//p' "$module/beamrate.pc")
-export PKG_CONFIG_PATH=$module
-package() { pkg-config --define-variable=prefix="$prefix" "$@" beamrate; }
-libraries=$(package --variable=libdir)
+PKG_CONFIG_PATH=$(dirname "$(find "$folder/root" -name beamrate.pc)")
+export PKG_CONFIG_PATH
+package() { pkg-config "$@" beamrate; }
+prefix=$(cd "$(package --variable=prefix)" && pwd)
+libraries=$(cd "$(package --variable=libdir)" && pwd)
 header=$prefix/include/beamrate/beamrate.h
 export LD_LIBRARY_PATH=$libraries${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
 
@@ -103,6 +103,14 @@ check "the program's numbers" eval 'program_numbers >program'
 check "the example runs" eval './example example2 >shared.txt'
 check "its numbers are the program's" same_numbers shared.txt
 check "the static one prints the same" eval './static example2 | cmp - shared.txt'
+
+# What is installed is enough: its scenes, its program, no file of the source.
+alone() {
+    export BEAMRATE_DATA=$prefix/share/beamrate
+    ./example example2 | cmp - shared.txt && "$prefix/bin/beamrate" scenes | grep -q '^example2 ' &&
+        "$prefix/bin/beamrate" run example2 -n 4 --k 0.1 --quiet
+}
+check "what is installed is enough" eval '(alone)'
 
 # A refusal names file, line and key; nothing is printed but by the example itself.
 refusal() {
