@@ -456,7 +456,7 @@ static const struct language languages[] = {
     },
     {
         .name = "zsh",
-        .quoting = &br_for_zsh, /* brackets and colons are syntax of _arguments */
+        .quoting = &br_for_zsh,
         .words_quoting = &for_zsh_words,
         .head = "#compdef beamrate\n"
                 "# Completion of beamrate in zsh; written by 'beamrate completions zsh'.\n\n"

@@ -42,6 +42,30 @@ static enum br_status create_fields(struct br_march *m, size_t n, struct br_erro
     return status;
 }
 
+/* The tip at t = 0. */
+static enum br_status find_start(struct br_march *m, size_t n, struct br_error *err)
+{
+    const struct br_scene *scene = m->scene;
+    double *velocity = br_allocate(2 * (n + 1), sizeof *velocity);
+    if (!velocity)
+        return br_no_memory(err, "the tip's start");
+    m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
+    const double depth =
+        scene->contact.modelled ? br_penetration(&scene->contact, m->tip.displacement) : 0;
+    m->start = (struct br_tip){
+        .displacement = m->tip.displacement,
+        .contact_force = scene->contact.stiffness * depth,
+        .friction_force = scene->friction.law == BR_FRICTIONLESS ? 0 : NAN,
+        .friction_bound = br_friction_bound(scene, depth),
+    };
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_march_get(m, kind, NULL, velocity);
+        m->start.velocity[kind] = velocity[n * br_field_unknowns(&m->field[kind].field)];
+    }
+    free(velocity);
+    return BR_OK;
+}
+
 enum br_status br_march_create(struct br_march **out, const struct br_scene *scene, size_t n,
                                size_t steps, const struct br_method *method, struct br_error *err)
 {
@@ -57,12 +81,13 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->steps = steps;
     const int rounding = br_rounding_set(method->rounding);
     status = create_fields(m, n, err);
+    if (!status)
+        status = find_start(m, n, err);
     br_rounding_restore(rounding);
     if (status) {
         br_march_free(m);
         return status;
     }
-    m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
     *out = m;
     return BR_OK;
 }
@@ -224,6 +249,11 @@ double br_march_time(const struct br_march *m)
 const struct br_tip *br_march_tip(const struct br_march *m)
 {
     return &m->tip;
+}
+
+const struct br_tip *br_march_start(const struct br_march *m)
+{
+    return &m->start;
 }
 
 double br_march_tip_displacement(const struct br_march *m, enum br_field_kind kind)

@@ -71,7 +71,12 @@ size_t br_march_field_steps(const struct br_march *march, enum br_field_kind kin
 size_t br_march_steps_done(const struct br_march *march);
 double br_march_time(const struct br_march *march);
 
+/* The tip after the last step; at step 0 it has only its displacement. */
 const struct br_tip *br_march_tip(const struct br_march *march);
+
+/* The tip at t = 0: the laws at the initial data. The friction force is NaN, unless there is no
+ * friction: it depends on what follows. */
+const struct br_tip *br_march_start(const struct br_march *march);
 struct br_counts br_march_counts(const struct br_march *march);
 
 enum { BR_MOST_SWITCHES = 1000 }; /* kept; all are counted */

@@ -117,8 +117,8 @@ struct br_march {
     bool was_closed;              /* the contact has been closed in a step */
     bool keeps_branch[2];         /* the regime stays active, whatever the stage's result is */
     struct br_margins margins[2]; /* of the step so far, where a branch is kept active */
-    struct br_tip tip;
-    struct br_tip_path *path; /* of the last `lead` steps */
+    struct br_tip tip, start;     /* of the last stage; at t = 0 */
+    struct br_tip_path *path;     /* of the last `lead` steps */
     size_t lead;
     struct br_counts counts;      /* those that the fields do not count */
     struct br_adaptive *adaptive; /* NULL: fixed steps */

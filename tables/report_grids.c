@@ -31,7 +31,7 @@ static const char *slope_text(const struct br_estimate *slope, char text[64])
 static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
                      const char *title)
 {
-    static const char *const marks[] = {"", "R", "F", "X", "U"};
+    static const char *const marks[BR_CELL_FLAGS] = {"", "R", "F", "X", "U", "S"};
     const struct br_study *s = g->study;
     char buffer[64];
     br_put_table(d, g->key, title, BR_FOR_PEOPLE | g->flags);

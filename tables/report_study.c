@@ -47,18 +47,16 @@ static void say_own_error(struct br_document *d, const struct br_study *s, doubl
 /* Puts the number of cells that are left out of fits, and why. */
 static void say_flags(struct br_document *d, const struct br_study *s)
 {
-    static const struct {
-        enum br_flag flag;
-        const char *why;
-    } rows[] = {
-        {BR_FLAG_REFERENCE, "R, too near the reference's own error"},
-        {BR_FLAG_ROUND_OFF, "F, too near the predicted round-off"},
-        {BR_FLAG_FAILED, "X, failed"},
-        {BR_FLAG_UNSTABLE, "U, beyond the stability limit of the lagged contact: the tip may "
-                           "chatter; smaller k or --contact implicit mends it"},
+    static const char *const why[BR_CELL_FLAGS] = {
+        [BR_FLAG_REFERENCE] = "R, too near the reference's own error",
+        [BR_FLAG_ROUND_OFF] = "F, too near the predicted round-off",
+        [BR_FLAG_FAILED] = "X, failed",
+        [BR_FLAG_UNSTABLE] = "U, beyond the stability limit of the lagged contact: the tip may "
+                             "chatter; smaller k or --contact implicit mends it",
+        [BR_FLAG_STALLED] = "S, no smaller than on coarser grids",
     };
     const size_t cells = s->n_count * s->k_count;
-    size_t count[BR_FLAG_UNSTABLE + 1] = {0};
+    size_t count[BR_CELL_FLAGS] = {0};
     for (size_t i = 0; i < cells; i++)
         count[s->cell[i].flag[BR_PART_TOTAL]]++;
     if (count[BR_FLAG_NONE] == cells) {
@@ -67,9 +65,9 @@ static void say_flags(struct br_document *d, const struct br_study *s)
     }
     br_put_more(d, "%zu of %zu cells are left out of fits:", cells - count[BR_FLAG_NONE], cells);
     const char *separator = " ";
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
-        if (count[rows[i].flag]) {
-            br_put_more(d, "%s%zu %s", separator, count[rows[i].flag], rows[i].why);
+    for (enum br_flag flag = BR_FLAG_NONE + 1; flag < BR_CELL_FLAGS; flag++)
+        if (count[flag]) {
+            br_put_more(d, "%s%zu %s", separator, count[flag], why[flag]);
             separator = "; ";
         }
     br_put_more(d, ".");

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What the shells complete: every command, option, value and scene. bash by its own compgen; fish where
-# it is installed; zsh by its parser. $BEAMRATE is the program.
+# What the shells complete: every command, option, value and scene. bash by its own compgen; fish and
+# zsh where they are installed, zsh in a terminal of its own. $BEAMRATE is the program.
 set -u
 for tool in fish zsh shellcheck; do command -v $tool >/dev/null || echo "skipped: $tool is not installed"; done
 
@@ -93,6 +93,36 @@ if command -v fish >/dev/null; then
 fi
 if command -v zsh >/dev/null; then
     zsh -n _beamrate || failures=$((failures + 1))
+    cat >pressed.zsh <<'END'
+zmodload zsh/zpty
+zpty z 'zsh -f -i'
+zpty -w z 'PS1=; stty cols 200; fpath=($PWD $fpath); autoload -Uz compinit; compinit -u -D'
+zpty -w z 'show() { print -r -- "LINE<$BUFFER>"; BUFFER=; zle .accept-line }; zle -N show'
+zpty -w z 'setopt no_list_ambiguous; bindkey "^X" show; print READY-"$((1 + 1))"'
+zpty -r -m z out '*READY-2*'
+while IFS= read -r line; do # what is on the screen after TAB
+    zpty -w -n z "$line"$'\t\x18'
+    zpty -r -m z out '*LINE<*>*'
+    print -r -- "${out//$'\r'/} KEYS<$line>"
+done
+END
+    # KEYS|the line after TAB, or a part of the list that is shown
+    while IFS='|' read -r keys expected; do
+        echo "$keys" | timeout 60 zsh -f pressed.zsh 2>&1 | grep -qF -- "$expected" && continue
+        echo "zsh: $keys: expected '$expected'"
+        failures=$((failures + 1))
+    done <<'END'
+beamrate st|LINE<beamrate study >
+beamrate study --nor|LINE<beamrate study --norm=>
+beamrate study --s|umfpack's row scaling: none, sum or max
+beamrate check --solver um|LINE<beamrate check --solver umfpack >
+beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
+beamrate study --reference=fi|LINE<beamrate study --reference=fine: >
+beamrate study mov|LINE<beamrate study moving_load >
+beamrate study mi|LINE<beamrate study mine.yaml >
+beamrate check -o fo|LINE<beamrate check -o folder/>
+beamrate completions z|LINE<beamrate completions zsh >
+END
 fi
 if command -v shellcheck >/dev/null; then
     shellcheck -s bash beamrate.bash || failures=$((failures + 1))

@@ -111,6 +111,8 @@ void br_made_report(struct br_made_report *m, bool with_exact)
     flag(&fitted[1], BR_FLAG_REFERENCE);
     flag(&fitted[6], BR_FLAG_ROUND_OFF);
     fitted[2].flag[BR_PART_TOTAL] = BR_FLAG_REFERENCE;
+    fitted[7].flag[BR_PART_TOTAL] = BR_FLAG_UNSTABLE;
+    fitted[9].flag[BR_PART_TOTAL] = BR_FLAG_STALLED;
     if (with_exact)
         flag(&m->cell[0][4], BR_FLAG_REFERENCE);
     fail_cell(&m->cell[0][11]);

@@ -313,6 +313,17 @@ static const struct planted_bug planted_bugs[] = {
      "to[a] += common[a];", ""},
     {"load_fit_of_small_loads", "round-off", "solver/load_fit.c", "tests/test_load_fit",
      "fit->error <= wanted * most", "fit->error <= most"},
+    {"lane_of_the_neighbour_in_portable", "lanes", "solver/linear/riccati/sweep.c",
+     "check smoothed --solver riccati --kernel portable",
+     "load_all(ends->right + lane + v * WIDTH, right[v]);",
+     "load_all(ends->right + lane + (WIDTH == 2 ? 0 : v * WIDTH), right[v]);"},
+    {"lane_of_the_neighbour_in_avx2", "lanes", "solver/linear/riccati/sweep.c",
+     "tests/test_linear test_kernels", "start(lane + (size_t)(v * WIDTH), ends->left, &go[v]);",
+     "start(lane + (size_t)(WIDTH == 4 ? 0 : v * WIDTH), ends->left, &go[v]);"},
+    {"sums_of_another_lane_in_avx2", "lanes", "solver/linear/riccati/sweep.c",
+     "tests/test_linear test_kernels",
+     "w[i] += weight[j] * load(from[j] + position + i * BR_LANES);",
+     "w[i] += weight[j] * load(from[j] + position + i * BR_LANES + (WIDTH == 4 && j == 1));"},
     {"odd_rest_twice_as_long_in_sums", "lanes", "solver/linear/riccati/pieces.c",
      "run chatter --scheme bdf2 --solver riccati --n 10 --k 0.02 --check",
      "for (size_t i = 0; i < size; i += BR_LANES) {",
@@ -413,6 +424,15 @@ static const struct planted_bug planted_bugs[] = {
      "axial ? root / h :", "axial ? 1.015 * root / h :"},
 
     /* ---- what the certificate of a march sees, and an order may not ---- */
+    {"row_of_another_order", "order", "solver/scheme.c", "tests/test_schemes test_orders",
+     ".order = 2,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},",
+     ".order = 3,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},"},
+    {"nothing_damped_at_infinity", "order", "solver/scheme.c",
+     "tests/test_schemes test_stiffness_is_damped",
+     "{2 * GAMMA2, GAMMA2, {[BR_NOW] = 1, [BR_RATE] = 1}},\n                         "
+     "{1, GAMMA2, {[BR_NOW] = 1 - RATIO, [BR_STAGE] = RATIO}}",
+     "{0.5, 0.25, {[BR_NOW] = 1, [BR_RATE] = 1}},\n                         "
+     "{1, 0.25, {[BR_NOW] = -1, [BR_STAGE] = 2 + 0 * RATIO, [BR_RATE] = -1}}"},
     {"esdirk3_start", "order", "solver/scheme.c",
      "run chatter --scheme esdirk3 --n 10 --k 0.02 --check", "{(1 - GAMMA3) / 2, GAMMA3},",
      "{(1 - GAMMA3) / 3, GAMMA3},"},

@@ -401,6 +401,57 @@ TEST(test_not_finite)
     }
 }
 
+/* ---- kernels ---- */
+
+enum { KERNEL_MOST = 347, KERNEL_STEPS = 25 };
+
+/* Nodal displacements and velocities at the end; returns the values of each. */
+static size_t march_by(const struct br_method *method, enum br_field_kind kind, size_t n,
+                       double value[2][2 * (KERNEL_MOST + 1)])
+{
+    struct br_scene scene = br_test_bundled("initial_data");
+    struct br_march *march = br_test_march(&scene, n, KERNEL_STEPS, method);
+    br_test_advance(march, KERNEL_STEPS);
+    br_march_get(march, kind, value[0], value[1]);
+    const size_t size = br_field_size(br_march_field(march, kind));
+    br_march_free(march);
+    br_scene_clear(&scene);
+    return size;
+}
+
+static void compare_kernel(const struct br_kernel *kernel, const char *scheme,
+                           enum br_field_kind kind, size_t n)
+{
+    double ours[2][2 * (KERNEL_MOST + 1)], plain[2][2 * (KERNEL_MOST + 1)];
+    struct br_method method = br_test_method("plain", "implicit", NULL);
+    method.scheme = br_time_scheme_find(scheme);
+    const size_t size = march_by(&method, kind, n, plain);
+    method.solver = &br_riccati;
+    method.linear.kernel = kernel;
+    assert_int_equal(march_by(&method, kind, n, ours), size);
+    for (int rate = 0; rate < 2; rate++) {
+        double most = 0;
+        for (size_t i = 0; i < size; i++)
+            most = fmax(most, fabs(plain[rate][i]));
+        for (size_t i = 0; i < size; i++)
+            if (!(fabs(ours[rate][i] - plain[rate][i]) <= 1e-10 * most))
+                fail_msg("kernel %s, %s, field %d, n = %zu: value %zu is off by %g", kernel->name,
+                         scheme, kind, n, i, (ours[rate][i] - plain[rate][i]) / most);
+    }
+}
+
+/* Every kernel that the machine has, on meshes that fill its lanes once, more often, and in part.
+ */
+TEST(test_kernels)
+{
+    static const size_t n[] = {16, 37, 100, KERNEL_MOST};
+    static const char *const schemes[] = {"euler", "bdf2", "esdirk4"};
+    for (const struct br_kernel *const *k = br_kernels; *k; k++)
+        for (size_t i = 0; i < 12 && (*k)->available(); i++)
+            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+                compare_kernel(*k, schemes[i / 4], (enum br_field_kind)kind, n[i % 4]);
+}
+
 /* ---- options and kernels ---- */
 
 /* Every scaling and refinement that the options offer gives the same march. */

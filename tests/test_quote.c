@@ -85,7 +85,7 @@ TEST(test_targets)
         {&br_for_shell, "it's $(x)", "'it'\\''s $(x)'"},
         {&br_for_shell, "", "''"},
         {&br_for_completion, "it's \\x", "'it'\\''s  x'"},
-        {&br_for_zsh, "a:[b]", "'a  b '"},
+        {&br_for_zsh, "it's a:[b\\]", "it'\\''s a:[b\\\\\\]"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         assert_string_equal(quoted(cases[i].target, cases[i].text), cases[i].written);

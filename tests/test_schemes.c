@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time schemes: what switches leave of their orders, and that an adaptive scheme keeps what its
- * tolerance promises. Errors are those of the same mesh, so that they are of time alone. The orders
- * themselves are those that the bundled scenes are checked for, each scheme in one of them. */
+/* Time schemes: the order that each row claims, what switches leave of it, that stiffness is damped,
+ * and that an adaptive scheme keeps what its tolerance promises. Errors are those of the same mesh,
+ * so that they are of time alone. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,6 +56,62 @@ static double size_of(enum br_field_kind kind, const struct state *a)
 {
     static const struct state zero;
     return distance(kind, a, &zero);
+}
+
+/* ---- what a row claims ---- */
+
+/* y' = rate y + sin t by the stages of a scheme, from y = 1 in `steps` steps to `end`. */
+static double scalar(const struct br_time_scheme *scheme, double rate, double end, size_t steps)
+{
+    const double k = end / (double)steps;
+    double y[BR_KNOWN] = {[BR_NOW] = 1};
+    for (size_t n = 0; n < steps; n++) {
+        struct br_stages s;
+        br_time_scheme_step(scheme, n, &s);
+        double last = 0;
+        for (int i = 0; i < s.count; i++) {
+            const struct br_stage *stage = &s.stage[i];
+            const double tau = stage->gamma * k, t = ((double)n + stage->time) * k;
+            y[BR_RATE] = tau * (rate * y[BR_NOW] + sin((double)n * k));
+            double z = 0;
+            for (int j = 0; j < BR_KNOWN; j++)
+                z += stage->weight[j] != 0 ? stage->weight[j] * y[j] : 0;
+            y[BR_STAGE + i] = last = (z + tau * sin(t)) / (1 - tau * rate);
+        }
+        y[BR_BEFORE_THAT] = y[BR_BEFORE];
+        y[BR_BEFORE] = y[BR_NOW];
+        y[BR_NOW] = last;
+    }
+    return y[BR_NOW];
+}
+
+/* The error of 2^i steps; y' = -y + sin t, y(0) = 1: y = (3 e^-t + sin t - cos t) / 2. */
+static double scalar_error(const struct br_time_scheme *scheme, int i)
+{
+    const double end = 2, y = (3 * exp(-end) + sin(end) - cos(end)) / 2;
+    return fabs(scalar(scheme, -1, end, (size_t)1 << i) - y);
+}
+
+TEST(test_orders)
+{
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
+        const double order = log2(scalar_error(*s, 6) / scalar_error(*s, 8)) / 2;
+        if (!(fabs(order - (*s)->order) <= 0.15))
+            fail_msg("%s: order %.2f was measured, its row has .order = %d", (*s)->name, order,
+                     (*s)->order);
+    }
+}
+
+/* Ten steps, each a million times the relaxation time. The trapezoidal rule leaves all of it. */
+TEST(test_stiffness_is_damped)
+{
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
+        const double left = fabs(scalar(*s, -1e6, 10, 10) - sin(10) * 1e-6);
+        if (!(left <= 1e-7))
+            fail_msg("%s: a stiff component keeps %g of its size in ten steps, expected 1e-7 at "
+                     "most: it must be damped at infinity",
+                     (*s)->name, left);
+    }
 }
 
 /* ---- across switches ---- */

@@ -211,19 +211,25 @@ static enum br_status press(struct br_stability *s, struct br_error *err)
 }
 
 /* All points of the rod start with the same velocity. */
-static enum br_status throw(struct br_stability * s, struct br_error *err) {
-    s->bounce_k = 1e-5; const struct br_field field = br_stability_field(
-                            &br_stability_rods[4], BR_STABILITY_MOST_ELEMENTS, s->bounce_k);
-    struct br_scene scene = br_stability_scene(&field, s->bounce_k *BOUNCE_STEPS);
-    scene.axial.velocity.constant = 1; scene.contact.gap = 0.01;
+static enum br_status bounce(struct br_stability *s, struct br_error *err)
+{
+    s->bounce_k = 1e-5;
+    const struct br_field field =
+        br_stability_field(&br_stability_rods[4], BR_STABILITY_MOST_ELEMENTS, s->bounce_k);
+    struct br_scene scene = br_stability_scene(&field, s->bounce_k * BOUNCE_STEPS);
+    scene.axial.velocity.constant = 1;
+    scene.contact.gap = 0.01;
     const double bouncing = br_contact_limit_bouncing(&field);
-    const double limit = br_contact_limit_stiffness(&field); enum br_status status = BR_OK;
-    for (size_t i = 0; i < BR_STABILITY_BOUNCES && !status;
-         i++){struct br_stability_tip *b = &s->bounce[i];
-              b->stiffness = bounce_shares[i] * (i < OF_BOUNCING ? bouncing : limit);
-              b->bouncing = b->stiffness / bouncing; b->limit = b->stiffness / limit;
-              status = march_tip(b, &scene, field.n, BOUNCE_STEPS, 1, err);}
-return status;
+    const double limit = br_contact_limit_stiffness(&field);
+    enum br_status status = BR_OK;
+    for (size_t i = 0; i < BR_STABILITY_BOUNCES && !status; i++) {
+        struct br_stability_tip *b = &s->bounce[i];
+        b->stiffness = bounce_shares[i] * (i < OF_BOUNCING ? bouncing : limit);
+        b->bouncing = b->stiffness / bouncing;
+        b->limit = b->stiffness / limit;
+        status = march_tip(b, &scene, field.n, BOUNCE_STEPS, 1, err);
+    }
+    return status;
 }
 
 /* ---- contact at u_n has no limit: every scheme of the registry brings a pressed rod to its rest
@@ -353,7 +359,7 @@ enum br_status br_stability_run(struct br_stability *s, const struct br_extremes
     *s = (struct br_stability){0};
     const bool failed = check_job(job, err) || prepare(s, job, err) ||
                         measure_planes(s, job, err) || try_schemes(s, err) || press(s, err) ||
-                        throw(s, err);
+                        bounce(s, err);
     for (size_t i = 0; i < BR_STABILITY_RODS * s->rows && !failed; i++)
         sum_up(s, &s->row[i]);
     return failed ? err->status : BR_OK;

@@ -6,8 +6,8 @@
 
 const char *br_flag_name(enum br_flag flag)
 {
-    static const char *const names[] = {"",       "reference", "round-off",
-                                        "failed", "unstable",  "stagnation"};
+    static const char *const names[BR_CELL_FLAGS] = {"",       "reference", "round-off",
+                                                     "failed", "unstable",  "stagnation"};
     return names[flag];
 }
 

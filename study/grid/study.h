@@ -83,6 +83,7 @@ enum br_flag {
     BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
     BR_FLAG_UNSTABLE,  /* lagged contact beyond its stability limit: bounded chatter */
     BR_FLAG_STALLED,   /* finer grids have no smaller error */
+    BR_CELL_FLAGS
 };
 const char *br_flag_name(
     enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation" */

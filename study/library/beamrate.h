@@ -153,7 +153,9 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
  * steps of k = T/steps, at a time level from t = 0 to T. */
 struct beamrate_march;
 
-/* The tip x = L at a time level; values that are not modelled are zero. */
+/* The tip x = L at a time level; values that are not modelled are zero. At step 0 the forces are
+ * those of the laws at the initial data. The friction force is NaN there, unless there is no
+ * friction: it depends on what follows. */
 struct beamrate_tip {
     size_t step;            /* number of steps done */
     double time;            /* t_n = step k, s */

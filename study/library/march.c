@@ -204,9 +204,10 @@ enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t co
 
 void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip)
 {
-    const struct br_tip *t = br_march_tip(march->march);
+    const size_t step = br_march_steps_done(march->march);
+    const struct br_tip *t = step > 0 ? br_march_tip(march->march) : br_march_start(march->march);
     *tip = (struct beamrate_tip){
-        .step = br_march_steps_done(march->march),
+        .step = step,
         .time = br_march_time(march->march),
         .contact_force = t->contact_force,
         .friction_force = t->friction_force,

@@ -23,39 +23,12 @@ size_t br_history_stride(size_t steps, size_t most_rows)
 
 /* ---- rows ---- */
 
-/* At t = 0: the laws at the initial data; the scheme has no friction force there. */
-static enum br_status first_row(struct run *r, struct br_error *err)
-{
-    const struct br_scene *scene = r->request->scene;
-    const struct br_field *axial = br_march_field(r->march, BR_AXIAL);
-    double *velocity = br_allocate(2 * (axial->n + 1), sizeof *velocity);
-    if (!velocity)
-        return br_no_memory(err, "a history");
-    r->row = (struct br_history_row){.friction_force = NAN};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        br_march_get(r->march, (enum br_field_kind)kind, NULL, velocity);
-        r->row.velocity[kind] =
-            velocity[axial->n *
-                     br_field_unknowns(br_march_field(r->march, (enum br_field_kind)kind))];
-    }
-    free(velocity);
-    r->row.displacement[BR_AXIAL] = br_march_tip_displacement(r->march, BR_AXIAL);
-    r->row.displacement[BR_BENDING] = NAN;
-    const double depth = scene->contact.modelled
-                             ? br_penetration(&scene->contact, r->row.displacement[BR_AXIAL])
-                             : 0;
-    r->row.contact_force = scene->contact.stiffness * depth;
-    r->row.friction_bound = br_friction_bound(scene, depth);
-    if (scene->friction.law == BR_FRICTIONLESS)
-        r->row.friction_force = 0;
-    return BR_OK;
-}
-
 static void fill_row(struct run *r)
 {
-    const struct br_tip *tip = br_march_tip(r->march);
+    const size_t step = br_march_steps_done(r->march);
+    const struct br_tip *tip = step > 0 ? br_march_tip(r->march) : br_march_start(r->march);
     r->row = (struct br_history_row){
-        .step = br_march_steps_done(r->march),
+        .step = step,
         .time = br_march_time(r->march),
         .displacement = {tip->displacement, NAN},
         .velocity = {tip->velocity[BR_AXIAL], tip->velocity[BR_BENDING]},
@@ -142,7 +115,8 @@ static void report_last(const struct run *r)
 static enum br_status begin(struct run *r, struct br_error *err)
 {
     const struct br_history_request *q = r->request;
-    enum br_status status = first_row(r, err);
+    enum br_status status = BR_OK;
+    fill_row(r);
     for (size_t i = 0; i < q->observers && !status; i++)
         if (q->observer[i].begin)
             status = q->observer[i].begin(q->observer[i].self, r->march, err);

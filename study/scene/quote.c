@@ -82,8 +82,9 @@ const struct br_quoting br_for_completion = {
 };
 
 const struct br_quoting br_for_zsh = {
-    .around = "'",
-    .stead = {{'\'', "'\\''"}, {'\\', " "}, {'[', " "}, {']', " "}, {':', " "}},
+    .around = "",
+    .escaped = "\\]",
+    .stead = {{'\'', "'\\''"}},
 };
 
 /* ---- characters ---- */

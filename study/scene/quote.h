@@ -42,7 +42,7 @@ extern const struct br_quoting br_for_github;   /* the message of a GitHub annot
 extern const struct br_quoting br_for_github_property;
 extern const struct br_quoting br_for_shell;      /* a word */
 extern const struct br_quoting br_for_completion; /* a string of any shell, without backslashes */
-extern const struct br_quoting br_for_zsh;        /* the same within the brackets of _arguments */
+extern const struct br_quoting br_for_zsh;        /* between [ and ] of a string of _arguments */
 
 /* Writes a text for a target. */
 void br_quote(FILE *out, const struct br_quoting *target, const char *text);
