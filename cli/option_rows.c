@@ -234,8 +234,8 @@ static const struct br_option rows[] = {
     {BR_OPT_OUT, "out", 'o', "DIR", "folder for history.csv, the fields and the summary", NULL,
      BR_TAKES_DIR, .commands = BR_FOR_RUN,
      .more =
-         "history.csv has the tip, in SI units; fields.h5 with fields.xdmf (fields.csv in a build without HDF5) "
-         "the fields; summary.txt, summary.json and report.html what the terminal shows."},
+         "history.csv has the tip, in SI units; fields.csv and fields.xdmf (for ParaView) have the "
+         "fields; summary.txt, summary.json and report.html what the terminal shows."},
     {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_RUN},
     {BR_OPT_EVERY, "every", 0, "TIME", "the same, from 0 on, so far apart (default T/10)", NULL,

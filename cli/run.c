@@ -14,6 +14,10 @@
 #include "tables/fields_file.h"
 #include "tables/reports.h"
 
+/* The files of --out that are written while it marches. */
+enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };
+static const char *const file_names[] = {"history.csv", "fields.csv", "fields.xdmf"};
+
 struct run {
     struct br_session session;
     const char *out, *json, *animate; /* paths of these options; NULL: not given */
@@ -23,34 +27,39 @@ struct run {
     struct br_run_report report;
     struct br_provenance provenance;
     struct br_whole_file summary; /* of --json */
-    FILE *history;                /* this and the next ones: of --out */
-    const struct br_fields_format *format;
-    struct br_fields_file *fields;
-    char fields_path[2048];
+    FILE *file[FILES];            /* this and the next one: of --out */
+    struct br_fields fields;
     struct br_pictures pictures;
 };
 
-/* ---- the files of --out: the tip's history and the fields, written while it marches ---- */
+/* ---- the files of --out ---- */
 
 static enum br_status open_results(struct run *r, struct br_error *err)
 {
-    const struct br_output *output = &r->session.output;
-    if (br_session_open(&r->session, err) ||
-        br_output_file(output, "history.csv", &r->history, err))
-        return err->status;
-    br_history_csv_head(r->history);
-    r->format = br_fields_formats[0];
-    snprintf(r->fields_path, sizeof r->fields_path, "%s/%s", output->staging, r->format->file_name);
+    enum br_status status = br_session_open(&r->session, err);
+    for (int i = 0; i < FILES && !status; i++)
+        status = br_output_file(&r->session.output, file_names[i], &r->file[i], err);
+    if (status)
+        return status;
+    br_history_csv_head(r->file[HISTORY]);
     const struct br_fields_request fields = {
-        .path = r->fields_path,
+        .csv = r->file[FIELDS_CSV],
+        .xdmf = r->file[FIELDS_XDMF],
         .scene = &r->plan.marched,
         .n = r->plan.request.n,
-        .steps = r->plan.request.steps,
-        .levels = r->plan.request.levels,
         .axial_degree = r->plan.request.method.axial_degree,
         .provenance = &r->provenance,
     };
-    return r->format->open(&r->fields, &fields, err);
+    return br_fields_begin(&r->fields, &fields, err);
+}
+
+/* Fails where a write to one of the files did. */
+static enum br_status check_files(const struct run *r, struct br_error *err)
+{
+    for (int i = 0; i < FILES; i++)
+        if (ferror(r->file[i]))
+            return br_fail(err, BR_IO, "%s could not be written", file_names[i]);
+    return BR_OK;
 }
 
 /* A quantity that is not modelled is an empty field, not a zero. */
@@ -66,30 +75,31 @@ static enum br_status write_row(void *self, const struct br_history_row *row, st
         known.contact_force = NAN;
     if (r->plan.marched.friction.law == BR_FRICTIONLESS)
         known.friction_force = known.friction_bound = NAN;
-    br_history_csv_row(r->history, &known);
-    return ferror(r->history) ? br_fail(err, BR_IO, "history.csv could not be written") : BR_OK;
+    br_history_csv_row(r->file[HISTORY], &known);
+    return check_files(r, err);
 }
 
 static enum br_status write_sample(void *self, const struct br_march *march,
                                    const struct br_history_row *row, struct br_error *err)
 {
     struct run *r = self;
-    return r->format->append(r->fields, march, row, err);
+    br_fields_add(&r->fields, march, row);
+    return check_files(r, err);
 }
 
 /* stopped: why the march did not reach T; NULL: it did. */
 static enum br_status close_results(struct run *r, const char *stopped, struct br_error *err)
 {
-    enum br_status status = BR_OK, closed = BR_OK;
-    if (r->history && stopped)
-        br_history_csv_stopped(r->history, stopped);
-    if (r->history)
-        status = br_output_close(r->history, "history.csv", err);
-    if (r->format)
-        closed = r->format->close(r->fields, stopped, status ? NULL : err);
-    r->history = NULL;
-    r->format = NULL;
-    return status ? status : closed;
+    enum br_status status = BR_OK;
+    if (r->file[HISTORY] && stopped)
+        br_history_csv_stopped(r->file[HISTORY], stopped);
+    br_fields_end(&r->fields, stopped);
+    for (int i = 0; i < FILES; i++) {
+        if (r->file[i] && br_output_close(r->file[i], file_names[i], status ? NULL : err))
+            status = BR_IO;
+        r->file[i] = NULL;
+    }
+    return status;
 }
 
 /* Results are put in place even if the march stopped early. */

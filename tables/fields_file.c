@@ -1,22 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/fields_file.h"
 
-#include <errno.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "study/scene/quote.h"
 
 const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES] = {
-    {"u", "m", "axial displacement"},
-    {"u_t", "m/s", "axial velocity"},
-    {"w", "m", "bending displacement"},
-    {"w_slope", "1", "slope w_x of the bending displacement"},
-    {"w_t", "m/s", "bending velocity"},
-    {"w_t_slope", "1/s", "slope of the bending velocity"},
-    {"u_middle", "m", "axial displacement in the middle of the element to the left of the node"},
-    {"u_t_middle", "m/s", "axial velocity there"},
+    {"u", BR_AXIAL, false},       {"u_t", BR_AXIAL, false},
+    {"w", BR_BENDING, false},     {"w_slope", BR_BENDING, false},
+    {"w_t", BR_BENDING, false},   {"w_t_slope", BR_BENDING, false},
+    {"u_middle", BR_AXIAL, true}, {"u_t_middle", BR_AXIAL, true},
 };
 
 size_t br_field_variable_count(int axial_degree)
@@ -100,87 +94,173 @@ void br_history_csv_stopped(FILE *out, const char *message)
     fputc('\n', out);
 }
 
-/* ---- CSV: one line for each node and time: t, x and the variables, in SI units ---- */
+/* ---- the fields as CSV: one line for each node and time, in SI units ---- */
 
-struct br_fields_file {
-    FILE *out;
-    char path[2048];
-    size_t nodes, variables;
-    double h;     /* m */
-    double *work; /* values, then workspace */
-};
+static void csv_head(const struct br_fields *f)
+{
+    fprintf(f->csv, "t,x");
+    for (size_t v = 0; v < f->variables; v++)
+        fprintf(f->csv, ",%s", br_field_variables[v].name);
+    fputc('\n', f->csv);
+}
 
-static enum br_status open_csv(struct br_fields_file **out, const struct br_fields_request *q,
+static void csv_time(const struct br_fields *f, double time)
+{
+    for (size_t i = 0; i < f->nodes; i++) {
+        fprintf(f->csv, "%.17g,%.17g", time, f->h * (double)i);
+        for (size_t v = 0; v < f->variables; v++) {
+            const double value = f->values[v * f->nodes + i];
+            fprintf(f->csv, isnan(value) ? "," : ",%.17g", value); /* RFC 4180 */
+        }
+        fputc('\n', f->csv);
+    }
+}
+
+/* ---- the fields as XDMF 3 (xdmf.org), for ParaView, VTK and meshio: the mesh, a line of cells
+ * along x; then the output times. The numbers stand in the file itself. A variable that is not
+ * modelled is left out. `displacement` is the vector (u, w, 0), to deform the line. A longer mesh
+ * is in pieces, each from a multiple of PIECE on: libxml2, by which ParaView reads, takes no text
+ * of 10 MB. ---- */
+
+enum { PIECE = 150000 }; /* elements: at most 52 bytes a node in a text */
+
+static void xdmf_information(FILE *out, const char *name, const char *text)
+{
+    fprintf(out, "<Information Name=\"%s\" Value=\"", name);
+    br_quote(out, &br_for_xml, text);
+    fputs("\"/>\n", out);
+}
+
+/* The last node of the piece that begins at a node. */
+static size_t last_node(const struct br_fields *f, size_t first)
+{
+    return f->nodes - 1 - first < PIECE ? f->nodes - 1 : first + PIECE;
+}
+
+/* The beginning of an array of `rows` lines with `columns` numbers each. */
+static void xdmf_array(FILE *out, const char *type, size_t rows, int columns)
+{
+    fprintf(out, "<DataItem Dimensions=\"%zu", rows);
+    fprintf(out, columns > 1 ? " %d" : "", columns);
+    fprintf(out, "\" NumberType=\"%s\" Precision=\"8\" Format=\"XML\">\n", type);
+}
+
+static void xdmf_mesh(const struct br_fields *f, size_t first)
+{
+    FILE *out = f->xdmf;
+    const size_t last = last_node(f, first), count = last - first;
+    fprintf(out,
+            "<Grid Name=\"mesh%zu\" GridType=\"Uniform\">\n<Topology TopologyType=\"Polyline\" "
+            "NumberOfElements=\"%zu\" NodesPerElement=\"2\">",
+            first / PIECE + 1, count);
+    xdmf_array(out, "Int", count, 2);
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%zu %zu\n", i, i + 1);
+    fputs("</DataItem></Topology>\n<Geometry GeometryType=\"XYZ\">", out);
+    xdmf_array(out, "Float", count + 1, 3);
+    for (size_t i = first; i <= last; i++)
+        fprintf(out, "%.17g 0 0\n", f->h * (double)i);
+    fputs("</DataItem></Geometry>\n</Grid>\n", out);
+}
+
+static void xdmf_head(const struct br_fields *f, const struct br_provenance *from)
+{
+    fputs("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" "
+          "xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n",
+          f->xdmf);
+    xdmf_information(f->xdmf, "version", from->version);
+    xdmf_information(f->xdmf, "command_line", from->command_line);
+    xdmf_information(f->xdmf, "units", "SI");
+    for (size_t first = 0; first < f->nodes - 1; first += PIECE)
+        xdmf_mesh(f, first);
+    fputs("<Grid Name=\"times\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", f->xdmf);
+}
+
+static void xdmf_attribute(const struct br_fields *f, size_t variable, size_t first)
+{
+    const bool in_middle = br_field_variables[variable].in_middle;
+    const size_t last = last_node(f, first);
+    fprintf(f->xdmf, "<Attribute Name=\"%s\" AttributeType=\"Scalar\" Center=\"%s\">",
+            br_field_variables[variable].name, in_middle ? "Cell" : "Node");
+    xdmf_array(f->xdmf, "Float", last + 1 - first - in_middle, 1);
+    for (size_t i = first + in_middle; i <= last; i++)
+        fprintf(f->xdmf, "%.17g\n", f->values[variable * f->nodes + i]);
+    fputs("</DataItem></Attribute>\n", f->xdmf);
+}
+
+static void xdmf_piece(const struct br_fields *f, double time, size_t first)
+{
+    const double *u = f->values, *w = f->values + 2 * f->nodes;
+    const size_t last = last_node(f, first);
+    fprintf(f->xdmf,
+            "<Grid Name=\"beam\" GridType=\"Uniform\">\n<xi:include xpointer=\"xpointer("
+            "//Grid[@Name='mesh%zu']/*[self::Topology or self::Geometry])\"/>\n"
+            "<Time Value=\"%.17g\"/>\n"
+            "<Attribute Name=\"displacement\" AttributeType=\"Vector\" Center=\"Node\">",
+            first / PIECE + 1, time);
+    xdmf_array(f->xdmf, "Float", last + 1 - first, 3);
+    for (size_t i = first; i <= last; i++)
+        fprintf(f->xdmf, "%.17g %.17g 0\n", f->modelled[BR_AXIAL] ? u[i] : 0,
+                f->modelled[BR_BENDING] ? w[i] : 0);
+    fputs("</DataItem></Attribute>\n", f->xdmf);
+    for (size_t v = 0; v < f->variables; v++)
+        if (f->modelled[br_field_variables[v].kind])
+            xdmf_attribute(f, v, first);
+    fputs("</Grid>\n", f->xdmf);
+}
+
+static void xdmf_time(const struct br_fields *f, double time)
+{
+    const bool several = f->nodes - 1 > PIECE;
+    if (several)
+        fprintf(f->xdmf,
+                "<Grid Name=\"pieces\" GridType=\"Collection\" CollectionType=\"Spatial\">\n"
+                "<Time Value=\"%.17g\"/>\n",
+                time);
+    for (size_t first = 0; first < f->nodes - 1; first += PIECE)
+        xdmf_piece(f, time, first);
+    fputs(several ? "</Grid>\n" : "", f->xdmf);
+}
+
+/* ---- both ---- */
+
+enum br_status br_fields_begin(struct br_fields *f, const struct br_fields_request *q,
                                struct br_error *err)
 {
-    struct br_fields_file *f = *out = br_allocate(1, sizeof *f);
-    if (!f)
-        return br_no_memory(err, "the fields' file");
-    snprintf(f->path, sizeof f->path, "%s", q->path);
-    f->nodes = q->n + 1;
-    f->variables = br_field_variable_count(q->axial_degree);
-    f->h = q->scene->length / (double)q->n;
-    f->work = br_allocate((BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->work);
-    if (!f->work)
-        return br_no_memory(err, "the fields' file");
-    f->out = fopen(q->path, "w");
-    if (!f->out)
-        return br_fail(err, BR_IO, "%s: %s", q->path, strerror(errno));
-    fprintf(f->out, "t,x");
-    for (size_t v = 0; v < f->variables; v++)
-        fprintf(f->out, ",%s", br_field_variables[v].name);
-    fputc('\n', f->out);
+    *f = (struct br_fields){
+        .csv = q->csv,
+        .xdmf = q->xdmf,
+        .nodes = q->n + 1,
+        .variables = br_field_variable_count(q->axial_degree),
+        .h = q->scene->length / (double)q->n,
+        .modelled = {q->scene->axial.modelled, q->scene->bending.modelled},
+        .values = br_allocate((BR_FIELD_VARIABLES + 4) * (q->n + 1), sizeof *f->values),
+    };
+    if (!f->values)
+        return br_no_memory(err, "the fields");
+    csv_head(f);
+    xdmf_head(f, q->provenance);
     return BR_OK;
 }
 
-static enum br_status append_csv(struct br_fields_file *f, const struct br_march *march,
-                                 const struct br_history_row *row, struct br_error *err)
+void br_fields_add(struct br_fields *f, const struct br_march *march,
+                   const struct br_history_row *row)
 {
-    br_field_values(march, f->work, f->work + BR_FIELD_VARIABLES * f->nodes);
-    for (size_t i = 0; i < f->nodes; i++) {
-        fprintf(f->out, "%.17g,%.17g", row->time, f->h * (double)i);
-        for (size_t v = 0; v < f->variables; v++) {
-            const double value = f->work[v * f->nodes + i];
-            fprintf(f->out, isnan(value) ? "," : ",%.17g", value); /* RFC 4180 */
-        }
-        fputc('\n', f->out);
-    }
-    return ferror(f->out) ? br_fail(err, BR_IO, "%s could not be written", f->path) : BR_OK;
+    br_field_values(march, f->values, f->values + BR_FIELD_VARIABLES * f->nodes);
+    csv_time(f, row->time);
+    xdmf_time(f, row->time);
 }
 
-static enum br_status close_csv(struct br_fields_file *f, const char *stopped, struct br_error *err)
+void br_fields_end(struct br_fields *f, const char *stopped)
 {
-    if (!f)
-        return BR_OK;
-    bool failed = false;
-    if (f->out && stopped)
-        br_history_csv_stopped(f->out, stopped);
-    if (f->out) {
-        failed = fflush(f->out) != 0 || ferror(f->out) || fsync(fileno(f->out)) != 0;
-        failed = fclose(f->out) != 0 || failed;
+    if (f->values) {
+        if (stopped)
+            br_history_csv_stopped(f->csv, stopped);
+        fputs("</Grid>\n", f->xdmf);
+        if (stopped)
+            xdmf_information(f->xdmf, "stopped", stopped);
+        fputs("</Domain>\n</Xdmf>\n", f->xdmf);
     }
-    const enum br_status status =
-        failed ? br_fail(err, BR_IO, "%s could not be written whole", f->path) : BR_OK;
-    free(f->work);
-    free(f);
-    return status;
+    free(f->values);
+    *f = (struct br_fields){0};
 }
-
-static const struct br_fields_format csv = {
-    .name = "csv",
-    .file_name = "fields.csv",
-    .title = "one line a node and time",
-    .open = open_csv,
-    .append = append_csv,
-    .close = close_csv,
-};
-
-#ifdef BR_HAVE_HDF5
-extern const struct br_fields_format br_fields_hdf5;
-#endif
-
-const struct br_fields_format *const br_fields_formats[] = {
-#ifdef BR_HAVE_HDF5
-    &br_fields_hdf5,
-#endif
-    &csv, NULL};

@@ -1,48 +1,51 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The tip's history as CSV, and the fields at the output times in a file: HDF5 where the build has
- * it, CSV otherwise. Each format is a const record. The fields of one output time are written
- * before those of the next, so only one is in memory. */
+/* The files of a march: the tip's history as CSV, and the fields at the output times twice, as CSV
+ * and as XDMF. The caller opens and closes them. The fields of one output time are written before
+ * those of the next, so only one is in memory. */
 #ifndef BR_TABLES_FIELDS_FILE_H
 #define BR_TABLES_FIELDS_FILE_H
 
 #include "study/run/run.h"
 #include "tables/document.h"
 
-/* What is written. Borrowed. */
+/* What is written, and where. Borrowed. */
 struct br_fields_request {
-    const char *path;                       /* of the file */
+    FILE *csv, *xdmf;
     const struct br_scene *scene;           /* as it is marched */
-    size_t n, steps, levels;                /* elements; steps; output times */
+    size_t n;                               /* elements */
     int axial_degree;                       /* of the axial elements */
-    const struct br_provenance *provenance; /* with its scene */
+    const struct br_provenance *provenance; /* of the march */
 };
 
-struct br_fields_file; /* each format defines its own */
-
-struct br_fields_format {
-    const char *name;      /* "hdf5", "csv" */
-    const char *file_name; /* in the folder of results */
-    const char *title;     /* one line for a person */
-    /* append: adds the fields of a march as it is now. close: stopped is NULL, or why the march
-     * stopped before all output times; frees the file in any case, and accepts NULL. Each fails
-     * with BR_IO or BR_NO_MEMORY. */
-    enum br_status (*open)(struct br_fields_file **file, const struct br_fields_request *request,
-                           struct br_error *err);
-    enum br_status (*append)(struct br_fields_file *file, const struct br_march *march,
-                             const struct br_history_row *row, struct br_error *err);
-    enum br_status (*close)(struct br_fields_file *file, const char *stopped, struct br_error *err);
+/* Begins as zeros. */
+struct br_fields {
+    FILE *csv, *xdmf;
+    size_t nodes, variables;
+    double h;         /* m */
+    bool modelled[2]; /* by enum br_field_kind */
+    double *values;   /* owned: BR_FIELD_VARIABLES nodes, then workspace */
 };
 
-/* NULL-terminated, the best first. */
-extern const struct br_fields_format *const br_fields_formats[];
+/* Writes the heads. Fails with BR_NO_MEMORY. */
+enum br_status br_fields_begin(struct br_fields *fields, const struct br_fields_request *request,
+                               struct br_error *err);
 
-/* The variables, in the order of the file; without x and t. Only quadratic elements of the rod have
+/* Adds the fields of a march as it is now; write errors stay in the files. */
+void br_fields_add(struct br_fields *fields, const struct br_march *march,
+                   const struct br_history_row *row);
+
+/* Writes the ends, unless nothing was begun. stopped: why the march stopped before all output
+ * times; NULL: it did not. Releases what is owned. */
+void br_fields_end(struct br_fields *fields, const char *stopped);
+
+/* The variables, in the order of the CSV; without t and x. Only quadratic elements of the rod have
  * the last two. */
 enum { BR_FIELD_VARIABLES = 8 };
-struct br_field_variable {
-    const char *name, *unit, *meaning;
-};
-extern const struct br_field_variable br_field_variables[BR_FIELD_VARIABLES];
+extern const struct br_field_variable {
+    const char *name;
+    enum br_field_kind kind;
+    bool in_middle; /* a value of each element, not of each node */
+} br_field_variables[BR_FIELD_VARIABLES];
 
 /* The number of variables of a march with axial elements of this degree. */
 size_t br_field_variable_count(int axial_degree);

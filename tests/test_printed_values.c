@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The fields of a run, in CSV and HDF5, are what was marched. What the reports of
- * all commands print is compared to the byte in golden/. */
+/* The fields of a run, in CSV, are what was marched. That XDMF has the same is tested by
+ * fields_xdmf.py; what the reports of all commands print is compared to the byte in golden/. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#ifdef BR_HAVE_HDF5
-#include <hdf5.h>
-#include <hdf5_hl.h>
-#endif
 
 #include "study/run/run.h"
 #include "tables/fields_file.h"
@@ -25,7 +21,7 @@ static void is(const char *where, const char *key, double found, double expected
 
 /* ---- run ---- */
 
-enum { ELEMENTS = 4, STEPS = 8, LOOKS = 3, MOST_FORMATS = 4 };
+enum { ELEMENTS = 4, STEPS = 8, LOOKS = 3 };
 static const size_t levels[LOOKS] = {1, 5, 8};
 
 /* A march of example2, what it has told, and the files that were written meanwhile. */
@@ -33,7 +29,7 @@ struct watched {
     char folder[32];
     struct br_scene scene;
     struct br_history_record record;
-    struct br_fields_file *file[MOST_FORMATS];
+    struct br_fields fields;
     struct br_run_report report;
 };
 
@@ -41,10 +37,9 @@ static enum br_status write_fields(void *self, const struct br_march *march,
                                    const struct br_history_row *row, struct br_error *err)
 {
     struct watched *w = self;
-    enum br_status status = BR_OK;
-    for (size_t f = 0; br_fields_formats[f] && !status; f++)
-        status = br_fields_formats[f]->append(w->file[f], march, row, err);
-    return status;
+    (void)err;
+    br_fields_add(&w->fields, march, row);
+    return BR_OK;
 }
 
 static void path_of(const struct watched *w, const char *name, char path[64])
@@ -101,15 +96,15 @@ static void march_and_write(struct watched *w)
                                            .energies = true,
                                            .output = output,
                                            .outputs = 2};
-    for (size_t f = 0; br_fields_formats[f]; f++) {
-        path_of(w, br_fields_formats[f]->file_name, path);
-        const struct br_fields_request fields = {path,  &w->scene, ELEMENTS,   STEPS,
-                                                 LOOKS, 1,         &provenance};
-        MUST(br_fields_formats[f]->open(&w->file[f], &fields, &err));
-    }
+    path_of(w, "fields.csv", path);
+    FILE *csv = fopen(path, "w"), *xdmf = tmpfile();
+    assert_true(csv && xdmf);
+    MUST(br_fields_begin(
+        &w->fields, &(struct br_fields_request){csv, xdmf, &w->scene, ELEMENTS, 1, &provenance},
+        &err));
     MUST(br_run(&request, &w->report, &err));
-    for (size_t f = 0; br_fields_formats[f]; f++)
-        MUST(br_fields_formats[f]->close(w->file[f], NULL, &err));
+    br_fields_end(&w->fields, NULL);
+    assert_int_equal(fclose(csv) | fclose(xdmf), 0);
 }
 
 static int set_up(void **state)
@@ -169,55 +164,6 @@ TEST(fields_are_printed)
         }
     fclose(file);
 }
-
-#ifdef BR_HAVE_HDF5
-static void read_set(hid_t file, const char *name, hssize_t size, double *values)
-{
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT), space = H5Dget_space(set);
-    assert_int_equal(H5Sget_simple_extent_npoints(space), size);
-    assert_true(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    H5Sclose(space);
-    H5Dclose(set);
-}
-
-/* Whose axes are t and x, as xarray reads them. */
-static void check_axes(hid_t file, const char *name)
-{
-    const char *const axes[] = {"t", "x"};
-    const hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
-    for (unsigned i = 0; i < 2; i++) {
-        const hid_t axis = H5Dopen2(file, axes[i], H5P_DEFAULT);
-        assert_true(H5DSis_attached(set, axis, i) > 0);
-        H5Dclose(axis);
-    }
-    H5Dclose(set);
-}
-
-TEST(fields_are_in_hdf5)
-{
-    const struct watched *w = *fixture;
-    double x[ELEMENTS + 1], t[LOOKS], values[LOOKS][ELEMENTS + 1];
-    char path[64];
-    path_of(w, "fields.h5", path);
-    const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-    assert_true(file >= 0);
-    read_set(file, "x", ELEMENTS + 1, x);
-    read_set(file, "t", LOOKS, t);
-    for (size_t node = 0; node <= ELEMENTS; node++)
-        is("fields.h5", "x", x[node], w->scene.length * (double)node / ELEMENTS);
-    for (size_t look = 0; look < LOOKS; look++)
-        is("fields.h5", "t", t[look], (double)levels[look] / STEPS);
-    for (size_t v = 0; v < br_field_variable_count(1); v++) {
-        const char *name = br_field_variables[v].name;
-        read_set(file, name, LOOKS * (ELEMENTS + 1), &values[0][0]);
-        check_axes(file, name);
-        for (size_t look = 0; look < LOOKS; look++)
-            for (size_t node = 0; node <= ELEMENTS; node++)
-                is("fields.h5", name, values[look][node], field_value(w, look, node, name));
-    }
-    H5Fclose(file);
-}
-#endif
 
 /* Of quadratic elements the fields have the middles, of others not. */
 TEST(middles_are_fields)

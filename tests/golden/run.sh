@@ -16,13 +16,12 @@ update=
 [ "${1:-}" = --update ] && update=yes && shift
 wanted=" $* "
 
-# Without what no two runs have in common, seconds on the wall, and what a build may have or not; of
-# JSON a row of a table is a line.
+# Without what no two runs have in common, and seconds on the wall; of JSON a row of a table is a line.
 mask() {
     sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
         -e 's/"(version|commit|size|run)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
         -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
-        -e 's/"fields\.(h5|csv)"/"fields.FORMAT"/' -e '/^  (avx[0-9a-z]*|portable) /d' |
+        -e '/^  (avx[0-9a-z]*|portable) /d' |
         awk -f "$here/join.awk"
 }
 
