@@ -137,12 +137,23 @@ static void put_answers(struct br_document *d, const struct br_report *r)
         const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
         if (!seen->asked)
             continue;
+        const struct br_theory *t = &seen->theory;
         br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
         if (isfinite(seen->order.value))
-            br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
-                        seen->theory, seen->remark, seen->by);
+            br_put_more(d, "%s, ", br_order_text(&seen->order, text, sizeof text));
+        if (!isfinite(seen->order.value))
+            br_put_more(d, "%s. Theory: %s", seen->remark,
+                        isnan(t->order) ? "states none"
+                                        : br_theory_text(t->order, t->highest, text, sizeof text));
+        else if (isnan(t->order))
+            br_put_more(d, "%s: %s", seen->remark, seen->by);
         else
-            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
+            br_put_more(d, "theory %s, %s: %s",
+                        br_theory_text(t->order, t->highest, text, sizeof text), seen->remark,
+                        seen->by);
+        if (*t->reason && !(isnan(t->order) && isfinite(seen->order.value)))
+            br_put_more(d, " (%s)", t->reason);
+        br_put_more(d, ".");
     }
 
     const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
@@ -383,7 +394,11 @@ static void put_facts(struct br_document *d, const struct br_report *r)
             br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
             br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
             br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
-            br_hide_fact(d, br_number(seen->theory), NULL, "orders.%s.%s.theory", name, in);
+            br_hide_fact(d, br_number(seen->theory.order), NULL, "orders.%s.%s.theory", name, in);
+            br_hide_fact(d, br_number(seen->theory.highest), NULL, "orders.%s.%s.theory_highest",
+                         name, in);
+            br_hide_fact(d, br_text(seen->theory.reason), NULL, "orders.%s.%s.theory_reason", name,
+                         in);
             br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
             br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
         }
@@ -417,7 +432,10 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "seen [95 %]");
-            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+            BR_PUT(d,
+                   br_text(br_theory_text(seen->theory.order, seen->theory.highest, text,
+                                          sizeof text)),
+                   .heading = "theory");
             BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
             BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
         }

@@ -34,12 +34,12 @@ static const double beside = 1e-9; /* of a cell: what lies nearer to its end is 
 
 static struct br_theory of_order(double order)
 {
-    return (struct br_theory){.order = order, .highest = order};
+    return (struct br_theory){.order = order, .highest = order, .formal = order};
 }
 
-static struct br_theory none(const char *reason)
+static struct br_theory none(double formal, const char *reason)
 {
-    struct br_theory t = of_order(NAN);
+    struct br_theory t = {.order = NAN, .highest = NAN, .formal = formal};
     snprintf(t.reason, sizeof t.reason, "%s", reason);
     return t;
 }
@@ -51,34 +51,23 @@ static struct br_theory none(const char *reason)
 static bool is_smooth(const struct br_function *f, enum br_variable along, size_t cells,
                       const struct br_scene *s)
 {
-    const double length = along == BR_X ? s->length : s->duration;
-    const double inset = br_function_guard(f, 0) ? beside : 0;
+    const double size = (along == BR_X ? s->length : s->duration) / (double)cells;
+    const double inset = br_function_guard(f, 0) && cells > 1 ? beside : 0;
     bool smooth = true;
     if (!f->ops || !(along == BR_X ? f->uses_x : f->uses_t))
         return true;
     for (size_t i = 0; i < cells && smooth; i++) {
-        const double size = length / (double)cells, low = ((double)i + inset) * size;
-        const struct br_interval part = {low, low + (1 - 2 * inset) * size};
-        const struct br_box box = {along == BR_X ? part : (struct br_interval){0, s->length},
-                                   along == BR_T ? part : (struct br_interval){0, s->duration}};
+        const struct br_interval part = {((double)i + inset) * size,
+                                         ((double)i + 1 - inset) * size};
+        struct br_box box = {{0, s->length}, {0, s->duration}};
         struct br_interval coefficient[DERIVATIVES + 1];
+        *(along == BR_X ? &box.x : &box.t) = part;
         smooth = br_function_taylor(f, along, box, DERIVATIVES, coefficient);
     }
     return smooth;
 }
 
-static bool load_is_smooth(const struct br_load *load, enum br_variable along, size_t cells,
-                           const struct br_scene *s)
-{
-    bool smooth = true;
-    for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
-        smooth = is_smooth(&load->term[i].space, along, cells, s) &&
-                 is_smooth(&load->term[i].time, along, cells, s);
-    return smooth;
-}
-
-/* How many of f's value and first derivatives in t vanish at t = 0, for all x; at most DERIVATIVES.
- * Of a constant: all or none. */
+/* How many of f's value and first derivatives in t vanish at t = 0 for all x. */
 static int zeros_at_start(const struct br_function *f, const struct br_scene *s)
 {
     const struct br_box start = {{0, s->length}, {0, 0}};
@@ -88,132 +77,143 @@ static int zeros_at_start(const struct br_function *f, const struct br_scene *s)
         return DERIVATIVES;
     if (!f->ops || !br_function_taylor(f, BR_T, start, DERIVATIVES, c))
         return 0;
-    while (zeros < DERIVATIVES && c[zeros].low >= -1e-300 && c[zeros].high <= 1e-300)
+    while (zeros < DERIVATIVES && c[zeros].low == 0 && c[zeros].high == 0)
         zeros++;
     return zeros;
 }
 
-static int load_zeros_at_start(const struct br_load *load, const struct br_scene *s)
+/* The data of a field that this theory depends on. */
+struct data {
+    const struct br_load *load;
+    const struct br_function *tip_force, *tip_moment, *displacement, *velocity;
+    bool given; /* derived from a solution */
+};
+
+static struct data data_of(const struct br_scene *s, enum br_field_kind kind)
 {
-    int zeros = DERIVATIVES;
-    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        const struct br_product *p = &load->term[i];
-        const int of = zeros_at_start(&p->space, s) + zeros_at_start(&p->time, s);
-        zeros = of < zeros ? of : zeros;
-    }
-    return zeros;
+    static const struct br_function zero;
+    const struct br_axial *u = &s->axial;
+    const struct br_bending *w = &s->bending;
+    return kind == BR_AXIAL ? (struct data){&u->load,         &u->tip_force, &zero,
+                                            &u->displacement, &u->velocity,  u->solution != NULL}
+                            : (struct data){&w->load,         &w->tip_force, &w->tip_moment,
+                                            &w->displacement, &w->velocity,  w->solution != NULL};
+}
+
+static bool starts_at_rest(const struct data *d)
+{
+    return d->given || (br_function_is_zero(d->displacement) && br_function_is_zero(d->velocity));
 }
 
 /* ---- in h ---- */
 
-static struct br_theory rod_in_h(const struct br_study *s)
-{
-    const struct br_axial *rod = &s->scene->axial;
-    const int p = s->method.axial_degree;
-    const size_t cells = s->n[0];
-    if (!load_is_smooth(&rod->load, BR_X, cells, s->scene) ||
-        !is_smooth(&rod->displacement, BR_X, cells, s->scene) ||
-        !is_smooth(&rod->velocity, BR_X, cells, s->scene))
-        return none("the rod's data break inside elements");
-    if (s->norm->level == br_norm_tip.level)
-        return p == 1 && s->scene->density == 0 ? none("linear elements without mass are right at "
-                                                       "the tip")
-                                                : of_order(2 * p);
-    return of_order(s->norm->energy ? p : p + 1);
-}
-
-static struct br_theory beam_in_h(const struct br_study *s)
+/* Of a field without Coulomb's bound. */
+static struct br_theory of_elements(const struct br_study *s, enum br_field_kind kind)
 {
     const struct br_scene *scene = s->scene;
-    const struct br_bending *beam = &scene->bending;
-    const size_t cells = s->n[0];
-    if (!load_is_smooth(&beam->load, BR_X, cells, scene) ||
-        !is_smooth(&beam->displacement, BR_X, cells, scene) ||
-        !is_smooth(&beam->velocity, BR_X, cells, scene))
-        return none("the beam's data break inside elements");
-    struct br_theory t = of_order(s->norm->energy ? 2 : 4);
-    if (scene->friction.law != BR_COULOMB || scene->friction.coefficient == 0)
-        return t;
+    const struct data d = data_of(scene, kind);
+    const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3,
+              derivatives = kind == BR_AXIAL ? 1 : 2;
+    bool smooth = is_smooth(d.displacement, BR_X, s->n[0], scene) &&
+                  is_smooth(d.velocity, BR_X, s->n[0], scene);
+    for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
+        smooth = is_smooth(&d.load->term[i].space, BR_X, s->n[0], scene);
+    const bool tip = s->norm->level == br_norm_tip.level;
+    const double order = tip ? 2 * (degree + 1 - derivatives)
+                             : degree + 1 - (s->norm->energy ? derivatives : 0);
+    if (s->method.scheme->adaptive)
+        return none(order, "each mesh has time steps of its own");
+    if (!smooth)
+        return none(order, "loads or initial data break inside elements");
+    if (degree > 1 && !starts_at_rest(&d))
+        return none(order, "initial data start a boundary layer");
+    if (tip && scene->density == 0 && degree < 2 * derivatives)
+        return none(order, "without mass, elements are right at the tip");
+    return of_order(order);
+}
+
+static struct br_theory of_beam(const struct br_study *s)
+{
+    struct br_theory t = of_elements(s, BR_BENDING);
     struct br_study rod = *s;
     rod.norm = &br_norm_tip;
-    const struct br_theory bound = rod_in_h(&rod);
-    if (isnan(bound.order) && s->method.axial_degree == 1 && scene->density == 0)
+    const struct br_theory bound = of_elements(&rod, BR_AXIAL);
+    const bool exact = s->scene->density == 0 && s->method.axial_degree == 1;
+    if (s->scene->friction.law != BR_COULOMB || s->scene->friction.coefficient == 0 || exact ||
+        isnan(t.order) || bound.order >= t.order)
         return t;
     if (isnan(bound.order))
-        return none("Coulomb's bound takes u(L), and the rod's data break inside elements");
-    if (bound.order < t.order) {
-        t.order = bound.order;
-        snprintf(t.reason, sizeof t.reason,
-                 "%g as h -> 0: Coulomb's bound takes u(L) of linear elements; --axial-degree 2 "
-                 "gives %g",
-                 t.order, t.highest);
-    }
+        return none(t.formal, "Coulomb's bound takes u(L) of a rod whose data are not smooth");
+    t.order = bound.order;
+    snprintf(t.reason, sizeof t.reason,
+             "Coulomb's bound takes u(L) of linear elements, right to h^2; --axial-degree 2 gives "
+             "%g",
+             t.highest);
     return t;
+}
+
+/* The lower one. */
+static struct br_theory in_h(const struct br_study *s, enum br_part part)
+{
+    const bool rod = s->scene->axial.modelled && part != BR_PART_BENDING,
+               beam = s->scene->bending.modelled && part != BR_PART_AXIAL;
+    const struct br_theory u = rod ? of_elements(s, BR_AXIAL) : of_order(INFINITY);
+    const struct br_theory w = beam ? of_beam(s) : of_order(INFINITY);
+    if (isnan(u.order) || !beam)
+        return u;
+    if (isnan(w.order) || !rod)
+        return w;
+    return u.order <= w.order ? u : w;
 }
 
 /* ---- in k ---- */
 
+/* Why a field's data give a scheme of this order no order; NULL: they do not. `zeros`: how many of
+ * the loads' value and derivatives have to vanish at t = 0, unless a solution is given. */
+static const char *what_spoils(const struct br_scene *s, enum br_field_kind kind, int zeros)
+{
+    const struct data d = data_of(s, kind);
+    bool smooth = is_smooth(d.tip_force, BR_T, 1, s) && is_smooth(d.tip_moment, BR_T, 1, s);
+    int vanish = DERIVATIVES;
+    for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
+        const struct br_product *p = &d.load->term[i];
+        const int of = zeros_at_start(&p->space, s) + zeros_at_start(&p->time, s);
+        smooth = smooth && is_smooth(&p->space, BR_T, 1, s) && is_smooth(&p->time, BR_T, 1, s);
+        vanish = of < vanish ? of : vanish;
+    }
+    if (!smooth)
+        return "forces break at some time";
+    if (!starts_at_rest(&d))
+        return "initial data start what no time step resolves";
+    return d.given || (vanish >= zeros && zeros_at_start(d.tip_force, s) >= zeros &&
+                       zeros_at_start(d.tip_moment, s) >= zeros)
+               ? NULL
+               : "forces start suddenly, which no time step resolves";
+}
+
 static struct br_theory in_k(const struct br_study *s, enum br_part part)
 {
     const struct br_scene *scene = s->scene;
-    const struct br_time_scheme *scheme = s->method.scheme;
-    const size_t steps = s->steps[0];
-    const bool contact = scene->contact.modelled,
-               friction = scene->friction.law != BR_FRICTIONLESS && part != BR_PART_AXIAL;
-    const bool rod = part != BR_PART_BENDING || scene->friction.law == BR_COULOMB,
-               beam = part != BR_PART_AXIAL;
-    if (scheme->adaptive)
-        return none("the scheme chooses its own steps");
-    if ((rod && !(load_is_smooth(&scene->axial.load, BR_T, steps, scene) &&
-                  is_smooth(&scene->axial.tip_force, BR_T, steps, scene))) ||
-        (beam && !(load_is_smooth(&scene->bending.load, BR_T, steps, scene) &&
-                   is_smooth(&scene->bending.tip_force, BR_T, steps, scene) &&
-                   is_smooth(&scene->bending.tip_moment, BR_T, steps, scene))))
-        return none("forces break inside time steps");
-    const int needed = (s->norm->energy ? 1 : 0) + scheme->order - 1;
-    if ((rod && !scene->axial.solution &&
-         !(br_function_is_zero(&scene->axial.displacement) &&
-           br_function_is_zero(&scene->axial.velocity))) ||
-        (beam && !scene->bending.solution &&
-         !(br_function_is_zero(&scene->bending.displacement) &&
-           br_function_is_zero(&scene->bending.velocity))))
-        return none("initial data start modes that no step resolves");
-    if ((rod && !scene->axial.solution &&
-         (load_zeros_at_start(&scene->axial.load, scene) < needed ||
-          zeros_at_start(&scene->axial.tip_force, scene) < needed)) ||
-        (beam && !scene->bending.solution &&
-         (load_zeros_at_start(&scene->bending.load, scene) < needed ||
-          zeros_at_start(&scene->bending.tip_force, scene) < needed ||
-          zeros_at_start(&scene->bending.tip_moment, scene) < needed)))
-        return none("forces start suddenly");
-    if (contact && rod && !s->method.contact->at_new_step) {
-        struct br_theory t = of_order(1);
-        if (scheme->order > 1)
-            br_append(t.reason, sizeof t.reason, "1: the contact force is one step late");
-        return t;
-    }
-    if (scheme->order > 1 && ((contact && rod) || friction))
-        return none("the tip may switch inside a step, which costs order");
-    return of_order(scheme->order);
+    const int order = s->method.scheme->order;
+    const bool beam = scene->bending.modelled && part != BR_PART_AXIAL,
+               rod = scene->axial.modelled &&
+                     (part != BR_PART_BENDING || scene->friction.law == BR_COULOMB),
+               contact = scene->contact.modelled && rod,
+               lags = contact && !s->method.contact->at_new_step;
+    const int zeros = (s->norm->energy ? 1 : 0) + (lags ? 1 : order) - 1;
+    const char *why = rod ? what_spoils(scene, BR_AXIAL, zeros) : NULL;
+    if (s->method.scheme->adaptive)
+        why = "the scheme chooses its own steps";
+    if (!why && beam)
+        why = what_spoils(scene, BR_BENDING, zeros);
+    if (!why && order > 1 && !lags && (contact || (beam && scene->friction.law != BR_FRICTIONLESS)))
+        why = "the tip may switch inside a time step, which lowers orders above 1";
+    return why ? none(lags ? 1 : order, why) : of_order(lags ? 1 : order);
 }
-
-/* ---- both ---- */
 
 struct br_theory br_theory_of(const struct br_study *s, enum br_part part, enum br_axis axis)
 {
-    if (axis == BR_AXIS_TIME)
-        return in_k(s, part);
-    const bool rod = s->scene->axial.modelled && part != BR_PART_BENDING,
-               beam = s->scene->bending.modelled && part != BR_PART_AXIAL;
-    const struct br_theory u = rod ? rod_in_h(s) : of_order(INFINITY);
-    const struct br_theory w = beam ? beam_in_h(s) : of_order(INFINITY);
-    if (!(rod && beam) || isnan(u.order))
-        return rod ? u : w;
-    if (isnan(w.order))
-        return w;
-    struct br_theory t = u.order <= w.order ? u : w; /* the lower one in the limit */
-    t.highest = fmax(u.order, w.highest);
-    return t;
+    return axis == BR_AXIS_SPACE ? in_h(s, part) : in_k(s, part);
 }
 
 const char *br_theory_text(double order, double highest, char *buffer, size_t size)

@@ -8,14 +8,15 @@
 
 /* As h or k -> 0. */
 struct br_theory {
-    double order;   /* of the leading term of the error; NaN: theory does not say */
-    double highest; /* >= order: errors may fall with up to this order while the leading term is
-                       small beside others */
-    char reason[256]; /* why not the order of elements and scheme, or why none; or "" */
+    double order;     /* of the leading term of the error; NaN: theory states none */
+    double highest;   /* >= order: errors fall with up to this order where the leading term is small
+                         beside another one */
+    double formal;    /* of the elements, or of the scheme, where nothing lowers it */
+    char reason[160]; /* why it is not the formal one, or why there is none; or "" */
 };
 
-/* The order of a component of a study's error in h or in k, in its norm, by its method, on its
- * meshes or time steps. Of a study the scene, norm, method, n and steps are read. */
+/* The order of a component of a study's error in h or in k, in its norm, by its method. Of a study
+ * the scene, norm, method and coarsest mesh, n[0], are read. */
 struct br_theory br_theory_of(const struct br_study *study, enum br_part part, enum br_axis axis);
 
 /* "2", "2 to 4", or "-" for none. buffer: at least 32 characters. */

@@ -57,15 +57,13 @@ static struct br_theory theory_of(const struct br_scene *scene, const struct br_
                                    .n = v->n,
                                    .k_count = 1,
                                    .steps = v->steps};
-    const struct br_theory in_h = br_theory_of(&study, part, BR_AXIS_SPACE);
-    struct br_theory in_k = br_theory_of(&study, part, BR_AXIS_TIME);
-    if (kind == BR_VERIFY_SPACE || (kind == BR_VERIFY_JOINT && isnan(in_h.order)))
-        return in_h;
-    if (kind == BR_VERIFY_JOINT && in_h.order / 2 < in_k.order) {
-        in_k.highest = fmin(in_k.highest, in_h.highest / 2);
-        in_k.order = in_h.order / 2;
-    }
-    return in_k;
+    struct br_theory in_h = br_theory_of(&study, part, BR_AXIS_SPACE);
+    const struct br_theory in_k = br_theory_of(&study, part, BR_AXIS_TIME);
+    if (kind != BR_VERIFY_JOINT)
+        return kind == BR_VERIFY_SPACE ? in_h : in_k;
+    in_h.order /= 2;
+    in_h.highest = fmin(in_h.highest / 2, in_k.highest);
+    return isnan(in_h.order) || in_h.order < in_k.order ? in_h : in_k;
 }
 
 static void expect(const struct br_scene *scene, struct br_verify_study *v,
@@ -115,6 +113,7 @@ void br_verify_expect_default(const struct br_scene *scene, struct br_verify *ve
             if (!(part == BR_PART_AXIAL && !scene->axial.modelled) &&
                 !(part == BR_PART_BENDING && !scene->bending.modelled))
                 expect(scene, v, (enum br_verify_kind)kind, part);
+        v->count = v->expectations ? CELLS : 0;
     }
 }
 

@@ -27,11 +27,11 @@ struct br_expectation {
     const struct br_norm *norm;
     enum br_part part;
     double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
-    double highest;          /* > order: or the errors fall by orders up to highest + tolerance, which
-                                do not rise with refinement: two powers of z; else 0 */
     double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
     size_t line;             /* in the scene's file; 0: a default */
-    char why[256];           /* of a default: why this order; or "" */
+    double highest;          /* > order: or the errors fall by orders up to highest + tolerance, which
+                                do not rise with refinement: two powers of z; else 0 */
+    char why[160];           /* of a default: why not the formal order; or "" */
 };
 
 enum { BR_MOST_EXPECTATIONS = BR_MOST_NORMS * BR_PARTS };
