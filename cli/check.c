@@ -87,7 +87,8 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     r->check[r->count++] = (struct br_check){.path = item->path,
                                              .name = item->scene.name,
                                              .scene = &item->scene,
-                                             .verify = &item->verify};
+                                             .verify = &item->verify,
+                                             .data = item->verify.data};
     return BR_OK;
 }
 

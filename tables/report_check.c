@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
 #include "study/fit/theory.h"
 #include "study/verify/comparison.h"
@@ -118,8 +119,8 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
     }
 }
 
-/* Puts the differences from an earlier check. */
-static void put_comparison(struct br_document *d, const struct br_comparison *c)
+/* Puts the differences from an earlier check. now: the version of this program. */
+static void put_comparison(struct br_document *d, const struct br_comparison *c, const char *now)
 {
     static const struct br_column columns[] = {
         {.key = "severity"}, {.key = "subject", .heading = "what"},
@@ -129,6 +130,11 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
     br_put_answer(d,
                   "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
+    if (c->version && strcmp(c->version, now) != 0)
+        br_put_more(d, "; that was by beamrate %s, this is by %s", c->version, now);
+    for (size_t i = 0; i < c->count && i < FIRST_FAILURES; i++)
+        if (c->difference[i].severity == BR_SERIOUS && isnan(c->difference[i].now))
+            br_put_answer(d, "%s: %s", c->difference[i].subject, c->difference[i].remark);
     BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
         BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
@@ -233,7 +239,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     }
 
     if (f->comparison)
-        put_comparison(d, f->comparison);
+        put_comparison(d, f->comparison, f->provenance->version);
 
     /* For people, the points are details of the verdicts. */
     static const struct br_column points_columns[] = {
@@ -259,6 +265,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     static const struct br_column scenes_columns[] = {
         {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
         {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
+        {.key = "data"},
     };
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, scenes_columns);
@@ -266,7 +273,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         BR_PUT_ROW(d, br_text(c->name), br_text(c->path),
                    br_truth(c->verify && c->verify->by_default), br_number(c->seconds),
                    br_number(c->element_steps), br_failure_text(&c->failure),
-                   br_text(*c->problem ? c->problem : NULL));
+                   br_text(*c->problem ? c->problem : NULL), br_text(c->data));
     for (size_t i = 0; i < f->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
             const struct br_verify_study *s = &f->checks[i].verify->study[kind];

@@ -250,5 +250,6 @@ void br_verify_clear(struct br_verify *verify)
         free(verify->study[kind].n);
         free(verify->study[kind].steps);
     }
+    free(verify->data);
     *verify = (struct br_verify){0};
 }

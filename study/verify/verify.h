@@ -48,6 +48,7 @@ struct br_verify_study {
 
 struct br_verify {
     bool by_default; /* the scene has no section `verify` */
+    char *data;      /* what the scene's file says, a line a key: "bending.stiffness: 1000 N m^2"; owned */
     struct br_verify_study study[BR_VERIFY_KINDS];
 };
 
