@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "reference/exact/exact.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"
@@ -181,17 +182,15 @@ static void put_answers(struct br_document *d, const struct br_report *r)
                           of->judge->name);
     }
 
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (is_modelled(r, kind) && is_outside(r, kind))
-            br_put_answer(d,
-                          "The cells alone (Richardson) give %s(L, T) = %s m, and the "
-                          "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
-                          "all of the solution, or one of the two is wrong.",
-                          kind == BR_AXIAL ? "u" : "w",
-                          br_uncertain_text(r->tip[kind].value,
-                                            (r->tip[kind].high - r->tip[kind].low) / 2, text,
-                                            sizeof text),
-                          s->judge->name, s->reference_tip[kind]);
+    const double k = br_time_step(s->scene, s->steps[s->k_count - 1]);
+    const struct br_judge_report *by = &s->judged_by;
+    if (by->shortest.length > 0 && by->shortest.length < k)
+        br_put_answer(d,
+                      "In the exact solution the %s%s for %.2g s from t = %.4g s on, which no step "
+                      "of %g s resolves: the cells do not see it.",
+                      by->shortest.phase >= BR_STICK ? "tip " : "",
+                      br_phase_text((enum br_phase)by->shortest.phase), by->shortest.length,
+                      by->shortest.from, k);
 
     answer_printed(d, r);
 }
@@ -476,7 +475,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
         BR_PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
         BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
                .unit = "m", .format = "%.10g");
-        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
+        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "outside" : "within")),
                .key = "reference_is", .heading = "it is");
     }
 
