@@ -40,7 +40,7 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
         struct br_error inner = {0};
         v->method.rounding =
             br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
-        if (v->count && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
+        if (v->n && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
                                        &v->method, &inner))
             return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                            br_verify_names[kind], inner.message);
@@ -87,7 +87,8 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     r->check[r->count++] = (struct br_check){.path = item->path,
                                              .name = item->scene.name,
                                              .scene = &item->scene,
-                                             .verify = &item->verify};
+                                             .verify = &item->verify,
+                                             .data = item->verify.data};
     return BR_OK;
 }
 

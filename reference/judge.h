@@ -33,6 +33,10 @@ struct br_judge_report {
     double round_off;                 /* predicted, relative to the solution */
     double seconds;                   /* of its work so far, one thread */
     bool unstable;                    /* br_march_contact_unstable, of a fine run */
+    struct {
+        double from, length; /* s; length 0: not known */
+        int phase;           /* enum br_phase */
+    } shortest;              /* of the tip's phases: what larger steps do not resolve */
 };
 
 /* What a judge is sampled for. */

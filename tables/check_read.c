@@ -113,6 +113,7 @@ static enum br_status read_scene(const char *path, const json_t *o, const json_t
         good &= read_method(json_object_get(methods, br_verify_names[kind]),
                             &old->method[old->count][kind]);
     check->name = json_string_value(json_object_get(o, "scene"));
+    check->data = json_string_value(json_object_get(o, "data"));
     if (!good || !check->name || !read_number(json_object_get(o, "seconds"), 0, &check->seconds) ||
         !read_number(json_object_get(o, "element_steps"), 0, &check->element_steps))
         return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
@@ -153,6 +154,8 @@ static enum br_status read_document(const char *path, const json_t *document,
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
     enum br_status status = BR_OK;
+    old->version = json_string_value(json_object_get(json_object_get(document, "provenance"),
+                                                     "version"));
     old->check = br_allocate(json_array_size(list) + 1, sizeof *old->check);
     old->method = br_allocate(json_array_size(list) + 1, sizeof *old->method);
     if (!old->check || !old->method)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
+#include "study/fit/theory.h"
 #include "study/verify/comparison.h"
 #include "tables/report_parts.h"
 
@@ -87,24 +89,38 @@ static void put_cells(struct br_document *d, const struct br_scene *scene,
 static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
 {
     char key[NAME], label[1200];
+    const struct br_case *c = check->cases; /* in the same order */
     snprintf(key, sizeof key, "defaults.%zu", number);
     snprintf(label, sizeof label,
              "%s has no verify part; these are the defaults, to begin one with", check->path);
     br_put_command(d, key, label, "verify:\n");
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         const struct br_verify_study *v = &check->verify->study[kind];
+        if (*v->silent)
+            br_put_more(d, "  # %s: theory states no order of the %s.\n", br_verify_names[kind],
+                        v->silent);
+        if (!v->count)
+            continue;
         br_put_more(d, "  %s:\n", br_verify_names[kind]);
         put_cells(d, check->scene, v);
-        for (size_t i = 0; i < v->expectations; i++) {
+        for (size_t i = 0; i < v->expectations; i++, c++) {
+            /* a file names one order: of two, the one that is nearer to what was seen */
             const struct br_expectation *e = &v->expectation[i];
-            br_put_more(d, "    %s%s%s: %g +- %g\n", e->norm->name, e->part ? " " : "",
-                        e->part ? br_part_names[e->part] : "", e->order, e->tolerance);
+            const bool above = c < check->cases + check->count &&
+                               2 * c->order.value > e->order + e->highest && e->highest > 0;
+            br_put_more(d, "    %s%s%s: %g +- %g", e->norm->name, e->part ? " " : "",
+                        e->part ? br_part_names[e->part] : "", above ? e->highest : e->order,
+                        e->tolerance);
+            if (*e->why)
+                br_put_more(d, "  # %s: %s",
+                            br_theory_text(e->order, e->highest, label, sizeof label), e->why);
+            br_put_more(d, "\n");
         }
     }
 }
 
-/* Puts the differences from an earlier check. */
-static void put_comparison(struct br_document *d, const struct br_comparison *c)
+/* Puts the differences from an earlier check. now: the version of this program. */
+static void put_comparison(struct br_document *d, const struct br_comparison *c, const char *now)
 {
     static const struct br_column columns[] = {
         {.key = "severity"}, {.key = "subject", .heading = "what"},
@@ -114,6 +130,11 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c)
     br_put_answer(d,
                   "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
+    if (c->version && strcmp(c->version, now) != 0)
+        br_put_more(d, "; that was by beamrate %s, this is by %s", c->version, now);
+    for (size_t i = 0; i < c->count && i < FIRST_FAILURES; i++)
+        if (c->difference[i].severity == BR_SERIOUS && isnan(c->difference[i].now))
+            br_put_answer(d, "%s: %s", c->difference[i].subject, c->difference[i].remark);
     BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
         BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
@@ -174,6 +195,8 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         {.key = "part"},
         {.key = "expected"},
         {.key = "tolerance", .flags = BR_FOR_PROGRAMS},
+        {.key = "highest", .flags = BR_FOR_PROGRAMS},
+        {.key = "why", .flags = BR_FOR_PROGRAMS},
         {.key = "order", .heading = "observed order"},
         {.key = "low", .flags = BR_FOR_PROGRAMS},
         {.key = "high", .flags = BR_FOR_PROGRAMS},
@@ -199,8 +222,10 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             const struct br_expectation *e = &c->expected;
             BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]),
                        br_text(c->measure), br_text(c->part), br_number(e->order));
-            br_put_shown(d, "%g +- %g", e->order, e->tolerance);
-            BR_PUT_CELLS(d, br_number(e->tolerance), br_number(c->order.value));
+            br_put_shown(d, "%s +- %g",
+                         br_theory_text(e->order, e->highest, order, sizeof order), e->tolerance);
+            BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
+                         br_text(*e->why ? e->why : NULL), br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
             BR_PUT_CELLS(d, br_number(c->order.low), br_number(c->order.high), br_number(c->margin),
                          br_number(c->constant), br_number(e->floor), br_number(e->ceiling));
@@ -214,7 +239,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     }
 
     if (f->comparison)
-        put_comparison(d, f->comparison);
+        put_comparison(d, f->comparison, f->provenance->version);
 
     /* For people, the points are details of the verdicts. */
     static const struct br_column points_columns[] = {
@@ -240,6 +265,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     static const struct br_column scenes_columns[] = {
         {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
         {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
+        {.key = "data"},
     };
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, scenes_columns);
@@ -247,7 +273,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         BR_PUT_ROW(d, br_text(c->name), br_text(c->path),
                    br_truth(c->verify && c->verify->by_default), br_number(c->seconds),
                    br_number(c->element_steps), br_failure_text(&c->failure),
-                   br_text(*c->problem ? c->problem : NULL));
+                   br_text(*c->problem ? c->problem : NULL), br_text(c->data));
     for (size_t i = 0; i < f->count; i++)
         for (int kind = 0; kind < BR_VERIFY_KINDS && f->checks[i].verify; kind++) {
             const struct br_verify_study *s = &f->checks[i].verify->study[kind];

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "reference/exact/exact.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"
@@ -135,12 +136,23 @@ static void put_answers(struct br_document *d, const struct br_report *r)
         const struct br_seen_order *seen = &r->seen[BR_PART_TOTAL][i];
         if (!seen->asked)
             continue;
+        const struct br_theory *t = &seen->theory;
         br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
         if (isfinite(seen->order.value))
-            br_put_more(d, "%s, theory %g, %s: %s.", br_order_text(&seen->order, text, sizeof text),
-                        seen->theory, seen->remark, seen->by);
+            br_put_more(d, "%s, ", br_order_text(&seen->order, text, sizeof text));
+        if (!isfinite(seen->order.value))
+            br_put_more(d, "%s. Theory: %s", seen->remark,
+                        isnan(t->order) ? "states none"
+                                        : br_theory_text(t->order, t->highest, text, sizeof text));
+        else if (isnan(t->order))
+            br_put_more(d, "%s: %s", seen->remark, seen->by);
         else
-            br_put_more(d, "%s. Theory: %g.", seen->remark, seen->theory);
+            br_put_more(d, "theory %s, %s: %s",
+                        br_theory_text(t->order, t->highest, text, sizeof text), seen->remark,
+                        seen->by);
+        if (*t->reason && !(isnan(t->order) && isfinite(seen->order.value)))
+            br_put_more(d, " (%s)", t->reason);
+        br_put_more(d, ".");
     }
 
     const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
@@ -168,17 +180,15 @@ static void put_answers(struct br_document *d, const struct br_report *r)
                           of->judge->name);
     }
 
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (is_modelled(r, kind) && is_outside(r, kind))
-            br_put_answer(d,
-                          "The cells alone (Richardson) give %s(L, T) = %s m, and the "
-                          "%s reference's %.10g is OUTSIDE that: the cells are too coarse to see "
-                          "all of the solution, or one of the two is wrong.",
-                          kind == BR_AXIAL ? "u" : "w",
-                          br_uncertain_text(r->tip[kind].value,
-                                            (r->tip[kind].high - r->tip[kind].low) / 2, text,
-                                            sizeof text),
-                          s->judge->name, s->reference_tip[kind]);
+    const double k = br_time_step(s->scene, s->steps[s->k_count - 1]);
+    const struct br_judge_report *by = &s->judged_by;
+    if (by->shortest.length > 0 && by->shortest.length < k)
+        br_put_answer(d,
+                      "In the exact solution the %s%s for %.2g s from t = %.4g s on, which no step "
+                      "of %g s resolves: the cells do not see it.",
+                      by->shortest.phase >= BR_STICK ? "tip " : "",
+                      br_phase_text((enum br_phase)by->shortest.phase), by->shortest.length,
+                      by->shortest.from, k);
 
     answer_printed(d, r);
 }
@@ -381,7 +391,11 @@ static void put_facts(struct br_document *d, const struct br_report *r)
             br_hide_fact(d, br_number(seen->order.value), NULL, "orders.%s.%s.order", name, in);
             br_hide_fact(d, br_number(seen->order.low), NULL, "orders.%s.%s.low", name, in);
             br_hide_fact(d, br_number(seen->order.high), NULL, "orders.%s.%s.high", name, in);
-            br_hide_fact(d, br_number(seen->theory), NULL, "orders.%s.%s.theory", name, in);
+            br_hide_fact(d, br_number(seen->theory.order), NULL, "orders.%s.%s.theory", name, in);
+            br_hide_fact(d, br_number(seen->theory.highest), NULL, "orders.%s.%s.theory_highest",
+                         name, in);
+            br_hide_fact(d, br_text(seen->theory.reason), NULL, "orders.%s.%s.theory_reason", name,
+                         in);
             br_hide_fact(d, br_text(seen->by), NULL, "orders.%s.%s.by", name, in);
             br_hide_fact(d, br_text(seen->remark), NULL, "orders.%s.%s.remark", name, in);
         }
@@ -415,7 +429,10 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "seen [95 %]");
-            BR_PUT(d, br_number(seen->theory), .heading = "theory", .format = "%g");
+            BR_PUT(d,
+                   br_text(br_theory_text(seen->theory.order, seen->theory.highest, text,
+                                          sizeof text)),
+                   .heading = "theory");
             BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
             BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
         }
@@ -456,7 +473,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
         BR_PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
         BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
                .unit = "m", .format = "%.10g");
-        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "OUTSIDE" : "within")),
+        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "outside" : "within")),
                .key = "reference_is", .heading = "it is");
     }
 

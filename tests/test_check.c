@@ -265,7 +265,11 @@ TEST(test_methods)
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const bool unsaid = br_method_fields[i].unsaid;
         strcpy(method->value[i], "another");
-        compare(&m, &old, false, unsaid ? BR_SAME : BR_NOTE, unsaid ? "" : "made time: method");
+        compare(&m, &old, false,
+                unsaid                  ? BR_SAME
+                : i == BR_METHOD_KERNEL ? BR_NOTE
+                                        : BR_SERIOUS,
+                unsaid ? "" : "made time: another method than the baseline's");
         *method = same;
     }
     *method = (struct br_old_method){0}; /* not made then */
@@ -275,7 +279,7 @@ TEST(test_methods)
     br_old_method_of(&time->method, method);
     compare(&m, &old, false, BR_SAME, "");
     strcpy(method->value[BR_METHOD_TOLERANCE], "2e-06");
-    compare(&m, &old, false, BR_NOTE, "made time: method");
+    compare(&m, &old, false, BR_SERIOUS, "made time: another method");
     br_old_check_clear(&old);
     made_clear(&m);
 }

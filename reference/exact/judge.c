@@ -123,6 +123,24 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
                               view->values, &view->rest);
 }
 
+/* Finds the shortest phase: it ends with the next event of its field. The last ones go on. */
+static void find_shortest(const struct br_exact *exact, struct br_judge_report *report)
+{
+    size_t count;
+    const struct br_exact_event *event = br_exact_events(exact, &count);
+    for (size_t i = 0; i < count; i++) {
+        size_t next = i + 1;
+        while (next < count && event[next].field != event[i].field)
+            next++;
+        const double length = next < count ? event[next].time - event[i].time : INFINITY;
+        if (isfinite(length) && (report->shortest.length == 0 || length < report->shortest.length)) {
+            report->shortest.from = event[i].time;
+            report->shortest.length = length;
+            report->shortest.phase = (int)event[i].phase;
+        }
+    }
+}
+
 /* A root mean square over the beam, times sqrt(L), is an L2 norm. */
 static struct br_judge_report exact_report(const void *self)
 {
@@ -138,6 +156,7 @@ static struct br_judge_report exact_report(const void *self)
         own[BR_STRAIN_RATE] = error.strain_rate * sqrt(length);
         own[BR_TIP] = error.displacement;
     }
+    find_shortest(e->exact, &report);
     return report;
 }
 

@@ -4,15 +4,22 @@
 
 #include "study/fit/grid_convergence.h"
 
-static const double safety = 1.25; /* factor with an observed order; Roache 1998 */
-static const double careful = 3;   /* factor without one */
+static const double safety = 3;  /* Roache's factor (1998) without an order that is certain */
+static const double near = 0.1;  /* of an order of theory: what the finest three values may be off, */
+static const double drift = 0.3; /* and the next coarser three */
 
 enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
                               struct br_error *err)
 {
+    const struct br_time_scheme *scheme = grid->method.scheme;
     *tips = (struct br_tips){
-        grid->n_count, grid->k_count, grid->n, grid->steps, grid->method.axial_degree,
-        {NULL, NULL}};
+        .n_count = grid->n_count,
+        .k_count = grid->k_count,
+        .n = grid->n,
+        .steps = grid->steps,
+        .axial_degree = grid->method.axial_degree,
+        .scheme_order = scheme && !scheme->adaptive ? scheme->order : scheme ? 0 : 1,
+    };
     const size_t cells = grid->n_count * grid->k_count;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         tips->value[kind] = br_allocate(cells, sizeof(double));
@@ -66,9 +73,10 @@ static double observed_order(const struct triple *t)
 
 /* Values on a line of the grid, from coarse to fine. */
 struct line {
-    size_t count;
+    size_t count, least; /* least: how many show an order */
     const double *x, *value;
-    double formal; /* the order of theory */
+    double formal[2]; /* orders of theory; one of them should be seen */
+    bool constant;    /* whether values that do not change have converged */
 };
 
 static struct br_estimate around(double value, double half)
@@ -91,27 +99,37 @@ static struct line known_cells(const struct line *l)
     return known;
 }
 
+/* The order of theory that an order is near; NaN: none. */
+static double formal_near(const struct line *l, double order, double share)
+{
+    for (int i = 0; i < 2; i++)
+        if (fabs(order - l->formal[i]) <= share * l->formal[i])
+            return l->formal[i];
+    return NAN;
+}
+
+/* NaN where the values show no order of theory: what they tend to is then not known. */
 static struct br_estimate extrapolate_line(const struct line *whole)
 {
     const struct line known = known_cells(whole), *l = &known;
-    if (l->count < 3)
+    if (l->count < l->least)
         return around(NAN, NAN);
     const struct triple fine = {l->x + l->count - 3, l->value + l->count - 3};
     const double last = fabs(fine.value[2] - fine.value[1]);
     const double round_off = 64 * DBL_EPSILON * fabs(fine.value[2]);
-    if (last <= careful * round_off)
-        return around(fine.value[2], careful * last + round_off);
-    const double order = observed_order(&fine);
-    if (!isfinite(order))
-        return around(fine.value[2], careful * last + round_off);
+    if (last <= safety * round_off)
+        return l->constant ? around(fine.value[2], safety * last + round_off) : around(NAN, NAN);
+    const double order = observed_order(&fine), formal = formal_near(l, order, near);
+    if (isnan(formal))
+        return around(NAN, NAN);
     const double value = limit(&fine, order);
-    double spread = fabs(value - limit(&fine, l->formal));
+    double spread = fabs(value - limit(&fine, formal));
     if (l->count > 3) {
         const struct triple coarse = {l->x + l->count - 4, l->value + l->count - 4};
         const double coarse_order = observed_order(&coarse);
-        const double other =
-            isfinite(coarse_order) ? limit(&coarse, coarse_order) : coarse.value[2];
-        spread = fmax(spread, fabs(value - other));
+        if (formal_near(l, coarse_order, drift) != formal)
+            return around(NAN, NAN);
+        spread = fmax(spread, fabs(value - limit(&coarse, coarse_order)));
     }
     return around(value, safety * spread + round_off);
 }
@@ -129,14 +147,16 @@ struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind
     for (size_t j = 0; j < k_count; j++)
         k[j] = 1 / (double)tips->steps[j];
     for (size_t i = 0; i < n_count; i++) {
-        const struct line row = {k_count, k, tips->value[kind] + i * k_count, 1};
+        const struct line row = {
+            k_count, 4, k, tips->value[kind] + i * k_count, {1, tips->scheme_order}, false};
         const struct br_estimate e = extrapolate_line(&row);
         h[i] = 1 / (double)tips->n[i];
         value[i] = e.value;
         half = (e.high - e.low) / 2;
     }
-    const double formal = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4;
-    const struct line line = {n_count, h, value, formal};
+    const double at_nodes = kind == BR_AXIAL && tips->axial_degree != 2 ? 2 : 4;
+    /* the beam's tip has that of the rod's where Coulomb's bound depends on it: 2 or 4 */
+    const struct line line = {n_count, 3, h, value, {at_nodes, 2}, true};
     struct br_estimate e = extrapolate_line(&line);
     free(h);
     e.low -= half;

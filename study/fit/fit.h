@@ -147,6 +147,7 @@ struct br_tips {
     size_t n_count, k_count;
     const size_t *n, *steps; /* ascending; borrowed */
     int axial_degree;        /* of the elements */
+    double scheme_order;     /* 0: the scheme chooses its own steps */
     double *value[2];        /* by br_field_kind: n_count * k_count by rows of equal n, m; NaN
                                 where a cell failed or is unstable; owned */
 };
@@ -158,9 +159,9 @@ enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *stu
                                 struct br_error *err);
 void br_tips_clear(struct br_tips *tips);
 
-/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 1.25 times the
- * distance from the values by the formal order and by the next coarser three cells; or, where no
- * order is observed, 3 times the last difference. NaN with less than three meshes or time steps. */
+/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 3 times the distance
+ * from the values by the order of theory and by the next coarser three cells. NaN with less than
+ * three meshes or four time steps, and where the values do not show an order of theory. */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
 #endif

@@ -32,32 +32,6 @@ struct br_study *br_report_fitted(const struct br_report *r)
     return r->exact ? r->exact : r->study;
 }
 
-/* ---- theory ---- */
-
-/* In L2; one less for each derivative in the norm; at the nodes twice that of the derivative. */
-static double order_of_elements(const struct br_study *s, enum br_field_kind kind)
-{
-    const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3;
-    const int derivatives = kind == BR_AXIAL ? 1 : 2;
-    if (s->norm->level == br_norm_tip.level)
-        return 2 * (degree + 1 - derivatives);
-    return degree + 1 - (s->norm->energy ? derivatives : 0);
-}
-
-/* The order of theory. A contact force of the time level before has an error of O(k). */
-static double theory_of(const struct br_study *s, enum br_part part, int axis)
-{
-    const bool lags = s->scene->contact.modelled && !s->method.contact->at_new_step;
-    double order = INFINITY;
-    if (axis == BR_AXIS_TIME)
-        return lags ? 1 : s->method.scheme->order;
-    if (s->scene->axial.modelled && part != BR_PART_BENDING)
-        order = order_of_elements(s, BR_AXIAL);
-    if (s->scene->bending.modelled && part != BR_PART_AXIAL)
-        order = fmin(order, order_of_elements(s, BR_BENDING));
-    return order;
-}
-
 /* ---- lines ---- */
 
 /* The errors along an axis, at index `at` of the other axis. */
@@ -104,29 +78,41 @@ static double rate(const struct line *l, size_t i, double theory)
 static void say_rates(struct br_seen_order *o, const struct line *l)
 {
     for (size_t i = 0; i + 1 < l->count; i++)
-        REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory));
+        REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory.formal));
     REMARK(o, " from size to size");
+}
+
+/* The order of theory that is nearest to an observed one. */
+static double nearest(const struct br_seen_order *o, double order)
+{
+    const struct br_theory *t = &o->theory;
+    return isnan(t->order) ? t->formal : fmin(fmax(order, t->order), t->highest);
 }
 
 /* By how much the last rate is nearer to theory than the first one, relative to theory. */
 static double comes_closer(const struct br_seen_order *o, const struct line *l)
 {
-    const double first = rate(l, 0, o->theory), last = rate(l, l->count - 2, o->theory);
-    return (fabs(first - o->theory) - fabs(last - o->theory)) / o->theory;
+    const double formal = o->theory.formal, first = rate(l, 0, formal);
+    const double last = rate(l, l->count - 2, formal);
+    return (fabs(first - nearest(o, first)) - fabs(last - nearest(o, last))) / formal;
 }
 
 /* Sets order and remark. l: its rates follow where the order is not as in theory; NULL: none. */
 static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
 {
-    const double off = fabs(order.value - o->theory) / o->theory;
-    const bool fits = order.low <= o->theory && o->theory <= order.high;
+    const double theory = nearest(o, order.value), off = fabs(order.value - theory) / theory;
+    const bool fits = order.low <= theory && theory <= order.high;
     o->order = order;
+    if (isnan(o->theory.order)) {
+        REMARK(o, "theory states none: %s", o->theory.reason);
+        return;
+    }
     if (off <= near && (fits || off <= near / 2))
         REMARK(o, "as in theory");
     else if (off <= near)
         REMARK(o, "near theory");
     else
-        REMARK(o, fits ? "not settled" : order.value < o->theory ? "below theory" : "above theory");
+        REMARK(o, fits ? "not settled" : order.value < theory ? "below theory" : "above theory");
     if (off <= near || !l)
         return;
     REMARK(o, comes_closer(o, l) > clear ? ", but comes closer:" : ":");
@@ -158,7 +144,7 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
     if (status)
         return status;
     const bool settled = order.high - order.low <= near * order.value;
-    if (falls && br_order_determined(&order) && (settled || order.value > o->theory / 2)) {
+    if (falls && br_order_determined(&order) && (settled || order.value > o->theory.formal / 2)) {
         claim(o, order, l);
         return BR_OK;
     }
@@ -192,15 +178,6 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
     claim(o, fit->order[axis], NULL);
 }
 
-/* Coulomb's bound depends on the axial displacement of the tip. */
-static void explain_bending(struct br_seen_order *o, const struct br_study *s)
-{
-    const double axial = theory_of(s, BR_PART_AXIAL, BR_AXIS_SPACE), order = o->order.value;
-    if (s->scene->friction.law == BR_COULOMB && order < (1 - near) * o->theory &&
-        fabs(order - axial) <= near / 2 * axial)
-        REMARK(o, ", as the axial part, on which friction depends");
-}
-
 static enum br_status see_in_h(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
 {
@@ -213,12 +190,10 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         const enum br_status status = judge_line(o, &l, BR_AXIS_SPACE, err);
         if (status)
             return status;
-        if (part == BR_PART_BENDING)
-            explain_bending(o, r->meshes);
     }
     const struct br_estimate *p = &fit->order[BR_AXIS_SPACE];
     const double width = o->order.high - o->order.low;
-    if (determines(fit, BR_AXIS_SPACE, o->theory) && !(width <= p->high - p->low))
+    if (determines(fit, BR_AXIS_SPACE, o->theory.formal) && !(width <= p->high - p->low))
         claim_joint(o, fit, BR_AXIS_SPACE);
     else if (!r->meshes)
         REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
@@ -229,7 +204,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
     const struct br_study *s = br_report_fitted(r);
-    const double order = theory_of(s, part, BR_AXIS_SPACE);
+    const double order = br_theory_of(s, part, BR_AXIS_SPACE).formal;
     size_t column;
     if (!r->meshes)
         return 0; /* not known */
@@ -247,7 +222,7 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     const struct br_study *s = br_report_fitted(r);
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const struct line l = line_of(s, part, BR_AXIS_TIME, s->n_count - 1); /* the finest mesh */
-    if (determines(fit, BR_AXIS_TIME, o->theory)) {
+    if (determines(fit, BR_AXIS_TIME, o->theory.formal)) {
         claim_joint(o, fit, BR_AXIS_TIME);
         return BR_OK;
     }
@@ -281,7 +256,9 @@ enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
         for (int axis = 0; axis < BR_AXES && !status; axis++) {
             struct br_seen_order *o = &r->seen[part][axis];
             *o = (struct br_seen_order){
-                .asked = asked[axis], .order = {NAN, NAN, NAN}, .theory = theory_of(s, part, axis)};
+                .asked = asked[axis],
+                .order = {NAN, NAN, NAN},
+                .theory = br_theory_of(s, part, (enum br_axis)axis)};
             if (asked[axis])
                 status = (axis == BR_AXIS_SPACE ? see_in_h : see_in_k)(r, part, o, err);
         }

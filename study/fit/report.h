@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_FIT_REPORT_H
 #define BR_STUDY_FIT_REPORT_H
 
-#include "study/fit/fit.h"
+#include "study/fit/theory.h"
 #include "study/grid/sweep.h"
 
 enum { BR_MOST_TRIANGLES = 4 };
@@ -13,9 +13,9 @@ struct br_seen_order {
     bool asked; /* false: what is compared has the same h (or k), or the scheme chooses its own
                    steps */
     struct br_estimate order; /* NaN: none is claimed, and the remark says why */
-    double theory;            /* the order where the solution is smooth */
+    struct br_theory theory;
     char by[80];              /* the errors that it comes from */
-    char remark[240];         /* how it compares to theory, or why none is claimed */
+    char remark[400];         /* how it compares to theory, or why none is claimed */
 };
 
 struct br_report {

@@ -289,21 +289,59 @@ static enum br_status set_name(const struct br_scene_reader *r)
     return BR_OK;
 }
 
-/* The value of a key outside of sections; NULL: not given. */
-static const yaml_node_t *top_value(const struct br_scene_reader *r, const char *key)
+/* The value of a key in a mapping; NULL: not given. */
+static const yaml_node_t *value_in(const struct br_scene_reader *r, const yaml_node_t *node,
+                                   const char *key)
 {
-    const yaml_node_t *root = yaml_document_get_root_node(r->document);
-    for (yaml_node_pair_t *p = root->data.mapping.pairs.start; p < root->data.mapping.pairs.top;
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
          p++)
         if (strcmp(br_yaml_text(yaml_document_get_node(r->document, p->key)), key) == 0)
             return yaml_document_get_node(r->document, p->value);
     return NULL;
 }
 
+/* The value of a key outside of sections; NULL: not given. */
+static const yaml_node_t *top_value(const struct br_scene_reader *r, const char *key)
+{
+    return value_in(r, yaml_document_get_root_node(r->document), key);
+}
+
+/* One line of br_verify's data: a number in the unit of its key, however the file writes it; other
+ * values as they are. */
+static void print_value(const struct br_scene_reader *r, const struct br_scene_key *k, FILE *out)
+{
+    const yaml_node_t *section = *k->section ? top_value(r, k->section) : NULL;
+    const yaml_node_t *node = section ? value_in(r, section, k->name) : top_value(r, k->name);
+    fprintf(out, "%s%s%s:", k->section, *k->section ? "." : "", k->name);
+    if (k->kind == BR_KEY_POSITIVE || k->kind == BR_KEY_NOT_NEGATIVE)
+        fprintf(out, " %.15g %s", *(const double *)((const char *)r->scene + k->offset), k->unit);
+    else if (node->type == YAML_SCALAR_NODE)
+        fprintf(out, " %s", br_yaml_text(node));
+    else
+        for (int factor = 0; factor < 2; factor++)
+            fprintf(out, "%s %s", factor ? " times" : "",
+                    br_yaml_text(value_in(r, node, factor ? "history" : "shape")));
+    fputc('\n', out);
+}
+
+/* What the file says of the problem; numbers that were derived are the scene's. */
+static enum br_status print_data(const struct br_scene_reader *r, char **data)
+{
+    size_t size;
+    FILE *out = open_memstream(data, &size);
+    for (const struct br_scene_key *k = br_scene_keys; out && k->name; k++)
+        if (line_of(r, k) && k->need != BR_MAKES && k->kind != BR_KEY_SECTION &&
+            k->kind != BR_KEY_TEXT && k->kind != BR_KEY_VERIFY)
+            print_value(r, k, out);
+    return out && fclose(out) == 0 ? BR_OK : br_no_memory(r->err, "the scene's data");
+}
+
 static enum br_status read_verify(const struct br_scene_reader *r, struct br_verify *verify)
 {
     const yaml_node_t *node = top_value(r, "verify");
-    return node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
+    const enum br_status status =
+        node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
+    return status ? status : print_data(r, &verify->data);
 }
 
 /* Checks that every given function is finite and that initial data respect the clamp. */

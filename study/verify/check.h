@@ -67,6 +67,7 @@ struct br_check {
     const struct br_scene *scene;   /* NULL: of another program, whose cases are given */
     const struct br_verify *verify; /* NULL likewise */
     char problem[40];               /* a hash of what is solved, for comparisons; "": none */
+    const char *data;               /* as in struct br_verify; NULL: not known */
     /* out */
     struct br_error failure; /* BR_BAD_INPUT: the scene cannot be verified (its reference or a
                                 method refuses it), with file and line; there are no cases then */

@@ -174,7 +174,7 @@ void br_old_method_of(const struct br_method *m, struct br_old_method *old)
             br_method_field_text(&br_method_fields[i], m, old->value[i]);
 }
 
-/* Another method is no fault, but may explain other differences. */
+/* Numbers of another method are no continuation. A kernel is the machine's. */
 static void compare_method(struct br_comparison *out, const struct br_check *check,
                            enum br_verify_kind kind, const struct br_old_method *old)
 {
@@ -186,8 +186,9 @@ static void compare_method(struct br_comparison *out, const struct br_check *che
         const struct br_method_field *f = &br_method_fields[i];
         const char *a = old->value[i], *b = now.value[i];
         if (!f->unsaid && strcmp(a, b) != 0)
-            add(out, subject, "method", NAN, NAN, BR_NOTE, "%s %.40s before, %.40s now", f->name,
-                *a ? a : "not heeded", *b ? b : "not heeded");
+            add(out, subject, "another method than the baseline's", NAN, NAN,
+                i == BR_METHOD_KERNEL ? BR_NOTE : BR_SERIOUS, "%s %.40s -> %.40s", f->name,
+                *a ? a : "not used", *b ? b : "not used");
     }
 }
 
@@ -197,6 +198,69 @@ static void compare_methods(struct br_comparison *out, const struct br_check *ch
     for (int kind = 0; kind < BR_VERIFY_KINDS && check->verify; kind++)
         if (old[kind].known && check->verify->study[kind].count)
             compare_method(out, check, (enum br_verify_kind)kind, &old[kind]);
+}
+
+/* ---- scenes ---- */
+
+static const char not_given[] = " not given";
+
+static const char *next_line(const char *line)
+{
+    line += strcspn(line, "\n");
+    return line + (*line != '\0');
+}
+
+static size_t lines_of(const char *data)
+{
+    size_t lines = 0;
+    for (; data && *data; data = next_line(data))
+        lines++;
+    return lines;
+}
+
+/* A key's value in the data of a scene, from the blank before it on, and its length (out). */
+static const char *value_of(const char *data, const char *key, int length, int *size)
+{
+    while (*data && !(strncmp(data, key, (size_t)length) == 0 && data[length] == ':'))
+        data = next_line(data);
+    const char *value = *data ? data + length + 1 : not_given;
+    *size = (int)strcspn(value, "\n");
+    return value;
+}
+
+/* "bending.stiffness 1000 -> 1300 N m^2": each key that has another value. */
+static void compare_data(struct br_comparison *out, const char *subject, const char *old,
+                         const char *now)
+{
+    const char *const both[] = {now, old};
+    for (int was = 0; was < 2; was++)
+        for (const char *line = both[was]; *line; line = next_line(line)) {
+            const int key = (int)strcspn(line, ":\n");
+            int a, b;
+            const char *before = value_of(old, line, key, &a), *after = value_of(now, line, key, &b);
+            const bool in_both = before != not_given && after != not_given;
+            if (in_both && (was || (a == b && memcmp(before, after, (size_t)a) == 0)))
+                continue;
+            const char *unit = a > 1 && in_both ? memchr(before + 1, ' ', (size_t)a - 1) : NULL;
+            const int tail = unit ? a - (int)(unit - before) : 0;
+            if (tail && tail < b && memcmp(unit, after + b - tail, (size_t)tail) == 0)
+                a -= tail;
+            add(out, subject, "another scene than the baseline's", NAN, NAN, BR_SERIOUS,
+                "%.*s%.*s ->%.*s", key, line, a, before, b, after);
+        }
+}
+
+static void compare_scene(struct br_comparison *out, const struct br_check *check,
+                          const struct br_check *old)
+{
+    char subject[SUBJECT];
+    snprintf(subject, sizeof subject, "%.100s", check->name);
+    if (check->data && old->data) {
+        compare_data(out, subject, old->data, check->data);
+    } else if (check->data)
+        add(out, subject, "scene", NAN, NAN, BR_NOTE,
+            "the baseline is older than the record of scenes, so a change of the scene is not seen: "
+            "make a new baseline");
 }
 
 /* ---- cost ---- */
@@ -262,12 +326,15 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
                           const struct br_old_check *old, struct br_comparison *out,
                           struct br_error *err)
 {
-    *out = (struct br_comparison){0};
+    *out = (struct br_comparison){.version = old->version};
     size_t most = 1;
     for (size_t i = 0; i < old->count; i++)
         most += old->check[i].count;
-    for (size_t i = 0; i < count; i++)
-        most += 4 * checks[i].count + 2 + BR_VERIFY_KINDS * BR_METHOD_FIELDS;
+    for (size_t i = 0; i < count; i++) {
+        const struct br_check *before = find_check(old->check, old->count, checks[i].name);
+        most += 4 * checks[i].count + 3 + BR_VERIFY_KINDS * BR_METHOD_FIELDS;
+        most += lines_of(checks[i].data) + (before ? lines_of(before->data) : 0);
+    }
     out->difference = br_allocate(most, sizeof *out->difference);
     if (!out->difference)
         return br_no_memory(err, "the comparison");
@@ -275,6 +342,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
         compare_cases(out, &checks[i], before);
         if (before) {
+            compare_scene(out, &checks[i], before);
             compare_methods(out, &checks[i], old->method[before - old->check]);
             compare_cost(out, &checks[i], before);
         }

@@ -13,7 +13,8 @@ enum br_severity {
     BR_SAME,    /* nothing that is worth a line */
     BR_NOTE,    /* moved a little, or new */
     BR_WARNING, /* moved by a quarter of the tolerance, 5 % of a constant, or 1.5 times the cost */
-    BR_SERIOUS, /* moved by the whole tolerance, twice the constant; a worse verdict; gone */
+    BR_SERIOUS, /* another scene or method; moved by the whole tolerance, twice the constant; a worse
+                   verdict; gone */
 };
 extern const char *const br_severity_names[];
 
@@ -26,12 +27,13 @@ struct br_old_method {
 /* The text of a method for a later check (out). */
 void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 
-/* The results of an earlier check: name, problem and cost of each scene; norm, order, constant,
+/* The results of an earlier check: name, data, problem and cost of each scene; norm, order, constant,
  * expectation and verdict of each case. */
 struct br_old_check {
     struct br_check *check;                          /* count; owned with their cases */
     struct br_old_method (*method)[BR_VERIFY_KINDS]; /* of each; owned */
     size_t count;
+    const char *version; /* of the program; NULL: not known */
     struct json_t *json; /* owned; its strings are borrowed above */
 };
 void br_old_check_clear(struct br_old_check *old);
@@ -40,13 +42,14 @@ struct br_difference {
     char subject[192];  /* "example1 space l2 axial: order" */
     double before, now; /* NaN: there is none */
     enum br_severity severity;
-    char remark[128]; /* or "" */
+    char remark[320]; /* or "" */
 };
 
 struct br_comparison {
     struct br_difference *difference; /* the most serious first; owned */
     size_t count;
     size_t tally[BR_SERIOUS + 1];
+    const char *version; /* of the program then; NULL: not known; borrowed */
 };
 
 /* Whether a comparison makes sense, before anything is run: the names of the scenes must differ,

@@ -2,6 +2,10 @@
 #include "study/verify/verify.h"
 
 #include <math.h>
+#include <stdio.h>
+
+#include "study/fit/theory.h"
+#include "study/scene/words.h"
 
 const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
 
@@ -42,16 +46,47 @@ static enum br_status default_grid(enum br_verify_kind kind, struct br_verify_st
     return BR_OK;
 }
 
-static void expect(struct br_verify_study *v, enum br_part part, double order)
+/* In h or in k, and jointly: where k falls like h^2, an error of h^p is one of k^(p / 2). */
+static struct br_theory theory_of(const struct br_scene *scene, const struct br_verify_study *v,
+                                  enum br_verify_kind kind, enum br_part part)
 {
-    v->expectation[v->expectations++] = (struct br_expectation){
+    const struct br_study study = {.scene = scene,
+                                   .norm = br_norms[0],
+                                   .method = v->method,
+                                   .n_count = 1,
+                                   .n = v->n,
+                                   .k_count = 1,
+                                   .steps = v->steps};
+    struct br_theory in_h = br_theory_of(&study, part, BR_AXIS_SPACE);
+    const struct br_theory in_k = br_theory_of(&study, part, BR_AXIS_TIME);
+    if (kind != BR_VERIFY_JOINT)
+        return kind == BR_VERIFY_SPACE ? in_h : in_k;
+    in_h.order /= 2;
+    in_h.highest = fmin(in_h.highest / 2, in_k.highest);
+    return isnan(in_h.order) || in_h.order < in_k.order ? in_h : in_k;
+}
+
+static void expect(const struct br_scene *scene, struct br_verify_study *v,
+                   enum br_verify_kind kind, enum br_part part)
+{
+    const struct br_theory t = theory_of(scene, v, kind, part);
+    struct br_expectation *e = &v->expectation[v->expectations];
+    if (isnan(t.order)) {
+        br_append(v->silent, sizeof v->silent, "%s%s: %s", *v->silent ? "; " : "",
+                  br_part_names[part], t.reason);
+        return;
+    }
+    *e = (struct br_expectation){
         .norm = br_norms[0],
         .part = part,
-        .order = order,
-        .tolerance = order / 10,
+        .order = t.order,
+        .highest = t.highest > t.order ? t.highest : 0,
+        .tolerance = t.order / 10,
         .floor = NAN,
         .ceiling = NAN,
     };
+    snprintf(e->why, sizeof e->why, "%s", t.reason);
+    v->expectations++;
 }
 
 enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
@@ -68,18 +103,18 @@ enum br_status br_verify_default(const struct br_scene *scene, struct br_verify 
 
 void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify)
 {
-    struct br_verify_study *space = &verify->study[BR_VERIFY_SPACE];
-    struct br_verify_study *time = &verify->study[BR_VERIFY_TIME];
-    struct br_verify_study *joint = &verify->study[BR_VERIFY_JOINT];
-    space->expectations = time->expectations = joint->expectations = 0;
-    if (scene->axial.modelled)
-        expect(space, BR_PART_AXIAL, space->method.axial_degree + 1);
-    if (scene->bending.modelled)
-        expect(space, BR_PART_BENDING, 4);
-    expect(time, BR_PART_TOTAL, time->method.scheme->order);
-    /* where k falls like h^2, an error of h^p is one of k^(p / 2) */
-    const double in_space = scene->axial.modelled ? joint->method.axial_degree + 1 : 4;
-    expect(joint, BR_PART_TOTAL, fmin(joint->method.scheme->order, in_space / 2));
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        struct br_verify_study *v = &verify->study[kind];
+        const bool apart = kind == BR_VERIFY_SPACE;
+        v->expectations = 0;
+        *v->silent = '\0';
+        for (enum br_part part = apart ? BR_PART_AXIAL : BR_PART_TOTAL;
+             part <= (apart ? BR_PART_BENDING : BR_PART_TOTAL); part++)
+            if (!(part == BR_PART_AXIAL && !scene->axial.modelled) &&
+                !(part == BR_PART_BENDING && !scene->bending.modelled))
+                expect(scene, v, (enum br_verify_kind)kind, part);
+        v->count = v->expectations ? CELLS : 0;
+    }
 }
 
 /* ---- checks ---- */
@@ -215,5 +250,6 @@ void br_verify_clear(struct br_verify *verify)
         free(verify->study[kind].n);
         free(verify->study[kind].steps);
     }
+    free(verify->data);
     *verify = (struct br_verify){0};
 }

@@ -29,6 +29,9 @@ struct br_expectation {
     double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
     double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
     size_t line;             /* in the scene's file; 0: a default */
+    double highest;          /* > order: or the errors fall by orders up to highest + tolerance, which
+                                do not rise with refinement: two powers of z; else 0 */
+    char why[160];           /* of a default: why not the formal order; or "" */
 };
 
 enum { BR_MOST_EXPECTATIONS = BR_MOST_NORMS * BR_PARTS };
@@ -40,23 +43,25 @@ struct br_verify_study {
     struct br_method method;
     struct br_expectation expectation[BR_MOST_EXPECTATIONS];
     size_t expectations;
+    char silent[512]; /* of defaults: of which components theory states no order, and why; or "" */
 };
 
 struct br_verify {
     bool by_default; /* the scene has no section `verify` */
+    char *data;      /* what the scene's file says, a line a key: "bending.stiffness: 1000 N m^2"; owned */
     struct br_verify_study study[BR_VERIFY_KINDS];
 };
 
 /* How many errors a study with so many cells gives: one less where neighbours are compared. */
 size_t br_verify_points(enum br_verify_kind kind, size_t cells);
 
-/* The default expectations of a scene: the orders of the default method, 2 for the axial
- * and 4 for the bending field in space and 1 in time, in the norm of (31). Fails with BR_NO_MEMORY.
- */
+/* The default expectations of a scene: what theory states (study/fit/theory.h) of the default method,
+ * in the norm of (31). Fails with BR_NO_MEMORY. */
 enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
                                  struct br_error *err);
 
-/* Sets the orders that are expected of the methods' schemes and elements. */
+/* Sets the orders that theory states of the methods, and `silent` where it states none. A study of
+ * which it states none is not done. */
 void br_verify_expect_default(const struct br_scene *scene, struct br_verify *verify);
 
 /* Refuses (BR_BAD_INPUT) what cannot be verified: too few cells, meshes or time levels that do not

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The orders that theory states (study/fit/theory.h) against measured ones: of random scenes and
+ * methods, in all norms, of each component. A stated order must not be contradicted, and most orders
+ * must be stated. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/fit/theory.h"
+#include "study/scene/file.h"
+#include "study/scene/method_fields.h"
+#include "study/scene/words.h"
+#include "study/verify/check.h"
+#include "support.h"
+
+enum { SCENES = 200, SAMPLE = 10, CELLS = 6 };
+
+#define PICK(r, list) list[br_test_index(r, sizeof list / sizeof *list)]
+static bool chance(struct br_test_random *r, double p)
+{
+    return br_test_uniform(r, 0, 1) < p;
+}
+
+static const char *const shapes[] = {
+    "1", "x", "sin(3*x)", "exp(-x)", "(1 - x^2)", "step(x - 0.37)", "abs(x - 0.37)", "step(x - 0.5)",
+    "sqrt(x)",
+};
+static const char *const histories[] = {
+    "sin(3*t)", "t", "(exp(t) - 1)", "1", "cos(2*t)", "sin(9*t)^2", "step(t - 0.373)",
+    "min(t, 0.373)", "step(t - 0.5)",
+};
+static const char *const moving[] = {"exp(-((x - t)/0.3)^2)", "step(0.77*t - x)", "sin(3*x - 2*t)"};
+
+/* "12*x*sin(3*t)": smooth more often than not. */
+static void draw_load(struct br_test_random *r, double size, char text[200])
+{
+    const bool rough = chance(r, 0.25);
+    if (chance(r, 0.1))
+        snprintf(text, 200, "%.6g*%s", size, PICK(r, moving));
+    else
+        snprintf(text, 200, "%.6g*%s*%s", size, shapes[br_test_index(r, rough ? 9 : 5)],
+                 histories[br_test_index(r, rough ? 9 : 6)]);
+}
+
+/* A scene as a file; L = 1 m, T = 1 s. */
+static void draw_scene(struct br_test_random *r, char *text, size_t size)
+{
+    char load[200];
+    const bool rod = chance(r, 0.85), beam = !rod || chance(r, 0.8), contact = rod && chance(r, 0.7);
+    const double density = chance(r, 0.12) ? 0 : br_test_log_uniform(r, 1e-4, 3);
+    const double relax = br_test_log_uniform(r, 3e-3, 0.3), way = br_test_log_uniform(r, 0.01, 0.1);
+    *text = '\0';
+    br_append(text, size, "title: Drawn\nlength: 1 m\nduration: 1 s\ndensity: %.6g kg/m\n", density);
+    const double a1 = br_test_log_uniform(r, 10, 1e4), a2 = br_test_log_uniform(r, 1, 1e3);
+    if (rod) {
+        draw_load(r, 2 * way * a1, load);
+        br_append(text, size, "axial:\n  stiffness: %.6g N\n  viscosity: %.6g N s\n  load: %s [N/m]\n",
+                  a1, a1 * relax, load);
+        if (chance(r, 0.15))
+            br_append(text, size, "  tip_force: %.6g*sin(4*t) [N]\n", way * a1);
+        if (chance(r, 0.15))
+            br_append(text, size, "  displacement: %.6g*%s [m]\n", way,
+                      chance(r, 0.7) ? "x*(2 - x)" : "min(x, 0.37)");
+        if (density > 0 && chance(r, 0.15))
+            br_append(text, size, "  velocity: %.6g*%s [m/s]\n", way,
+                      chance(r, 0.7) ? "sin(2*x)" : "x*step(0.37 - x)");
+    }
+    const double force = a2 * br_test_log_uniform(r, 0.1, 1);
+    if (beam) {
+        draw_load(r, chance(r, 0.5) ? force : -force, load);
+        br_append(text, size,
+                  "bending:\n  stiffness: %.6g N m^2\n  viscosity: %.6g N m^2 s\n  load: %s [N/m]\n",
+                  a2, a2 * relax, load);
+        if (chance(r, 0.15))
+            br_append(text, size, "  tip_force: %.6g*sin(4*t) [N]\n", force / 4);
+        if (chance(r, 0.15))
+            br_append(text, size, "  tip_moment: %.6g*t [N m]\n", force / 4);
+        if (density > 0 && chance(r, 0.15))
+            br_append(text, size, "  velocity: %.6g*x^2 [m/s]\n  velocity_slope: 2*%.6g*x [1/s]\n", way,
+                      way);
+    }
+    if (contact)
+        br_append(text, size, "contact:\n  gap: %.6g m\n  stiffness: %.6g N/m\n",
+                  chance(r, 0.4) ? 0 : way * br_test_uniform(r, 0.1, 0.6),
+                  a1 * br_test_log_uniform(r, 0.1, 10));
+    const double share = br_test_log_uniform(r, 0.03, 1);
+    if (beam && chance(r, 0.75)) {
+        if (contact && chance(r, 0.7))
+            br_append(text, size, "friction:\n  law: coulomb\n  coefficient: %.6g N/m\n",
+                      share * force / way);
+        else
+            br_append(text, size, "friction:\n  law: tresca\n  bound: %.6g N\n", share * force);
+        br_append(text, size, "  regularisation: 1e-3 m/s\n");
+    }
+}
+
+static struct br_method draw_method(struct br_test_random *r, const struct br_scene *scene)
+{
+    struct br_method m = br_method_default();
+    size_t schemes = 0;
+    while (br_time_schemes[schemes])
+        schemes++;
+    if (chance(r, 0.5))
+        m.scheme = br_time_schemes[br_test_index(r, schemes)];
+    m.contact = br_contact_rule_of(m.scheme);
+    if (chance(r, 0.3))
+        m.contact = br_contact_rule_find("implicit");
+    if (chance(r, 0.15))
+        m.friction = br_friction_rule_find("regularised");
+    if (scene->axial.modelled && chance(r, 0.3))
+        m.axial_degree = 2;
+    return m;
+}
+
+struct tally {
+    size_t of[BR_INCONCLUSIVE + 1], silent;
+};
+
+/* Sets what theory states of one study in all norms, of each component. */
+static void expect(const struct br_scene *scene, enum br_verify_kind kind, struct br_verify_study *v)
+{
+    for (const struct br_norm *const *norm = br_norms; *norm; norm++)
+        for (enum br_part part = BR_PART_AXIAL; part <= BR_PART_BENDING; part++) {
+            const struct br_study study = {
+                .scene = scene, .norm = *norm, .method = v->method, .n = v->n, .steps = v->steps};
+            if (!(part == BR_PART_AXIAL ? scene->axial.modelled : scene->bending.modelled))
+                continue;
+            const struct br_theory t = br_theory_of(
+                &study, part, kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME);
+            struct br_expectation *e = &v->expectation[v->expectations++];
+            *e = (struct br_expectation){.norm = *norm,
+                                         .part = part,
+                                         .order = t.order,
+                                         .highest = t.highest > t.order ? t.highest : 0,
+                                         .tolerance = t.order / 10,
+                                         .floor = NAN,
+                                         .ceiling = NAN};
+            snprintf(e->why, sizeof e->why, "%s", t.reason);
+        }
+}
+
+static void measure(struct br_test_random *r, size_t number, struct tally tally[BR_VERIFY_KINDS])
+{
+    static size_t n[BR_VERIFY_KINDS][CELLS], steps[BR_VERIFY_KINDS][CELLS];
+    struct br_error err = {0};
+    struct br_scene scene;
+    struct br_verify verify = {0};
+    char text[4000], name[64];
+    draw_scene(r, text, sizeof text);
+    MUST(br_scene_parse("drawn.yaml", text, &(struct br_scene_asked){0}, &scene, &err));
+    const struct br_method method = draw_method(r, &scene);
+    for (int kind = BR_VERIFY_SPACE; kind <= BR_VERIFY_TIME; kind++) {
+        struct br_verify_study *v = &verify.study[kind];
+        for (size_t i = 0; i < CELLS; i++) {
+            n[kind][i] = kind == BR_VERIFY_SPACE ? (size_t)10 << i : 10;
+            steps[kind][i] = kind == BR_VERIFY_SPACE ? 100 : (size_t)1000 << i;
+        }
+        v->n = n[kind];
+        v->steps = steps[kind];
+        v->count = CELLS;
+        v->method = method;
+        expect(&scene, (enum br_verify_kind)kind, v);
+    }
+    snprintf(name, sizeof name, "%zu", number);
+    struct br_check check = {.path = "drawn.yaml", .name = name, .scene = &scene, .verify = &verify};
+    MUST(br_check_run(&check, 1, 0, NULL, &err));
+    if (check.failure.status)
+        print_message("# %zu: %s\n", number, check.failure.message);
+    for (const struct br_case *c = check.cases; c < check.cases + check.count; c++) {
+        const bool stated = !isnan(c->expected.order);
+        char order[64];
+        if (stated)
+            tally[c->kind].of[c->verdict]++;
+        else
+            tally[c->kind].silent++;
+        if (getenv("BR_TEST_SHOW"))
+            print_message("# %zu %s deg %d %s %s %s: %g to %g, %s, %s [%s] %s\n", number,
+                          method.scheme->name, method.axial_degree, br_verify_names[c->kind],
+                          c->measure, c->part, c->expected.order, c->expected.highest,
+                          br_order_text(&c->order, order, sizeof order),
+                          stated ? br_verdict_names[c->verdict] : "silent", c->expected.why,
+                          c->verdict == BR_PASS ? "" : c->reason);
+    }
+    if (getenv("BR_TEST_SHOW"))
+        print_message("# %zu scene:\n%s", number, text);
+    br_check_clear(&check);
+    br_scene_clear(&scene);
+}
+
+TEST(test_random)
+{
+    struct br_test_random r = {20261123};
+    struct tally tally[BR_VERIFY_KINDS] = {0};
+    for (size_t i = 0; i < (br_test_long() ? SCENES : SAMPLE); i++)
+        measure(&r, i, tally);
+    for (int kind = BR_VERIFY_SPACE; kind <= BR_VERIFY_TIME; kind++)
+        print_message("# %s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE, %zu not stated\n",
+                      br_verify_names[kind], tally[kind].of[BR_PASS], tally[kind].of[BR_FAIL],
+                      tally[kind].of[BR_INCONCLUSIVE], tally[kind].silent);
+}
