@@ -231,7 +231,10 @@ enum br_status br_study_file_read(const char *path, const char *text,
 {
     if (br_orders_request_read(path, text, &f->request, err))
         return err->status;
-    return f->request.command ? check_trust(&f->request, text, options, err) : BR_OK;
+    return f->request.command && !br_session_alone(err)
+               ? check_trust(&f->request, text, options, err)
+           : f->request.command ? err->status
+                                : BR_OK;
 }
 
 struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)
