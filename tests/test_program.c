@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 
 static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
@@ -517,14 +518,17 @@ TEST(test_not_kept)
     refuse(&p, BR_IO, "/no/such/folder: No such file");
 }
 
-/* The kernel tells no exit codes to those who ignore SIGCHLD. */
+/* The kernel tells no exit codes to those who ignore SIGCHLD; the keeper does not. */
 TEST(test_unseen)
 {
-    write_script("unseen", "echo err=1; exit 3");
+    write_script("unseen", "echo err=1; exit $1");
     const struct br_orders_request p = program(command_of("unseen", "{n}"));
     signal(SIGCHLD, SIG_IGN);
-    refuse(&p, BR_IO, "SIGCHLD");
+    br_numbers_clear(&numbers);
+    const enum br_status status = br_program_run(&p, &numbers, &err);
     signal(SIGCHLD, SIG_DFL);
+    MUST(status);
+    assert_non_null(strstr(numbers.row[2].failure, "exit code 16"));
 }
 
 /* Studies that run beside each other with one folder of kept cells. */

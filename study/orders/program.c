@@ -2,11 +2,8 @@
 /* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <limits.h>
 #include <math.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -18,6 +15,7 @@
 #include "solver/clock.h"
 #include "study/grid/each.h"
 #include "study/kept/kept.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 #include "study/scene/quote.h"
 
@@ -36,12 +34,12 @@ struct job {
 
 /* ---- one run ---- */
 
-enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH, UNSEEN };
+enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
     char folder[PATH_MAX]; /* empty: there is none */
     int printed[2];        /* files of standard output and error */
-    pid_t child;
+    struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     enum end end;
     int status; /* as of wait4 */
@@ -68,66 +66,11 @@ static enum br_status make_folder(struct run *r, struct br_error *err)
     return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where, strerror(errno));
 }
 
-static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
+static enum br_status cannot_run(const struct br_process *p, int failure, struct br_error *err)
 {
-    (void)info;
-    (void)type;
-    (void)where;
-    remove(path);
-    return 0;
-}
-
-void br_remove_folder(const char *folder)
-{
-    static const struct timespec moment = {.tv_nsec = 10000000};
-    for (int tries = 0; tries < 20 && *folder && access(folder, F_OK) == 0; tries++) {
-        if (tries > 0)
-            nanosleep(&moment, NULL);
-        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
-    }
-}
-
-/* Gives the process a group of its own, and default signals: signals that beamrate ignores would
- * stay ignored. Returns an errno. */
-static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes,
-                  const struct run *r)
-{
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
-    const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
-    sigset_t none, defaults;
-    int e;
-    sigemptyset(&none);
-    sigemptyset(&defaults);
-    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
-        sigaddset(&defaults, usual[i]);
-    (void)((e = posix_spawnattr_setflags(attributes, flags)) ||
-           (e = posix_spawnattr_setsigmask(attributes, &none)) ||
-           (e = posix_spawnattr_setsigdefault(attributes, &defaults)) ||
-           (e = posix_spawn_file_actions_addchdir_np(actions, r->folder)) ||
-           (e = posix_spawn_file_actions_adddup2(actions, r->printed[0], 1)) ||
-           (e = posix_spawn_file_actions_adddup2(actions, r->printed[1], 2)) ||
-           (e = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0)));
-    return e;
-}
-
-/* Returns an errno. */
-static int spawn(const struct job *j, const struct br_command_words *cell, struct run *r)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    int failure = posix_spawn_file_actions_init(&actions);
-    if (failure)
-        return failure;
-    failure = posix_spawnattr_init(&attributes);
-    if (!failure) {
-        failure = set_up(&actions, &attributes, r);
-        if (!failure)
-            failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->word,
-                                  j->environment);
-        posix_spawnattr_destroy(&attributes);
-    }
-    posix_spawn_file_actions_destroy(&actions);
-    return failure;
+    const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
+    return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s", p->program,
+                   strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
 }
 
 static enum br_status begin(const struct job *j, const struct br_command_words *cell, struct run *r,
@@ -137,23 +80,16 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
     const enum br_status status = make_folder(r, err);
     if (status)
         return status;
-    const int failure = spawn(j, cell, r);
+    r->process = (struct br_process){.program = cell->program,
+                                     .word = cell->word,
+                                     .environment = j->environment,
+                                     .folder = r->folder,
+                                     .output = {r->printed[0], r->printed[1]}};
+    const int failure = br_process_start(&r->process);
     /* The kernel counts memory of this process that the child had before it became the program. */
     getrusage(RUSAGE_SELF, &own);
     r->own_peak = 1024.0 * (double)own.ru_maxrss;
-    if (!failure)
-        return BR_OK;
-    const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
-    return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s", cell->program,
-                   strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
-}
-
-/* It stays a zombie, so that no other process gets the number of its group. */
-static bool has_ended(pid_t child)
-{
-    siginfo_t info = {.si_pid = 0};
-    const int failed = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
-    return failed ? errno != EINTR : info.si_pid != 0;
+    return failure ? cannot_run(&r->process, failure, err) : BR_OK;
 }
 
 static size_t size_of(int file)
@@ -177,31 +113,32 @@ static enum end end_of(const struct br_orders_request *p, const struct run *r, d
     return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
-static void watch(const struct br_orders_request *p, struct run *r)
+static enum br_status watch(const struct br_orders_request *p, struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
     struct timespec pause = {.tv_nsec = 1000000};
-    while (!has_ended(r->child)) {
+    while (!br_process_has_ended(&r->process)) {
         const double late = br_seconds() - start - p->seconds; /* s */
         const enum end before = r->end;
         r->end = end_of(p, r, late);
-        if (r->end == TOO_LONG && !before)
-            kill(-r->child, SIGTERM); /* not twice: some programs then stop without cleaning up */
+        if (r->end == TOO_LONG && !before) /* not twice: some programs then do not clean up */
+            br_process_terminate(&r->process);
         else if (r->end && (r->end != TOO_LONG || late > GRACE))
-            kill(-r->child, SIGKILL);
+            br_process_kill(&r->process);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
     }
-    kill(-r->child, SIGKILL); /* the rest of its group */
-    pid_t ended;
-    do
-        ended = wait4(r->child, &r->status, 0, &r->usage);
-    while (ended < 0 && errno == EINTR);
-    if (ended < 0 && r->end != STOPPED)
-        r->end = UNSEEN;
+    const struct br_process_end end = br_process_wait(&r->process);
+    r->status = end.status;
+    r->usage = end.usage;
     if (!r->end && prints_too_much(r))
         r->end = TOO_MUCH;
+    if (r->end == STOPPED)
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (end.failure)
+        return cannot_run(&r->process, end.failure, err);
+    return end.known ? BR_OK : br_fail(err, BR_IO, "what watched a program was killed");
 }
 
 /* ---- its output ---- */
@@ -277,10 +214,6 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     struct br_error why = {0};
     const struct timeval *user = &r->usage.ru_utime, *system = &r->usage.ru_stime;
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
-    if (r->end == STOPPED)
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (r->end == UNSEEN)
-        return br_fail(err, BR_IO, "how a program ended was not told; SIGCHLD must not be ignored");
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
@@ -299,12 +232,12 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.child = 0};
+    struct run r = {.end = BY_ITSELF};
     enum br_status status = begin(j, cell, &r, err);
-    if (!status) {
-        watch(j->program, &r);
+    if (!status)
+        status = watch(j->program, &r, err);
+    if (!status)
         status = finish(j->program, &r, row, err);
-    }
     for (int i = 0; i < 2; i++)
         if (r.printed[i] >= 0)
             close(r.printed[i]);
