@@ -204,17 +204,17 @@ static void remember(const char *sum)
 static enum br_status check_trust(const struct br_orders_request *request, const char *text,
                                   const struct br_options *options, struct br_error *err)
 {
-    struct br_sha256 s;
+    struct br_error inner = {0};
     char sum[BR_SHA256_TEXT], command[400], path[400];
-    br_sha256_start(&s);
-    br_sha256_add(&s, text, strlen(text));
-    br_sha256_end(&s, sum);
+    if (br_command_identify(request, text, sum, &inner))
+        return br_fail(err, inner.status, "%s: run: %.900s", request->path, inner.message);
     br_quoted(command, sizeof command, &br_for_text, request->command);
     const bool trusted = is_trusted(sum);
     if (!trusted && !br_option_given(options, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT,
                        "%s: it runs the command '%s', and is not trusted yet: read it, then give "
-                       "--trust once",
+                       "--trust once (anew where it, its place, the program or a file that the "
+                       "command names has changed)",
                        request->path, command);
     if (!trusted)
         remember(sum);

@@ -56,7 +56,7 @@ _Noreturn static void become(const struct br_process *p, pid_t keeper)
         signal(usual[i], SIG_DFL);
     const int input = open("/dev/null", O_RDONLY);
     if (setpgid(0, 0) == 0 && prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && getppid() == keeper &&
-        chdir(p->folder) == 0 && dup2(input, 0) == 0 && dup2(p->output[0], 1) == 1 &&
+        chdir(p->end->folder) == 0 && dup2(input, 0) == 0 && dup2(p->output[0], 1) == 1 &&
         dup2(p->output[1], 2) == 2 && sigprocmask(SIG_SETMASK, &none, NULL) == 0) {
         if (input > 2)
             close(input);
@@ -112,6 +112,16 @@ static void kill_all(const struct br_process *p, pid_t program)
     }
 }
 
+static bool make_folder(const char *where, char folder[PATH_MAX])
+{
+    const int length = snprintf(folder, PATH_MAX, "%s/beamrate-XXXXXX", where);
+    errno = ENAMETOOLONG;
+    if (length < PATH_MAX && mkdtemp(folder))
+        return true;
+    folder[0] = '\0'; /* so that it is not removed */
+    return false;
+}
+
 /* All signals are blocked. */
 _Noreturn static void keep(const struct br_process *p, pid_t parent, const sigset_t *all)
 {
@@ -119,11 +129,13 @@ _Noreturn static void keep(const struct br_process *p, pid_t parent, const sigse
     signal(SIGCHLD, SIG_DFL);
     setpgid(0, 0);
     prctl(PR_SET_NAME, "keeper"); /* "killall beamrate" does not mean it */
-    bool failed = prctl(PR_SET_CHILD_SUBREAPER, 1) != 0 || prctl(PR_SET_PDEATHSIG, KILL_ALL) != 0;
-    const pid_t program = failed || getppid() != parent ? -1 : fork();
+    const bool watches =
+        prctl(PR_SET_CHILD_SUBREAPER, 1) == 0 && prctl(PR_SET_PDEATHSIG, KILL_ALL) == 0;
+    const pid_t program =
+        watches && getppid() == parent && make_folder(p->where, p->end->folder) ? fork() : -1;
     if (program == 0)
         become(p, keeper);
-    failed = failed || program < 0;
+    const bool failed = program < 0;
     if (failed)
         p->end->failure = errno;
     else
@@ -138,9 +150,8 @@ _Noreturn static void keep(const struct br_process *p, pid_t parent, const sigse
     }
     if (!failed)
         kill_all(p, program);
+    br_remove_folder(p->end->folder);
     p->end->known = true;
-    if (getppid() != parent)
-        br_remove_folder(p->folder);
     _exit(0);
 }
 

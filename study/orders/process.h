@@ -3,14 +3,16 @@
 #ifndef BR_STUDY_ORDERS_PROCESS_H
 #define BR_STUDY_ORDERS_PROCESS_H
 
+#include <limits.h>
 #include <stdbool.h>
 #include <sys/resource.h>
 #include <sys/types.h>
 
 /* How a program ended. */
 struct br_process_end {
-    bool known;  /* else its keeper was killed */
-    int failure; /* errno: it could not be started; 0: it was */
+    char folder[PATH_MAX]; /* it ran there; empty: the folder could not be made */
+    bool known;            /* else its keeper was killed */
+    int failure;           /* errno: it could not be started; 0: it was */
     int status;  /* as of wait4 */
     struct rusage usage;
 };
@@ -19,16 +21,16 @@ struct br_process_end {
 struct br_process {
     const char *program; /* absolute path */
     char **word, **environment;
-    const char *folder; /* it runs there */
-    int output[2];      /* open files for its standard output and error */
+    const char *where; /* it runs in a new folder in this one */
+    int output[2];     /* open files for its standard output and error */
 
     pid_t keeper;
     struct br_process_end *end; /* shared with the keeper */
 };
 
 /* Starts the program in a group of its own, without input, with default signals. When it ends, all
- * that it has started is killed. When the thread that called this ends, or this process, by any
- * signal, the same is done, and the folder is removed. Returns an errno; 0: wait for it. */
+ * that it has started is killed, and its folder removed. The same is done when the thread that
+ * called this ends, or this process, by any signal. Returns an errno; 0: wait for it. */
 int br_process_start(struct br_process *process);
 
 /* Whether it and all that it has started have ended. */

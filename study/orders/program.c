@@ -2,7 +2,6 @@
 /* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -37,8 +36,7 @@ struct job {
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
-    char folder[PATH_MAX]; /* empty: there is none */
-    int printed[2];        /* files of standard output and error */
+    int printed[2]; /* files of standard output and error */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     enum end end;
@@ -53,17 +51,11 @@ static bool open_printed(struct run *r, int i)
     return r->printed[i] >= 0 && fcntl(r->printed[i], F_SETFL, O_APPEND) == 0;
 }
 
-static enum br_status make_folder(struct run *r, struct br_error *err)
+/* Where programs get their folders. */
+static const char *temporary(void)
 {
-    const char *set = getenv("TMPDIR"), *where = set && *set ? set : "/tmp";
-    r->printed[0] = r->printed[1] = -1;
-    const int length = snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where);
-    errno = ENAMETOOLONG;
-    if ((size_t)length >= sizeof r->folder || !mkdtemp(r->folder))
-        r->folder[0] = '\0'; /* so that it is not removed */
-    if (*r->folder && open_printed(r, 0) && open_printed(r, 1))
-        return BR_OK;
-    return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where, strerror(errno));
+    const char *set = getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
 }
 
 static enum br_status cannot_run(const struct br_process *p, int failure, struct br_error *err)
@@ -77,13 +69,12 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                             struct br_error *err)
 {
     struct rusage own;
-    const enum br_status status = make_folder(r, err);
-    if (status)
-        return status;
+    if (!open_printed(r, 0) || !open_printed(r, 1))
+        return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
     r->process = (struct br_process){.program = cell->program,
                                      .word = cell->word,
                                      .environment = j->environment,
-                                     .folder = r->folder,
+                                     .where = temporary(),
                                      .output = {r->printed[0], r->printed[1]}};
     const int failure = br_process_start(&r->process);
     /* The kernel counts memory of this process that the child had before it became the program. */
@@ -136,6 +127,9 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
         r->end = TOO_MUCH;
     if (r->end == STOPPED)
         return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (end.failure && !*end.folder)
+        return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", temporary(),
+                       strerror(end.failure));
     if (end.failure)
         return cannot_run(&r->process, end.failure, err);
     return end.known ? BR_OK : br_fail(err, BR_IO, "what watched a program was killed");
@@ -232,7 +226,7 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.end = BY_ITSELF};
+    struct run r = {.printed = {-1, -1}};
     enum br_status status = begin(j, cell, &r, err);
     if (!status)
         status = watch(j->program, &r, err);
@@ -241,68 +235,23 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
     for (int i = 0; i < 2; i++)
         if (r.printed[i] >= 0)
             close(r.printed[i]);
-    br_remove_folder(r.folder);
     return status;
 }
 
 /* ---- finished cells ---- */
 
-enum { LARGEST_WORD_FILE = 1 << 26 }; /* a larger file that a word names is not read */
-
-/* Adds a text after its kind. */
-static void add_text(struct br_sha256 *sum, const char *kind, const char *text)
-{
-    br_kept_add(sum, kind);
-    br_kept_add(sum, text);
-}
-
-/* Adds the contents of a regular file, or, where it is larger, its size and time. Of any other
- * file, only the name counts. */
-static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
-                               struct br_error *err)
-{
-    struct stat info;
-    char text[BR_SHA256_TEXT];
-    long long size;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        return BR_OK;
-    snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
-             (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
-    if (info.st_size <= largest) {
-        const int file = open(path, O_RDONLY | O_CLOEXEC);
-        const bool read = file >= 0 && br_sha256_file(file, &size, text);
-        const int reason = errno;
-        if (file >= 0)
-            close(file);
-        if (!read)
-            return br_fail(err, BR_IO,
-                           "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
-                           strerror(reason));
-    }
-    add_text(sum, "file", text);
-    return BR_OK;
-}
-
-/* The key of a cell is a hash of what its numbers depend on: the words, the contents of the program
- * and of the files that words name, also behind a "=" (of large files their size and time), and the
- * readings. Other files that the program reads are not known. */
+/* The key of a cell is a hash of what its numbers depend on: the command, with the files that it
+ * names, and the readings. Other files that the program reads are not known. */
 static enum br_status key_of(const struct job *j, const struct br_command_words *cell,
                              char key[BR_SHA256_TEXT], struct br_error *err)
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_sha256 sum = j->kept->base;
-    add_text(&sum, "program", cell->program);
-    enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
-    for (char **word = cell->word; *word && !status; word++) {
-        const char *behind = strchr(*word, '=');
-        add_text(&sum, "word", *word);
-        status = add_file(&sum, *word, LARGEST_WORD_FILE, err);
-        if (behind && !status)
-            status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
-    }
+    const enum br_status status = br_command_add(&sum, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
-        add_text(&sum, reading->name, kinds[reading->kind]);
+        br_kept_add(&sum, reading->name);
+        br_kept_add(&sum, kinds[reading->kind]);
         br_kept_add(&sum, reading->what);
     }
     br_sha256_end(&sum, key);
