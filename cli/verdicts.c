@@ -176,7 +176,8 @@ static bool find_trust_file(char path[4096], bool make)
     else
         return false;
     snprintf(path, 4096, "%s/trusted", folder);
-    return !make || br_make_folders(folder, 0700, &make);
+    size_t made;
+    return !make || br_make_folders(folder, 0700, &made);
 }
 
 static bool is_trusted(const char *sum)
