@@ -21,8 +21,8 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
     struct stat info;
     char text[2 * BR_SHA256_TEXT];
     long long size;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        return BR_OK;
+    if (*path != '/' || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return BR_OK; /* what is relative is no file where the program runs */
     snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
              (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
     if (place) /* a person can set the other time */
