@@ -89,7 +89,7 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
                                              : path,
                                   &q->path, err) ||
                         copy_text(br_option_text(o, BR_OPT_RUN), &q->command, err) ||
-                        (path && br_text_load(standard ? "/dev/stdin" : path, BR_LONGEST_TABLE,
+                        (path && br_text_load(standard ? BR_STANDARD_INPUT : path, BR_LONGEST_TABLE,
                                               "table", &q->table, err)) ||
                         read_options(o, q, err);
     return failed ? err->status : BR_OK;

@@ -213,8 +213,8 @@ enum br_status br_output_sweep(int folder, struct br_error *err)
     struct dirent **entry;
     const int found = scandirat(folder, ".", &entry, is_hidden, NULL);
     if (found < 0)
-        return br_fail(err, errno == ENOMEM ? BR_NO_MEMORY : BR_BAD_INPUT,
-                       "cannot read the folder: %s", strerror(errno));
+        return br_fail(err, br_status_of_errno(errno), "cannot read the folder: %s",
+                       strerror(errno));
     enum br_status status = BR_OK;
     for (int i = 0; i < found; i++) {
         if (!status)
@@ -227,18 +227,37 @@ enum br_status br_output_sweep(int folder, struct br_error *err)
 
 /* ---- opening ---- */
 
-bool br_make_folders(const char *path, mode_t last, bool *made)
+/* Removes the folders of the path that br_make_folders made, if they are empty. */
+static void remove_folders(const char *path, size_t made)
 {
     char part[4096];
+    const int reason = errno;
     snprintf(part, sizeof part, "%s", path);
-    for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
+    for (size_t end = strlen(part); made && end >= made; end--)
+        if (part[end] == '\0' || part[end] == '/') {
+            part[end] = '\0';
+            rmdir(part);
+        }
+    errno = reason;
+}
+
+bool br_make_folders(const char *path, mode_t last, size_t *made)
+{
+    char part[4096], *slash = part;
+    snprintf(part, sizeof part, "%s", path);
+    *made = 0;
+    for (bool more = true; more; *slash = more ? '/' : '\0') {
+        slash = strchrnul(slash + 1, '/');
+        more = *slash;
         *slash = '\0';
-        if (mkdir(part, 0777) < 0 && errno != EEXIST)
+        const bool failed = mkdir(part, more ? 0777 : last) != 0;
+        if (failed && errno != EEXIST) {
+            remove_folders(part, *made);
             return false;
-        *slash = '/';
+        }
+        *made = failed || *made ? *made : strlen(part);
     }
-    *made = mkdir(part, last) == 0;
-    return *made || errno == EEXIST;
+    return true;
 }
 
 /* Before we lock the new folder, another program may remove it as left behind: then try again. */
@@ -251,15 +270,23 @@ static enum br_status make_staging(struct br_output *o, struct br_error *err)
             return err->status;
         const bool made = mkdirat(o->parent, o->hidden, 0700) == 0;
         if (!made && errno != EEXIST)
-            return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+            return br_fail(err, br_status_of_errno(errno), "cannot write in the folder: %s",
+                           strerror(errno));
         o->descriptor = take(o->parent, o->hidden, &info);
         if (made && o->descriptor >= 0 && write_owner(o->descriptor))
             return BR_OK;
         const bool retry = o->descriptor >= 0 || errno == ENOENT;
+        const int reason = errno;
+        if (made && o->descriptor >= 0) { /* a full disk */
+            unlinkat(o->descriptor, owner_name, 0);
+            unlinkat(o->parent, o->hidden, AT_REMOVEDIR);
+        }
         br_close(o->descriptor);
         o->descriptor = -1;
-        if (made && errno && errno != ENOENT && errno != EWOULDBLOCK)
-            return br_fail(err, BR_BAD_INPUT, "cannot write in the folder: %s", strerror(errno));
+        if (made && reason && reason != ENOENT && reason != EWOULDBLOCK)
+            return br_fail(err, br_status_of_errno(reason), "cannot write in the folder: %s",
+                           strerror(reason));
+        errno = reason;
         if (!made && !retry)
             return refuse(o->parent, o->hidden, err);
     }
@@ -279,7 +306,7 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     name_manifest(o->hidden, o->manifest);
     if (!br_make_folders(folder, 0777, &o->made) ||
         (o->parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0)
-        return br_fail(err, BR_BAD_INPUT, "--out: cannot make the folder %s: %s", folder,
+        return br_fail(err, br_status_of_errno(errno), "--out: cannot make the folder %s: %s", folder,
                        strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/%s", folder, o->hidden);
     json_t *old = NULL;
@@ -399,6 +426,5 @@ void br_output_discard(struct br_output *o)
     if (o->descriptor >= 0)
         unlinkat(o->descriptor, decided, 0); /* if this fails, its files must stay */
     close_output(o, o->descriptor >= 0 && !is_there(o->descriptor, decided));
-    if (o->made)
-        rmdir(o->folder); /* fails, as it should, where there are results */
+    remove_folders(o->folder, o->made);
 }

@@ -43,7 +43,7 @@ struct br_output {
     char hidden[280];       /* the name of the hidden folder, */
     char manifest[280];     /* and of the manifest */
     int parent, descriptor; /* the open folder and hidden folder; the latter has the lock */
-    bool made;              /* the folder was not there before */
+    size_t made;            /* as of br_make_folders */
 };
 
 /* Makes the folder (and its parents) and the hidden one; finishes or removes what other programs
@@ -126,9 +126,9 @@ bool br_same_stem(const char *a, const char *b);
 /* Closes a descriptor, unless it is -1; errno is kept. */
 void br_close(int descriptor);
 
-/* Makes every missing folder of the path; *made: whether the last one was missing. False: errno
- * says why. */
-bool br_make_folders(const char *path, mode_t last, bool *made);
+/* Makes every missing folder of the path. *made (out): the length of the path of the first one that
+ * was missing; 0: none was. False: errno says why, and none is left. */
+bool br_make_folders(const char *path, mode_t last, size_t *made);
 
 /* ---- the list of the sets in a folder (manifest.json), for output.c ---- */
 

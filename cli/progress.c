@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <sys/ioctl.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "solver/clock.h"
@@ -13,16 +14,29 @@
 
 static volatile sig_atomic_t caught;
 
+/* A second Ctrl-C, a second or two later, ends the program at once. Before, it is the same request:
+ * `timeout` and launchers send their signal twice, to the process and to its group. */
 static void remember(int number)
 {
-    caught = number;
+    static volatile sig_atomic_t first; /* s */
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    if (!caught) {
+        first = (sig_atomic_t)now.tv_sec;
+        caught = number;
+    } else if ((sig_atomic_t)now.tv_sec - first >= 2) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
 }
 
 void br_signals_install(void)
 {
-    struct sigaction action = {.sa_handler = remember, .sa_flags = (int)SA_RESETHAND};
-    sigaction(SIGINT, &action, NULL); /* a second Ctrl-C ends it at once */
+    struct sigaction action = {.sa_handler = remember}, now;
+    sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (sigaction(SIGHUP, NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* not under nohup */
+        sigaction(SIGHUP, &action, NULL);
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Progress of long work on stderr. A terminal gets a bar with the time left. Elsewhere a line is
  * printed at each tenth of the work, but at most once a second; and once a second while an exact
- * reference is computed. --quiet: nothing. Ctrl-C or SIGTERM: marches stop, no file is left. */
+ * reference is computed. --quiet: nothing. Ctrl-C, SIGTERM, SIGHUP: marches stop, no file is left. */
 #ifndef BR_CLI_PROGRESS_H
 #define BR_CLI_PROGRESS_H
 
 #include "study/grid/observer.h"
 #include "study/grid/study.h"
 
-/* Catches SIGINT and SIGTERM; a file size limit then fails the write instead. */
+/* Catches SIGINT, SIGTERM and SIGHUP; a file size limit then fails the write instead. */
 void br_signals_install(void);
 
 /* Whether a signal has come. */

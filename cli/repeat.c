@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/session.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/quote.h"

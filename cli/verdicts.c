@@ -176,7 +176,8 @@ static bool find_trust_file(char path[4096], bool make)
     else
         return false;
     snprintf(path, 4096, "%s/trusted", folder);
-    return !make || br_make_folders(folder, 0700, &make);
+    size_t made;
+    return !make || br_make_folders(folder, 0700, &made);
 }
 
 static bool is_trusted(const char *sum)
@@ -204,17 +205,17 @@ static void remember(const char *sum)
 static enum br_status check_trust(const struct br_orders_request *request, const char *text,
                                   const struct br_options *options, struct br_error *err)
 {
-    struct br_sha256 s;
+    struct br_error inner = {0};
     char sum[BR_SHA256_TEXT], command[400], path[400];
-    br_sha256_start(&s);
-    br_sha256_add(&s, text, strlen(text));
-    br_sha256_end(&s, sum);
+    if (br_command_identify(request, text, sum, &inner))
+        return br_fail(err, inner.status, "%s: run: %.900s", request->path, inner.message);
     br_quoted(command, sizeof command, &br_for_text, request->command);
     const bool trusted = is_trusted(sum);
     if (!trusted && !br_option_given(options, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT,
                        "%s: it runs the command '%s', and is not trusted yet: read it, then give "
-                       "--trust once",
+                       "--trust once (anew where it, its place, the program or a file that the "
+                       "command names has changed)",
                        request->path, command);
     if (!trusted)
         remember(sum);
@@ -231,7 +232,10 @@ enum br_status br_study_file_read(const char *path, const char *text,
 {
     if (br_orders_request_read(path, text, &f->request, err))
         return err->status;
-    return f->request.command ? check_trust(&f->request, text, options, err) : BR_OK;
+    return f->request.command && !br_session_alone(err)
+               ? check_trust(&f->request, text, options, err)
+           : f->request.command ? err->status
+                                : BR_OK;
 }
 
 struct br_check br_study_file_check(struct br_study_file *f, const struct br_options *o)

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "tables/json_value.h"
@@ -40,6 +41,21 @@ static bool can_be_replaced(struct br_whole_file *w, bool there)
            (!there || access(w->place, W_OK) == 0);
 }
 
+/* Opens a device or a pipe. A pipe must get a reader within some seconds. NULL with errno. */
+static FILE *open_special(const char *path)
+{
+    enum { TRIALS = 100 };
+    int file = -1;
+    for (int i = 0; i < TRIALS && file < 0 && (i == 0 || errno == ENXIO); i++) {
+        file = open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC | O_TRUNC);
+        if (file < 0 && errno == ENXIO && nanosleep(&(struct timespec){.tv_nsec = 50000000}, NULL))
+            return NULL; /* a signal */
+    }
+    if (file >= 0)
+        fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return file >= 0 ? fdopen(file, "w") : NULL;
+}
+
 enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, const char *path,
                                   struct br_error *err)
 {
@@ -60,12 +76,15 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     if (w->renamed && can_be_replaced(w, there))
         w->file = open_memstream(&w->text, &w->size);
     else if (there && !w->renamed)
-        w->file = fopen(path, "w"); /* a pipe or a terminal is not renamed; a folder fails */
+        w->file = open_special(path); /* a pipe or a terminal is not renamed; a folder fails */
     if (!w->file && errno == ENOMEM)
         return br_no_memory(err, path);
     return w->file ? BR_OK
-                   : br_fail(err, BR_BAD_INPUT, "--%s: cannot write '%s': %s", option, path,
-                             *path ? strerror(errno) : "expected a file's name");
+                   : br_fail(err, br_status_of_errno(errno), "--%s: cannot write '%s': %s", option,
+                             path,
+                             !*path                            ? "expected a file's name"
+                             : errno == ENXIO && !w->renamed   ? "nothing reads from this pipe"
+                                                               : strerror(errno));
 }
 
 bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b)

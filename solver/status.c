@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/status.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdint.h>
@@ -23,6 +24,16 @@ enum br_status br_fail(struct br_error *err, enum br_status status, const char *
 enum br_status br_no_memory(struct br_error *err, const char *what)
 {
     return br_fail(err, BR_NO_MEMORY, "out of memory for %s", what);
+}
+
+enum br_status br_status_of_errno(int reason)
+{
+    static const int wrong_path[] = {ENOENT, ENOTDIR, EISDIR, EACCES, EPERM,  ELOOP, ENAMETOOLONG,
+                                     EEXIST, EINVAL,  ENXIO,  ENODEV, EBUSY,  ETXTBSY};
+    for (size_t i = 0; i < sizeof wrong_path / sizeof *wrong_path; i++)
+        if (reason == wrong_path[i])
+            return BR_BAD_INPUT;
+    return reason == ENOMEM ? BR_NO_MEMORY : reason == EINTR ? BR_INTERRUPTED : BR_IO;
 }
 
 int br_status_exit_code(enum br_status status)

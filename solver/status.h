@@ -35,6 +35,10 @@ __attribute__((format(printf, 3, 4))) enum br_status br_fail(struct br_error *er
 /* Out of memory, with the name of what was being made. */
 enum br_status br_no_memory(struct br_error *err, const char *what);
 
+/* What a failure to open or write a path comes to, by its errno: BR_BAD_INPUT where the path is
+ * wrong; where the system fails (a full disk, no memory, a signal), another status. */
+enum br_status br_status_of_errno(int reason);
+
 /* The program's exit code: 0 success, 1 a verdict failed, 2 bad input, 3 the computation failed. */
 int br_status_exit_code(enum br_status status);
 

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A check's JSON, read for --compare. */
-#include <errno.h>
-#include <fcntl.h>
 #include <jansson.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "study/scene/file.h"
 #include "study/verify/comparison.h"
 #include "tables/json_value.h"
 #include "tables/reports.h"
+
+enum { LARGEST = 1 << 26 }; /* bytes */
 
 static enum br_status refuse(const char *path, const char *where, const char *expected,
                              struct br_error *err)
@@ -175,11 +175,11 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
 {
     *old = (struct br_old_check){0};
     json_error_t problem;
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return br_fail(err, BR_BAD_INPUT, "%s:1: unable to open: %s", path, strerror(errno));
-    old->json = br_json_read(file, &problem);
-    close(file);
+    char *text;
+    if (br_text_load(path, LARGEST, "report of 'check' in JSON", &text, err))
+        return err->status;
+    old->json = br_json_parse(text, &problem);
+    free(text);
     if (!old->json)
         return br_fail(err, BR_BAD_INPUT, "%s:%d: %s", path, problem.line > 0 ? problem.line : 1,
                        problem.text);

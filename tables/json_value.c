@@ -38,6 +38,15 @@ json_t *br_json_read(int file, json_error_t *why)
     return json;
 }
 
+json_t *br_json_parse(const char *text, json_error_t *why)
+{
+    br_json_lacked_memory();
+    atomic_store(&parsing, true);
+    json_t *json = json_loads(text, 0, why);
+    atomic_store(&parsing, false);
+    return json;
+}
+
 json_t *br_json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();

@@ -17,6 +17,7 @@ bool br_json_lacked_memory(void);
  * parser loses characters, and frees what it must not. So the program ends there, with a message
  * and exit code 3; results that were not yet in place stay whole for the next command. */
 json_t *br_json_read(int file, json_error_t *why);
+json_t *br_json_parse(const char *text, json_error_t *why); /* the same of a text */
 
 json_t *br_json_number(double value);     /* what is not finite is null */
 json_t *br_json_string(const char *text); /* NULL is null; what is not UTF-8 gets '?' */

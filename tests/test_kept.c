@@ -9,6 +9,7 @@
 
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 #include "support.h"
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 
 static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
@@ -517,14 +518,17 @@ TEST(test_not_kept)
     refuse(&p, BR_IO, "/no/such/folder: No such file");
 }
 
-/* The kernel tells no exit codes to those who ignore SIGCHLD. */
+/* The kernel tells no exit codes to those who ignore SIGCHLD; the keeper does not. */
 TEST(test_unseen)
 {
-    write_script("unseen", "echo err=1; exit 3");
+    write_script("unseen", "echo err=1; exit $1");
     const struct br_orders_request p = program(command_of("unseen", "{n}"));
     signal(SIGCHLD, SIG_IGN);
-    refuse(&p, BR_IO, "SIGCHLD");
+    br_numbers_clear(&numbers);
+    const enum br_status status = br_program_run(&p, &numbers, &err);
     signal(SIGCHLD, SIG_DFL);
+    MUST(status);
+    assert_non_null(strstr(numbers.row[2].failure, "exit code 16"));
 }
 
 /* Studies that run beside each other with one folder of kept cells. */
@@ -599,6 +603,41 @@ TEST(test_interrupted)
     p.observer = NULL;
     run(&p);
     assert_true(numbers.row[0].kept && numbers.row[1].kept);
+}
+
+/* What a program has started in sessions of its own ends with it, and all of it with this process,
+ * whatever ends that. */
+TEST(test_no_survivors)
+{
+    write_script("nest", "echo $$ > $0.$1\n"
+                         "setsid sh -c 'sleep 60 & echo $! > '$0.$1.a'; exec sleep 60' &\n"
+                         "(setsid sh -c 'echo $$ > '$0.$1.b'; exec sleep 60' &)\n"
+                         "until [ -s $0.$1.a ] && [ -s $0.$1.b ]; do sleep 0.01; done\n"
+                         "echo err=1; [ $1 = 4 ] || exec sleep 60");
+    static const double one[] = {4}, other[] = {8};
+    static const int deadly[] = {0, SIGKILL, SIGTERM, SIGHUP, SIGQUIT};
+    struct br_orders_request p = program(command_of("nest", "{n}"));
+    for (size_t i = 0; i < sizeof deadly / sizeof *deadly; i++) {
+        shell("rm -f nest.4* nest.8*");
+        p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, deadly[i] ? other : one, 1};
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (child == 0)
+            _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
+        if (deadly[i]) {
+            shell("for i in $(seq 500); do [ -s nest.8.b ] && exit 0; sleep 0.01; done; exit 1");
+            kill(child, deadly[i]);
+        }
+        int status;
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_int_equal(deadly[i] ? WTERMSIG(status) : status, deadly[i]);
+        for (const char *const *end = (const char *const[]){"", ".a", ".b", NULL}; *end; end++) {
+            char name[32];
+            snprintf(name, sizeof name, "nest.%d%s", deadly[i] ? 8 : 4, *end);
+            expect_dead(name);
+        }
+        shell("for i in $(seq 100); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
+    }
 }
 
 /* ---- readings ---- */

@@ -148,6 +148,65 @@ static void test_check(void **state)
     }
 }
 
+/* Every command works among ranks, or is refused with its reason. */
+static void test_all_commands(void **state)
+{
+    (void)state;
+    static const char disturb[] = "2 ranks would disturb one another's clocks";
+    static const struct {
+        const char *line;
+        int exit_code;
+        const char *says; /* of the output, or of standard error after a refusal */
+    } rows[] = {
+        {"tables --n 10,20 --k 0.02,0.01 --reference fine:40,5e-3", 0, "Table 2"},
+        {"study example2 --n 10,20 --k 0.1,0.05 --vary contact.stiffness=1e2,1e3", 0, "1000"},
+        {"check example3 --dry-run", 0, "check example3"},
+        {"check runs.yaml --trust", 2, disturb},
+        {"orders errors.csv", 2, disturb},
+        {"run example2 --n 40 --k 0.01", 0, "Example 2"},
+        {"run example2 --n 10 --k 0.1 --vary contact.stiffness=1e2,1e3", 0, "1000"},
+        {"trade example2", 2, disturb},
+        {"plan example2 --error 1e-1", 2, disturb},
+        {"extremes floors", 2, "found 2 ranks, expected one"},
+        {"figures --quiet --out figures", 0, ""},
+        {"repeat report.json", 2, disturb},
+        {"scenes", 0, "example2 "},
+        {"completions bash", 0, "beamrate"},
+        {"help", 0, "Commands:"},
+    };
+    cli_write_file("errors.csv", "n,e\n1,1\n2,.25\n4,.0625\n8,.015625\n");
+    cli_write_file("runs.yaml", "run: touch ran.{n}\nn: 1,2,4,8\nread: {x: x=(.*)}\n"
+                                "verify: {x: h 2 +- 1}\n");
+    run(0, "help", &out);
+    char *commands = strstr(out.output, "\nCommands:\n"), *rest;
+    assert_non_null(commands);
+    *strstr(commands, "\n\n") = '\0'; /* the last is the end of the list */
+    for (char *line = strtok_r(strchr(commands + 1, '\n'), "\n", &rest); line;
+         line = strtok_r(NULL, "\n", &rest)) {
+        bool tried = false;
+        const size_t length = strcspn(line + 2, " ");
+        for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+            tried |= strncmp(rows[i].line, line + 2, length) == 0;
+        if (!tried)
+            fail_msg("not tried among ranks: %s", line);
+    }
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        run(2, rows[i].line, &other);
+        if (other.exit_code != rows[i].exit_code)
+            fail_msg("%s: exit code %d\n%s", rows[i].line, other.exit_code, cli_read("errors"));
+        if (!strstr(rows[i].exit_code ? cli_read("errors") : other.output, rows[i].says))
+            fail_msg("%s: found\n%s\n%s", rows[i].line, other.output, cli_read("errors"));
+    }
+    assert_true(cli_is_there("figures/claims.csv"));
+    setenv("FOLDER", cli_folder(), 1);
+    run(0, "run example3 --n 40 --k 0.01 --quiet --json one.json", &out);
+    run(3, "run example3 --n 40 --k 0.01 --quiet --json many.json", &other);
+    expect_exit(&other, 0);
+    assert_int_equal(system("cd \"$FOLDER\" && for f in one many; do grep -v -e seconds -e command "
+                            "-e date -e threads $f.json >$f.seen; done; cmp one.seen many.seen"),
+                     0);
+}
+
 /* ---- one voice ---- */
 
 static void test_bad_input(void **state)
@@ -260,6 +319,7 @@ int main(void)
     setenv(KILL_AFTER, "0", 1);
     const struct CMUnitTest with_mpi[] = {
         cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_check),
+        cmocka_unit_test(test_all_commands),
         cmocka_unit_test(test_bad_input),   cmocka_unit_test(test_other_files),
         cmocka_unit_test(test_killed),      cmocka_unit_test(test_silent),
         cmocka_unit_test(test_interrupted), cmocka_unit_test(test_not_joined),

@@ -131,6 +131,7 @@ static void set_study(struct br_probe *p, const struct br_planned_march *o,
         .reference = fine,
         .n_count = 1,
         .k_count = 1,
+        .alone = true, /* only the first rank predicts */
         .n = p->n,
         .steps = p->steps,
     };
@@ -394,10 +395,7 @@ static void forget(struct br_probe *p)
  * of the call. */
 static enum br_status march(struct br_probe *p, struct br_error *err)
 {
-    struct br_error failure = {0};
-    const bool lost =
-        p->active && br_study_run_each(&p->study, 1, 1, NULL, &failure) == BR_NO_MEMORY;
-    return lost ? br_fail(err, BR_NO_MEMORY, "%s", failure.message) : BR_OK;
+    return p->active ? br_study_run_each(&p->study, 1, 1, NULL, err) : BR_OK;
 }
 
 /* Marches a probe, and clears it if it fails. */

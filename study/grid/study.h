@@ -116,6 +116,7 @@ struct br_study {
                                        where it cannot promise a solution */
     size_t n_count, k_count;
     bool path;                  /* the cells are (n[i], steps[i]) alone, and n_count = k_count */
+    bool alone;                 /* marched by the calling rank, not by all ranks together */
     const size_t *n;            /* n_count, borrowed */
     const size_t *steps;        /* k_count, borrowed */
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured

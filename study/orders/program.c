@@ -2,11 +2,7 @@
 /* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
-#include <limits.h>
 #include <math.h>
-#include <signal.h>
-#include <spawn.h>
 #include <stdint.h>
 #include <string.h>
 #include <sys/mman.h>
@@ -18,6 +14,7 @@
 #include "solver/clock.h"
 #include "study/grid/each.h"
 #include "study/kept/kept.h"
+#include "study/orders/process.h"
 #include "study/orders/request.h"
 #include "study/scene/quote.h"
 
@@ -36,12 +33,11 @@ struct job {
 
 /* ---- one run ---- */
 
-enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH, UNSEEN };
+enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
-    char folder[PATH_MAX]; /* empty: there is none */
-    int printed[2];        /* files of standard output and error */
-    pid_t child;
+    int printed[2]; /* files of standard output and error */
+    struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     enum end end;
     int status; /* as of wait4 */
@@ -55,105 +51,36 @@ static bool open_printed(struct run *r, int i)
     return r->printed[i] >= 0 && fcntl(r->printed[i], F_SETFL, O_APPEND) == 0;
 }
 
-static enum br_status make_folder(struct run *r, struct br_error *err)
+/* Where programs get their folders. */
+static const char *temporary(void)
 {
-    const char *set = getenv("TMPDIR"), *where = set && *set ? set : "/tmp";
-    r->printed[0] = r->printed[1] = -1;
-    const int length = snprintf(r->folder, sizeof r->folder, "%s/beamrate-XXXXXX", where);
-    errno = ENAMETOOLONG;
-    if ((size_t)length >= sizeof r->folder || !mkdtemp(r->folder))
-        r->folder[0] = '\0'; /* so that it is not removed */
-    if (*r->folder && open_printed(r, 0) && open_printed(r, 1))
-        return BR_OK;
-    return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", where, strerror(errno));
+    const char *set = getenv("TMPDIR");
+    return set && *set ? set : "/tmp";
 }
 
-static int remove_one(const char *path, const struct stat *info, int type, struct FTW *where)
+static enum br_status cannot_run(const struct br_process *p, int failure, struct br_error *err)
 {
-    (void)info;
-    (void)type;
-    (void)where;
-    remove(path);
-    return 0;
-}
-
-void br_remove_folder(const char *folder)
-{
-    static const struct timespec moment = {.tv_nsec = 10000000};
-    for (int tries = 0; tries < 20 && *folder && access(folder, F_OK) == 0; tries++) {
-        if (tries > 0)
-            nanosleep(&moment, NULL);
-        nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
-    }
-}
-
-/* Gives the process a group of its own, and default signals: signals that beamrate ignores would
- * stay ignored. Returns an errno. */
-static int set_up(posix_spawn_file_actions_t *actions, posix_spawnattr_t *attributes,
-                  const struct run *r)
-{
-    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
-    const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
-    sigset_t none, defaults;
-    int e;
-    sigemptyset(&none);
-    sigemptyset(&defaults);
-    for (size_t i = 0; i < sizeof usual / sizeof *usual; i++)
-        sigaddset(&defaults, usual[i]);
-    (void)((e = posix_spawnattr_setflags(attributes, flags)) ||
-           (e = posix_spawnattr_setsigmask(attributes, &none)) ||
-           (e = posix_spawnattr_setsigdefault(attributes, &defaults)) ||
-           (e = posix_spawn_file_actions_addchdir_np(actions, r->folder)) ||
-           (e = posix_spawn_file_actions_adddup2(actions, r->printed[0], 1)) ||
-           (e = posix_spawn_file_actions_adddup2(actions, r->printed[1], 2)) ||
-           (e = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0)));
-    return e;
-}
-
-/* Returns an errno. */
-static int spawn(const struct job *j, const struct br_command_words *cell, struct run *r)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    int failure = posix_spawn_file_actions_init(&actions);
-    if (failure)
-        return failure;
-    failure = posix_spawnattr_init(&attributes);
-    if (!failure) {
-        failure = set_up(&actions, &attributes, r);
-        if (!failure)
-            failure = posix_spawn(&r->child, cell->program, &actions, &attributes, cell->word,
-                                  j->environment);
-        posix_spawnattr_destroy(&attributes);
-    }
-    posix_spawn_file_actions_destroy(&actions);
-    return failure;
+    const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
+    return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s", p->program,
+                   strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
 }
 
 static enum br_status begin(const struct job *j, const struct br_command_words *cell, struct run *r,
                             struct br_error *err)
 {
     struct rusage own;
-    const enum br_status status = make_folder(r, err);
-    if (status)
-        return status;
-    const int failure = spawn(j, cell, r);
+    if (!open_printed(r, 0) || !open_printed(r, 1))
+        return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
+    r->process = (struct br_process){.program = cell->program,
+                                     .word = cell->word,
+                                     .environment = j->environment,
+                                     .where = temporary(),
+                                     .output = {r->printed[0], r->printed[1]}};
+    const int failure = br_process_start(&r->process);
     /* The kernel counts memory of this process that the child had before it became the program. */
     getrusage(RUSAGE_SELF, &own);
     r->own_peak = 1024.0 * (double)own.ru_maxrss;
-    if (!failure)
-        return BR_OK;
-    const bool wrong = failure == ENOENT || failure == ENOEXEC || failure == EACCES;
-    return br_fail(err, wrong ? BR_BAD_INPUT : BR_IO, "%.900s cannot be run: %s%s", cell->program,
-                   strerror(failure), failure == ENOENT ? " (its interpreter?)" : "");
-}
-
-/* It stays a zombie, so that no other process gets the number of its group. */
-static bool has_ended(pid_t child)
-{
-    siginfo_t info = {.si_pid = 0};
-    const int failed = waitid(P_PID, (id_t)child, &info, WEXITED | WNOHANG | WNOWAIT);
-    return failed ? errno != EINTR : info.si_pid != 0;
+    return failure ? cannot_run(&r->process, failure, err) : BR_OK;
 }
 
 static size_t size_of(int file)
@@ -177,31 +104,35 @@ static enum end end_of(const struct br_orders_request *p, const struct run *r, d
     return prints_too_much(r) ? TOO_MUCH : late > 0 ? TOO_LONG : BY_ITSELF;
 }
 
-static void watch(const struct br_orders_request *p, struct run *r)
+static enum br_status watch(const struct br_orders_request *p, struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
     struct timespec pause = {.tv_nsec = 1000000};
-    while (!has_ended(r->child)) {
+    while (!br_process_has_ended(&r->process)) {
         const double late = br_seconds() - start - p->seconds; /* s */
         const enum end before = r->end;
         r->end = end_of(p, r, late);
-        if (r->end == TOO_LONG && !before)
-            kill(-r->child, SIGTERM); /* not twice: some programs then stop without cleaning up */
+        if (r->end == TOO_LONG && !before) /* not twice: some programs then do not clean up */
+            br_process_terminate(&r->process);
         else if (r->end && (r->end != TOO_LONG || late > GRACE))
-            kill(-r->child, SIGKILL);
+            br_process_kill(&r->process);
         nanosleep(&pause, NULL);
         if (pause.tv_nsec < 16000000)
             pause.tv_nsec *= 2;
     }
-    kill(-r->child, SIGKILL); /* the rest of its group */
-    pid_t ended;
-    do
-        ended = wait4(r->child, &r->status, 0, &r->usage);
-    while (ended < 0 && errno == EINTR);
-    if (ended < 0 && r->end != STOPPED)
-        r->end = UNSEEN;
+    const struct br_process_end end = br_process_wait(&r->process);
+    r->status = end.status;
+    r->usage = end.usage;
     if (!r->end && prints_too_much(r))
         r->end = TOO_MUCH;
+    if (r->end == STOPPED)
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    if (end.failure && !*end.folder)
+        return br_fail(err, BR_IO, "%.900s: no folder to run a program in: %s", temporary(),
+                       strerror(end.failure));
+    if (end.failure)
+        return cannot_run(&r->process, end.failure, err);
+    return end.known ? BR_OK : br_fail(err, BR_IO, "what watched a program was killed");
 }
 
 /* ---- its output ---- */
@@ -277,10 +208,6 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     struct br_error why = {0};
     const struct timeval *user = &r->usage.ru_utime, *system = &r->usage.ru_stime;
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
-    if (r->end == STOPPED)
-        return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (r->end == UNSEEN)
-        return br_fail(err, BR_IO, "how a program ended was not told; SIGCHLD must not be ignored");
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
@@ -299,77 +226,32 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.child = 0};
+    struct run r = {.printed = {-1, -1}};
     enum br_status status = begin(j, cell, &r, err);
-    if (!status) {
-        watch(j->program, &r);
+    if (!status)
+        status = watch(j->program, &r, err);
+    if (!status)
         status = finish(j->program, &r, row, err);
-    }
     for (int i = 0; i < 2; i++)
         if (r.printed[i] >= 0)
             close(r.printed[i]);
-    br_remove_folder(r.folder);
     return status;
 }
 
 /* ---- finished cells ---- */
 
-enum { LARGEST_WORD_FILE = 1 << 26 }; /* a larger file that a word names is not read */
-
-/* Adds a text after its kind. */
-static void add_text(struct br_sha256 *sum, const char *kind, const char *text)
-{
-    br_kept_add(sum, kind);
-    br_kept_add(sum, text);
-}
-
-/* Adds the contents of a regular file, or, where it is larger, its size and time. Of any other
- * file, only the name counts. */
-static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
-                               struct br_error *err)
-{
-    struct stat info;
-    char text[BR_SHA256_TEXT];
-    long long size;
-    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
-        return BR_OK;
-    snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
-             (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
-    if (info.st_size <= largest) {
-        const int file = open(path, O_RDONLY | O_CLOEXEC);
-        const bool read = file >= 0 && br_sha256_file(file, &size, text);
-        const int reason = errno;
-        if (file >= 0)
-            close(file);
-        if (!read)
-            return br_fail(err, BR_IO,
-                           "%.800s cannot be read, so that finished cells cannot be kept: %s", path,
-                           strerror(reason));
-    }
-    add_text(sum, "file", text);
-    return BR_OK;
-}
-
-/* The key of a cell is a hash of what its numbers depend on: the words, the contents of the program
- * and of the files that words name, also behind a "=" (of large files their size and time), and the
- * readings. Other files that the program reads are not known. */
+/* The key of a cell is a hash of what its numbers depend on: the command, with the files that it
+ * names, and the readings. Other files that the program reads are not known. */
 static enum br_status key_of(const struct job *j, const struct br_command_words *cell,
                              char key[BR_SHA256_TEXT], struct br_error *err)
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_sha256 sum = j->kept->base;
-    add_text(&sum, "program", cell->program);
-    enum br_status status = add_file(&sum, cell->program, INT64_MAX, err);
-    for (char **word = cell->word; *word && !status; word++) {
-        const char *behind = strchr(*word, '=');
-        add_text(&sum, "word", *word);
-        status = add_file(&sum, *word, LARGEST_WORD_FILE, err);
-        if (behind && !status)
-            status = add_file(&sum, behind + 1, LARGEST_WORD_FILE, err);
-    }
+    const enum br_status status = br_command_add(&sum, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
-        add_text(&sum, reading->name, kinds[reading->kind]);
+        br_kept_add(&sum, reading->name);
+        br_kept_add(&sum, kinds[reading->kind]);
         br_kept_add(&sum, reading->what);
     }
     br_sha256_end(&sum, key);

@@ -9,6 +9,7 @@
 
 #include "study/grid/observer.h"
 #include "study/orders/orders.h"
+#include "study/orders/sha256.h"
 
 /* How a number is found in standard output. */
 enum br_reading_kind {
@@ -103,8 +104,8 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
 
 /* The source. Runs each cell of the list, or of the grid of two lists, that is not kept, and reads
  * its numbers. A cell runs without a shell, in a folder of its own, which is removed afterwards,
- * with LC_ALL=C and no input. When it ends, the rest of its process group is killed. A reading is
- * an error, unless it is listed as a value.
+ * with LC_ALL=C and no input. When it ends, all that it has started is killed (process.h). A
+ * reading is an error, unless it is listed as a value.
  *
  * numbers (out; zeros after a failure): the whole grid, from coarse to fine, first over space. A
  * run that fails, prints more than 16 MiB or prints a number that is not whole and finite has a
@@ -114,8 +115,7 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
  *
  * BR_BAD_INPUT: a command, list or reading is not valid, the program cannot be found or started.
  * BR_INTERRUPTED: the observer stops it; runs are killed, finished cells stay kept.
- * BR_IO: no folder to run in, a cell cannot be kept, or SIGCHLD is ignored: then the end of a run
- * is not reported. */
+ * BR_IO: no folder to run in, or a cell cannot be kept. */
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
@@ -129,6 +129,17 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 struct br_error *err);
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
+/* Adds the words, the program's bytes and those of the files that words name, also behind a "=" (of
+ * large files their size and time). Fails with BR_IO. */
+enum br_status br_command_add(struct br_sha256 *sum, const struct br_command_words *words,
+                              struct br_error *err);
+
+/* A hash (out) of what a study file runs: its text and real path, and at all resolutions the
+ * command, with the bytes and the real paths of the program and of the files that words name. Fails
+ * as br_command_split and br_command_add. */
+enum br_status br_command_identify(const struct br_orders_request *request, const char *text,
+                                   char sum[BR_SHA256_TEXT], struct br_error *err);
+
 /* BR_BAD_INPUT: the reading is not valid, so it finds no number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);
 
@@ -136,10 +147,6 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
  * one; the message begins with the name of the reading. */
 enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
                                double *number, struct br_error *err);
-
-/* Removes a folder with all files in it; "": none. Processes that have just been killed may still
- * write for a moment, so it tries several times. */
-void br_remove_folder(const char *folder);
 
 /* ---- items of a request, as options and study files write them ---- */
 

@@ -415,7 +415,8 @@ static void add_study(unsigned long long *hash, const struct br_study *s)
     add_counts(hash, (const size_t[]){s->path, s->reference.n, s->reference.steps}, 3);
     for (size_t cell = 0; cell < (s->cell_method ? br_study_cells(s) : 1); cell++)
         add_method(hash, br_study_method(s, cell));
-    add_method(hash, &s->reference_method);
+    if (s->judge->nests) /* else it need not be set */
+        add_method(hash, &s->reference_method);
     add(hash, s->judge->name);
     add(hash, s->auditor ? s->auditor->name : "");
     for (; s; s = s->next_norm)

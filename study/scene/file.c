@@ -40,12 +40,10 @@ static enum br_status refuse(const char *name, const char *path, struct br_error
     return status;
 }
 
-static const char standard_input[] = "/dev/stdin";
-
 enum br_status br_scene_find(const char *name, char *path, size_t size, struct br_error *err)
 {
     if (strcmp(name, "-") == 0)
-        name = standard_input;
+        name = BR_STANDARD_INPUT;
     if (access(name, F_OK) == 0) {
         if ((size_t)snprintf(path, size, "%s", name) >= size)
             return br_fail(err, BR_BAD_INPUT, "the path '%s' is too long", name);
@@ -57,52 +55,6 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
     if (access(path, R_OK) == 0)
         return BR_OK;
     return refuse(name, path, err);
-}
-
-/* Reads the stream once, to its end: a pipe cannot be read again. */
-static enum br_status read_all(const char *path, FILE *file, size_t longest, const char *what,
-                               char *text, struct br_error *err)
-{
-    errno = 0;
-    const size_t length = fread(text, 1, longest + 1, file);
-    if (ferror(file))
-        return br_fail(err,
-                       errno == EINTR    ? BR_INTERRUPTED
-                       : errno == EISDIR ? BR_BAD_INPUT
-                                         : BR_IO,
-                       "%s: %s", path, strerror(errno));
-    if (length > longest)
-        return br_fail(err, BR_BAD_INPUT, "%s: found more than %zu bytes, expected a %s", path,
-                       longest, what);
-    const char *zero = memchr(text, 0, length);
-    size_t line = 1;
-    for (const char *c = text; zero && c < zero; c++)
-        line += *c == '\n';
-    return zero ? br_fail(err, BR_BAD_INPUT, "%s:%zu: found a zero byte, expected text", path, line)
-                : BR_OK;
-}
-
-enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
-                            struct br_error *err)
-{
-    *text = NULL;
-    FILE *file = strcmp(path, standard_input) == 0 ? stdin : fopen(path, "rb");
-    if (!file)
-        return br_fail(err,
-                       errno == EINTR    ? BR_INTERRUPTED
-                       : errno == ENOMEM ? BR_NO_MEMORY
-                                         : BR_BAD_INPUT,
-                       "%s: %s", path, strerror(errno));
-    *text = br_allocate(longest + 2, 1); /* memory that is not written is not used */
-    enum br_status status =
-        *text ? read_all(path, file, longest, what, *text, err) : br_no_memory(err, "a file");
-    if (file != stdin)
-        fclose(file);
-    if (status) {
-        free(*text);
-        *text = NULL;
-    }
-    return status;
 }
 
 enum br_status br_scene_load(const char *path, char **text, struct br_error *err)

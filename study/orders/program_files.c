@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files of a command, for hashes: the program, and the files that its words name. What these read
+ * or start is not known. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "study/kept/kept.h"
+#include "study/orders/request.h"
+
+enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes; of a larger one the contents are not read */
+
+/* The contents of a regular file, or, where it is larger, its size and times. Of any other file,
+ * only the name counts. place: the real path, too. */
+static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
+                               bool place, struct br_error *err)
+{
+    struct stat info;
+    char text[2 * BR_SHA256_TEXT];
+    long long size;
+    if (*path != '/' || stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        return BR_OK; /* what is relative is no file where the program runs */
+    snprintf(text, sizeof text, "%lld bytes of %lld.%09ld", (long long)info.st_size,
+             (long long)info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
+    if (place) /* a person can set the other time */
+        snprintf(text + strlen(text), sizeof text - strlen(text), ", %lld.%09ld",
+                 (long long)info.st_ctim.tv_sec, info.st_ctim.tv_nsec);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    const bool read = file >= 0 && (info.st_size > largest || br_sha256_file(file, &size, text));
+    char *real = place && read ? realpath(path, NULL) : NULL;
+    const int reason = errno;
+    if (file >= 0)
+        close(file);
+    if (!read || (place && !real))
+        return br_fail(err, BR_IO, "%.800s cannot be read: %s", path, strerror(reason));
+    br_kept_add(sum, "file");
+    br_kept_add(sum, text);
+    if (place)
+        br_kept_add(sum, real);
+    free(real);
+    return BR_OK;
+}
+
+/* before: the command at another resolution; files of equal words are not read again. NULL: none,
+ * and no places. */
+static enum br_status add_command(struct br_sha256 *sum, const struct br_command_words *c,
+                                  const struct br_command_words *before, struct br_error *err)
+{
+    const bool place = before;
+    char **same = before ? before->word : NULL;
+    enum br_status status = BR_OK;
+    br_kept_add(sum, "program");
+    br_kept_add(sum, c->program);
+    if (!place || !before->program || strcmp(before->program, c->program) != 0)
+        status = add_file(sum, c->program, INT64_MAX, place, err);
+    for (char **word = c->word; *word && !status; word++) {
+        const char *behind = strchr(*word, '='), *old = same && *same ? *same++ : NULL;
+        br_kept_add(sum, "word");
+        br_kept_add(sum, *word);
+        if (old && strcmp(*word, old) == 0)
+            continue;
+        status = add_file(sum, *word, LARGEST_WORD_FILE, place, err);
+        if (behind && !status)
+            status = add_file(sum, behind + 1, LARGEST_WORD_FILE, place, err);
+    }
+    return status;
+}
+
+enum br_status br_command_add(struct br_sha256 *sum, const struct br_command_words *c,
+                              struct br_error *err)
+{
+    return add_command(sum, c, NULL, err);
+}
+
+static size_t count_of(const struct br_program_axis *axis)
+{
+    return axis->column ? axis->count : 1;
+}
+
+enum br_status br_command_identify(const struct br_orders_request *r, const char *text,
+                                   char sum[BR_SHA256_TEXT], struct br_error *err)
+{
+    struct br_sha256 s;
+    struct br_command_words before = {NULL, NULL};
+    char *real = realpath(r->path, NULL); /* NULL: a pipe, for example */
+    enum br_status status = BR_OK;
+    br_sha256_start(&s);
+    br_kept_add(&s, "beamrate-trust 2");
+    br_kept_add(&s, real ? real : r->path);
+    br_kept_add(&s, text);
+    free(real);
+    const size_t inner = count_of(&r->axis[BR_AXIS_TIME]);
+    const size_t rows = count_of(&r->axis[BR_AXIS_SPACE]) * inner;
+    for (size_t i = 0; i < rows && !status; i++) {
+        struct br_command_words words = {NULL, NULL};
+        struct br_numbers_row row = {.kept = false};
+        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = i / inner, [BR_AXIS_TIME] = i % inner};
+        for (int axis = 0; axis < BR_AXES; axis++)
+            if (r->axis[axis].column)
+                row.given[axis] = r->axis[axis].given[at[axis]];
+        status = br_command_split(r, &row, &words, err);
+        if (!status)
+            status = add_command(&s, &words, &before, err);
+        br_command_clear(&before);
+        before = words;
+    }
+    br_command_clear(&before);
+    br_sha256_end(&s, sum);
+    return status;
+}
