@@ -132,10 +132,12 @@ void br_command_clear(struct br_command_words *words); /* accepts zeros */
 /* BR_BAD_INPUT: the reading is not valid, so it finds no number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);
 
-/* The number in an output of `length` bytes and a zero. BR_BAD_INPUT: there is none, or more than
- * one; the message begins with the name of the reading. */
-enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
-                               double *number, struct br_error *err);
+/* The number that a request's reading finds in an output of `length` bytes and a zero.
+ * BR_BAD_INPUT: there is none, or more than one, or the search takes longer than a run may; the
+ * message begins with the name of the reading. BR_INTERRUPTED: the request's observer stops it. */
+enum br_status br_reading_take(const struct br_orders_request *request, size_t reading,
+                               const char *output, size_t length, double *number,
+                               struct br_error *err);
 
 /* Removes a folder with all files in it; "": none. Processes that have just been killed may still
  * write for a moment, so it tries several times. */
