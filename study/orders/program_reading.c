@@ -337,7 +337,8 @@ static enum br_status search_csv(struct search *s)
     char buffer[SHOWN];
     json_t *table = json_array();
     struct br_error why = {0};
-    enum br_status status = br_table_split(s->output, "the output", table, &why);
+    enum br_status status =
+        br_table_split(s->output, "the output", true, s->request->observer, table, &why);
     const size_t rows = json_array_size(table);
     const json_t *heading = json_array_get(table, 0), *field = NULL;
     size_t columns = 0;
