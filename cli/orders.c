@@ -157,13 +157,10 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const bool runs = r->study.request.command;
-    if (runs)
-        r->study.request.observer = br_progress_start("running", r->session.quiet);
+    const bool quiet = r->session.quiet || !r->study.request.command;
+    r->study.request.observer = br_progress_start("running", quiet);
     const enum br_status status = br_study_file_run(&r->study, &r->check, err);
     r->wall_seconds = br_seconds() - start;
-    if (!runs)
-        return status;
     br_progress_end();
     return br_progress_result(status, err);
 }

@@ -150,6 +150,54 @@ TEST(test_refused_tables)
     br_test_rows("tables of numbers", refuse_table);
 }
 
+/* A heading of columns n, a, a0, a1, ... and rows 1, 2, ... that are refused or taken. */
+static const char *wide_table(int columns, int rows, bool objects)
+{
+    static char text[1 << 20];
+    size_t used = 0;
+    for (int row = objects; row <= rows; row++)
+        for (int i = 0; i < columns; i++) {
+            const char *const end = i + 1 < columns ? "," : objects ? "}\n" : "\n";
+            const char *const name = objects || !row ? (i ? "a" : "n") : "";
+            used += (size_t)snprintf(text + used, sizeof text - used, objects ? "%s\"%s" : "%s%s",
+                                     objects && !i ? "{" : "", name);
+            if (i > 1 && *name)
+                used += (size_t)snprintf(text + used, sizeof text - used, "%d", i);
+            used += (size_t)snprintf(text + used, sizeof text - used,
+                                     objects ? "\":%d%s"
+                                     : row   ? "%d%s"
+                                             : "%.0d%s",
+                                     row ? i ? 1 : row : 0, end);
+        }
+    return text;
+}
+
+/* Each is refused at its limit, with its line; the rows below are not read. */
+TEST(test_large_tables)
+{
+    refuse_with(wide_table(1001, 0, false), &plain, "t.csv:1: found more than 1000 columns");
+    refuse_with(wide_table(1001, 1, true), &plain, "t.csv:1: found more than 1000 columns");
+    refuse_with(wide_table(1000, 42, false), &plain,
+                "t.csv:42: found row 41 of 1000 fields, expected at most 40000 fields in all");
+    refuse_with(wide_table(2, 10002, false), &plain, "t.csv:10002: found row 10001, expected");
+    refuse_with(wide_table(2, 10002, true), &plain, "t.csv:10001: found row 10001, expected");
+    refuse_with(wide_table(2, 1001, false), &plain, "t.csv: found 1001 sizes of h, expected at");
+    struct br_numbers n = read_with(wide_table(40, 1000, false), &plain);
+    assert_int_equal(n.quantities, 39);
+    br_numbers_clear(&n);
+    static char object[2 << 20];
+    snprintf(object, sizeof object, "{\"n\":%*d}\n", 1 << 20, 1);
+    refuse_with(object, &plain, "t.csv:1: found 1048582 bytes, expected at most 1048576");
+    n = (struct br_numbers){0}; /* as the library makes them */
+    REFUSED(br_numbers_make_room(&n, 10001, 1, &err), BR_BAD_INPUT,
+            "found 10001 rows, expected at most 10000");
+}
+
+static bool stops_at_once(void *self)
+{
+    return ++*(int *)self > 0;
+}
+
 /* ---- numbers that are made ---- */
 
 enum { MOST_TEXT = 1 << 16 };
@@ -260,6 +308,22 @@ TEST(test_tied)
     find("h,k,l2\n1,1,1\n1,.5,.9\n.5,1,.5\n.5,.5,.4\n.25,.25,.1\n", NULL);
     assert_false(found.orders.tied);
     assert_int_equal(found.orders.of[0].lines, 0);
+}
+
+/* Whoever stops the fits of lines and of a grid gets no orders. */
+TEST(test_stopped_fits)
+{
+    int asked = 0;
+    const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
+    for (int steps = 0; steps < 5; steps += 4) {
+        struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);
+        struct br_orders o;
+        n.observer = &stops;
+        REFUSED(br_orders_find(&n, 2, &o, &err), BR_INTERRUPTED, "interrupted");
+        br_orders_clear(&o);
+        br_numbers_clear(&n);
+    }
+    assert_true(asked > 1);
 }
 
 static enum br_flag flag_of(size_t point)

@@ -2,7 +2,9 @@
 /* Foreign programs: small scripts, written here, that do what programs do, good and bad. */
 #include "support.h"
 
+#include <dlfcn.h>
 #include <math.h>
+#include <regex.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -711,11 +713,11 @@ TEST(test_readings)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind};
+        const struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 10};
         const char *output = cases[i].output;
         double number = 0;
         MUST(br_reading_check(&reading, &err));
-        const enum br_status status =
-            br_reading_take(&reading, output, strlen(output), &number, &err);
+        const enum br_status status = br_reading_take(&q, 0, output, strlen(output), &number, &err);
         if (!cases[i].failure && !(status == BR_OK && number == cases[i].number))
             fail_msg("'%s' in '%s': %g, %s", cases[i].what, output, number, err.message);
         if (cases[i].failure && !(status == BR_BAD_INPUT && strstr(err.message, cases[i].failure)))
@@ -747,7 +749,107 @@ TEST(test_refused_readings)
     }
 }
 
+/* An expression that the C library would crash on, or compile or match for ever. */
+TEST(test_hostile_expressions)
+{
+    static const struct {
+        const char *begin, *repeated;
+        int times;
+        const char *end, *message; /* NULL: it is taken */
+    } cases[] = {
+        {"", "(", 20000, "a", "has 20001 letters, expected at most 1000"},
+        {"(a)", "(", 40, "", "has 41 groups, expected one"},
+        {"(a)", "b", 997, "", NULL},
+        {"(a)", "b", 998, "", "has 1001 letters, expected at most 1000"},
+        {"([ab]*)", "\\1", 1, "", "letter 8: found \\1, expected no back-reference"},
+        {"(a)[\\1]\\\\", "1", 1, "", NULL},
+        {"(a{10,100}){10}", "", 1, "", NULL},
+        {"(a{10,100}){11}", "", 1, "", "letter 12: repeats to more than 1000 letters"},
+        {"(a)b{100}", "{2}", 4, "c", "letter 19: repeats to more than 1000 letters"},
+        {"(a{,1000})", "", 1, "", NULL},
+        {"(a{1000,})", "", 1, "", "letter 3: repeats to more than 1000 letters"},
+        {"(a{99999999999999999999})", "", 1, "", "letter 3: repeats"},
+        {"(a)", "b+", 300, "", NULL},
+        {"(a)b", "+", 18, "", "repeats to more than 1000 letters"},
+        {"([]{9999}[:alpha:][=a=]({9999}])", "", 1, "", NULL},
+        {"(a)[b", "", 1, "", "is no extended regular expression"},
+        {"(a)[[:", "", 1, "", "is no extended regular expression"},
+        {"(a)\\", "", 1, "", "is no extended regular expression"},
+        {"(a){2", "", 1, "", "is no extended regular expression"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static char text[1 << 15];
+        const struct br_reading reading = {"q", text, BR_READING_REGEX};
+        strcpy(text, cases[i].begin);
+        for (int j = 0; j < cases[i].times; j++)
+            strcat(text, cases[i].repeated);
+        strcat(text, cases[i].end);
+        if (cases[i].message)
+            REFUSED(br_reading_check(&reading, &err), BR_BAD_INPUT, cases[i].message);
+        else
+            MUST(br_reading_check(&reading, &err));
+    }
+}
+
+static bool always(void *self)
+{
+    (void)self;
+    return true;
+}
+
+/* A search can be stopped, takes no longer than a run, and has a longest line. */
+TEST(test_long_searches)
+{
+    static const struct br_observer stops = {.stop = always};
+    static const struct br_reading reading = {"q", "(.*)a.{900}b", BR_READING_REGEX};
+    static char output[8200] = "\n1234\n";
+    struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 1e-9};
+    double number;
+    memset(output + 6, 'a', 8193);
+    REFUSED(br_reading_take(&q, 0, output, strlen(output), &number, &err), BR_BAD_INPUT,
+            "q: the search for '(.*)a.{900}b' did not end within 1e-09 s");
+    q.observer = &stops;
+    REFUSED(br_reading_take(&q, 0, output, strlen(output), &number, &err), BR_INTERRUPTED, "");
+    q = (struct br_orders_request){.reading = &err_reading, .readings = 1, .seconds = 10};
+    REFUSED(br_reading_take(&q, 0, output, strlen(output), &number, &err), BR_BAD_INPUT,
+            "err: line 3 of the output has 8193 bytes, expected at most 8192 for a regular");
+    memcpy(output + 8193, "err=7", 5); /* of 8192 bytes, with a match at its end */
+    MUST(br_reading_take(&q, 0, output, strlen(output) - 1, &number, &err));
+    CLOSE(number, 7, 0);
+}
+
 /* ---- memory ---- */
+
+/* These stand before the C library's own functions. */
+static enum { NOTHING, COMPILING, SEARCHING } fails;
+
+int regcomp(regex_t *regex, const char *text, int flags)
+{
+    int (*own)(regex_t *, const char *, int);
+    *(void **)&own = dlsym(RTLD_NEXT, "regcomp");
+    return fails == COMPILING ? REG_ESPACE : own(regex, text, flags);
+}
+
+regoff_t re_search(regex_t *regex, const char *text, regoff_t length, regoff_t from, regoff_t range,
+                   struct re_registers *registers)
+{
+    regoff_t (*own)(regex_t *, const char *, regoff_t, regoff_t, regoff_t, struct re_registers *);
+    *(void **)&own = dlsym(RTLD_NEXT, "re_search");
+    return fails == SEARCHING ? -2 : own(regex, text, length, from, range, registers);
+}
+
+TEST(test_expressions_without_memory)
+{
+    const struct br_orders_request q = {.reading = &err_reading, .readings = 1, .seconds = 10};
+    double number;
+    fails = COMPILING;
+    REFUSED(br_reading_check(&err_reading, &err), BR_NO_MEMORY, "a regular expression");
+    REFUSED(br_reading_take(&q, 0, "err=1", 5, &number, &err), BR_NO_MEMORY, "expression");
+    fails = SEARCHING;
+    REFUSED(br_reading_take(&q, 0, "err=1", 5, &number, &err), BR_NO_MEMORY, "expression");
+    fails = NOTHING;
+    MUST(br_reading_take(&q, 0, "err=1", 5, &number, &err));
+}
 
 static enum br_status attempt(const void *data, struct br_error *why)
 {

@@ -151,7 +151,7 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
         }
         o[count++].error = c->error[part];
     }
-    const enum br_status status = br_joint_fit_solve(o, count, fit, err);
+    const enum br_status status = br_joint_fit_solve(o, count, NULL, fit, err);
     free(o);
     return status;
 }

@@ -3,6 +3,7 @@
 #ifndef BR_STUDY_FIT_FIT_H
 #define BR_STUDY_FIT_FIT_H
 
+#include "study/grid/observer.h"
 #include "study/grid/study.h"
 
 /* What is refined. */
@@ -101,9 +102,10 @@ struct br_observation {
 
 /* Fits the model that the observations determine; without a fit, converged is false. Where all
  * observations have h = h_ref, the model has no error of space; where all have k = k_ref, it has
- * none of time. Fails with BR_NO_MEMORY. */
+ * none of time. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
-                                  struct br_joint_fit *fit, struct br_error *err);
+                                  const struct br_observer *observer, struct br_joint_fit *fit,
+                                  struct br_error *err);
 
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);

@@ -32,6 +32,7 @@ struct problem {
     const struct br_observation *observation;
     size_t count;
     enum br_joint_kind kind;
+    const struct br_observer *observer;  /* may be NULL; where it stops, no fit is found any more */
     double log_unit[BR_AXES], log_error; /* logarithms of those units in m, s, m^(3/2) */
 };
 
@@ -89,6 +90,8 @@ static int residuals(const gsl_vector *v, void *params, gsl_vector *out)
     double full[UNKNOWNS];
     spread(problem, v, full);
     const double r = sin(full[THETA]);
+    if (br_observer_stops(problem->observer))
+        return GSL_EFAILED;
     for (size_t i = 0; i < problem->count; i++) {
         const struct br_observation *o = &problem->observation[i];
         double error[BR_AXES];
@@ -480,7 +483,8 @@ static int next_best(const struct candidate *candidate, const bool *done)
 }
 
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
-                                  struct br_joint_fit *fit, struct br_error *err)
+                                  const struct br_observer *observer, struct br_joint_fit *fit,
+                                  struct br_error *err)
 {
     struct candidate candidate[BR_JOINT_SPACE + 1];
     *fit = nothing_fitted(count);
@@ -488,6 +492,7 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     if (!own)
         return br_no_memory(err, "the fits");
     struct problem problem = problem_of(observation, count, own);
+    problem.observer = observer;
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
         struct candidate *c = &candidate[kind];
@@ -508,5 +513,5 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
                   fit);
     gsl_set_error_handler(handler);
     free(own);
-    return BR_OK;
+    return br_observer_stops(observer) ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
 }

@@ -53,6 +53,9 @@ bool br_lists(const char *list, const char *name)
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
                                     struct br_error *err)
 {
+    if (rows > BR_MOST_ROWS)
+        return br_fail(err, BR_BAD_INPUT, "found %zu rows, expected at most %d", rows,
+                       BR_MOST_ROWS);
     numbers->quantity = br_allocate(quantities + 1, sizeof *numbers->quantity);
     numbers->row = br_allocate(rows + 1, sizeof *numbers->row);
     for (; numbers->row && numbers->rows < rows; numbers->rows++) {
@@ -192,6 +195,9 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         return status;
     for (int axis = 0; axis < BR_AXES; axis++) {
         const size_t count = numbers->column[axis] ? unite_sizes(numbers, axis) : 0;
+        if (count > BR_MOST_SIZES)
+            return br_fail(err, BR_BAD_INPUT, "%s: found %zu sizes of %s, expected at most %d",
+                           path, count, br_axis_letters[axis], BR_MOST_SIZES);
         most = count > most ? count : most;
     }
     br_numbers_sort(numbers);

@@ -276,7 +276,7 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     /* Rows are only left out, so the same number means the same rows. */
     const bool same = count > 0 && count == of->joint.points;
     const enum br_status status =
-        same ? BR_OK : br_joint_fit_solve(observation, count, &of->joint, err);
+        same ? BR_OK : br_joint_fit_solve(observation, count, numbers->observer, &of->joint, err);
     free(observation);
     return status;
 }
@@ -319,7 +319,9 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     if (!status)
         status = leave_out(o, of, err);
     for (size_t l = 0; l < of->lines && !status; l++)
-        status = br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
+        status = br_observer_stops(numbers->observer)
+                     ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                     : br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
     return status;
 }
 

@@ -42,6 +42,9 @@ struct br_numbers_row {
     char *failure;         /* why it has no numbers; NULL: it has; owned */
 };
 
+/* Of numbers: some seconds are enough for the fits of a grid, and one for those of a line. */
+enum { BR_MOST_ROWS = 10000, BR_MOST_SIZES = 1000 /* along an axis */ };
+
 struct br_numbers {
     const struct br_resolution_column *column[BR_AXES]; /* NULL: that axis is not refined */
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
@@ -49,12 +52,13 @@ struct br_numbers {
     size_t quantities;
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
+    const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };
 
 void br_numbers_clear(struct br_numbers *numbers); /* accepts zeros */
 
 /* A source fills zeros with them: rows of NaN with a number for each of the quantities, then each
- * quantity. Fail with BR_NO_MEMORY. */
+ * quantity. Fail with BR_NO_MEMORY, or with BR_BAD_INPUT beyond BR_MOST_ROWS. */
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
                                     struct br_error *err);
 enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *name,
@@ -75,7 +79,8 @@ bool br_lists(const char *list, const char *name);
 
 /* Sorts the rows, and makes sizes one that differ by round-off. Refuses (BR_BAD_INPUT, with `path`
  * and the line first) resolutions that are not above 0 or are there twice, fewer than three
- * resolutions, errors below 0, and numbers whose differences may overflow. */
+ * resolutions or more than BR_MOST_SIZES, errors below 0, and numbers whose differences may
+ * overflow. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
 /* ---- orders ---- */
@@ -117,7 +122,7 @@ struct br_orders {
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
  * flag. formal: the order of theory for values, for the intervals of their limits. The numbers are
- * borrowed. Fails with BR_NO_MEMORY; clear it even then. */
+ * borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it even then. */
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);

@@ -197,7 +197,7 @@ static enum br_status read_numbers(const struct br_orders_request *p, const stru
     enum br_status status =
         length == size ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
     for (size_t i = 0; i < p->readings && !status; i++)
-        status = br_reading_take(&p->reading[i], text, length, &row->number[i], why);
+        status = br_reading_take(p, i, text, length, &row->number[i], why);
     free(text);
     return status;
 }

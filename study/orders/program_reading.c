@@ -7,20 +7,26 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/clock.h"
 #include "study/orders/request.h"
 #include "study/scene/quote.h"
 
 enum {
-    SHOWN = 80,  /* bytes of foreign text in a message */
-    LONGEST = 64 /* bytes of a number, with the zero at the end */
+    SHOWN = 80,          /* bytes of foreign text in a message */
+    LONGEST = 64,        /* bytes of a number, with the zero at the end */
+    MOST_LETTERS = 1000, /* of a regular expression, also with its repetitions written out */
+    LONGEST_LINE = 8192  /* bytes of a line in which an expression is searched for */
 };
 
 /* A reading of one output. */
 struct search {
     const struct br_reading *reading;
-    char *output; /* owned */
+    const struct br_orders_request *request; /* its limit of time, and its observer */
+    char *output;                            /* owned */
     size_t length;
-    char text[LONGEST]; /* out: the number as it is written there */
+    regex_t regex;
+    double began, compiled; /* when the search began, and when its expression was compiled, s */
+    char text[LONGEST];     /* out: the number as it is written there */
     struct br_error *err;
 };
 
@@ -111,20 +117,74 @@ static enum br_status take_group(struct search *s, const char *line, const regma
     return take_text(s, line + match[1].rm_so, (size_t)(match[1].rm_eo - match[1].rm_so));
 }
 
+static enum br_status compile(struct search *s)
+{
+    s->compiled = br_seconds();
+    return regcomp(&s->regex, s->reading->what, REG_EXTENDED) == 0
+               ? BR_OK
+               : br_no_memory(s->err, "a regular expression");
+}
+
+/* Between two calls of the C library. A compiled expression keeps up to 10 kB of each letter that
+ * it has read, so one that has worked for long is made anew. */
+static enum br_status pause_search(struct search *s)
+{
+    char buffer[SHOWN];
+    const double now = br_seconds();
+    if (br_observer_stops(s->request->observer))
+        return br_fail(s->err, BR_INTERRUPTED, "interrupted");
+    if (now - s->began > s->request->seconds)
+        return refuse(s, "the search for '%s' did not end within %g s",
+                      shown(buffer, s->reading->what), s->request->seconds);
+    if (now - s->compiled < 0.1)
+        return BR_OK;
+    regfree(&s->regex);
+    s->regex = (regex_t){0}; /* so that it can be freed again */
+    return compile(s);
+}
+
+/* Finds the first match from `at` on, match[0].rm_so -1 if there is none. A call of the C library
+ * cannot be stopped, and may read the rest of the line from each beginning of a match: so it tries
+ * few of them. */
+static enum br_status next_match(struct search *s, const char *line, size_t length, size_t at,
+                                 regmatch_t match[2])
+{
+    const size_t tries = LONGEST_LINE / (length + 1);
+    enum br_status status;
+    match[0].rm_so = -1;
+    for (; match[0].rm_so == -1 && at <= length; at += tries + 1) {
+        const size_t range = at + tries < length ? tries : length - at;
+        if ((status = pause_search(s)))
+            return status;
+        match[0].rm_so =
+            re_search(&s->regex, line, (int)length, (int)at, (int)range, NULL); /* -2: failed */
+    }
+    if (match[0].rm_so == -1)
+        return BR_OK;
+    match[0].rm_eo = (regoff_t)length;
+    if (match[0].rm_so >= 0 && (status = pause_search(s)))
+        return status;
+    return match[0].rm_so >= 0 && regexec(&s->regex, line, 2, match, REG_STARTEND) == 0
+               ? BR_OK
+               : br_no_memory(s->err, "a regular expression");
+}
+
 /* Takes the first match of the output; counts those of the line. */
-static enum br_status search_line(struct search *s, const regex_t *regex, const char *line,
-                                  size_t number, struct matches *m)
+static enum br_status search_line(struct search *s, const char *line, size_t number,
+                                  struct matches *m)
 {
     const size_t length = strlen(line);
     regmatch_t match[2];
-    enum br_status status = BR_OK;
-    int failure = 0;
-    for (size_t at = 0; at <= length && !status;) {
-        match[0] = (regmatch_t){(regoff_t)at, (regoff_t)length};
-        failure = regexec(regex, line, 2, match, REG_STARTEND | (at > 0 ? REG_NOTBOL : 0));
-        const bool empty = !failure && match[0].rm_eo == match[0].rm_so;
-        if (failure)
-            break;
+    if (length > LONGEST_LINE)
+        return refuse(s,
+                      "line %zu of the output has %zu bytes, expected at most %d for a regular "
+                      "expression (json: and csv: have no such limit)",
+                      number, length, LONGEST_LINE);
+    for (size_t at = 0; at <= length;) {
+        enum br_status status = next_match(s, line, length, at, match);
+        if (status || match[0].rm_so < 0)
+            return status;
+        const bool empty = match[0].rm_eo == match[0].rm_so;
         if (empty && at > 0) { /* (.*) also matches the empty text behind the whole line */
             at = (size_t)match[0].rm_eo + 1;
             continue;
@@ -132,35 +192,90 @@ static enum br_status search_line(struct search *s, const regex_t *regex, const 
         const size_t used = strlen(m->lines);
         if (used < sizeof m->lines - 24)
             snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
-        if (m->count++ == 0)
-            status = take_group(s, line, match, number);
+        if (m->count++ == 0 && (status = take_group(s, line, match, number)))
+            return status;
         at = (size_t)match[0].rm_eo + empty;
     }
-    if (failure && failure != REG_NOMATCH)
-        return br_no_memory(s->err, "a regular expression");
-    return status;
+    return BR_OK;
 }
 
 static enum br_status search_regex(struct search *s)
 {
     char buffer[SHOWN], *rest = s->output;
-    regex_t regex;
     struct matches m = {0};
-    enum br_status status = BR_OK;
-    if (regcomp(&regex, s->reading->what, REG_EXTENDED) != 0)
-        return br_no_memory(s->err, "a regular expression");
+    enum br_status status = compile(s);
     for (size_t number = 1; rest && !status; number++) {
         const char *line = strsep(&rest, "\n");
         if (rest || *line) /* else it is empty, behind the last line end */
-            status = search_line(s, &regex, line, number, &m);
+            status = search_line(s, line, number, &m);
     }
-    regfree(&regex);
+    regfree(&s->regex);
     if (status || m.count == 1)
         return status;
     if (m.count == 0)
         return refuse(s, "'%s' matches nothing in the output", shown(buffer, s->reading->what));
     return refuse(s, "'%s' matches %zu times, expected once; lines %s",
                   shown(buffer, s->reading->what), m.count, m.lines);
+}
+
+/* The end of the bracket expression that begins here: its ']', or the end of the text. */
+static const char *skip_brackets(const char *at)
+{
+    at += at[1] == '^' ? 2 : 1;
+    for (at += *at == ']'; *at && *at != ']'; at++)
+        if (*at == '[' && at[1] && strchr(":.=", at[1])) { /* [:alpha:], [.a.], [=a=] */
+            const char *end = strstr(at + 2, (char[]){at[1], ']', '\0'});
+            at = end ? end + 1 : at + strlen(at) - 1;
+        }
+    return at;
+}
+
+/* How often + or {m,n} repeats what is before it; "m,": a further copy is for the rest. */
+static size_t repetitions(const char *at)
+{
+    char *end = NULL;
+    const size_t least = *at == '+' ? 2 : strtoul(at + 1, &end, 10);
+    if (!end || *end != ',')
+        return least;
+    return isdigit((unsigned char)end[1]) ? strtoul(end + 1, NULL, 10) : least + 1;
+}
+
+/* Refuses what the C library might crash on, or compile or match for ever. */
+static enum br_status check_expression(const struct search *s)
+{
+    const char *const text = s->reading->what, *at = text;
+    char buffer[SHOWN];
+    size_t size = 0, last = 0, open = 0, groups = 0; /* letters; last: those that are repeated */
+    if (strlen(text) > MOST_LETTERS)
+        return refuse(s, "'%s' has %zu letters, expected at most %d", shown(buffer, text),
+                      strlen(text), MOST_LETTERS);
+    for (; *at && size <= MOST_LETTERS; at += *at != '\0') {
+        if (*at == '\\' && at[1] >= '1' && at[1] <= '9')
+            return refuse(s, "'%s', letter %td: found \\%c, expected no back-reference",
+                          shown(buffer, text), at - text + 1, at[1]);
+        if (*at == '+' || *at == '{') {
+            const size_t most = MOST_LETTERS + 1, times = repetitions(at);
+            const size_t more = last * (times > most ? most : times > 0 ? times : 1) - last;
+            size += more;
+            last += more;
+            at += *at == '{' && size <= MOST_LETTERS ? strcspn(at, "}") : 0;
+        } else if (*at == '(') {
+            groups++;
+            open = size;
+        } else if (*at == ')')
+            last = size - open;
+        else if (!strchr("*?|^$", *at)) {
+            at = *at == '[' ? skip_brackets(at) : at + (*at == '\\' && at[1]);
+            last = 1;
+            size++;
+        }
+    }
+    if (size > MOST_LETTERS)
+        return refuse(s, "'%s', letter %td: repeats to more than %d letters, expected fewer",
+                      shown(buffer, text), at - text, MOST_LETTERS);
+    return groups > 1 ? refuse(s, "'%s' has %zu groups, expected one around the number",
+                               shown(buffer, text), groups)
+                      : BR_OK;
 }
 
 /* ---- JSON ---- */
@@ -222,7 +337,8 @@ static enum br_status search_csv(struct search *s)
     char buffer[SHOWN];
     json_t *table = json_array();
     struct br_error why = {0};
-    enum br_status status = br_table_split(s->output, "the output", table, &why);
+    enum br_status status =
+        br_table_split(s->output, "the output", true, s->request->observer, table, &why);
     const size_t rows = json_array_size(table);
     const json_t *heading = json_array_get(table, 0), *field = NULL;
     size_t columns = 0;
@@ -272,7 +388,11 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
         return refuse(&s, "found no column, expected its heading");
     if (reading->kind != BR_READING_REGEX)
         return BR_OK;
+    if (check_expression(&s))
+        return err->status;
     const int failure = regcomp(&regex, reading->what, REG_EXTENDED);
+    if (failure == REG_ESPACE)
+        return br_no_memory(err, "a regular expression");
     if (failure) {
         regerror(failure, &regex, why, sizeof why);
         return refuse(&s, "'%s' is no extended regular expression: %s",
@@ -297,15 +417,21 @@ static enum br_status convert(const struct search *s, double *number)
     return refuse(s, "found '%s', expected a finite number", shown(buffer, s->text));
 }
 
-enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
-                               double *number, struct br_error *err)
+enum br_status br_reading_take(const struct br_orders_request *request, size_t index,
+                               const char *output, size_t length, double *number,
+                               struct br_error *err)
 {
+    const struct br_reading *reading = &request->reading[index];
     static enum br_status (*const search[])(struct search *) = {
         [BR_READING_REGEX] = search_regex,
         [BR_READING_JSON] = search_json,
         [BR_READING_CSV] = search_csv,
     };
-    struct search s = {.reading = reading, .length = length, .err = err};
+    struct search s = {.reading = reading,
+                       .request = request,
+                       .length = length,
+                       .began = br_seconds(),
+                       .err = err};
     s.output = br_allocate(length + 1, 1);
     if (!s.output)
         return br_no_memory(err, "a program's output");

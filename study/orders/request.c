@@ -46,9 +46,9 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
     *numbers = (struct br_numbers){0};
     if (!r->command && !r->table)
         return br_fail(err, BR_BAD_INPUT, "%s: found neither a table nor a command", r->path);
-    return (r->command ? br_program_run : br_table_read)(r, numbers, err)
-               ? err->status
-               : br_numbers_check(numbers, br_orders_path(r), err);
+    const enum br_status status = (r->command ? br_program_run : br_table_read)(r, numbers, err);
+    numbers->observer = r->observer;
+    return status ? status : br_numbers_check(numbers, br_orders_path(r), err);
 }
 
 /* Refuses a name of a list that is not the name of a quantity. */

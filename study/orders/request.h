@@ -83,20 +83,27 @@ enum br_status br_orders_check_lists(const struct br_orders_request *request,
 
 /* ---- tables ---- */
 
-/* A grid of this many rows is fitted in some seconds. */
-enum { BR_LONGEST_TABLE = 64 << 20 /* bytes */, BR_MOST_TABLE_ROWS = 10000 };
+/* In a table; a row without its heading. A report takes 20 microseconds for each field. */
+enum {
+    BR_LONGEST_TABLE = 64 << 20, /* bytes */
+    BR_LONGEST_OBJECT = 1 << 20, /* bytes of a line of JSON */
+    BR_MOST_COLUMNS = 1000,
+    BR_MOST_FIELDS = 40000
+};
 
 /* Splits a text, CSV (comma) or TSV (tab), into an array of rows, the heading first. A row is an
  * array of its line and its fields; an empty field is null. Empty lines and lines that begin with #
- * are left out. Fails with BR_BAD_INPUT, naming path and line, or BR_NO_MEMORY. */
-enum br_status br_table_split(const char *text, const char *path, json_t *table,
+ * are left out. only_last: of the rows only the last one stays. Fails with BR_BAD_INPUT, naming
+ * path and line, also beyond the limits above and BR_MOST_ROWS; with BR_INTERRUPTED by the
+ * observer, which may be NULL; or with BR_NO_MEMORY. */
+enum br_status br_table_split(const char *text, const char *path, bool only_last,
+                              const struct br_observer *observer, json_t *table,
                               struct br_error *err);
 
 /* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, and perhaps a unit in
  * brackets: "dt [s]". br_resolution_columns names the columns of resolutions; where an axis has
  * several, they must agree. Without errors and values in the request, every other column of numbers
- * is an error; columns of words are ignored. An empty field is a run without a number. At most
- * BR_MOST_TABLE_ROWS rows. */
+ * is an error; columns of words are ignored. An empty field is a run without a number. */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
                              struct br_error *err);
 
@@ -143,10 +150,12 @@ enum br_status br_command_identify(const struct br_orders_request *request, cons
 /* BR_BAD_INPUT: the reading is not valid, so it finds no number in any output. */
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err);
 
-/* The number in an output of `length` bytes and a zero. BR_BAD_INPUT: there is none, or more than
- * one; the message begins with the name of the reading. */
-enum br_status br_reading_take(const struct br_reading *reading, const char *output, size_t length,
-                               double *number, struct br_error *err);
+/* The number that a request's reading finds in an output of `length` bytes and a zero.
+ * BR_BAD_INPUT: there is none, or more than one, or the search takes longer than a run may; the
+ * message begins with the name of the reading. BR_INTERRUPTED: the request's observer stops it. */
+enum br_status br_reading_take(const struct br_orders_request *request, size_t reading,
+                               const char *output, size_t length, double *number,
+                               struct br_error *err);
 
 /* ---- items of a request, as options and study files write them ---- */
 

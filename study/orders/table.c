@@ -72,15 +72,40 @@ static enum br_status take_field(struct cursor *c, json_t *row, bool *more, stru
     return json_array_append_new(row, field) ? br_no_memory(err, "the table") : BR_OK;
 }
 
+/* Adds the row of a line, without fields; *row (out) is the table's. Fails where it is one row, or
+ * one field, too many. */
+static enum br_status add_row(json_t *table, size_t line, const char *path, json_t **row,
+                              struct br_error *err)
+{
+    const size_t rows = json_array_size(table), columns = json_array_size(json_array_get(table, 0));
+    *row = json_pack("[I]", (json_int_t)line);
+    if (json_array_append_new(table, *row))
+        return br_no_memory(err, "the table");
+    if (rows > BR_MOST_ROWS)
+        return br_fail(err, BR_BAD_INPUT, "%s:%zu: found row %zu, expected at most %d", path, line,
+                       rows, BR_MOST_ROWS);
+    if (rows > 0 && rows * (columns - 1) > BR_MOST_FIELDS)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s:%zu: found row %zu of %zu fields, expected at most %d "
+                       "fields in all",
+                       path, line, rows, columns - 1, BR_MOST_FIELDS);
+    return BR_OK;
+}
+
+static enum br_status refuse_columns(const char *path, size_t line, struct br_error *err)
+{
+    return br_fail(err, BR_BAD_INPUT, "%s:%zu: found more than %d columns, expected fewer", path,
+                   line, BR_MOST_COLUMNS);
+}
+
 static enum br_status take_line(struct cursor *c, json_t *table, struct br_error *err)
 {
     const size_t line = c->line;
-    json_t *row = json_pack("[I]", (json_int_t)line);
-    if (json_array_append_new(table, row))
-        return br_no_memory(err, "the table");
-    enum br_status status = BR_OK;
+    json_t *row;
+    enum br_status status = add_row(table, line, c->path, &row, err);
     for (bool more = true; more && !status;)
-        status = take_field(c, row, &more, err);
+        status = json_array_size(row) > BR_MOST_COLUMNS ? refuse_columns(c->path, line, err)
+                                                        : take_field(c, row, &more, err);
     const size_t fields = json_array_size(row),
                  expected = json_array_size(json_array_get(table, 0));
     if (status || fields == expected)
@@ -89,7 +114,8 @@ static enum br_status take_line(struct cursor *c, json_t *table, struct br_error
                    c->path, line, fields > expected ? "more" : "fewer", expected - 1);
 }
 
-enum br_status br_table_split(const char *text, const char *path, json_t *table,
+enum br_status br_table_split(const char *text, const char *path, bool only_last,
+                              const struct br_observer *observer, json_t *table,
                               struct br_error *err)
 {
     struct cursor c = {.path = path, .at = text, .line = 1};
@@ -102,8 +128,12 @@ enum br_status br_table_split(const char *text, const char *path, json_t *table,
                        path, c.line);
     c.field = br_allocate(strlen(text) + 1, 1);
     enum br_status status = c.field ? BR_OK : br_no_memory(err, "the table");
-    while (!status && next_line(&c))
-        status = take_line(&c, table, err);
+    while (!status && next_line(&c)) {
+        if (only_last)
+            json_array_remove(table, 1);
+        status = br_observer_stops(observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                             : take_line(&c, table, err);
+    }
     free(c.field);
     return status;
 }
@@ -114,19 +144,18 @@ static enum br_status take_object(json_t *object, size_t line, const char *path,
                                   struct br_error *err)
 {
     const char *key;
-    json_t *value, *row = json_pack("[I]", (json_int_t)line);
+    json_t *value, *row;
+    if (json_object_size(object) > BR_MOST_COLUMNS)
+        return refuse_columns(path, line, err);
     if (json_array_size(table) == 0) {
-        json_t *first = json_pack("[I]", (json_int_t)line);
-        bool kept = json_array_append_new(table, first) == 0;
+        if (add_row(table, line, path, &row, err))
+            return err->status;
         json_object_foreach (object, key, value)
-            kept &= json_array_append_new(first, json_string(key)) == 0;
-        if (!kept) {
-            json_decref(row);
-            return br_no_memory(err, "the table");
-        }
+            if (json_array_append_new(row, json_string(key)))
+                return br_no_memory(err, "the table");
     }
-    if (json_array_append_new(table, row))
-        return br_no_memory(err, "the table");
+    if (add_row(table, line, path, &row, err))
+        return err->status;
     const json_t *heading = json_array_get(table, 0);
     const size_t keys = json_array_size(heading) - 1;
     if (json_object_size(object) != keys)
@@ -152,7 +181,10 @@ static enum br_status read_objects(const char *text, const char *path, json_t *t
     for (const char *at = text; *at && !status; line++) {
         const size_t length = strcspn(at, "\n");
         json_error_t why;
-        if (strspn(at, " \t\r\n") < length) {
+        if (length > BR_LONGEST_OBJECT)
+            status = br_fail(err, BR_BAD_INPUT, "%s:%zu: found %zu bytes, expected at most %d",
+                             path, line, length, BR_LONGEST_OBJECT);
+        else if (strspn(at, " \t\r\n") < length) {
             json_t *object = json_loadb(at, length, JSON_REJECT_DUPLICATES, &why);
             status = json_is_object(object)
                          ? take_object(object, line, path, table, err)
@@ -307,8 +339,8 @@ static enum br_status take_column(const struct source *s, size_t position, struc
         status = br_no_memory(err, "the table");
     for (size_t i = 1; i < position && !status; i++)
         if (strcmp(name, heading(s, i)) == 0)
-            status =
-                br_fail(err, BR_BAD_INPUT, "%s: the column '%s' is there twice", s->path, name);
+            status = br_fail(err, BR_BAD_INPUT, "%s:%zu: the column '%s' is there twice", s->path,
+                             line_of(s, 0), name);
     if (!status && br_resolution_column_find(name))
         status = take_sizes(s, position, unit, err);
     else if (!status && is_studied(s, position))
@@ -326,12 +358,9 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     struct source s = {.request = q, .path = br_orders_path(q), json_array(), .numbers = numbers};
     enum br_status status = text[strspn(text, " \t\r\n")] == '{'
                                 ? read_objects(text, s.path, s.table, err)
-                                : br_table_split(text, s.path, s.table, err);
+                                : br_table_split(text, s.path, false, NULL, s.table, err);
     s.rows = json_array_size(s.table) ? json_array_size(s.table) - 1 : 0;
     s.columns = json_array_size(json_array_get(s.table, 0)) - 1;
-    if (!status && s.rows > BR_MOST_TABLE_ROWS)
-        status = br_fail(err, BR_BAD_INPUT, "%s: found %zu rows, expected at most %d", s.path,
-                         s.rows, BR_MOST_TABLE_ROWS);
     if (!status)
         status = br_numbers_make_room(numbers, s.rows, s.columns, err);
     for (size_t i = 0; i < s.rows && !status; i++)
@@ -340,16 +369,18 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
         status = take_column(&s, i, err);
     if (!status)
         status = br_orders_check_lists(q, numbers, err);
+    const size_t heading_line = status ? 0 : line_of(&s, 0);
     json_decref(s.table);
     if (status)
         return status;
     if (!numbers->column[BR_AXIS_SPACE] && !numbers->column[BR_AXIS_TIME])
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s: found no column of a resolution, expected h, n or dofs, or k, dt or "
-                       "steps",
-                       s.path);
-    return numbers->quantities
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "%s: found no column of numbers beside the resolution",
-                         s.path);
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "%s:%zu: found no column of a resolution, expected h, n or dofs, or k, dt or "
+            "steps",
+            s.path, heading_line);
+    return numbers->quantities ? BR_OK
+                               : br_fail(err, BR_BAD_INPUT,
+                                         "%s:%zu: found no column of numbers beside the resolution",
+                                         s.path, heading_line);
 }
