@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
+#include <gsl/gsl_errno.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -74,13 +75,13 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     return status;
 }
 
-/* False at exit: a library (popt, OpenMP) ended the program, for lack of memory or threads. */
+/* False at exit: a library (popt) ended the program, for lack of memory. */
 static bool returned;
 
 static void name_the_end(int code, void *self)
 {
     (void)self;
-    static const char message[] = "beamrate: out of memory or threads: a library gave up\n";
+    static const char message[] = "beamrate: out of memory: a library gave up\n";
     if (returned || code == 0)
         return;
     (void)!write(STDERR_FILENO, message, sizeof message - 1);
@@ -122,6 +123,7 @@ static int run_all(int argc, const char **argv)
 int main(int argc, const char **argv)
 {
     on_exit(name_the_end, NULL);
+    gsl_set_error_handler_off(); /* its default ends the program; all its results are checked */
     br_json_lacked_memory(); /* installs its allocator */
     const int code = run_all(argc, argv);
     returned = true;

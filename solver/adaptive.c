@@ -17,7 +17,6 @@
  *
  * The error of a step is estimated in strains (br_field_march_estimate), relative to the largest so
  * far, or to that of a rough march (below). */
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
 #include <string.h>
@@ -201,7 +200,6 @@ static enum br_status find_switch(struct search *s, double longest)
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver)
         return br_no_memory(s->err, "a search for a switch");
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
     const double least = fmax(least_step * s->march->scene->duration, search_from * longest);
     int code = gsl_root_fsolver_set(solver, &f, least, longest);
     s->bracketed = code == 0;
@@ -212,7 +210,6 @@ static enum br_status find_switch(struct search *s, double longest)
         if (!(gsl_root_fsolver_x_upper(solver) - k > switch_accuracy * longest))
             break;
     }
-    gsl_set_error_handler(handler);
     gsl_root_fsolver_free(solver);
     s->march->adaptive->free = !s->bracketed; /* off the branch at once: use the laws themselves */
     if (!s->status)

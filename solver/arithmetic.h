@@ -7,7 +7,7 @@
 
 /* ---- rounding ---- */
 
-/* Each thread has its own mode; a thread of OpenMP does not inherit it. */
+/* Each thread has its own mode, which a new thread inherits. */
 
 enum { BR_ROUNDING_KEPT = -1 }; /* no mode has this value (C17, 7.6) */
 

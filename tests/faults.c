@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linked into the program, this makes one of its calls fail or last long, or ends the program
- * there: BR_FAULT="KIND N WHAT" KIND memory: malloc and the like, also in libraries; disk: calls
+/* Linked into a program, this makes one of its calls fail or last long, or ends the program
+ * there: BR_FAULT="KIND N WHAT", or br_memory_fails_at. KIND memory: malloc and the like, also in libraries; disk: calls
  * that change a folder, fsync, and opening the program's own files. N: the number of the call since
  * main, from 1 on; 0: every call. WHAT: fail (ENOMEM, EIO), from (all later calls fail, too), kill,
  * stop (SIGTERM), slow. The file $BR_FAULT_LOG is made when the call is reached. */
@@ -18,6 +18,8 @@
 #include <sys/syscall.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "faults.h"
 
 static atomic_long calls;
 static long which = -1;
@@ -53,6 +55,14 @@ static bool fails(const char *of)
 }
 
 /* ---- memory ---- */
+
+long br_memory_fails_at(long n)
+{
+    strcpy(kind, "memory");
+    strcpy(what, "fail");
+    which = n;
+    return atomic_exchange(&calls, 0);
+}
 
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);

@@ -147,13 +147,14 @@ END
 }
 refused_in_python() {
     cat >refused.py <<'END'
+import copy, ctypes, os, pickle, signal, time
 import numpy as np
 import beamrate as br
 
 def refused(text, call):
     try:
         call()
-    except (br.BadInput, IndexError, TypeError) as error:
+    except (br.BadInput, IndexError, OverflowError, TypeError) as error:
         assert text in str(error), (text, str(error))
     else:
         raise AssertionError(f"not refused: {text}")
@@ -163,9 +164,37 @@ march = br.March(scene, 4, 8)
 refused("wrong:2: duration: found", lambda: br.Scene("wrong", "length: 1 m\nduration: -1 s\n"))
 refused("at most the 8 that are left", lambda: march.step(9))
 refused("at least 0", lambda: march.step(-1))
-refused("integer", lambda: br.Study(scene, [4.5], [8]))
+refused("n: found 4.5, expected a whole number", lambda: br.Study(scene, [4.5], [8]))
 refused("contiguous", lambda: march.get(br.BENDING, np.empty((5, 4))[:, ::2]))
-refused("range", lambda: march.get(2))
+refused("field: found 2, expected at most 1", lambda: march.get(2))
+refused("field: found -1", lambda: march.get(-1))
+refused("name: found None", lambda: br.Scene(None))
+for other in (None, march, "example2"):
+    refused("scene: found", lambda: br.March(other, 4, 4))
+    refused("scene: found", lambda: br.Study(other, [4], [4]))
+    refused("scene: found", lambda: br.Check(other))
+refused("a handle of kind 'scene'", lambda: br._call("march_create", ctypes.byref(ctypes.c_void_p()),
+        march, ctypes.c_size_t(4), ctypes.c_size_t(4), None))
+for duplicate in (copy.copy, copy.deepcopy, pickle.dumps):
+    refused("a Scene is not copied", lambda: duplicate(scene))
+refused("scene: found NULL", lambda: br.Scene.__new__(br.Scene).foresee(4, 4))
+refused("n: found 18446744073709551620, expected at most", lambda: br.March(scene, 2**64 + 4, 4))
+refused("threads: found 1000000000, expected at most 1024",
+        lambda: br.Study(scene, [4], [4], threads=10**9))
+refused("threads: found -1", lambda: br.Check(scene, threads=-1))
+refused("scheme: found 'bdf2\\x00nonsense'", lambda: br.March(scene, 4, 4, scheme="bdf2\0nonsense"))
+refused("scheme: found None", lambda: br.March(scene, 4, 4, scheme=None))
+refused("fine: found (1, 2, 3)", lambda: br.Study(scene, [4], [4], fine=(1, 2, 3)))
+refused("n: found 4, expected a list", lambda: br.Study(scene, 4, [4]))
+refused("progress: found 3", lambda: br.Study(scene, [4], [4], progress=3))
+masked = np.ma.array([16.0, 4.0, 1.0], mask=[0, 1, 0])
+refused("number: found masked_array", lambda: br.Orders(masked, h=[4, 2, 1]))
+refused("h: found masked_array", lambda: br.Orders([16, 4, 1], h=masked))
+refused("number: found array([16.+1.j", lambda: br.Orders([16 + 1j, 4, 1], h=[4, 2, 1]))
+refused("without a mask", lambda: march.get(br.BENDING, np.ma.zeros((5, 2))))
+orders = br.Orders([16, 4, 1], h=[4, 2, 1])
+refused("axis: found -1", lambda: orders.check((-1, 2, 0.1)))
+refused("expectations: found none", lambda: orders.check())
 refused("differ in length", lambda: br.Orders([1, 2, 3], h=[1, 2]))
 refused("numbers:2", lambda: br.Orders([3, -2, 1], h=[3, 2, 1]))
 study = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2)
@@ -179,8 +208,27 @@ except ZeroDivisionError:
     pass
 else:
     raise AssertionError("an exception of progress is lost")
+
+def interrupt(share):  # from any thread, as Ctrl-C comes
+    os.kill(os.getpid(), signal.SIGINT)
+    time.sleep(0.01)
+
+for run in (lambda: br.Study(scene, [200, 400], [2000, 4000], progress=interrupt),
+            lambda: br.Check(scene, progress=interrupt)):
+    try:
+        run()
+    except KeyboardInterrupt:
+        pass
+    else:
+        raise AssertionError("Ctrl-C is lost")
+
+child = os.fork()  # after studies in threads
+if child == 0:
+    again = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2, threads=2)
+    os._exit(0 if again.cell[2][0].tip == cell.tip else 1)
+assert os.waitpid(child, 0)[1] == 0
 END
-    "$python" refused.py
+    timeout 120 "$python" refused.py 2>noise && cat noise && [ ! -s noise ]
 }
 export PYTHONPATH=$prefix/share/beamrate/python${PYTHONPATH:+:$PYTHONPATH}
 python=${PYTHON:-python3}

@@ -2,6 +2,7 @@
 #include "support.h"
 
 #include <ctype.h>
+#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,12 @@
 
 #include "study/scene/expression.h"
 #include "study/scene/file.h"
+
+/* As the program and the library do. */
+__attribute__((constructor)) static void let_gsl_return(void)
+{
+    gsl_set_error_handler_off();
+}
 
 void br_test_close(const char *what, double actual, double expected, double tolerance,
                    const char *file, int line)

@@ -6,6 +6,7 @@
 
 #include "reference/exact/exact.h"
 #include "study/fit/fit.h"
+#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 
@@ -42,32 +43,42 @@ static void check_agreement(const struct meeting *m, const char *field, const ch
 }
 
 /* The tips of coarse marches, without any reference. */
+struct tips_of {
+    const struct br_scene *scene;
+    struct br_tips tips;
+    size_t steps[STEPS];
+};
+
+static enum br_status march_one(void *self, size_t cell, struct br_error *err)
+{
+    struct tips_of *t = self;
+    const struct br_method method = br_method_default();
+    const size_t steps = t->steps[cell % STEPS];
+    struct br_march *march = br_test_march(t->scene, meshes[cell / STEPS], steps, &method);
+    (void)err;
+    br_test_advance(march, steps);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->tips.value[kind][cell] = br_march_tip_displacement(march, (enum br_field_kind)kind);
+    br_march_free(march);
+    return BR_OK;
+}
+
 static void extrapolate(const struct meeting *m, const struct br_scene *scene,
                         struct verdict verdict[2])
 {
     struct br_error err = {0};
-    size_t steps[STEPS];
+    struct tips_of t = {.scene = scene};
     for (size_t j = 0; j < STEPS; j++)
-        steps[j] = m->steps << j;
-    const struct br_study grid = {.n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = steps};
-    const struct br_method method = br_method_default();
-    struct br_tips tips;
-    MUST(br_tips_create(&tips, &grid, &err));
-#pragma omp parallel for collapse(2) schedule(dynamic)
-    for (size_t i = 0; i < MESHES; i++)
-        for (size_t j = 0; j < STEPS; j++) {
-            struct br_march *march = br_test_march(scene, meshes[i], steps[j], &method);
-            br_test_advance(march, steps[j]);
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-                tips.value[kind][i * STEPS + j] =
-                    br_march_tip_displacement(march, (enum br_field_kind)kind);
-            br_march_free(march);
-        }
+        t.steps[j] = m->steps << j;
+    const struct br_study grid = {
+        .n_count = MESHES, .k_count = STEPS, .n = meshes, .steps = t.steps};
+    MUST(br_tips_create(&t.tips, &grid, &err));
+    MUST(br_each(&(struct br_each){MESHES * STEPS, 0, NULL, march_one, NULL, &t}, &err));
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_estimate e = br_extrapolate(&tips, (enum br_field_kind)kind);
+        const struct br_estimate e = br_extrapolate(&t.tips, (enum br_field_kind)kind);
         verdict[kind] = (struct verdict){e.value, (e.high - e.low) / 2};
     }
-    br_tips_clear(&tips);
+    br_tips_clear(&t.tips);
 }
 
 /* A first-order run is about as far from the truth as from one with steps twice as large;

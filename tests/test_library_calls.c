@@ -130,6 +130,12 @@ static void march_gives(const char *scene_name, const char *const *method, struc
     assert_int_equal(report.steps, STEPS);
     assert_int_equal(report.done, STEPS);
     assert_int_equal(report.stages, br_march_counts(march).stages);
+    assert_int_equal(report.accepted, br_march_counts(march).steps);
+    assert_int_equal(report.rejected, br_march_counts(march).rejected);
+    if (!method || strcmp(method[1], "adaptive") != 0)
+        assert_int_equal(report.rejected, 0);
+    else
+        assert_true(report.rejected > 0 && report.accepted != report.rejected);
     assert_int_equal(report.unstable, br_march_contact_unstable(march));
     close_to(report.round_off, br_march_round_off(march));
     beamrate_march_free(ours);
@@ -138,6 +144,8 @@ static void march_gives(const char *scene_name, const char *const *method, struc
     br_scene_clear(&expected);
     beamrate_scene_free(scene);
 }
+
+#define METHOD(...) ((const char *const[]){__VA_ARGS__, NULL})
 
 TEST(marches_have_the_same_bits)
 {
@@ -150,6 +158,11 @@ TEST(marches_have_the_same_bits)
     march_gives("example2", higher, method);
     march_gives("example3", (const char *const[]){"friction", "uzawa", NULL},
                 br_test_method(NULL, NULL, "uzawa"));
+    method = br_method_default();
+    method.scheme = br_time_scheme_find("adaptive");
+    method.contact = br_contact_rule_of(method.scheme);
+    method.tolerance = 1e-6;
+    march_gives("release", METHOD("scheme", "adaptive", "tolerance", "1e-6"), method);
     march_gives("chatter", NULL, br_method_default()); /* unstable */
     march_gives("initial_data", NULL, br_method_default());
 }
@@ -158,7 +171,6 @@ TEST(marches_are_refused)
 {
     struct beamrate_scene *scene = opened("example2");
     struct beamrate_march *march;
-#define METHOD(...) ((const char *const[]){__VA_ARGS__, NULL})
 #define WITH(method) beamrate_march_create(&march, scene, 4, 8, method, &failure)
     ENDS(WITH(METHOD("scheme", "eulr")), BEAMRATE_BAD_INPUT, "scheme: found 'eulr'");
     ENDS(WITH(METHOD("shceme", "euler")), BEAMRATE_BAD_INPUT,
@@ -202,10 +214,10 @@ TEST(failed_marches_stay_failed)
     beamrate_scene_free(scene);
 }
 
-TEST(forecasts_are_the_programs)
+static void forecast_gives(const char *name, bool warned)
 {
-    struct beamrate_scene *scene = opened("chatter");
-    struct br_scene expected = br_test_bundled("chatter");
+    struct beamrate_scene *scene = opened(name);
+    struct br_scene expected = br_test_bundled(name);
     const struct br_method method = br_method_default();
     struct br_prediction prediction;
     struct br_warnings warnings = {0};
@@ -218,9 +230,17 @@ TEST(forecasts_are_the_programs)
     assert_int_equal(forecast.known, prediction.known);
     assert_string_equal(forecast.why, prediction.known ? "" : prediction.why);
     close_to(forecast.round_off, prediction.round_off);
-    for (int kind = 0; kind < 2 && forecast.known; kind++)
-        close_to(forecast.error[kind].high, prediction.field[kind].high);
-    assert_true(warnings.count > 0);
+    for (int kind = 0; kind < 2; kind++) {
+        const struct br_predicted *e = &prediction.field[kind];
+        const struct br_estimate none = {NAN, NAN, NAN};
+        same_estimate(forecast.error[kind],
+                      forecast.known ? (struct br_estimate){e->error, e->low, e->high} : none);
+    }
+    if (forecast.known) /* no two ends are the same */
+        assert_true(0 < forecast.error[1].low && forecast.error[1].low < forecast.error[1].value &&
+                    forecast.error[1].value < forecast.error[1].high);
+    assert_int_equal(forecast.known, !warned);
+    assert_int_equal(warnings.count > 0, warned);
     assert_int_equal(forecast.warnings, warnings.count);
     for (size_t i = 0; i < warnings.count; i++) {
         assert_string_equal(forecast.warning[i].kind, br_warning_words[warnings.list[i].kind]);
@@ -230,6 +250,12 @@ TEST(forecasts_are_the_programs)
     ENDS(beamrate_foresee(scene, 0, 50, NULL, &forecast, &failure), BEAMRATE_BAD_INPUT, "n = 0");
     br_scene_clear(&expected);
     beamrate_scene_free(scene);
+}
+
+TEST(forecasts_are_the_programs)
+{
+    forecast_gives("chatter", true);
+    forecast_gives("example2", false);
 }
 
 /* ---- studies ---- */
@@ -347,6 +373,9 @@ TEST(studies_are_refused)
     STUDY_WITH("they are for a fine run", r.reference_n = 8);
     STUDY_WITH("does not nest", r.reference = "fine", r.reference_n = 10, r.reference_steps = 16);
     STUDY_WITH("threads: found -1", r.threads = -1);
+    STUDY_WITH("threads: found 1000000000, expected 0 to 1024", r.threads = 1000000000);
+    STUDY_WITH("n: found NULL", r.n = NULL);
+    STUDY_WITH("steps: found NULL", r.steps = NULL);
     STUDY_WITH("scheme: found 'x'", r.method = METHOD("scheme", "x"));
     beamrate_scene_free(scene);
 }
@@ -545,6 +574,142 @@ TEST(wrong_numbers_are_refused)
         ENDS(beamrate_orders_check(&check, orders, &wrong[i], 1, &failure), BEAMRATE_BAD_INPUT,
              "expectation 0: found order");
     beamrate_orders_free(orders);
+}
+
+/* Numbers at a floor are left out of the fit, and counted. */
+TEST(used_numbers_are_counted)
+{
+    static const double h[] = {256, 128, 64, 32, 16, 8, 4, 2},
+                        error[] = {65536, 16384, 4096, 1024, 256, 64, 10, 10};
+    const struct beamrate_numbers numbers = {.h = h, .number = error, .count = 8};
+    const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.5, 10};
+    struct beamrate_orders *orders;
+    struct beamrate_order order;
+    struct beamrate_check *check;
+    struct beamrate_case c;
+    WORKS(beamrate_orders_find(&orders, &numbers, &failure));
+    assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
+    assert_int_equal(order.points, 8);
+    assert_true(order.used >= 3 && order.used < 8);
+    CLOSE(order.constant, 1, 0.2);
+    WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
+    WORKS(beamrate_check_case(check, 0, &c));
+    assert_int_equal(c.points, order.points);
+    assert_int_equal(c.used, order.used);
+    close_to(c.constant, order.constant);
+    assert_true(*c.note);
+    beamrate_check_free(check);
+    beamrate_orders_free(orders);
+}
+
+/* ---- what is no handle, no index, no number ---- */
+
+TEST(wrong_handles_are_refused)
+{
+    static const double h[] = {4, 2, 1}, error[] = {16, 4, 1};
+    struct beamrate_numbers numbers = {.h = h, .number = error, .count = 3};
+    const struct beamrate_study_request request = {
+        .n = meshes, .n_count = 1, .steps = times, .steps_count = 1, .threads = 1};
+    struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
+    struct beamrate_scene *scene = opened("example2");
+    struct beamrate_march *march, *made_march;
+    struct beamrate_study *study, *made_study;
+    struct beamrate_orders *orders;
+    struct beamrate_check *check;
+    static struct beamrate_forecast forecast;
+    struct beamrate_scene_info info;
+    struct beamrate_tip tip;
+    struct beamrate_march_report report;
+    struct beamrate_cell cell;
+    struct beamrate_reference reference;
+    struct beamrate_estimate estimate;
+    struct beamrate_fit fit;
+    struct beamrate_order order;
+    struct beamrate_case c;
+    double room[2 * 5];
+    WORKS(beamrate_march_create(&march, scene, 4, 8, NULL, &failure));
+    WORKS(beamrate_study_run(&study, scene, &request, &failure));
+    WORKS(beamrate_orders_find(&orders, &numbers, &failure));
+    /* another handle: a march in place of any but a march, a scene in place of a march */
+    void *const wrong[] = {NULL, march, scene};
+    for (size_t i = 0; i < 2; i++) {
+        void *const other = wrong[i], *const no_march = wrong[2 * i];
+        ENDS(beamrate_march_create(&made_march, other, 4, 8, NULL, &failure), BEAMRATE_BAD_INPUT,
+             i ? "scene: found something else, expected a handle of kind 'scene'"
+               : "scene: found NULL");
+        assert_null(made_march);
+        ENDS(beamrate_foresee(other, 4, 8, NULL, &forecast, &failure), BEAMRATE_BAD_INPUT,
+             "scene:");
+        ENDS(beamrate_study_run(&made_study, other, &request, &failure), BEAMRATE_BAD_INPUT,
+             "scene: found");
+        assert_null(made_study);
+        ENDS(beamrate_check_run(&check, other, 1, NULL, &failure), BEAMRATE_BAD_INPUT, "scene:");
+        ENDS(beamrate_march_step(no_march, 1, &failure), BEAMRATE_BAD_INPUT, "march: found");
+        ENDS(beamrate_orders_check(&check, other, &expected, 1, &failure), BEAMRATE_BAD_INPUT,
+             "orders: found");
+        assert_null(check);
+#define REFUSES(call) assert_int_equal((call), BEAMRATE_BAD_INPUT)
+        REFUSES(beamrate_scene_info(other, &info));
+        assert_true(*info.name == 0 && info.length == 0);
+        REFUSES(beamrate_march_tip(no_march, &tip));
+        REFUSES(beamrate_march_report(no_march, &report));
+        REFUSES(beamrate_march_get(no_march, BEAMRATE_AXIAL, room, room));
+        assert_int_equal(beamrate_march_columns(no_march, BEAMRATE_AXIAL), 0);
+        REFUSES(beamrate_study_cell(other, 0, 0, &cell));
+        assert_true(isnan(cell.error[0]) && *cell.flag[2] == 0);
+        REFUSES(beamrate_study_slope(other, BEAMRATE_TOTAL, BEAMRATE_SPACE, 0, &estimate));
+        REFUSES(beamrate_study_fit(other, BEAMRATE_TOTAL, &fit));
+        REFUSES(beamrate_study_reference(other, &reference));
+        REFUSES(beamrate_check_case(other, 0, &c));
+        assert_int_equal(c.verdict, BEAMRATE_FAIL);
+        assert_int_equal(beamrate_check_count(other), 0);
+        assert_int_equal(beamrate_orders_line(other, BEAMRATE_SPACE, &order), 0);
+        assert_true(isnan(order.order.value));
+        REFUSES(beamrate_orders_fit(other, &fit));
+        assert_true(isnan(fit.p.value));
+        beamrate_scene_free(other); /* nothing */
+        beamrate_march_free(no_march);
+        beamrate_study_free(other);
+        beamrate_check_free(other);
+        beamrate_orders_free(other);
+    }
+    WORKS(beamrate_march_step(march, 1, &failure)); /* all are as they were */
+    /* NULL elsewhere */
+    ENDS(beamrate_scene_open(&scene, NULL, &failure), BEAMRATE_BAD_INPUT, "name: found NULL");
+    assert_null(scene);
+    scene = opened("example2");
+    struct beamrate_scene *none;
+    ENDS(beamrate_scene_parse(&none, "x", NULL, &failure), BEAMRATE_BAD_INPUT, "text: found NULL");
+    ENDS(beamrate_scene_open(NULL, "example2", &failure), BEAMRATE_BAD_INPUT, "place for a handle");
+    ENDS(beamrate_study_run(&made_study, scene, NULL, &failure), BEAMRATE_BAD_INPUT, "request:");
+    ENDS(beamrate_foresee(scene, 4, 8, NULL, NULL, &failure), BEAMRATE_BAD_INPUT, "forecast:");
+    REFUSES(beamrate_march_tip(march, NULL));
+    REFUSES(beamrate_study_cell(study, 0, 0, NULL));
+    /* indices and enums */
+    REFUSES(beamrate_study_cell(study, 1, 0, &cell));
+    REFUSES(beamrate_study_cell(study, 0, SIZE_MAX, &cell));
+    REFUSES(beamrate_study_slope(study, (enum beamrate_part)3, BEAMRATE_SPACE, 0, &estimate));
+    REFUSES(beamrate_study_slope(study, BEAMRATE_TOTAL, (enum beamrate_axis) - 1, 0, &estimate));
+    REFUSES(beamrate_study_slope(study, BEAMRATE_TOTAL, BEAMRATE_TIME, 1, &estimate));
+    REFUSES(beamrate_study_fit(study, (enum beamrate_part) - 1, &fit));
+    REFUSES(beamrate_march_get(march, (enum beamrate_field)2, room, room));
+    assert_int_equal(beamrate_orders_line(orders, (enum beamrate_axis)2, &order), 0);
+    expected.axis = (enum beamrate_axis) - 1;
+    ENDS(beamrate_orders_check(&check, orders, &expected, 1, &failure), BEAMRATE_BAD_INPUT,
+         "expectation 0: axis: found -1");
+    ENDS(beamrate_orders_check(&check, orders, &expected, 0, &failure), BEAMRATE_BAD_INPUT,
+         "expectations: found none");
+    beamrate_orders_free(orders);
+    /* numbers */
+    ENDS(beamrate_orders_find(&orders, NULL, &failure), BEAMRATE_BAD_INPUT, "numbers: found NULL");
+    numbers.formal = NAN;
+    ENDS(beamrate_orders_find(&orders, &numbers, &failure), BEAMRATE_BAD_INPUT,
+         "formal: found nan");
+    numbers.formal = -1;
+    ENDS(beamrate_orders_find(&orders, &numbers, &failure), BEAMRATE_BAD_INPUT, "formal: found -1");
+    beamrate_study_free(study);
+    beamrate_march_free(march);
+    beamrate_scene_free(scene);
 }
 
 /* ---- threads and memory ---- */

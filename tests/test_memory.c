@@ -37,7 +37,6 @@ static size_t sweep(const char *line, long every)
     size_t failures = 0;
     cli_path("reached", record);
     setenv("BR_FAULT_LOG", record, 1);
-    setenv("OMP_NUM_THREADS", "2", 1);
     snprintf(clear, sizeof clear, "cd '%s' && rm -rf set set.json reached", cli_folder());
     assert_int_equal(system(clear), 0);
     cli_expect(line, NULL, 0, "");

@@ -137,7 +137,6 @@ TEST(test_grid)
 /* Each waits for the others. */
 TEST(test_at_once)
 {
-#ifdef _OPENMP
     write_script("meet", "touch $0.$1\n"
                          "until [ -e $0.4 ] && [ -e $0.8 ] && [ -e $0.16 ]; do sleep 0.02; done\n"
                          "echo err=1");
@@ -146,7 +145,6 @@ TEST(test_at_once)
     run(&p);
     for (size_t i = 0; i < 3; i++)
         assert_null(numbers.row[i].failure);
-#endif
 }
 
 TEST(test_unknowns)

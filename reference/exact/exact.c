@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/inside.h"
 
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -574,7 +573,6 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
     };
     if (!s.exact)
         return br_no_memory(err, "the exact solution");
-    gsl_set_error_handler_off(); /* it would end the program */
     s.exact->duration = scene->duration;
     status = outline(&s, err);
     if (!status)

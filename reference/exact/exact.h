@@ -7,8 +7,8 @@
  * Proofs about the loads and initial data (solver/proof.h) determine where elements and steps end:
  * where the data jump or bend, and where a polynomial would not resolve them. Where fronts of
  * a load f(x, t) move, integrals are cut at them. A function of which nothing can be proved is
- * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. GSL's error
- * handler is switched off. */
+ * taken for smooth. The regularisation of friction is ignored: the law is (12) itself. The error
+ * handler of GSL has to be off. */
 #ifndef BR_REFERENCE_EXACT_EXACT_H
 #define BR_REFERENCE_EXACT_EXACT_H
 

@@ -212,7 +212,7 @@ static double time_error(const struct br_floor *f, const struct br_march *march,
     return (double)fabsl(br_march_time(march) - exact) / f->scene->duration;
 }
 
-/* A refusal or failure of the solver is stored in floor->refused. */
+/* A refusal or failure of the solver is stored in floor->refused, but for want of memory. */
 static enum br_status measure(const struct work *w, struct br_floor *floor, struct br_error *err)
 {
     struct br_march *march;
@@ -230,6 +230,8 @@ static enum br_status measure(const struct work *w, struct br_floor *floor, stru
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
         compare(w, march, (enum br_field_kind)kind, floor);
     br_march_free(march);
+    if (status == BR_NO_MEMORY)
+        return br_fail(err, status, "%s", floor->refused.message);
     return stop ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
 }
 

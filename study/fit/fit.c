@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/fit/fit.h"
 
+#include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
-#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -334,6 +335,49 @@ enum br_status br_order_fit(const struct br_order_point *point, size_t count,
     return BR_OK;
 }
 
+/* ---- linear least squares ---- */
+
+double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
+                              double *covariance)
+{
+    enum { MOST = 5 };
+    double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
+    size_t column[MOST], rank = 0;
+    gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);
+    gsl_vector_view scale = gsl_vector_view_array(tau, n), room = gsl_vector_view_array(norm, n);
+    gsl_permutation order = {n, column};
+    int sign;
+    gsl_linalg_QRPT_decomp(&rows.matrix, &scale.vector, &order, &sign, &room.vector);
+    while (rank < n && fabs(a[rank * n + rank]) > least * fabs(a[0]))
+        rank++;
+    for (size_t k = 0; k < rank; k++)
+        for (size_t i = k + 1; i-- > 0;) { /* R inverse = 1 */
+            double sum = i == k;
+            for (size_t l = i + 1; l <= k; l++)
+                sum -= a[i * n + l] * inverse[l][k];
+            inverse[i][k] = sum / a[i * n + i];
+        }
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            double *out = &covariance[column[i] * n + column[j]];
+            *out = 0;
+            for (size_t k = 0; k < rank; k++)
+                *out += inverse[i][k] * inverse[j][k];
+        }
+    if (!b)
+        return NAN;
+    gsl_vector_view rest = gsl_vector_view_array(b, m);
+    gsl_linalg_QR_QTvec(&rows.matrix, &scale.vector, &rest.vector); /* b = Q' b */
+    for (size_t i = 0; i < n; i++) {
+        c[column[i]] = 0;
+        for (size_t k = i; k < rank; k++)
+            c[column[i]] += inverse[i][k] * b[k];
+    }
+    for (size_t i = rank; i < m; i++)
+        left += b[i] * b[i];
+    return left;
+}
+
 /* ---- the same with a next term ---- */
 
 /* The next term is used where it leaves at most this share of the sum of squares. With five points,
@@ -349,7 +393,7 @@ struct drift_fit {
 
 /* Rows 1, log z, z of the model; y as in regress. x: room for count rows. */
 static struct drift_fit regress_drifting(const struct br_order_point *point, size_t count, double p,
-                                         double *x, double *y, gsl_multifit_linear_workspace *space)
+                                         double *x, double *y)
 {
     struct drift_fit fit;
     double c0, c1, cov00, cov01, cov11, c[TERMS], covariance[TERMS * TERMS];
@@ -359,15 +403,10 @@ static struct drift_fit regress_drifting(const struct br_order_point *point, siz
         x[i * TERMS + 2] = point[i].z / point[0].z;
         y[i] = log(point[i].error) - log_loss(point[i].z_against / point[i].z, p);
     }
-    gsl_matrix_view rows = gsl_matrix_view_array(x, count, TERMS);
-    gsl_matrix_view cov = gsl_matrix_view_array(covariance, TERMS, TERMS);
-    gsl_vector_view values = gsl_vector_view_array(y, count);
-    gsl_vector_view solution = gsl_vector_view_array(c, TERMS);
     gsl_fit_linear(x + 1, TERMS, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &fit.before);
-    gsl_multifit_linear(&rows.matrix, &values.vector, &solution.vector, &cov.matrix, &fit.left,
-                        space);
+    fit.left = br_least_squares_solve(x, y, count, TERMS, DBL_EPSILON, c, covariance);
     fit.order = c[1];
-    fit.deviation = sqrt(fmax(0, covariance[TERMS + 1]));
+    fit.deviation = sqrt(covariance[TERMS + 1] * fit.left / (double)(count - TERMS));
     return fit;
 }
 
@@ -377,22 +416,21 @@ enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t 
     const enum br_status status = br_order_fit(point, count, order, err);
     if (status || count < LEAST_DRIFTING || !isfinite(order->value))
         return status;
-    gsl_multifit_linear_workspace *space = gsl_multifit_linear_alloc(count, TERMS);
     double *x = br_allocate(count * (TERMS + 1), sizeof *x);
-    const bool ready = space && x;
+    if (!x)
+        return br_no_memory(err, "the fit");
     struct drift_fit fit = {.order = order->value, .left = INFINITY};
-    for (int i = 0; i < 100 && ready; i++) {
+    for (int i = 0; i < 100; i++) {
         const double before = fit.order;
-        fit = regress_drifting(point, count, before, x, x + count * TERMS, space);
+        fit = regress_drifting(point, count, before, x, x + count * TERMS);
         if (!(fabs(fit.order - before) > 1e-12 * fmax(1, fabs(before))))
             break;
     }
-    if (ready && fit.left <= explained * fit.before) {
+    if (fit.left <= explained * fit.before) {
         const double noise = gsl_cdf_tdist_Pinv(0.975, (double)(count - TERMS)) * fit.deviation;
         const double half = fmax(noise, fabs(fit.order - order->value));
         *order = (struct br_estimate){fit.order, fit.order - half, fit.order + half};
     }
-    gsl_multifit_linear_free(space);
     free(x);
-    return ready ? BR_OK : br_no_memory(err, "the fit");
+    return BR_OK;
 }

@@ -166,4 +166,12 @@ void br_tips_clear(struct br_tips *tips);
  * three meshes or four time steps, and where the values do not show an order of theory. */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
+/* Least squares |b - A c| with A of m rows of n columns, n <= 5, m >= n, by Q R with pivoting; c
+ * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
+ * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL
+ * together. Unlike GSL's own functions, which do not look whether their allocations fail, it
+ * allocates nothing. */
+double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
+                              double *covariance);
+
 #endif

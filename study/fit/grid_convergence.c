@@ -6,7 +6,6 @@
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
-#include <gsl/gsl_multifit.h>
 #include <math.h>
 
 static const double safety_observed = 1.25; /* with an observed order */
@@ -177,15 +176,13 @@ struct data {
     double *ln_h;      /* count: ln(h/h_1) */
     double *weight[2]; /* count each, sum 1: equal ones, and (16) */
     double *x;         /* 3 count: workspace for the columns of a fit */
-    gsl_multifit_linear_workspace *linear;
+    double *rest;      /* count: workspace for its right-hand side */
     gsl_min_fminimizer *minimizer;
 };
 
 static void data_free(struct data *d)
 {
     free(d->y);
-    if (d->linear)
-        gsl_multifit_linear_free(d->linear);
     if (d->minimizer)
         gsl_min_fminimizer_free(d->minimizer);
 }
@@ -194,17 +191,17 @@ static void data_free(struct data *d)
 static enum br_status data_create(struct data *d, const double *h, const double *value,
                                   size_t count, double full, struct br_error *err)
 {
-    double *room = br_allocate(7 * count, sizeof *room);
+    double *room = br_allocate(8 * count, sizeof *room);
     *d = (struct data){
         .count = count,
         .y = room,
         .ln_h = room + count,
         .weight = {room + 2 * count, room + 3 * count},
         .x = room + 4 * count,
-        .linear = gsl_multifit_linear_alloc(count, 3),
+        .rest = room + 7 * count,
         .minimizer = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent),
     };
-    if (!room || !d->linear || !d->minimizer)
+    if (!room || !d->minimizer)
         return br_no_memory(err, "the fits");
     const double finest = h[count - 1];
     double sum = 0;
@@ -245,15 +242,14 @@ static void fit_expansion(const struct data *d, struct br_expansion_fit *fit)
     fit->limit = fit->error = fit->misfit = fit->sigma = NAN;
     if (!fill_columns(d, fit))
         return;
-    double c[3], covariance[9], sum;
-    gsl_matrix_view x = gsl_matrix_view_array(d->x, n, columns);
-    gsl_vector_view y = gsl_vector_view_array(d->y, n);
-    gsl_vector_view w = gsl_vector_view_array(d->weight[fit->weighted], n);
-    gsl_vector_view solution = gsl_vector_view_array(c, columns);
-    gsl_matrix_view cov = gsl_matrix_view_array(covariance, columns, columns);
-    if (gsl_multifit_wlinear(&x.matrix, &w.vector, &y.vector, &solution.vector, &cov.matrix, &sum,
-                             d->linear) != GSL_SUCCESS)
-        return;
+    double c[3], covariance[9];
+    for (size_t i = 0; i < n; i++) {
+        const double root = sqrt(d->weight[fit->weighted][i]);
+        for (size_t j = 0; j < columns; j++)
+            d->x[i * columns + j] *= root;
+        d->rest[i] = d->y[i] * root;
+    }
+    const double sum = br_least_squares_solve(d->x, d->rest, n, columns, 0, c, covariance);
     fit->error = 0;
     for (size_t j = 0; j < fit->terms; j++)
         fit->error += c[1 + j] / fit->power[j];
@@ -433,7 +429,6 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
         result->range = (most - least) / (double)(count - 1);
         return BR_OK;
     }
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* its default ends the program */
     struct data data;
     status = data_create(&data, h, value, count, most - least, err);
     if (!status) {
@@ -443,7 +438,6 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
         status = name_sequence(h, value, count, result, err);
     }
     data_free(&data);
-    gsl_set_error_handler(handler);
     return status;
 }
 

@@ -34,6 +34,7 @@ struct problem {
     enum br_joint_kind kind;
     const struct br_observer *observer;  /* may be NULL; where it stops, no fit is found any more */
     double log_unit[BR_AXES], log_error; /* logarithms of those units in m, s, m^(3/2) */
+    bool *starved;                       /* set if memory ends */
 };
 
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
@@ -197,7 +198,8 @@ static void read_attempt(const struct problem *problem, gsl_multifit_nlinear_wor
         return;
     double room[UNKNOWNS * UNKNOWNS];
     gsl_matrix_view covariance = gsl_matrix_view_array(room, unknowns, unknowns);
-    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(w), 1e-12, &covariance.matrix);
+    gsl_matrix *jacobian = gsl_multifit_nlinear_jac(w); /* not used any more */
+    br_least_squares_solve(jacobian->data, NULL, jacobian->size1, unknowns, 1e-12, NULL, room);
     const double variance = sum / (double)(problem->count - unknowns);
     double full[UNKNOWNS];
     spread(problem, gsl_multifit_nlinear_position(w), full);
@@ -239,6 +241,7 @@ static struct attempt attempt_from(const struct problem *problem, const double f
             read_attempt(problem, w, &out);
         }
     }
+    *problem->starved |= !w;
     gsl_multifit_nlinear_free(w);
     return out;
 }
@@ -491,9 +494,10 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     struct br_observation *own = br_allocate(2 * count, sizeof *own);
     if (!own)
         return br_no_memory(err, "the fits");
+    bool starved = false;
     struct problem problem = problem_of(observation, count, own);
     problem.observer = observer;
-    gsl_error_handler_t *handler = gsl_set_error_handler_off();
+    problem.starved = &starved;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
         struct candidate *c = &candidate[kind];
         *c = (struct candidate){.attempt = {.sum = INFINITY}, .criterion = INFINITY};
@@ -511,7 +515,8 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     if (!br_joint_describes(fit) && isfinite(candidate[BR_JOINT_BOTH].criterion))
         take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], one_determined, own + count,
                   fit);
-    gsl_set_error_handler(handler);
     free(own);
-    return br_observer_stops(observer) ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
+    if (br_observer_stops(observer))
+        return br_fail(err, BR_INTERRUPTED, "interrupted");
+    return starved ? br_no_memory(err, "the fits") : BR_OK;
 }

@@ -468,7 +468,7 @@ static enum br_status march_whole(struct br_probe *whole, const struct br_planne
         forget(whole);
         set_whole(whole, o, by);
         status = try_probe(whole, err);
-        more = whole->active && !is_sure(whole) && refine(o, whole, &by);
+        more = !status && whole->active && !is_sure(whole) && refine(o, whole, &by);
     }
     return status;
 }

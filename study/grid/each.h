@@ -1,26 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A loop whose turns are shared by threads, with progress, interruption and the first failure. */
+/* Threads that share work, and a loop that they share, with progress, interruption and the first
+ * failure. */
 #ifndef BR_STUDY_GRID_EACH_H
 #define BR_STUDY_GRID_EACH_H
 
 #include <stddef.h>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
 #include "solver/status.h"
 #include "study/grid/observer.h"
 
-/* `wanted`, or where that is 0 one for each core; 1 in a build without OpenMP. */
-static inline int br_threads(int wanted)
-{
-#ifdef _OPENMP
-    return wanted > 0 ? wanted : omp_get_num_procs();
-#else
-    (void)wanted;
-    return 1;
-#endif
-}
+enum { BR_MOST_THREADS = 1024 };
+
+/* `wanted`, at most BR_MOST_THREADS; or where that is 0 one for each core. */
+int br_threads(int wanted);
+
+/* Calls work(self) in up to `threads` threads at once (of br_threads, or fewer), one of which is
+ * the caller's, and returns when all calls have. Where the system has no thread or no memory for
+ * one left, there are fewer; within the work of another team there is one. Nothing fails, and no
+ * thread outlives the call. */
+void br_team(int threads, void (*work)(void *self), void *self);
 
 struct br_each {
     size_t count;                       /* turns */

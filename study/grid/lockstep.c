@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reference is marched a batch of time levels at a time, its two fields apart, and leaves its
  * projections (ladder.h) in one of a few buffers; the cells then take their own steps through the
- * batch and measure their errors, while the reference is already filling the other buffers. These
- * are OpenMP tasks whose dependences are the buffers and the marches. The bending field follows the
- * axial one; the axial field waits only for a free buffer. Every march is one sequence of
- * operations whichever threads run it, so the result has the same bits on any number. */
+ * batch and measure their errors, while the reference is already filling the other buffers. Each of
+ * these is a lane, which does its batches in their order, on whichever thread is free. The bending
+ * field follows the axial one; the axial field waits only for a free buffer. Every march is one
+ * sequence of operations whichever threads run it, so the result has the same bits on any number.
+ */
 #include "study/grid/lockstep.h"
 
 #include <math.h>
@@ -205,12 +206,13 @@ static bool models(const struct br_lockstep *l, enum br_field_kind kind)
 static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t index,
                          const struct br_error *failure)
 {
-#pragma omp critical(lockstep)
+    pthread_mutex_lock(&l->lock);
     if (index < atomic_load(&l->first_failed) ||
         (index == atomic_load(&l->first_failed) && kind == BR_AXIAL)) {
         l->failure = *failure;
         atomic_store(&l->first_failed, index);
     }
+    pthread_mutex_unlock(&l->lock);
 }
 
 static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
@@ -270,14 +272,13 @@ static void cells_batch(struct br_lockstep *l, size_t b, size_t task)
 
 /* ---- running ---- */
 
-/* Batches of each study whose tasks exist at once, at most: time and memory of waiting tasks grow
- * faster than their number. */
-enum { AHEAD = 128 };
-
 /* All the studies of a call, and their progress. */
 struct work {
+    struct br_study *studies;
     struct br_lockstep *step;
     size_t count;
+    pthread_mutex_t lock; /* of all lanes */
+    pthread_cond_t done;  /* a lane has done a batch */
     atomic_size_t finished_batches;
     size_t all_batches;
     const struct br_observer *observer;
@@ -292,47 +293,84 @@ static void report_progress(struct work *work, struct br_lockstep *l)
         work->observer->progress(work->observer->self, (double)done / (double)work->all_batches);
 }
 
-/* The tasks of batch b: each field of the reference fills its buffer, then the cells read them. */
-static void spawn_batch(struct work *work, struct br_lockstep *l, size_t b)
+/* The batches that are to be done: after a failure those up to it, so that it is the first one. */
+static size_t last_batch(struct br_lockstep *l)
 {
-    (void)work; /* without OpenMP */
-    char *axial = &l->marched[BR_AXIAL],
-         *from_axial = &l->filled[BR_AXIAL][b % BR_LOCKSTEP_BUFFERS];
-    char *bending = &l->marched[BR_BENDING];
-    char *from_bending = &l->filled[BR_BENDING][b % BR_LOCKSTEP_BUFFERS], *tally = &l->tally;
-    (void)axial, (void)from_axial, (void)bending, (void)from_bending, (void)tally;
-#pragma omp task depend(inout : axial[0], from_axial[0])
-    reference_batch(l, BR_AXIAL, b);
-#pragma omp task depend(inout : bending[0], from_bending[0]) depend(in : from_axial[0])
-    {
-        reference_batch(l, BR_BENDING, b);
-        report_progress(work, l);
-    }
-#pragma omp task depend(inout : tally[0]) depend(in : from_axial[0], from_bending[0])
-    add_up_batch(l, b);
-    for (size_t i = 0; i < l->tasks; i++) {
-        size_t *task_cell = &l->task_cell[i];
-        (void)task_cell;
-#pragma omp task depend(inout : task_cell[0]) depend(in : from_axial[0], from_bending[0])
-        cells_batch(l, b, i);
-    }
+    const size_t failed = atomic_load(&l->first_failed);
+    if (atomic_load(&l->stopped))
+        return 0;
+    return failed / l->batch < l->batches ? failed / l->batch + 1 : l->batches;
 }
 
-static void spawn_all(struct work *work)
+/* Whether a lane's next batch has what it reads, and a buffer that nobody reads any more. */
+static bool is_ready(const struct br_lockstep *l, size_t lane)
 {
-    size_t most = 0;
-    for (size_t s = 0; s < work->count; s++)
-        most = work->step[s].batches > most ? work->step[s].batches : most;
-    for (size_t b = 0; b < most; b++) {
-        for (size_t s = 0; s < work->count; s++) {
-            struct br_lockstep *l = &work->step[s];
-            if (b < l->batches && !atomic_load(&l->stopped) && !failed_before(l, l->level_count))
-                spawn_batch(work, l, b);
-        }
-        if (b % AHEAD == AHEAD - 1 || b + 1 == most) {
-#pragma omp taskwait
+    const size_t b = l->lane[lane].done;
+    if (l->lane[lane].busy || (lane > BR_LANE_AXIAL && b == l->lane[BR_LANE_AXIAL].done))
+        return false;
+    if (lane > BR_LANE_BENDING)
+        return b < l->lane[BR_LANE_BENDING].done;
+    for (size_t reader = lane + 1; reader < BR_LANE_CELLS + l->tasks; reader++)
+        if (b == l->lane[reader].done + BR_LOCKSTEP_BUFFERS)
+            return false;
+    return true;
+}
+
+/* Chooses the ready lane with the earliest batch: *l and *lane (out). Returns whether anything is
+ * left to do; *l is NULL if others do it, or have to end before it can begin. */
+static bool choose_lane(const struct work *work, struct br_lockstep **l, size_t *lane)
+{
+    bool left = false;
+    *l = NULL;
+    for (struct br_lockstep *s = work->step; s < work->step + work->count; s++) {
+        const size_t end = s->batches ? last_batch(s) : 0;
+        for (size_t i = 0; i < BR_LANE_CELLS + s->tasks && end; i++) {
+            if (s->lane[i].done >= end)
+                continue;
+            left = true;
+            if (is_ready(s, i) && (!*l || s->lane[i].done < (*l)->lane[*lane].done)) {
+                *l = s;
+                *lane = i;
+            }
         }
     }
+    return left;
+}
+
+static void do_batch(struct work *work, struct br_lockstep *l, size_t lane, size_t b)
+{
+    if (lane <= BR_LANE_BENDING)
+        reference_batch(l, lane == BR_LANE_AXIAL ? BR_AXIAL : BR_BENDING, b);
+    if (lane == BR_LANE_BENDING)
+        report_progress(work, l);
+    if (lane == BR_LANE_SUMS)
+        add_up_batch(l, b);
+    if (lane >= BR_LANE_CELLS)
+        cells_batch(l, b, lane - BR_LANE_CELLS);
+}
+
+/* What each thread does. */
+static void do_batches(void *self)
+{
+    struct work *work = self;
+    struct br_lockstep *l;
+    size_t i = 0;
+    pthread_mutex_lock(&work->lock);
+    while (choose_lane(work, &l, &i)) {
+        if (!l) {
+            pthread_cond_wait(&work->done, &work->lock);
+            continue;
+        }
+        struct br_lane *lane = &l->lane[i];
+        lane->busy = true;
+        pthread_mutex_unlock(&work->lock);
+        do_batch(work, l, i, lane->done);
+        pthread_mutex_lock(&work->lock);
+        lane->busy = false;
+        lane->done++;
+        pthread_cond_broadcast(&work->done);
+    }
+    pthread_mutex_unlock(&work->lock);
 }
 
 /* Keeps the reference's lines of events with the study. */
@@ -381,49 +419,62 @@ static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
     return status;
 }
 
-static void create(struct work *work, struct br_study *studies, size_t s)
+static void create(struct work *work, size_t s)
 {
     struct br_lockstep *l = &work->step[s];
-    if (studies[s].failure.status)
-        l->study = &studies[s];
-    else if (br_lockstep_create(l, &studies[s], work->observer, &studies[s].failure))
+    struct br_study *study = &work->studies[s];
+    if (study->failure.status)
+        l->study = study;
+    else if (br_lockstep_create(l, study, work->observer, &study->failure))
         l->batches = 0; /* nothing to march */
 }
 
-/* Sets up all studies; an exact reference computes its solution here. Studies of one scene are set
- * up one after the other, since all of them use its functions (scene.h). */
-static void create_all(struct work *work, struct br_study *studies, int threads)
+/* Sets up all studies of the scene of study `first`, unless a study before it has that scene; an
+ * exact reference computes its solution here. Studies of one scene are set up one after the other,
+ * since all of them use its functions (scene.h). */
+static enum br_status create_of_scene(void *self, size_t first, struct br_error *err)
 {
-    (void)threads; /* without OpenMP */
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (size_t first = 0; first < work->count; first++) {
-        bool is_first = true;
-        for (size_t s = 0; s < first; s++)
-            is_first &= studies[s].scene != studies[first].scene;
-        for (size_t s = first; s < work->count && is_first; s++)
-            if (studies[s].scene == studies[first].scene)
-                create(work, studies, s);
-    }
+    struct work *work = self;
+    const struct br_study *studies = work->studies;
+    (void)err;
+    for (size_t s = 0; s < first; s++)
+        if (studies[s].scene == studies[first].scene)
+            return BR_OK;
+    for (size_t s = first; s < work->count; s++)
+        if (studies[s].scene == studies[first].scene)
+            create(work, s);
+    return BR_OK;
+}
+
+static size_t most_lanes(const struct work *work)
+{
+    size_t most = 0;
     for (size_t s = 0; s < work->count; s++)
-        work->all_batches += work->step[s].batches;
+        most += BR_LANE_CELLS + work->step[s].tasks;
+    return most;
 }
 
 enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
                            const struct br_observer *observer, struct br_error *err)
 {
-    struct work work = {.count = count, .observer = observer};
+    struct work work = {.studies = studies,
+                        .count = count,
+                        .lock = PTHREAD_MUTEX_INITIALIZER,
+                        .done = PTHREAD_COND_INITIALIZER,
+                        .observer = observer};
     work.step = br_allocate(count, sizeof *work.step);
     if (!work.step)
         return br_no_memory(err, "the studies");
     threads = br_threads(threads);
-    create_all(&work, studies, threads);
+    br_each(&(struct br_each){count, threads, NULL, create_of_scene, NULL, &work}, NULL);
     bool fatal = false;
-    for (size_t s = 0; s < count; s++)
+    for (size_t s = 0; s < count; s++) {
+        work.all_batches += work.step[s].batches;
         fatal |= is_fatal(&studies[s].failure);
-#pragma omp parallel num_threads(threads) if (!fatal)
-#pragma omp single
+    }
     if (!fatal)
-        spawn_all(&work);
+        br_team(most_lanes(&work) < (size_t)threads ? (int)most_lanes(&work) : threads, do_batches,
+                &work);
     enum br_status status = BR_OK;
     for (size_t s = 0; s < count && !status; s++)
         status = conclude(&work.step[s], err);

@@ -3,6 +3,7 @@
 #ifndef BR_STUDY_GRID_LOCKSTEP_H
 #define BR_STUDY_GRID_LOCKSTEP_H
 
+#include <pthread.h>
 #include <stdatomic.h>
 
 #include "study/grid/ladder.h"
@@ -42,14 +43,23 @@ struct br_runner {
     struct br_error error; /* status BR_OK while all is well */
 };
 
+/* What works through the batches, one after the other: a field of the reference, the sums, or the
+ * cells of a task. */
+enum { BR_LANE_AXIAL, BR_LANE_BENDING, BR_LANE_SUMS, BR_LANE_CELLS };
+struct br_lane {
+    size_t done; /* batches */
+    bool busy;   /* a thread does the next one */
+};
+
 struct br_lockstep {
     struct br_study *study;                   /* the first of its chain */
     size_t norms;                             /* in the chain */
     struct br_measured measured[BR_MEASURED]; /* by field, then measure */
     struct br_bench reference, auditor;       /* the auditor's judge may be NULL */
     atomic_size_t first_failed; /* the index of the first level at which a field failed, */
-    struct br_error failure;    /* and why; status BR_OK while all is well */
-    size_t *root_mesh;          /* on which the reference is sampled */
+    struct br_error failure;    /* and why; status BR_OK while all is well; under the lock */
+    pthread_mutex_t lock;
+    size_t *root_mesh; /* on which the reference is sampled */
     size_t root_meshes;
     size_t audit_every;           /* of the levels, so that there are not too many audits */
     struct br_runner *cell;       /* br_study_cells */
@@ -61,9 +71,7 @@ struct br_lockstep {
     const struct br_observer *observer;
     struct br_store store; /* of all arrays, and of the ladders */
     atomic_bool stopped;
-    /* What OpenMP tasks depend on: by br_field_kind, the reference's march and its buffers; and
-     * those that add up. */
-    char marched[2], filled[2][BR_LOCKSTEP_BUFFERS], tally;
+    struct br_lane *lane; /* BR_LANE_CELLS + tasks */
 };
 
 /* The elements of a field, of the cells and of the reference. */

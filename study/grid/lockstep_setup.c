@@ -20,6 +20,7 @@ static enum br_status take_arrays(struct br_lockstep *l, struct br_error *err)
     l->root_mesh = br_store_take(&l->store, s->n_count, sizeof *l->root_mesh);
     l->cell = br_store_take(&l->store, cells, sizeof *l->cell);
     l->task_cell = br_store_take(&l->store, cells + 1, sizeof *l->task_cell);
+    l->lane = br_store_take(&l->store, BR_LANE_CELLS + cells, sizeof *l->lane);
     l->cell_sum = br_store_take(&l->store, cells * l->norms, sizeof *l->cell_sum);
     l->reference.sum = br_store_take(&l->store, l->norms, sizeof *l->reference.sum);
     l->auditor.sum = br_store_take(&l->store, l->norms, sizeof *l->auditor.sum);
@@ -265,6 +266,7 @@ enum br_status br_lockstep_create(struct br_lockstep *l, struct br_study *s,
         l->norms++;
     l->observer = observer;
     atomic_init(&l->first_failed, SIZE_MAX);
+    l->lock = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
     choose_measured(l);
     if (take_arrays(l, err))
         return err->status;

@@ -5,19 +5,23 @@
  * "Dynamic frictional contact of a viscoelastic beam", ESAIM: M2AN 40, 2006.
  *
  * All quantities are in SI units. Pointers to handles and structs must not be NULL, unless a
- * comment allows it. A pointer to const that a function returns is borrowed from its handle, and
+ * comment allows it: NULL, a handle of another kind, an index or a number outside of an enum are
+ * refused (BEAMRATE_BAD_INPUT), and a function that has no message then fills *out with zeros, NaN
+ * and "". A handle that was freed, and a pointer to anything else, are not recognised. A pointer to const that a function returns is borrowed from its handle, and
  * valid as long as the handle.
  *
  * Errors are values. A function that can fail returns a status, and fills *err (out; may be NULL)
  * with a message for a person: what was found and what was expected. If a function fails to make a
- * handle, the handle is NULL. The library prints nothing and does not end the process.
+ * handle, the handle is NULL. The library prints nothing and does not end the process, also where
+ * memory ends: the call fails with BEAMRATE_NO_MEMORY.
  *
  * Threads: different threads may use different handles at the same time, and several calls may use
  * one scene at the same time, so that it serves many marches. Any other handle allows one call at a
- * time. The library keeps no data between calls except handles. Two effects concern the whole
+ * time. The library keeps no data between calls except handles. One effect concerns the whole
  * process: while a function of the library runs, the error handler of GSL is off, and the last call
- * that ends restores it; and a function that takes `threads` starts OpenMP's threads. Results
- * depend neither on threads nor on the locale.
+ * that ends restores it. A function that takes `threads` (0 to 1024; 0: all cores) starts threads
+ * of its own, fewer if the system has none left, and ends them before it returns; so a process may
+ * fork between calls. Results depend neither on threads nor on the locale.
  *
  * ABI: libbeamrate.so has the major version in its name. Within a major version functions may be
  * added, but none is removed, and no struct or number below is changed. */
@@ -115,7 +119,8 @@ enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const c
 void beamrate_scene_free(struct beamrate_scene *scene); /* accepts NULL */
 
 /* The data of a scene (out). */
-void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_scene_info *info);
+enum beamrate_status beamrate_scene_info(const struct beamrate_scene *scene,
+                                         struct beamrate_scene_info *info);
 
 /* ---- before a march ---- */
 
@@ -193,9 +198,11 @@ enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t co
                                          struct beamrate_error *err);
 
 /* The tip after the last step (out). */
-void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip);
+enum beamrate_status beamrate_march_tip(const struct beamrate_march *march,
+                                        struct beamrate_tip *tip);
 
-/* Numbers for each node in beamrate_march_get: axial 1, quadratic elements 2; bending 2. */
+/* Numbers for each node in beamrate_march_get: axial 1, quadratic elements 2; bending 2; 0 if there
+ * is no such march or field. */
 size_t beamrate_march_columns(const struct beamrate_march *march, enum beamrate_field field);
 
 /* Displacement and velocity of a field after the last step at the nodes x_i = i h, i = 0 .. n (out,
@@ -204,12 +211,13 @@ size_t beamrate_march_columns(const struct beamrate_march *march, enum beamrate_
  * interpolant. Column 1 of quadratic axial elements is the bubble b of the element that ends at the
  * node: with xi in [0, 1] along it, u = (1 - xi) u_left + xi u_right - xi (1 - xi) b. All numbers
  * are zero if the field is not modelled. */
-void beamrate_march_get(const struct beamrate_march *march, enum beamrate_field field,
-                        double *displacement, double *velocity);
+enum beamrate_status beamrate_march_get(const struct beamrate_march *march,
+                                        enum beamrate_field field, double *displacement,
+                                        double *velocity);
 
 /* The size of a march and its cost so far (out). */
-void beamrate_march_report(const struct beamrate_march *march,
-                           struct beamrate_march_report *report);
+enum beamrate_status beamrate_march_report(const struct beamrate_march *march,
+                                           struct beamrate_march_report *report);
 
 /* ---- studies ---- */
 
@@ -227,7 +235,7 @@ struct beamrate_study_request {
     const char *reference;     /* "exact", "mms", "fine"; NULL: the best one for the scene */
     size_t reference_n, reference_steps; /* of "fine": multiples of all n and all steps */
     const char *norm;                    /* "l2" of (31), "energy" of (25), "tip"; NULL: "l2" */
-    int threads;                         /* 0: all cores */
+    int threads;                         /* 0 to 1024; 0: all cores */
     const struct beamrate_observer *observer; /* NULL: none */
 };
 
@@ -271,21 +279,22 @@ enum beamrate_status beamrate_study_run(struct beamrate_study **study,
 void beamrate_study_free(struct beamrate_study *study); /* accepts NULL */
 
 /* Cell (out) of n[i], i < n_count, and steps[j], j < steps_count. */
-void beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
-                         struct beamrate_cell *cell);
+enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
+                                         struct beamrate_cell *cell);
 
 /* The slope (out) of log(error) over log(h) at steps[at], or, for time, of log(error) over log(k)
  * at n[at]. NaN with fewer than two cells; its interval is NaN with fewer than three. */
-void beamrate_study_slope(const struct beamrate_study *study, enum beamrate_part part,
-                          enum beamrate_axis axis, size_t at, struct beamrate_estimate *order);
+enum beamrate_status beamrate_study_slope(const struct beamrate_study *study,
+                                          enum beamrate_part part, enum beamrate_axis axis,
+                                          size_t at, struct beamrate_estimate *order);
 
 /* The joint fit of an error component (out). */
-void beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
-                        struct beamrate_fit *fit);
+enum beamrate_status beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
+                                        struct beamrate_fit *fit);
 
 /* The reference (out). */
-void beamrate_study_reference(const struct beamrate_study *study,
-                              struct beamrate_reference *reference);
+enum beamrate_status beamrate_study_reference(const struct beamrate_study *study,
+                                              struct beamrate_reference *reference);
 
 /* ---- verdicts ---- */
 
@@ -324,9 +333,10 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         struct beamrate_error *err);
 void beamrate_check_free(struct beamrate_check *check); /* accepts NULL */
 
-/* The number of expectations, and expectation i (out). */
+/* The number of expectations, 0 for no check; and expectation i (out). */
 size_t beamrate_check_count(const struct beamrate_check *check);
-void beamrate_check_case(const struct beamrate_check *check, size_t i, struct beamrate_case *c);
+enum beamrate_status beamrate_check_case(const struct beamrate_check *check, size_t i,
+                                         struct beamrate_case *c);
 
 /* ---- orders of any numbers ---- */
 
@@ -360,13 +370,14 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           struct beamrate_error *err);
 void beamrate_orders_free(struct beamrate_orders *orders); /* accepts NULL */
 
-/* The order along an axis (out). Returns 1, or 0 if no line along it has three sizes. If both axes
+/* The order along an axis (out). Returns 1, or 0 with NaN if no line along it has three sizes. If both axes
  * are refined from each number to the next, the line is one of space. */
 int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axis axis,
                          struct beamrate_order *order);
 
 /* The joint fit of errors on a grid of h and k (out); for other numbers only NaN. */
-void beamrate_orders_fit(const struct beamrate_orders *orders, struct beamrate_fit *fit);
+enum beamrate_status beamrate_orders_fit(const struct beamrate_orders *orders,
+                                         struct beamrate_fit *fit);
 
 /* The expectation of an order. */
 struct beamrate_expectation {
@@ -375,7 +386,7 @@ struct beamrate_expectation {
     double down_to;          /* the errors are expected to stop falling there; 0: nowhere */
 };
 
-/* A verdict on each of `count` expectations, by the joint fit if it describes the errors, else by
+/* A verdict on each of `count` >= 1 expectations, by the joint fit if it describes the errors, else by
  * the line. *check (out): owned by the caller; it does not need the orders any more. Fails with
  * BEAMRATE_BAD_INPUT if there is no such line or an expectation makes no sense, or with
  * BEAMRATE_NO_MEMORY. */

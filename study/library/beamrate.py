@@ -10,6 +10,8 @@ $BEAMRATE_LIBRARY names the shared library where it is not installed beside this
 import ctypes
 import operator
 import os
+import threading
+import weakref
 from ctypes import byref, c_char, c_char_p, c_double, c_int, c_size_t, c_void_p
 from pathlib import Path
 from types import SimpleNamespace
@@ -68,7 +70,7 @@ def _plain(value):
         return SimpleNamespace(**{name: _plain(getattr(value, name)) for name, _ in value._fields_})
     if isinstance(value, ctypes.Array):
         return [_plain(item) for item in value]
-    return value.decode() if isinstance(value, bytes) else value
+    return value.decode(errors="replace") if isinstance(value, bytes) else value
 
 
 # ---- the library ----
@@ -88,88 +90,154 @@ __version__ = _lib.beamrate_version().decode()
 def _call(name, *arguments):
     err = _Error()
     if getattr(_lib, "beamrate_" + name)(*arguments, byref(err)) != 0:
-        error = (BadInput if err.status == 1 else Error)(err.message.decode())
+        error = (BadInput if err.status == 1 else Error)(err.message.decode(errors="replace"))
         error.status = err.status
         raise error
 
 
-def _text(value):
-    return None if value is None else str(value).encode()
+# ---- arguments: what C would misread is refused, by the argument's name ----
+
+def _refuse(error, name, value, expected):
+    raise error(f"{name}: found {value!r:.200}, expected {expected}")
 
 
-def _count(value):
-    """A whole number, as C has it: never one that is rounded, or wraps."""
-    value = operator.index(value)
+def _text(name, value, kinds=(str, os.PathLike)):
+    if not isinstance(value, kinds):
+        _refuse(TypeError, name, value, "a text")
+    if "\0" in (text := str(value)):
+        _refuse(BadInput, name, value, "a text without NUL")
+    return text.encode()
+
+
+def _whole(name, value, most):
+    """A whole number from 0 to most: never one that is rounded, or wraps."""
+    try:
+        value = operator.index(value)
+    except TypeError:
+        _refuse(TypeError, name, value, "a whole number (an integer)")
     if value < 0:
-        raise BadInput(f"found {value}, expected a number of at least 0")
-    return c_size_t(value)
+        _refuse(BadInput, name, value, "a number of at least 0")
+    if value > most:
+        _refuse(OverflowError, name, value, f"at most {most}")
+    return value
 
 
-def _counts(values):
-    return (c_size_t * len(values))(*map(_count, values))
+def _count(name, value):
+    return c_size_t(_whole(name, value, c_size_t(-1).value))
 
 
-def _choice(value, count):
-    return c_int(range(count)[value])  # raises IndexError where there is none
+def _counts(name, values):
+    try:
+        values = list(values)
+    except TypeError:
+        _refuse(TypeError, name, values, "a list of whole numbers")
+    return (c_size_t * len(values))(*(_count(name, value) for value in values))
+
+
+def _threads(value):
+    return c_int(_whole("threads", value, 1024))
+
+
+def _choice(name, value, count):
+    try:
+        return c_int(_whole(name, value, count - 1))
+    except OverflowError as error:
+        raise BadInput(*error.args) from None
 
 
 def _method(options):
-    words = [_text(word) for pair in options.items() for word in pair]
+    words = [word for name, value in options.items()
+             for word in (_text("method", name), _text(name, value, (str, int, float, np.number)))]
     return (c_char_p * (len(words) + 1))(*words, None)
+
+
+def _scene(value):
+    return value if isinstance(value, Scene) else _refuse(TypeError, "scene", value, "a Scene")
+
+
+def _numbers(name, values):
+    if isinstance(values, np.ma.MaskedArray):
+        _refuse(TypeError, name, values, "an array without a mask; NaN is a missing number")
+    values = np.asarray(values)
+    if values.dtype.kind not in "iuf" or values.ndim != 1:
+        _refuse(TypeError, name, values, "a list of real numbers")
+    return np.ascontiguousarray(values, np.float64)
 
 
 class _Watch:
     """A caller's progress(share). Its exceptions, and Ctrl-C, end the call and are raised then."""
 
     def __init__(self, progress):
+        if progress is not None and not callable(progress):
+            _refuse(TypeError, "progress", progress, "a function")
         self.progress, self.raised = progress, None
         self.observer = _Observer(_Observer._fields_[0][1](self._called), None)
 
     def _called(self, _, share):
         try:
-            return bool(self.progress and self.progress(share))
+            return bool(self.raised or self.progress and self.progress(share))
         except BaseException as error:
             self.raised = error
             return True
 
-    def call(self, *arguments):
+    def _run(self, arguments, done, failures):
         try:
             _call(*arguments)
-        except Error:
-            if self.raised is None:
-                raise
+        except BaseException as error:
+            failures.append(error)
+        finally:
+            done.set()
+
+    def call(self, *arguments):
+        """The call runs in a thread of its own: the caller's waits, and so Ctrl-C reaches it at once."""
+        done, failures = threading.Event(), []
+        threading.Thread(target=self._run, args=(arguments, done, failures), daemon=True).start()
+        while not done.is_set():
+            try:
+                done.wait()
+            except BaseException as error:
+                self.raised = error
         if self.raised is not None:
             raise self.raised
+        if failures:
+            raise failures[0]
 
 
 class _Handle:
     """Owns a handle of the library: self.handle, which ctypes passes."""
 
+    _kind = None
+    _as_parameter_ = c_void_p()  # until there is one, which the library refuses
+
     def __init__(self):
         self.handle = self._as_parameter_ = c_void_p()
+        free = getattr(_lib, f"beamrate_{self._kind}_free")
+        weakref.finalize(self, free, self.handle).atexit = False
 
     def _get(self, name, struct, *arguments):
         out = struct()
-        getattr(_lib, "beamrate_" + name)(self, *arguments, byref(out))
+        if getattr(_lib, "beamrate_" + name)(self, *arguments, byref(out)) != 0:
+            raise BadInput(f"{name}: the library refuses this {self._kind} or index")
         return _plain(out)
 
-    def __del__(self):
-        getattr(_lib, f"beamrate_{type(self).__name__.lower()}_free")(self)
+    def __reduce_ex__(self, protocol):
+        raise TypeError(f"a {type(self).__name__} is not copied or pickled: it owns memory of the library")
 
 
 class Scene(_Handle):
     """A scene: Scene("file.yaml"), Scene("example2"), or of a text, Scene("its name", text)."""
+    _kind = "scene"
 
     def __init__(self, name, text=None):
         super().__init__()
-        given = [_text(name)] if text is None else [_text(name), _text(text)]
+        given = [_text("name", name)] if text is None else [_text("name", name), _text("text", text)]
         _call("scene_open" if text is None else "scene_parse", byref(self.handle), *given)
         self.info = self._get("scene_info", _SceneInfo)
 
     def foresee(self, n, steps, **method):
         """The expected errors of a march, and its warnings."""
         out = _Forecast()
-        _call("foresee", self, _count(n), _count(steps), _method(method), byref(out))
+        _call("foresee", self, _count("n", n), _count("steps", steps), _method(method), byref(out))
         plain = _plain(out)
         plain.warnings = plain.warning[:plain.warnings]
         del plain.warning
@@ -178,16 +246,18 @@ class Scene(_Handle):
 
 class March(_Handle):
     """The fully discrete problem, (16) and (17), on n elements and `steps` steps. x: its nodes."""
+    _kind = "march"
 
     def __init__(self, scene, n, steps, **method):
         super().__init__()
-        self.scene = scene
-        _call("march_create", byref(self.handle), scene, _count(n), _count(steps), _method(method))
+        self.scene = _scene(scene)
+        _call("march_create", byref(self.handle), scene, _count("n", n), _count("steps", steps),
+              _method(method))
         self.x = np.linspace(0, scene.info.length, n + 1)
 
     def step(self, count=1):
         """Takes steps; other threads of Python run meanwhile."""
-        _call("march_step", self, _count(count))
+        _call("march_step", self, _count("count", count))
 
     def tip(self):
         return self._get("march_tip", _Tip)
@@ -197,56 +267,67 @@ class March(_Handle):
 
     def get(self, field, displacement=None, velocity=None):
         """Displacement and velocity at the nodes, (n + 1, columns) each; written into given arrays."""
-        field = _choice(field, 2)
+        field = _choice("field", field, 2)
         shape = (len(self.x), _lib.beamrate_march_columns(self, field))
         arrays = [np.empty(shape) if a is None else a for a in (displacement, velocity)]
         for a in arrays:
+            if not isinstance(a, np.ndarray) or isinstance(a, np.ma.MaskedArray):
+                _refuse(TypeError, "displacement or velocity", a, "an array without a mask")
             if a.shape != shape or a.dtype != np.float64 or not a.flags.carray:
                 raise BadInput(f"found {a.dtype} {a.shape}, expected a contiguous float64 {shape}")
-        _lib.beamrate_march_get(self, field, *(c_void_p(a.ctypes.data) for a in arrays))
+        if _lib.beamrate_march_get(self, field, *(c_void_p(a.ctypes.data) for a in arrays)) != 0:
+            raise BadInput("march_get: the library refuses this march")
         return tuple(arrays)
 
 
 class Study(_Handle):
     """The errors of a grid against a reference: error[part, i, j] of n[i] and steps[j], cell[i][j]."""
+    _kind = "study"
 
     def __init__(self, scene, n, steps, reference=None, fine=(0, 0), norm=None, threads=0,
                  progress=None, **method):
         super().__init__()
-        watch, words, meshes, times = _Watch(progress), _method(method), _counts(n), _counts(steps)
+        watch, words, meshes, times = (_Watch(progress), _method(method), _counts("n", n),
+                                       _counts("steps", steps))
+        if (finest := _counts("fine", fine))._length_ != 2:
+            _refuse(BadInput, "fine", fine, "two numbers: n and steps")
         request = _StudyRequest(
-            ctypes.addressof(meshes), len(n), ctypes.addressof(times), len(steps),
-            ctypes.addressof(words), _text(reference), *map(_count, fine), _text(norm), threads,
+            ctypes.addressof(meshes), len(meshes), ctypes.addressof(times), len(times),
+            ctypes.addressof(words), None if reference is None else _text("reference", reference),
+            *finest, None if norm is None else _text("norm", norm), _threads(threads),
             ctypes.addressof(watch.observer))
-        watch.call("study_run", byref(self.handle), scene, byref(request))
-        self.n, self.steps = np.array(n), np.array(steps)
+        watch.call("study_run", byref(self.handle), _scene(scene), byref(request))
+        self.n, self.steps = np.array(meshes), np.array(times)
         self.h, self.k = scene.info.length / self.n, scene.info.duration / self.steps
         self.cell = [[self._get("study_cell", _Cell, c_size_t(i), c_size_t(j))
-                      for j in range(len(steps))] for i in range(len(n))]
+                      for j in range(len(times))] for i in range(len(meshes))]
         self.error = np.array([[c.error for c in row] for row in self.cell]).transpose(2, 0, 1)
         self.reference = self._get("study_reference", _Reference)
 
     def fit(self, part=TOTAL):
         """Both orders together, from all cells."""
-        return self._get("study_fit", _Fit, _choice(part, 3))
+        return self._get("study_fit", _Fit, _choice("part", part, 3))
 
     def slope(self, axis, at, part=TOTAL):
         """The order in h at steps[at], or in k at n[at]."""
-        along = (self.steps, self.n)[axis]
-        return self._get("study_slope", _Estimate, _choice(part, 3), _choice(axis, 2),
+        axis = _choice("axis", axis, 2)
+        along = (self.steps, self.n)[axis.value]
+        return self._get("study_slope", _Estimate, _choice("part", part, 3), axis,
                          c_size_t(range(len(along))[at]))
 
 
 class Check(_Handle):
     """Verdicts on a scene's orders; on those of numbers: Orders.check. cases: a list; passed: all."""
+    _kind = "check"
 
     def __init__(self, scene, threads=0, progress=None, _orders=None, _expected=()):
         super().__init__()
         watch, out = _Watch(progress), byref(self.handle)
         if _orders is None:
-            watch.call("check_run", out, scene, c_int(threads), byref(watch.observer))
+            watch.call("check_run", out, _scene(scene), _threads(threads), byref(watch.observer))
         else:
-            expected = (_Expectation * len(_expected))(*_expected)
+            expected = (_Expectation * len(_expected))(*(
+                _Expectation(_choice("axis", axis, 2), *numbers) for axis, *numbers in _expected))
             _call("orders_check", out, _orders, expected, c_size_t(len(expected)))
         self.cases = [self._get("check_case", _Case, c_size_t(i))
                       for i in range(_lib.beamrate_check_count(self))]
@@ -257,19 +338,21 @@ class Check(_Handle):
 
 class Orders(_Handle):
     """Orders of numbers of any program: errors, or values whose limit is not known."""
+    _kind = "orders"
 
     def __init__(self, number, h=None, k=None, values=False, formal=0):
         super().__init__()
-        arrays = [None if a is None else np.ascontiguousarray(a, np.float64) for a in (h, k, number)]
-        if any(a is not None and a.shape != (len(number),) for a in arrays):
+        arrays = [None if a is None else _numbers(name, a)
+                  for name, a in (("h", h), ("k", k), ("number", [] if number is None else number))]
+        if any(a is not None and a.shape != arrays[2].shape for a in arrays):
             raise BadInput("h, k and the numbers differ in length, expected as many of each")
         data = [None if a is None else a.ctypes.data for a in arrays]
-        _call("orders_find", byref(self.handle), byref(_Numbers(*data, len(number), values, formal)))
+        _call("orders_find", byref(self.handle), byref(_Numbers(*data, len(arrays[2]), bool(values), formal)))
 
     def line(self, axis):
         """The order along an axis at the finest size of the other one; None: there is no line."""
         out = _Order()
-        found = _lib.beamrate_orders_line(self, _choice(axis, 2), byref(out))
+        found = _lib.beamrate_orders_line(self, _choice("axis", axis, 2), byref(out))
         return _plain(out) if found else None
 
     def fit(self):

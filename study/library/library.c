@@ -22,14 +22,21 @@ static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static size_t calls_now;
 static gsl_error_handler_t *their_handler;
 
-enum br_status br_call_begin(struct br_call *call, const struct beamrate_scene *scene)
+void br_call_begin(struct br_call *call)
 {
-    *call = (struct br_call){.scene = scene ? scene->scene : (struct br_scene){0}};
+    *call = (struct br_call){.err = {0}};
     pthread_mutex_lock(&lock);
     if (calls_now++ == 0)
         their_handler = gsl_set_error_handler_off();
     pthread_mutex_unlock(&lock);
     call->locale = uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0)); /* never fails: static */
+}
+
+enum br_status br_call_take_scene(struct br_call *call, const struct beamrate_scene *scene)
+{
+    if (br_handle_check(scene, BR_HANDLE_SCENE, "scene", &call->err))
+        return call->err.status;
+    call->scene = scene->scene;
     struct br_function *f;
     for (size_t i = 0; (f = br_scene_function(&call->scene, i)); i++) {
         const struct br_function theirs = *f;
@@ -38,6 +45,21 @@ enum br_status br_call_begin(struct br_call *call, const struct beamrate_scene *
             br_function_clone(&theirs, f, &call->err);
     }
     return call->err.status;
+}
+
+bool br_handle_is(const void *handle, enum br_handle kind)
+{
+    return handle && *(const enum br_handle *)handle == kind;
+}
+
+enum br_status br_handle_check(const void *handle, enum br_handle kind, const char *name,
+                               struct br_error *err)
+{
+    static const char *const titles[] = {"scene", "march", "study", "check", "orders"};
+    return br_handle_is(handle, kind)
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "%s: found %s, expected a handle of kind '%s'", name,
+                         handle ? "something else" : "NULL", titles[kind - BR_HANDLE_SCENE]);
 }
 
 static const enum beamrate_status statuses[] = {

@@ -12,7 +12,22 @@
 #include "study/library/beamrate.h"
 #include "study/verify/verify.h"
 
+/* Each handle begins with its kind, so that a handle of another kind is refused. */
+enum br_handle {
+    BR_HANDLE_SCENE = 0x6272,
+    BR_HANDLE_MARCH,
+    BR_HANDLE_STUDY,
+    BR_HANDLE_CHECK,
+    BR_HANDLE_ORDERS
+};
+bool br_handle_is(const void *handle, enum br_handle kind); /* false for NULL */
+
+/* The same with a message, which calls the argument `name`. */
+enum br_status br_handle_check(const void *handle, enum br_handle kind, const char *name,
+                               struct br_error *err);
+
 struct beamrate_scene {
+    enum br_handle kind;
     char *path; /* for messages; owned */
     struct br_scene scene;
     struct br_verify verify;
@@ -30,25 +45,33 @@ struct br_call {
                               evaluate the scene's own functions; its texts are borrowed */
 };
 
-/* scene: copied; NULL: none. Fails with BR_NO_MEMORY; end the call even then. */
-enum br_status br_call_begin(struct br_call *call, const struct beamrate_scene *scene);
+void br_call_begin(struct br_call *call);
+
+/* Copies the caller's scene; once in a call. Fails with BR_NO_MEMORY, or BR_BAD_INPUT if it is no
+ * scene. */
+enum br_status br_call_take_scene(struct br_call *call, const struct beamrate_scene *scene);
 
 /* Returns the status in the caller's numbers, and fills *err (out; may be NULL). */
 enum beamrate_status br_call_end(struct br_call *call, enum br_status status,
                                  struct beamrate_error *err);
 
-/* The body of a call that makes a handle (out) from zeros. `fill` may use *handle, call.scene,
- * which is the copy of `scene`, and &call.err. If it fails, the call fails. */
-#define BR_MAKE_HANDLE(handle, release, scene, fill)                     \
-    struct br_call call;                                                 \
-    enum br_status made = br_call_begin(&call, scene);                   \
-    *(handle) = made ? NULL : br_allocate(1, sizeof **(handle));         \
-    if (!made)                                                           \
-        made = *(handle) ? (fill) : br_no_memory(&call.err, "a handle"); \
-    if (made) {                                                          \
-        release(*(handle));                                              \
-        *(handle) = NULL;                                                \
-    }                                                                    \
+/* The body of a call that makes a handle (out) from zeros. `fill` may use *handle and call. If it
+ * fails, the call fails. */
+#define BR_MAKE_HANDLE(handle, handle_kind, release, fill)                                        \
+    struct br_call call;                                                                          \
+    br_call_begin(&call);                                                                         \
+    if (!(handle))                                                                                \
+        return br_call_end(                                                                       \
+            &call, br_fail(&call.err, BR_BAD_INPUT, "found NULL, expected a place for a handle"), \
+            err);                                                                                 \
+    *(handle) = br_allocate(1, sizeof **(handle));                                                \
+    if (*(handle))                                                                                \
+        (*(handle))->kind = handle_kind;                                                          \
+    const enum br_status made = *(handle) ? (fill) : br_no_memory(&call.err, "a handle");         \
+    if (made) {                                                                                   \
+        release(*(handle));                                                                       \
+        *(handle) = NULL;                                                                         \
+    }                                                                                             \
     return br_call_end(&call, made, err)
 
 /* ---- from callers ---- */

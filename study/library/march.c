@@ -21,6 +21,9 @@ static_assert((int)BEAMRATE_MOST_WARNINGS >= BR_WARNINGS, "each warning has a pl
 static enum br_status read_scene(struct beamrate_scene *s, const char *path, const char *text,
                                  struct br_error *err)
 {
+    if (!path || !text)
+        return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected a text",
+                       path ? "text" : "name");
     s->path = strdup(path);
     return s->path ? br_scene_parse(s->path, text, &(struct br_scene_asked){.verify = &s->verify},
                                     &s->scene, err)
@@ -30,13 +33,16 @@ static enum br_status read_scene(struct beamrate_scene *s, const char *path, con
 enum beamrate_status beamrate_scene_parse(struct beamrate_scene **scene, const char *name,
                                           const char *text, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, read_scene(*scene, name, text, &call.err));
+    BR_MAKE_HANDLE(scene, BR_HANDLE_SCENE, beamrate_scene_free,
+                   read_scene(*scene, name, text, &call.err));
 }
 
 /* "-" is an ordinary file name: a library does not read standard input. */
 static enum br_status open_scene(struct beamrate_scene *s, const char *name, struct br_error *err)
 {
     char path[1024], *text = NULL;
+    if (!name)
+        return read_scene(s, name, text, err);
     enum br_status status = br_scene_find(strcmp(name, "-") ? name : "./-", path, sizeof path, err);
     if (!status)
         status = br_scene_load(path, &text, err);
@@ -49,12 +55,13 @@ static enum br_status open_scene(struct beamrate_scene *s, const char *name, str
 enum beamrate_status beamrate_scene_open(struct beamrate_scene **scene, const char *name,
                                          struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(scene, beamrate_scene_free, NULL, open_scene(*scene, name, &call.err));
+    BR_MAKE_HANDLE(scene, BR_HANDLE_SCENE, beamrate_scene_free,
+                   open_scene(*scene, name, &call.err));
 }
 
 void beamrate_scene_free(struct beamrate_scene *scene)
 {
-    if (!scene)
+    if (!br_handle_is(scene, BR_HANDLE_SCENE))
         return;
     br_verify_clear(&scene->verify);
     br_scene_clear(&scene->scene);
@@ -62,8 +69,13 @@ void beamrate_scene_free(struct beamrate_scene *scene)
     free(scene);
 }
 
-void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_scene_info *info)
+enum beamrate_status beamrate_scene_info(const struct beamrate_scene *scene,
+                                         struct beamrate_scene_info *info)
 {
+    if (info)
+        *info = (struct beamrate_scene_info){.name = "", .title = ""};
+    if (!info || !br_handle_is(scene, BR_HANDLE_SCENE))
+        return BEAMRATE_BAD_INPUT;
     const struct br_scene *s = &scene->scene;
     *info = (struct beamrate_scene_info){
         .name = s->name,
@@ -75,6 +87,7 @@ void beamrate_scene_info(const struct beamrate_scene *scene, struct beamrate_sce
         .contact = s->contact.modelled,
         .friction = (enum beamrate_friction)s->friction.law,
     };
+    return BEAMRATE_OK;
 }
 
 /* ---- before a march ---- */
@@ -127,8 +140,12 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
     struct br_prediction prediction = {0};
-    memset(forecast, 0, sizeof *forecast);
-    enum br_status status = br_call_begin(&call, scene);
+    br_call_begin(&call);
+    enum br_status status = br_call_take_scene(&call, scene);
+    if (forecast)
+        memset(forecast, 0, sizeof *forecast);
+    else
+        status = br_fail(&call.err, BR_BAD_INPUT, "forecast: found NULL, expected a struct");
     if (!status)
         status = plan_march(&call.scene, n, steps, list, &method, &planned, &call.err);
     planned.prediction = &prediction;
@@ -144,17 +161,22 @@ enum beamrate_status beamrate_foresee(const struct beamrate_scene *scene, size_t
 /* ---- marches ---- */
 
 struct beamrate_march {
+    enum br_handle kind;
     struct br_march *march;
     size_t n, steps;
     struct br_error failure; /* of a step: the state is lost */
 };
 
-static enum br_status create_march(struct beamrate_march *m, const struct br_scene *scene, size_t n,
-                                   size_t steps, const char *const *list, struct br_error *err)
+static enum br_status create_march(struct beamrate_march *m, const struct beamrate_scene *of,
+                                   size_t n, size_t steps, const char *const *list,
+                                   struct br_error *err)
 {
     struct br_method method;
     struct br_planned_march planned;
     struct br_warnings warnings = {0};
+    if (br_handle_check(of, BR_HANDLE_SCENE, "scene", err))
+        return err->status;
+    const struct br_scene *scene = &of->scene;
     enum br_status status = plan_march(scene, n, steps, list, &method, &planned, err);
     m->n = n;
     m->steps = steps;
@@ -168,13 +190,13 @@ enum beamrate_status beamrate_march_create(struct beamrate_march **march,
                                            size_t steps, const char *const *method,
                                            struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(march, beamrate_march_free, NULL,
-                   create_march(*march, &scene->scene, n, steps, method, &call.err));
+    BR_MAKE_HANDLE(march, BR_HANDLE_MARCH, beamrate_march_free,
+                   create_march(*march, scene, n, steps, method, &call.err));
 }
 
 void beamrate_march_free(struct beamrate_march *march)
 {
-    if (!march)
+    if (!br_handle_is(march, BR_HANDLE_MARCH))
         return;
     br_march_free(march->march);
     free(march);
@@ -182,6 +204,8 @@ void beamrate_march_free(struct beamrate_march *march)
 
 static enum br_status take_steps(struct beamrate_march *m, size_t count, struct br_error *err)
 {
+    if (br_handle_check(m, BR_HANDLE_MARCH, "march", err))
+        return err->status;
     const size_t left = m->steps - br_march_steps_done(m->march);
     if (m->failure.status)
         return br_fail(err, m->failure.status, "%s", m->failure.message);
@@ -198,12 +222,17 @@ enum beamrate_status beamrate_march_step(struct beamrate_march *march, size_t co
                                          struct beamrate_error *err)
 {
     struct br_call call;
-    br_call_begin(&call, NULL);
+    br_call_begin(&call);
     return br_call_end(&call, take_steps(march, count, &call.err), err);
 }
 
-void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip *tip)
+enum beamrate_status beamrate_march_tip(const struct beamrate_march *march,
+                                        struct beamrate_tip *tip)
 {
+    if (tip)
+        memset(tip, 0, sizeof *tip);
+    if (!tip || !br_handle_is(march, BR_HANDLE_MARCH))
+        return BEAMRATE_BAD_INPUT;
     const size_t step = br_march_steps_done(march->march);
     const struct br_tip *t = step > 0 ? br_march_tip(march->march) : br_march_start(march->march);
     *tip = (struct beamrate_tip){
@@ -217,21 +246,39 @@ void beamrate_march_tip(const struct beamrate_march *march, struct beamrate_tip 
         tip->displacement[kind] = br_march_tip_displacement(march->march, (enum br_field_kind)kind);
         tip->velocity[kind] = t->velocity[kind];
     }
+    return BEAMRATE_OK;
+}
+
+static bool is_field_of(const struct beamrate_march *march, enum beamrate_field field)
+{
+    return br_handle_is(march, BR_HANDLE_MARCH) &&
+           (field == BEAMRATE_AXIAL || field == BEAMRATE_BENDING);
 }
 
 size_t beamrate_march_columns(const struct beamrate_march *march, enum beamrate_field field)
 {
+    if (!is_field_of(march, field))
+        return 0;
     return br_field_unknowns(br_march_field(march->march, (enum br_field_kind)field));
 }
 
-void beamrate_march_get(const struct beamrate_march *march, enum beamrate_field field,
-                        double *displacement, double *velocity)
+enum beamrate_status beamrate_march_get(const struct beamrate_march *march,
+                                        enum beamrate_field field, double *displacement,
+                                        double *velocity)
 {
+    if (!is_field_of(march, field))
+        return BEAMRATE_BAD_INPUT;
     br_march_get(march->march, (enum br_field_kind)field, displacement, velocity);
+    return BEAMRATE_OK;
 }
 
-void beamrate_march_report(const struct beamrate_march *march, struct beamrate_march_report *report)
+enum beamrate_status beamrate_march_report(const struct beamrate_march *march,
+                                           struct beamrate_march_report *report)
 {
+    if (report)
+        memset(report, 0, sizeof *report);
+    if (!report || !br_handle_is(march, BR_HANDLE_MARCH))
+        return BEAMRATE_BAD_INPUT;
     const struct br_counts counts = br_march_counts(march->march);
     *report = (struct beamrate_march_report){
         .n = march->n,
@@ -243,4 +290,5 @@ void beamrate_march_report(const struct beamrate_march *march, struct beamrate_m
         .round_off = br_march_round_off(march->march),
         .unstable = br_march_contact_unstable(march->march),
     };
+    return BEAMRATE_OK;
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "study/foresee/foreseen.h"
+#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/library/library.h"
 #include "study/orders/orders.h"
@@ -20,14 +21,21 @@ static_assert((int)BEAMRATE_PASS == BR_PASS && (int)BEAMRATE_FAIL == BR_FAIL &&
 
 static enum br_status check_threads(int threads, struct br_error *err)
 {
-    return threads >= 0
+    return threads >= 0 && threads <= BR_MOST_THREADS
                ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "threads: found %d, expected at least 0", threads);
+               : br_fail(err, BR_BAD_INPUT, "threads: found %d, expected 0 to %d", threads,
+                         BR_MOST_THREADS);
+}
+
+static bool is_axis(enum beamrate_axis axis)
+{
+    return axis == BEAMRATE_SPACE || axis == BEAMRATE_TIME;
 }
 
 /* ---- studies ---- */
 
 struct beamrate_study {
+    enum br_handle kind;
     struct br_study study;
     struct br_fits fits[BR_PARTS];
     size_t *n, *steps; /* owned */
@@ -39,6 +47,8 @@ static enum br_status copy_list(const char *name, const size_t *list, size_t cou
                                 struct br_error *err)
 {
     *to = NULL;
+    if (count && !list)
+        return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected a list", name);
     if (count < 1 || list[0] < 1)
         return br_fail(err, BR_BAD_INPUT, "%s: found %s, expected numbers of at least 1", name,
                        count < 1 ? "an empty list" : "0");
@@ -111,11 +121,16 @@ static struct beamrate_reference describe_reference(const struct br_study *s)
     return r;
 }
 
-static enum br_status march_and_fit(struct beamrate_study *s, const struct br_scene *scene,
-                                    const struct beamrate_study_request *q, struct br_error *err)
+static enum br_status march_and_fit(struct beamrate_study *s, const struct beamrate_scene *scene,
+                                    const struct beamrate_study_request *q, struct br_call *call)
 {
     struct br_library_watch watch;
-    enum br_status status = prepare_study(s, scene, q, err);
+    struct br_error *err = &call->err;
+    enum br_status status = br_call_take_scene(call, scene);
+    if (!status && !q)
+        status = br_fail(err, BR_BAD_INPUT, "request: found NULL, expected a struct");
+    if (!status)
+        status = prepare_study(s, &call->scene, q, err);
     if (status)
         return status;
     br_library_watch_begin(&watch, q->observer);
@@ -133,13 +148,13 @@ enum beamrate_status beamrate_study_run(struct beamrate_study **study,
                                         const struct beamrate_study_request *request,
                                         struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(study, beamrate_study_free, scene,
-                   march_and_fit(*study, &call.scene, request, &call.err));
+    BR_MAKE_HANDLE(study, BR_HANDLE_STUDY, beamrate_study_free,
+                   march_and_fit(*study, scene, request, &call));
 }
 
 void beamrate_study_free(struct beamrate_study *study)
 {
-    if (!study)
+    if (!br_handle_is(study, BR_HANDLE_STUDY))
         return;
     for (int part = 0; part < BR_PARTS; part++)
         br_fits_clear(&study->fits[part]);
@@ -149,9 +164,21 @@ void beamrate_study_free(struct beamrate_study *study)
     free(study);
 }
 
-void beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
-                         struct beamrate_cell *cell)
+static bool is_part_of(const struct beamrate_study *study, enum beamrate_part part)
 {
+    return br_handle_is(study, BR_HANDLE_STUDY) &&
+           (part == BEAMRATE_TOTAL || part == BEAMRATE_OF_AXIAL || part == BEAMRATE_OF_BENDING);
+}
+
+enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
+                                         struct beamrate_cell *cell)
+{
+    if (cell)
+        *cell = (struct beamrate_cell){
+            .error = {NAN, NAN, NAN}, .flag = {"", "", ""}, .tip = {NAN, NAN}, .failure = ""};
+    if (!cell || !br_handle_is(study, BR_HANDLE_STUDY) || i >= study->study.n_count ||
+        j >= study->study.k_count)
+        return BEAMRATE_BAD_INPUT;
     const struct br_cell *c = br_study_cell(&study->study, i, j);
     *cell = (struct beamrate_cell){
         .n = c->at.n,
@@ -164,41 +191,59 @@ void beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
         cell->error[part] = c->error[part];
         cell->flag[part] = br_flag_name(c->flag[part]);
     }
+    return BEAMRATE_OK;
 }
 
-void beamrate_study_slope(const struct beamrate_study *study, enum beamrate_part part,
-                          enum beamrate_axis axis, size_t at, struct beamrate_estimate *order)
+enum beamrate_status beamrate_study_slope(const struct beamrate_study *study,
+                                          enum beamrate_part part, enum beamrate_axis axis,
+                                          size_t at, struct beamrate_estimate *order)
 {
+    if (order)
+        *order = (struct beamrate_estimate){NAN, NAN, NAN};
+    if (!order || !is_part_of(study, part) || !is_axis(axis) ||
+        at >= (axis == BEAMRATE_SPACE ? study->study.k_count : study->study.n_count))
+        return BEAMRATE_BAD_INPUT;
     const struct br_fits *fits = &study->fits[part];
     const struct br_slope *slope = fits->slope[axis];
     *order = br_library_estimate(slope[at].order);
+    return BEAMRATE_OK;
 }
 
-void beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
-                        struct beamrate_fit *fit)
+enum beamrate_status beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
+                                        struct beamrate_fit *fit)
 {
-    *fit = br_library_fit(&study->fits[part].joint);
+    const struct br_joint_fit none = {0};
+    const bool good = fit && is_part_of(study, part);
+    if (fit)
+        *fit = br_library_fit(good ? &study->fits[part].joint : &none);
+    return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
 }
 
-void beamrate_study_reference(const struct beamrate_study *study,
-                              struct beamrate_reference *reference)
+enum beamrate_status beamrate_study_reference(const struct beamrate_study *study,
+                                              struct beamrate_reference *reference)
 {
-    *reference = study->reference;
+    const bool good = reference && br_handle_is(study, BR_HANDLE_STUDY);
+    if (reference)
+        *reference = good ? study->reference
+                          : (struct beamrate_reference){.name = "", .own_error = {NAN, NAN, NAN}};
+    return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
 }
 
 /* ---- verdicts ---- */
 
 struct beamrate_check {
+    enum br_handle kind;
     struct br_check check;
 };
 
-/* own: the copy of the scene for this call */
 static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
-                                  const struct br_scene *own, int threads,
-                                  const struct beamrate_observer *observer, struct br_error *err)
+                                  int threads, const struct beamrate_observer *observer,
+                                  struct br_call *call)
 {
     struct br_library_watch watch;
-    if (check_threads(threads, err))
+    struct br_error *err = &call->err;
+    const struct br_scene *own = &call->scene;
+    if (br_call_take_scene(call, scene) || check_threads(threads, err))
         return err->status;
     *check = (struct br_check){
         .path = scene->path, .name = own->name, .scene = own, .verify = &scene->verify};
@@ -215,13 +260,13 @@ enum beamrate_status beamrate_check_run(struct beamrate_check **check,
                                         const struct beamrate_observer *observer,
                                         struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, beamrate_check_free, scene,
-                   check_scene(&(*check)->check, scene, &call.scene, threads, observer, &call.err));
+    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
+                   check_scene(&(*check)->check, scene, threads, observer, &call));
 }
 
 void beamrate_check_free(struct beamrate_check *check)
 {
-    if (!check)
+    if (!br_handle_is(check, BR_HANDLE_CHECK))
         return;
     br_check_clear(&check->check);
     free(check);
@@ -229,11 +274,21 @@ void beamrate_check_free(struct beamrate_check *check)
 
 size_t beamrate_check_count(const struct beamrate_check *check)
 {
-    return check->check.count;
+    return br_handle_is(check, BR_HANDLE_CHECK) ? check->check.count : 0;
 }
 
-void beamrate_check_case(const struct beamrate_check *check, size_t i, struct beamrate_case *c)
+enum beamrate_status beamrate_check_case(const struct beamrate_check *check, size_t i,
+                                         struct beamrate_case *c)
 {
+    if (c)
+        *c = (struct beamrate_case){.study = "",
+                                    .measure = "",
+                                    .part = "",
+                                    .verdict = BEAMRATE_FAIL,
+                                    .reason = "",
+                                    .note = ""};
+    if (!c || i >= beamrate_check_count(check))
+        return BEAMRATE_BAD_INPUT;
     const struct br_case *from = &check->check.cases[i];
     *c = (struct beamrate_case){
         .study = br_verify_names[from->kind],
@@ -250,6 +305,7 @@ void beamrate_check_case(const struct beamrate_check *check, size_t i, struct be
         .reason = from->reason,
         .note = from->note,
     };
+    return BEAMRATE_OK;
 }
 
 /* ---- orders of any numbers ---- */
@@ -257,6 +313,7 @@ void beamrate_check_case(const struct beamrate_check *check, size_t i, struct be
 static const char name_of_numbers[] = "numbers"; /* in messages, instead of a file's path */
 
 struct beamrate_orders {
+    enum br_handle kind;
     struct br_numbers numbers;
     struct br_orders orders;
 };
@@ -264,6 +321,11 @@ struct beamrate_orders {
 static enum br_status copy_numbers(const struct beamrate_numbers *from, struct br_numbers *to,
                                    struct br_error *err)
 {
+    if (!from || !from->number)
+        return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected numbers", name_of_numbers);
+    if (!(from->formal >= 0 && isfinite(from->formal)))
+        return br_fail(err, BR_BAD_INPUT, "formal: found %g, expected an order above 0, or 0: 2",
+                       from->formal);
     if (!from->h && !from->k)
         return br_fail(err, BR_BAD_INPUT, "%s: found neither h nor k, expected at least one",
                        name_of_numbers);
@@ -287,7 +349,7 @@ static enum br_status find_orders(struct beamrate_orders *o, const struct beamra
                                   struct br_error *err)
 {
     const enum br_status status = copy_numbers(from, &o->numbers, err);
-    const double formal = from->formal != 0 ? from->formal : 2;
+    const double formal = !status && from->formal != 0 ? from->formal : 2;
     return status ? status : br_orders_find(&o->numbers, formal, &o->orders, err);
 }
 
@@ -295,12 +357,13 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                                           const struct beamrate_numbers *numbers,
                                           struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(orders, beamrate_orders_free, NULL, find_orders(*orders, numbers, &call.err));
+    BR_MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
+                   find_orders(*orders, numbers, &call.err));
 }
 
 void beamrate_orders_free(struct beamrate_orders *orders)
 {
-    if (!orders)
+    if (!br_handle_is(orders, BR_HANDLE_ORDERS))
         return;
     br_orders_clear(&orders->orders);
     br_numbers_clear(&orders->numbers);
@@ -311,7 +374,11 @@ int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axi
                          struct beamrate_order *order)
 {
     const struct beamrate_estimate nothing = {NAN, NAN, NAN};
-    const struct br_orders_line *line = br_orders_finest(&orders->orders.of[0], (enum br_axis)axis);
+    const bool good = br_handle_is(orders, BR_HANDLE_ORDERS) && is_axis(axis);
+    const struct br_orders_line *line =
+        good ? br_orders_finest(&orders->orders.of[0], (enum br_axis)axis) : NULL;
+    if (!order)
+        return 0;
     *order = (struct beamrate_order){.order = nothing, .constant = NAN, .limit = nothing};
     if (!line)
         return 0;
@@ -324,19 +391,31 @@ int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axi
     return 1;
 }
 
-void beamrate_orders_fit(const struct beamrate_orders *orders, struct beamrate_fit *fit)
+enum beamrate_status beamrate_orders_fit(const struct beamrate_orders *orders,
+                                         struct beamrate_fit *fit)
 {
-    *fit = br_library_fit(&orders->orders.of[0].joint);
+    const struct br_joint_fit none = {0};
+    const bool good = fit && br_handle_is(orders, BR_HANDLE_ORDERS);
+    if (fit)
+        *fit = br_library_fit(good ? &orders->orders.of[0].joint : &none);
+    return good ? BEAMRATE_OK : BEAMRATE_BAD_INPUT;
 }
 
 static enum br_status copy_expectations(const struct beamrate_expectation *from, size_t count,
                                         struct br_order_expectation **to, struct br_error *err)
 {
+    *to = NULL;
+    if (!from || !count)
+        return br_fail(err, BR_BAD_INPUT, "expectations: found none, expected at least one");
     *to = br_allocate(count, sizeof **to);
     if (!*to)
         return br_no_memory(err, "the expectations");
     for (size_t i = 0; i < count; i++) {
         const struct beamrate_expectation *e = &from[i];
+        if (!is_axis(e->axis))
+            return br_fail(err, BR_BAD_INPUT,
+                           "expectation %zu: axis: found %d, expected 0 (space) or 1 (time)", i,
+                           (int)e->axis);
         if (!(e->order > 0 && e->tolerance > 0 && e->tolerance < e->order && isfinite(e->order) &&
               e->down_to >= 0))
             return br_fail(err, BR_BAD_INPUT,
@@ -355,8 +434,10 @@ static enum br_status check_orders(struct br_check *check, const struct beamrate
                                    const struct beamrate_expectation *from, size_t count,
                                    struct br_error *err)
 {
-    const struct br_quantity *quantity = orders->numbers.quantity;
     struct br_order_expectation *e;
+    if (br_handle_check(orders, BR_HANDLE_ORDERS, "orders", err))
+        return err->status;
+    const struct br_quantity *quantity = orders->numbers.quantity;
     enum br_status status = copy_expectations(from, count, &e, err);
     for (size_t i = 0; i < count && !status; i++)
         strcpy(e[i].quantity, quantity->name);
@@ -374,6 +455,6 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err)
 {
-    BR_MAKE_HANDLE(check, beamrate_check_free, NULL,
+    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
                    check_orders(&(*check)->check, orders, expectation, count, &call.err));
 }

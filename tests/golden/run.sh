@@ -11,7 +11,7 @@ folder=$(mktemp -d) || exit 99
 trap 'rm -rf "$folder"' EXIT
 mkdir "$folder/bin"
 ln -s "$(readlink -f "$BEAMRATE")" "$folder/bin/beamrate"
-export BEAMRATE_DATA="${BEAMRATE_DATA:-$here/../..}" LC_ALL=C OMP_NUM_THREADS=1
+export BEAMRATE_DATA="${BEAMRATE_DATA:-$here/../..}" LC_ALL=C
 update=
 [ "${1:-}" = --update ] && update=yes && shift
 wanted=" $* "
