@@ -362,7 +362,8 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     if (march(&r, failure))
         return BR_OK;
     const bool unstable = r.report.contact_unstable;
-    take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
+    if (!r.report.failure.status) /* else what it has is not of t = T */
+        take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
     v->found.unstable[i] = unstable;
     v->found.remark[i] = unstable             ? "beyond the contact's stability limit"
                          : r.prediction.known ? NULL

@@ -229,6 +229,19 @@ TEST(test_names)
     br_made_report_clear(&m);
 }
 
+/* All pictures of a study in the norm of energy, whose joint fit describes it: slopes, residuals,
+ * components, printed errors. */
+static void print_study(FILE *out)
+{
+    struct br_made_report m;
+    br_made_report(&m, false);
+    m.study.norm = &br_norm_energy;
+    for (size_t i = 0; br_convergence_pictures[i]; i++)
+        (i == 0 ? print : print_data)(out,
+                                      br_convergence_draw(br_convergence_pictures[i], &m.report));
+    br_made_report_clear(&m);
+}
+
 /* ---- extremes ---- */
 
 static void print_floors(FILE *out)
@@ -354,6 +367,7 @@ TEST(test_stored)
 {
     br_test_stored("figures", print_made, 1e-12);
     br_test_stored("powers", print_powers, 1e-12);
+    br_test_stored("study_pictures", print_study, 1e-12);
     br_test_stored("floors", print_floors, 1e-12);
     br_test_stored("drifts", print_drifts, 1e-12);
     br_test_stored("energy", print_energy, 1e-12);

@@ -191,8 +191,107 @@ static void print_claims(FILE *out)
     print_values(out, &d);
 }
 
+/* ---- the verdicts of a check ---- */
+
+static struct br_case made_case(enum br_verify_kind kind, enum br_verdict verdict, size_t i)
+{
+    const double x = (double)i;
+    struct br_case c = {
+        .kind = kind,
+        .expected = {.order = 2 + x, .tolerance = 0.25, .floor = 0.5, .ceiling = 8, .line = 10 + i},
+        .measure = "l2",
+        .part = "axial",
+        .unit = "m",
+        .order = {1.5 + x, 1.25 + x, 1.75 + x},
+        .constant = 3 + x,
+        .margin = 0.125 - x,
+        .verdict = verdict};
+    snprintf(c.reason, sizeof c.reason, verdict ? "reason <%zu>, 100 %%" : "", i);
+    snprintf(c.note, sizeof c.note, verdict ? "" : "note <%zu>", i);
+    return c;
+}
+
+/* One of each outcome: a scene whose cases pass, fail, are open and have no number; one that cannot
+ * be verified; a study of another program; and one that was skipped. Then what differs from an
+ * earlier check, each of it by a severity of its own. */
+static void print_check(FILE *out)
+{
+    struct br_point point[] = {
+        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, ""},
+        {{8, 16}, {0, 0}, 0.125, 0, 0.25, 1.25, "n = 8", BR_FLAG_ROUND_OFF, false, ""},
+        {{0, 0}, {0, 0}, 0.5, 0.25, 0.125, 1.125, "h = 1", BR_FLAG_NONE, true, ""},
+        {{16, 32}, {0, 0}, 0.5, 0, NAN, NAN, "n = 16", BR_FLAG_FAILED, false, "it blew up"},
+    };
+    struct br_case cases[2][5], other[2], *now = cases[0], *was = cases[1];
+    const enum br_verdict verdict[] = {BR_PASS, BR_FAIL, BR_INCONCLUSIVE, BR_FAIL, BR_PASS};
+    for (size_t i = 0; i < 5; i++)
+        now[i] = was[i] = made_case((enum br_verify_kind)(i % 3), verdict[i], i);
+    now[0].point = point;
+    now[0].points = 3;
+    now[3].point = &point[3];
+    now[3].points = 1;
+    now[3].order = was[3].order = (struct br_estimate){NAN, NAN, NAN};
+    for (size_t i = 3; i < 5; i++)
+        now[i].measure = was[i].measure = "tip";
+    was[0].constant = 3.3;           /* a warning: 9 % */
+    was[1].expected.floor = 1;       /* looser now: a warning */
+    was[1].expected.tolerance = 0.5; /* narrower now: 0.1 is 0.4 of the tolerance now: a warning */
+    was[1].order.value = 2.4;
+    was[2].verdict = BR_PASS; /* serious */
+    was[4].verdict = BR_FAIL; /* a note, as is its constant of twice the size */
+    was[4].constant = 3.5;
+    other[0] = made_case(BR_VERIFY_SPACE, BR_INCONCLUSIVE, 7);
+    other[1] = made_case(BR_VERIFY_TIME, BR_PASS, 8);
+    struct br_check checks[] = {
+        {.path = "a.yaml",
+         .name = "a",
+         .cases = now,
+         .count = 5,
+         .seconds = 2.5,
+         .element_steps = 3e9,
+         .scene = &(struct br_scene){.length = 1}},
+        {.path = "b.yaml",
+         .name = "b",
+         .failure = {BR_BAD_INPUT, "its judge & method"},
+         .seconds = 0.5},
+        {.path = "c.yaml", .name = "c", .cases = other, .count = 1},
+    };
+    struct br_check before[] = {checks[0], {.name = "c", .cases = other, .count = 2}};
+    before[0].cases = was;
+    before[0].element_steps = 2.5e9; /* 1.2 times as many now: a note */
+    before[0].seconds = 5;           /* 2.4 times as many for a step: a warning, never serious */
+    struct br_old_method methods[2][BR_VERIFY_KINDS] = {0};
+    const struct br_old_check old = {.check = before, .method = methods, .count = 2};
+    struct br_comparison comparison;
+    MUST(br_compare(checks, 3, true, &old, &comparison, &err));
+    struct br_document d = {0};
+    br_report_check(&(struct br_check_findings){checks, 3, true, 4.5, &comparison, &provenance},
+                    &d);
+    br_put_verdict(&d, &(struct br_document_verdict){.outcome = BR_OUTCOME_SKIPPED,
+                                                     .group = "e",
+                                                     .name = "not there",
+                                                     .message = "none",
+                                                     .file = "e.yaml",
+                                                     .line = 3});
+    print_text(out, &d);
+    const struct br_document_format *const formats[] = {&br_document_junit, &br_document_github,
+                                                        &br_document_markdown, &br_document_latex};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        char *text = printed(formats[i], &d);
+        fprintf(out, "\n==== %s\n%s", formats[i]->name, text);
+        free(text);
+    }
+    char *page = printed(&br_document_html, &d), *body = strstr(page, "<body>"); /* no style */
+    fprintf(out, "\n==== html\n%s", body ? body : "");
+    free(page);
+    fputs("\n==== csv, json\n", out);
+    print_values(out, &d);
+    br_comparison_clear(&comparison);
+}
+
 TEST(reports_are_as_stored)
 {
+    br_test_stored("check", print_check, 1e-13);
     br_test_stored("study", print_study, 1e-13);
     br_test_stored("study_other", print_other_study, 1e-13);
     br_test_stored("study_without_judge", print_study_without_judge, 1e-13);

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: awk -f compare.awk STORED FOUND: prints lines that differ; exit code 1 where some do.
-# Texts are equal to the byte, counts exactly. Other numbers are equal to a relative 1e-6, or to one
-# unit of the last digit of the one that is printed with more digits; and what is below 1e-11, or
-# differs by less than 1e-13, is round-off. Bits depend on processor, compiler and LAPACK. Blanks
-# may differ only beside numbers that differ.
+# usage: awk [-v tolerance=1e-6] -f compare.awk STORED FOUND: prints lines that differ; exit code 1
+# where some do. Texts are equal to the byte, counts exactly. Other numbers are equal to a relative
+# tolerance, 1e-9 where none is given, or to one unit of the last digit of the one that is printed
+# with more digits. Bits depend on processor, compiler and LAPACK: fits magnify that to some 1e-7.
+# What is below 1e-11 may be round-off, which has a bound: it may be 16 times what is stored, or a
+# sixteenth of it. Blanks may differ only beside numbers that differ.
+BEGIN {
+    tolerance = tolerance ? tolerance : 1e-9
+    last_bits = tolerance > 1e-9 ? 1e-13 : 1e-14 # of differences of numbers near 1
+}
 
 # Adding 0 makes a number of a text: texts are compared by letters.
 function abs(x) { x += 0; return x < 0 ? -x : x }
@@ -18,13 +23,16 @@ function unit(number,    parts, mantissa) {
 
 function is_count(number) { return number !~ /[.eE]/ }
 
-function close_enough(a, b,    ulp, larger) {
+function close_enough(a, b,    ulp, larger, smaller) {
     if (a == b "")
         return 1
     if (is_count(a) && is_count(b))
         return 0
     larger = abs(a) > abs(b) ? abs(a) : abs(b)
-    if (larger < 1e-11 || abs(a - b) <= 1e-13 || abs(a - b) <= 1e-6 * larger)
+    smaller = abs(a) > abs(b) ? abs(b) : abs(a)
+    if (smaller < 1e-11)
+        return larger <= 16 * smaller + 1e-15
+    if (abs(a - b) <= last_bits || abs(a - b) <= tolerance * larger)
         return 1
     ulp = unit(a) < unit(b) ? unit(a) : unit(b)
     return abs(a - b) <= 1.001 * ulp

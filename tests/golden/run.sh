@@ -50,10 +50,28 @@ run() {
     cd "$here" || exit 99
 }
 
-number=0 failed=0
+# The comparison itself: which of these numbers are the same?
+compare() {
+    echo "$1" >"$folder/old"; echo "$2" >"$folder/new"
+    awk -v tolerance="${3:-}" -f "$here/compare.awk" "$folder/old" "$folder/new" >/dev/null && same="$same $1=$2"
+}
+same=
+compare 1.50000000000 1.50000000100; compare 1.50000000000 1.50000001000
+compare 1.50000000000 1.50000001000 1e-6; compare 3e-14 4e-14
+compare 3e-14 3e-12; compare 3e-14 nan; compare 3e-14 -nan; compare 3e-12 0.0; compare 7 8; compare 0.0 1e-16
+
+number=1 failed=0
 echo "TAP version 13"
+if [ "$same" = ' 1.50000000000=1.50000000100 1.50000000000=1.50000001000 3e-14=4e-14 0.0=1e-16' ]; then
+    echo "ok 1 - comparison"
+else
+    failed=1
+    echo "not ok 1 - comparison"
+    echo "#   same:$same"
+fi
 while IFS='|' read -r name command files; do
-    name=$(echo $name)
+    set -- $name
+    name=${1:-} tolerance=${2:-}
     case $name in '' | '#'*) continue ;; esac
     case $wanted in '  ' | *" $name "*) ;; *) continue ;; esac
     number=$((number + 1))
@@ -61,7 +79,7 @@ while IFS='|' read -r name command files; do
     touch "$folder/empty"
     stored=$here/$name.txt
     [ -e "$stored" ] || stored=$folder/empty
-    if awk -f "$here/compare.awk" "$stored" "$folder/new" >"$folder/differences"; then
+    if awk -v tolerance="$tolerance" -f "$here/compare.awk" "$stored" "$folder/new" >"$folder/differences"; then
         echo "ok $number - $name"
     elif [ "$update" ]; then
         cp "$folder/new" "$here/$name.txt"
