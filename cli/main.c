@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <errno.h>
 #include <gsl/gsl_errno.h>
+#include <poll.h>
+#include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -88,6 +90,13 @@ static void name_the_end(int code, void *self)
     _exit(br_status_exit_code(BR_NO_MEMORY));
 }
 
+/* Whether the reader of standard output has left, as head does when it has its lines. */
+static bool reader_left(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO};
+    return ferror(stdout) && poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
+}
+
 static int run_all(int argc, const char **argv)
 {
     /* A failing function sets this error. One that fails without setting it still fails, since
@@ -99,6 +108,10 @@ static int run_all(int argc, const char **argv)
     failed = failed || run_command(argc, argv, &err);
     if (!failed && (fflush(stdout) != 0 || ferror(stdout))) /* closed, or full */
         failed = br_fail(&err, BR_IO, "standard output could not be written");
+    if (failed && err.status == BR_IO && reader_left()) { /* no error: it ends as others do */
+        signal(SIGPIPE, SIG_DFL);
+        raise(SIGPIPE);
+    }
     if (!failed && br_json_lacked_memory())
         failed = br_no_memory(&err, "a JSON document");
     const enum br_status status = br_ranks_end(failed ? err.status : BR_OK, &err);

@@ -57,8 +57,8 @@ void br_signals_raise_again(void)
 
 enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
 
-/* After less time, s, the time left cannot be estimated. */
-static const double least_elapsed = 1;
+/* After less time, s, or less of the work, the time left cannot be estimated. */
+static const double least_elapsed = 1, least_fraction = 0.05;
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 static struct progress {
@@ -68,7 +68,6 @@ static struct progress {
     double fraction;    /* of all parts */
     size_t part, parts; /* it works on number `part` of `parts`, from 0 on */
     int tenths;         /* of the work, at the last printed line */
-    double waits;       /* when it began to wait for an exact reference, s; 0: it does not */
 } progress;
 
 /* The bar fills what the text leaves of the terminal's width; a narrow terminal gets no bar. */
@@ -90,7 +89,7 @@ static void draw_bar(void)
 static void print_left(double elapsed, double fraction)
 {
     const double left = elapsed * (1 - fraction) / fraction;
-    if (!(elapsed >= least_elapsed && fraction > 0))
+    if (!(elapsed >= least_elapsed && fraction >= least_fraction))
         fprintf(stderr, "begun");
     else if (left < 0.5)
         fprintf(stderr, "nearly done");
@@ -122,18 +121,12 @@ static void show(void *self, double fraction)
     pthread_mutex_unlock(&lock);
 }
 
-/* share: of the most work that it may take; mostly it takes less. The line fits in 40 columns. */
-static void print_wait(double elapsed, double share)
+/* share: of the most work that it may take; mostly it takes far less, so no time is printed. The
+ * line fits in 40 columns. */
+static void print_wait(double share)
 {
-    const double most = elapsed * (1 - share) / share; /* s left */
-    const bool known = elapsed >= least_elapsed && share > 0;
-    if (progress.terminal && known)
-        fprintf(stderr, "exact reference: < %.0f s \033[K", most);
-    else if (progress.terminal)
+    if (progress.terminal)
         fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
-    else if (known)
-        fprintf(stderr, "%s: waits for an exact reference, at most about %.0f s more\n",
-                progress.what, most);
     else
         fprintf(stderr, "%s: waits for an exact reference\n", progress.what);
 }
@@ -144,12 +137,11 @@ static void show_waiting(void *self, double share)
     (void)self;
     pthread_mutex_lock(&lock);
     const double t = br_seconds();
-    progress.waits = progress.waits > 0 ? progress.waits : t;
     if (t - progress.last >= (progress.terminal ? 0.1 : 1)) {
         progress.last = t;
         if (progress.terminal)
             draw_bar();
-        print_wait(t - progress.waits, share);
+        print_wait(share);
     }
     pthread_mutex_unlock(&lock);
 }

@@ -485,14 +485,17 @@ static bool is_stuck(const struct search *s)
            s->worst > 0.5 * s->worst_before && s->worst < 2 * s->worst_before;
 }
 
+/* Times the tolerance: an error that nearly has the wanted accuracy. */
+enum { NEAR = 100 };
+
 /* Whether the last pair is accepted without the wanted accuracy: it nearly has it, or the distances
  * shrink, and the expected rest is added to the estimate. */
 static bool is_acceptable(struct search *s)
 {
-    const double near = 100, slow = 0.8, ratio = s->worst / s->worst_before;
+    const double slow = 0.8, ratio = s->worst / s->worst_before;
     if (!(s->worst <= s->o->acceptable / s->o->tolerance) || (s->cause.status && !is_spent(s)))
         return false;
-    if (s->worst <= near)
+    if (s->worst <= NEAR)
         return true;
     for (size_t i = 0; i < BR_EXACT_FIELDS && ratio <= slow; i++)
         add_to_size(&s->exact->report[i].error, 1 / (1 - ratio), 0, &s->exact->report[i].largest);
@@ -511,6 +514,25 @@ static double unproved(const struct search *s, size_t which)
             ? rounding * change * sqrt(track->blurred / BR_STAGES) / track->impulse
             : 0;
     return s->missed + s->outline[which].proved + blurred;
+}
+
+/* The largest relative error that the report states, that of velocities over ten. The noise counts
+ * only where a force at the tip cancels the motion. */
+static double stated_error(const struct br_exact *exact)
+{
+    const double cancelled = 1e7; /* times the noise: a millionth of the free velocity */
+    double most = 0;
+    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
+        const struct br_exact_size *e = &exact->report[i].error, *l = &exact->report[i].largest;
+        if (l->velocity < cancelled * exact->noise[i])
+            continue;
+        const double relative[] = {e->displacement / l->displacement,
+                                   e->velocity / l->velocity / 10};
+        for (size_t j = 0; j < 2; j++)
+            if (l->velocity > 0 && !(relative[j] <= most))
+                most = relative[j];
+    }
+    return most;
 }
 
 /* Makes solutions with more and more modes until two agree. */
@@ -533,6 +555,11 @@ static enum br_status refine(struct search *s, struct br_error *err)
         return refuse(s->exact, s->worst, &s->cause, err);
     for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
         add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
+    if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))
+        return br_fail(err, BR_NOT_FINITE,
+                       "no exact solution: its own error would be %.2g of it, expected at most %g; "
+                       "the load changes too fast for the times that numbers can hold",
+                       stated_error(s->exact), s->o->acceptable);
     return list_events(s->exact, s->before, err);
 }
 
