@@ -790,6 +790,8 @@ static const struct planted_bug planted_bugs[] = {
      "br_number(p->forecast[i].error), .key", "br_number(error_of(p, i)), .key"},
     {"x_off_by_one_element", "printed", "tables/fields_file.c", "tests/test_printed_values",
      "time, f->h * (double)i);", "time, f->h * (double)(i + 1));"},
+    {"formula_behind_blanks", "printed", "study/scene/quote.c", "tests/test_quote",
+     "text + strspn(text, \" \\t\\r\\n\");", "text;"},
     {"xdmf_x_in_elements", "units", "tables/fields_file.c", "golden run",
      "0 0\\n\", f->h * (double)i);", "0 0\\n\", (double)i);"},
     {"xdmf_has_the_next_component", "printed", "tables/fields_file.c", "golden run",
