@@ -11,7 +11,7 @@
 static void add_line(struct br_figure *f, const struct br_orders *o,
                      const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    char quoted[400];
+    char quoted[sizeof((struct br_series *)0)->title];
     struct br_series *s = br_series_add(
         f, BR_PEN_CURVE, "%s",
         br_quoted(quoted, sizeof quoted, &br_for_markup, o->numbers->quantity[of->quantity].name));
@@ -24,22 +24,22 @@ static void add_line(struct br_figure *f, const struct br_orders *o,
 }
 
 /* A size has the unit of the source; one over a count has none. */
-static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[160])
+static void name_axis(const struct br_numbers *numbers, enum br_axis axis, char label[96])
 {
     static const char *const names[] = {"mesh size h", "time step k"};
     const struct br_resolution_column *column = numbers->column[axis];
     const char *unit = numbers->unit[axis];
-    char quoted[80];
+    char quoted[60]; /* the label has room for 96 bytes */
     if (!column->is_size)
-        snprintf(label, 160, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
+        snprintf(label, 96, "%s %s%s", names[axis], column->is_volume ? "from " : "= 1/",
                  column->name);
     else
-        snprintf(label, 160, "%s%s%s", names[axis], unit ? ", " : "",
+        snprintf(label, 96, "%s%s%s", names[axis], unit ? ", " : "",
                  unit ? br_quoted(quoted, sizeof quoted, &br_for_markup, unit) : "");
 }
 
 /* The unit is named where all quantities have the same. */
-static void name_quantities(const struct br_numbers *numbers, char label[160])
+static void name_quantities(const struct br_numbers *numbers, char label[96])
 {
     const char *unit = numbers->quantity[0].unit;
     size_t values = 0;
@@ -48,8 +48,8 @@ static void name_quantities(const struct br_numbers *numbers, char label[160])
         values += numbers->quantity[i].is_value;
         unit = unit && own && strcmp(unit, own) == 0 ? unit : NULL;
     }
-    char quoted[80];
-    snprintf(label, 160, "%s%s%s",
+    char quoted[60]; /* the label has room for 96 bytes */
+    snprintf(label, 96, "%s%s%s",
              values == 0                    ? "error"
              : values < numbers->quantities ? "error, or difference of values"
                                             : "difference of values",
@@ -61,7 +61,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
 {
     double slope[3];
     size_t slopes = 0;
-    char x[160], y[160];
+    char x[96], y[96];
     name_axis(o->numbers, axis, x);
     name_quantities(o->numbers, y);
     struct br_panel *p = br_panel_add(f, x, y);
@@ -101,7 +101,7 @@ static void add_costs(struct br_figure *f, const struct br_orders *o)
     struct br_panel *p = br_panel_add(f, "processor time (s)", "error");
     p->log_x = p->log_y = true;
     for (size_t i = 0; i < o->count; i++) {
-        char quoted[400];
+        char quoted[sizeof((struct br_series *)0)->title];
         const struct br_quantity *q = &numbers->quantity[o->of[i].quantity];
         if (q->is_value)
             continue;

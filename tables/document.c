@@ -206,7 +206,7 @@ static struct br_column copied_column(struct br_document *d, const struct br_col
                                       bool for_programs)
 {
     const char *key = c->key ? c->key : for_programs ? "" : c->heading;
-    if (for_programs && (!*key || strpbrk(key, " ,\"\n")))
+    if (for_programs && (!*key || strpbrk(key, " ,\"\n") || br_not_utf8(key)))
         refuse(d, "no key for programs:", key);
     if (c->format && !is_number_format(c->format))
         refuse(d, "no format of a number:", c->format);

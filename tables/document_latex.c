@@ -2,6 +2,7 @@
 /* LaTeX to \input; it needs the booktabs and longtable packages, and graphicx if the pictures are
  * there as PDF. */
 #include <ctype.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,12 +40,16 @@ static void print_number(FILE *out, const char *number)
 /* Prints m^(3/2) with its exponent raised. */
 static void print_unit(FILE *out, const char *unit)
 {
-    const char *raised = strstr(unit, "^("), *end = raised ? strchr(raised, ')') : NULL;
-    if (end)
-        fprintf(out, "%.*s$^{%.*s}$%s", (int)(raised - unit), unit, (int)(end - raised - 2),
-                raised + 2, end + 1);
-    else
-        br_quote(out, &br_for_latex, unit);
+    char base[64];
+    const char *raised = strstr(unit, "^(");
+    const size_t length = raised ? strspn(raised + 2, "-0123456789/") : 0;
+    if (length && raised[2 + length] == ')' && raised - unit < (ptrdiff_t)sizeof base) {
+        snprintf(base, sizeof base, "%.*s", (int)(raised - unit), unit);
+        br_quote(out, &br_for_latex, base);
+        fprintf(out, "$^{%.*s}$", (int)length, raised + 2);
+        unit = raised + 2 + length + 1;
+    }
+    br_quote(out, &br_for_latex, unit);
 }
 
 /* The caption of the document is part of the captions of its tables. */

@@ -78,7 +78,7 @@ static json_t *columns_of(struct page *p, const struct br_document_table *t)
     json_t *o = json_object(), *units = json_object();
     for (size_t c = 0; c < t->columns; c++)
         if (br_for_programs(t->column[c].flags) && t->column[c].unit)
-            put(p, units, t->column[c].key, json_string(t->column[c].unit));
+            put(p, units, t->column[c].key, br_json_string(t->column[c].unit));
     put(p, o, "title", br_json_string(t->title));
     put(p, o, "units", units);
     return o;
@@ -162,7 +162,8 @@ static enum br_status write_json(FILE *out, const struct br_document *d,
     if (*p.twice)
         status =
             br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
-    /* Not json_dumps: without memory for its buffer, it drops a key. */
+    /* Only memory can lack, as all texts become UTF-8. Not json_dumps: without memory for its
+     * buffer, it drops a key. */
     else if (p.lacked || (json_dumpf(root, out, flags) != 0 && !ferror(out)))
         status = br_no_memory(err, "the JSON text");
     fputc('\n', out);
@@ -178,13 +179,24 @@ const struct br_document_format br_document_json = {
 };
 
 /* ---- CSV: one table in a file (RFC 4180): a line of keys, with units in brackets, then a line for
- * each row. Numbers have all their digits, a value that is nothing is an empty field, a text stays
- * on its line. ---- */
+ * each row. Numbers have all their digits, a value that is nothing is an empty field. A heading or
+ * text stays on its line; what a spreadsheet would take for a formula begins with a '. ---- */
+
+static enum br_status write_heading(FILE *out, const struct br_column *c, struct br_error *err)
+{
+    char *heading;
+    if (asprintf(&heading, "%s%s%s%s", c->key, c->unit ? " [" : "", c->unit ? c->unit : "",
+                 c->unit ? "]" : "") < 0)
+        return br_no_memory(err, "a heading");
+    br_quote(out, &br_for_csv, heading);
+    free(heading);
+    return BR_OK;
+}
 
 static enum br_status write_csv(FILE *out, const struct br_document *d,
                                 const struct br_document_table *t, struct br_error *err)
 {
-    (void)d, (void)err;
+    (void)d;
     for (size_t line = 0; line <= t->rows; line++) { /* the first is the head */
         const char *separator = "";
         for (size_t c = 0; c < t->columns; c++) {
@@ -195,10 +207,8 @@ static enum br_status write_csv(FILE *out, const struct br_document *d,
             if (line > 0)
                 br_document_print_value(out, &br_for_csv, "",
                                         &br_document_cell_at(t, line - 1, c)->value);
-            else if (t->column[c].unit)
-                fprintf(out, "%s [%s]", t->column[c].key, t->column[c].unit);
-            else
-                fputs(t->column[c].key, out);
+            else if (write_heading(out, &t->column[c], err))
+                return err->status;
         }
         fputc('\n', out);
     }

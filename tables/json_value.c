@@ -52,12 +52,12 @@ json_t *br_json_number(double value)
     return isfinite(value) ? json_real(value) : json_null();
 }
 
-/* A file's name need not be UTF-8, which JSON must be. */
+/* A file's name need not be UTF-8, which JSON must be: it is written as for a terminal. */
 json_t *br_json_string(const char *text)
 {
     if (!text)
         return json_null();
-    if (br_is_utf8(text))
+    if (!br_not_utf8(text))
         return json_string(text);
     const size_t size = 4 * strlen(text) + 1;
     char *visible = br_allocate(size, 1);

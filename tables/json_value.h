@@ -20,6 +20,6 @@ json_t *br_json_read(int file, json_error_t *why);
 json_t *br_json_parse(const char *text, json_error_t *why); /* the same of a text */
 
 json_t *br_json_number(double value);     /* what is not finite is null */
-json_t *br_json_string(const char *text); /* NULL is null; what is not UTF-8 gets '?' */
+json_t *br_json_string(const char *text); /* NULL is null; bytes that are not UTF-8 become \xff */
 
 #endif

@@ -5,7 +5,7 @@
 # has such a field among its arguments. usage: foreign_text.sh ROOT
 set -u
 cd "$1" || exit 1
-field='(title|name|remark|message|path|caption|stem|key)'
+field='(title|name|remark|message|path|caption|stem|key|unit|heading|label)'
 
 # Expressions that may be printed as they are, as "FILES EXPRESSION": words of our own.
 allowed=$(sed 's/ *#.*//' <<'END'
@@ -17,7 +17,7 @@ plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the fig
 plots/paper.c (figure|f)->title               # captions of the paper
 tables/document_*.c t->column\[c\]\.key       # a column's
 tables/document_latex.c b->what\.key          # a picture's file: br_is_name
-tables/scene_template.c (key|br_norms\[0\])->name # of the schema
+tables/scene_template.c (key|br_norms\[0\])->(name|unit) # of the schema
 tables/sheet_text.c t->title                  # a table's
 tables/split_*.c line\.name                   # a source of error
 tables/run_text.c p->verdict\.message         # a certificate's: a limit and figures
@@ -33,7 +33,7 @@ found=$(for file in plots/*.c tables/*.c cli/*.c; do
         sed -E "s/[][a-z_.*()>-]*(->|\.)$field(\[0\])? \?//g; s/br_quoted\([^()]*\)//g
                 s/(^|[^a-z_])(${names}@)/\1/g" |
         grep -E '(^|[^a-z_])(v?f?printf|dprintf|f?puts|fwrite)\(' |
-        grep -E "((->|\.)$field|[(, ](title|remark|message|caption|path))( *[],)?:]|$)" |
+        grep -E "((->|\.)$field|[(, ](title|remark|message|caption|path|unit|heading))( *[],)?:]|$)" |
         sed "s|^ *|$file: |"
 done)
 [ -z "$found" ] || { echo "written past study/scene/quote.h:" "$found" >&2; exit 1; }

@@ -61,6 +61,7 @@ TEST(test_targets)
         {&br_for_gnuplot, "5'' beam", "\"5\\047\\047 beam\""},
         {&br_for_gnuplot, "'\"`@\\#{}", "\"\\047\\042\\140\\100\\134\\043\\173\\175\""},
         {&br_for_gnuplot, "", "''"},
+        {&br_for_gnuplot, "a]]>b &#65; &lt;", "\"a]] >b & \\04365; &lt;\""},
         {&br_for_latex, "\\input{x} 5% $a_b^c$ ~#&",
          "\\textbackslash{}input\\{x\\} 5\\% "
          "\\$a\\_b\\^{}c\\$ \\textasciitilde{}\\#\\&"},
@@ -74,6 +75,7 @@ TEST(test_targets)
         {&br_for_csv, "=1+1", "'=1+1"},
         {&br_for_csv, "@a,b", "\"'@a,b\""},
         {&br_for_csv, "+cmd|x", "'+cmd|x"},
+        {&br_for_csv, "\t =1+1", "'  =1+1"},
         {&br_for_csv, "-1.5e-3", "-1.5e-3"},
         {&br_for_csv, "-inf", "-inf"},
         {&br_for_csv, "", ""},

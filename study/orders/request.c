@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "study/kept/kept.h"
+#include "study/scene/quote.h"
 #include "study/scene/words.h"
 
 struct br_orders_request br_orders_request_default(void)
@@ -119,6 +120,8 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
         enum br_reading_kind kind;
     } kinds[] = {{"json:", BR_READING_JSON}, {"csv:", BR_READING_CSV}};
     struct br_reading reading = {.kind = BR_READING_REGEX};
+    if (br_not_utf8(name))
+        return br_fail(err, BR_BAD_INPUT, "found the name '%s', expected text in UTF-8", name);
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (strncmp(what, kinds[i].prefix, strlen(kinds[i].prefix)) == 0) {
             reading.kind = kinds[i].kind;

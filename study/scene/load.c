@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "study/scene/file.h"
+#include "study/scene/quote.h"
 
 static enum br_status fail_with_errno(const char *path, struct br_error *err)
 {
@@ -50,12 +51,16 @@ static enum br_status read_all(const char *path, int file, size_t longest, const
     if (length > longest)
         return br_fail(err, BR_BAD_INPUT, "%s: found more than %zu bytes, expected a %s", path,
                        longest, what);
-    const char *zero = memchr(text, 0, length);
+    const char *bad = br_not_utf8(text), *zero = memchr(text, 0, length);
     size_t line = 1;
-    for (const char *c = text; zero && c < zero; c++)
+    bad = bad ? bad : zero;
+    for (const char *c = text; bad && c < bad; c++)
         line += *c == '\n';
-    return zero ? br_fail(err, BR_BAD_INPUT, "%s:%zu: found a zero byte, expected text", path, line)
-                : BR_OK;
+    return bad ? br_fail(err, BR_BAD_INPUT,
+                         "%s:%zu: found the byte 0x%02x (byte %td of the file), expected text in "
+                         "UTF-8",
+                         path, line, (unsigned char)*bad, bad - text + 1)
+               : BR_OK;
 }
 
 enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,

@@ -10,11 +10,13 @@
 const struct br_quoting br_for_text = {.around = ""};
 
 /* Nothing is special between single quotes, but gnuplot 5.4 breaks its own rule for a single quote
- * there. Octal codes mean the same in blocks and outside, and have no other effect. */
+ * there. Octal codes mean the same in blocks and outside, and have no other effect. gnuplot puts
+ * "]]>" and "&#" into SVG as they are, where they are not text. */
 const struct br_quoting br_for_gnuplot = {
     .around = "\"",
     .bare = "'",
-    .rough = "'",
+    .rough = "']&",
+    .broken = {"]]>", "&#"},
     .stead = {{'"', "\\042"},
               {'\'', "\\047"},
               {'\\', "\\134"},
@@ -105,15 +107,15 @@ static size_t decode(const unsigned char *text, unsigned long *code)
     return *code < least[length] || surrogate || *code > 0x10ffff ? 0 : length;
 }
 
-bool br_is_utf8(const char *text)
+const char *br_not_utf8(const char *text)
 {
     unsigned long code;
     for (size_t length; *text; text += length) {
         length = decode((const unsigned char *)text, &code);
         if (!length)
-            return false;
+            return text;
     }
-    return true;
+    return NULL;
 }
 
 /* Whether a character is invisible or changes how its neighbours are shown. */
@@ -142,11 +144,19 @@ static void write_visible(const struct br_quoting *target, const char *text, siz
             snprintf(piece, PIECE, "%s", s->stead);
 }
 
-/* Writes the first character of a text for the target; returns its number of bytes. */
+/* Writes the first character of a text for the target, or more, if a blank must follow; returns its
+ * number of bytes. */
 static size_t next_piece(const struct br_quoting *target, const char *text, char piece[PIECE])
 {
     unsigned long code;
     const size_t length = decode((const unsigned char *)text, &code);
+    for (int i = 0; i < 2 && target->broken[i]; i++) {
+        const size_t first = strlen(target->broken[i]) - 1;
+        if (strncmp(text, target->broken[i], first + 1) != 0)
+            continue;
+        snprintf(piece, PIECE, "%.*s ", (int)first, text);
+        return first;
+    }
     if (strchr("\n\r\t", *text))
         snprintf(piece, PIECE, " ");
     else if (length && !is_hidden(code))
@@ -170,9 +180,10 @@ static const char *quotes(const struct br_quoting *target, const char *text)
 static const char *guard(const struct br_quoting *target, const char *text)
 {
     char *end;
-    if (!target->start || !*text || !strchr(target->start, *text))
+    const char *first = text + strspn(text, " \t\r\n"); /* spreadsheets skip blanks, too */
+    if (!target->start || !*first || !strchr(target->start, *first))
         return "";
-    strtod(text, &end);
+    strtod(first, &end);
     return *end ? target->guard : "";
 }
 

@@ -7,7 +7,8 @@
  * become visible: control characters, marks that change the direction of writing, and bytes that
  * are not UTF-8 are written as \x1b, \u202e, \xff.
  *
- * To add a target: add one record. */
+ * To add a target: add one record. What text files hold must be UTF-8: br_text_load refuses others.
+ */
 #ifndef BR_STUDY_SCENE_QUOTE_H
 #define BR_STUDY_SCENE_QUOTE_H
 
@@ -20,9 +21,10 @@ struct br_quoting {
     const char *bare;   /* or these, if it has none of the `rough` characters */
     const char *rough;
     bool nothing;        /* an empty text gets `around`, too */
-    const char *start;   /* a text that begins with one of these and is not a number ... */
+    const char *start;   /* a text that begins with one of these, behind blanks, and is no number */
     const char *guard;   /* gets this prefix */
     const char *escaped; /* characters that get a backslash before them */
+    const char *broken[2]; /* texts that get a blank before their last character */
     struct br_stead {
         char character;
         const char *stead;
@@ -53,8 +55,8 @@ char *br_quoted(char *buffer, size_t size, const struct br_quoting *target, cons
 /* Writes a comment of a gnuplot script or a data file, and the end of its line. */
 void br_write_comment(FILE *out, const char *text);
 
-/* Whether a text is UTF-8 throughout. */
-bool br_is_utf8(const char *text);
+/* The first byte of a text that is not UTF-8; NULL: all of it is. */
+const char *br_not_utf8(const char *text);
 
 /* Whether a text may be a file's name, or the beginning of one: letters, digits, blanks, _ . - +
  * and visible characters that are not ASCII, without a blank or . - + at the start. No program
