@@ -5,7 +5,9 @@
 #
 # A block of a page that begins with ```sh is run line by line. One that begins with ```sh long would
 # take minutes: of its lines only the command and the names of the options are tried. A block of YAML
-# whose first line is a remark that begins with NAME.yaml is that file.
+# whose first line is a remark that begins with NAME.yaml is that file, and passes 'check'; the first
+# line of any other one is a remark that begins with "part". A file that says "# needs PROGRAM" is
+# checked where that program is.
 set -u
 work=$(mktemp -d "${TMPDIR:-/tmp}/beamrate examples XXXXXX") || exit 99
 trap 'rm -rf "$work"' EXIT
@@ -31,6 +33,7 @@ pages() {
             next
         }
         how == "yaml" && first && /^# [a-z_]+\.yaml/ { file = scenes $2; sub(/\.yaml.*/, ".yaml", file) }
+        how == "yaml" && first && !file && !/^# part/ { print "bad\t" at "\techo line " FNR ": YAML without a name" }
         { first = 0 }
         how == "yaml" && file { print >file }
         how != "short" && how != "long" { next }
@@ -117,5 +120,18 @@ while IFS='	' read -r how origin line; do
     echo "not ok $number - ${origin##*/}: $line"
     sed 's/^/# /' output
 done <examples
+# Every scene and study file that is printed or lies in docs/orders/ passes its check.
+for scene in files/*.yaml; do
+    number=$((number + 1))
+    needs=$(sed -n 's/^# needs \([^ ]*\).*/\1/p' "$scene")
+    if [ "$needs" ] && ! command -v "$needs" >/dev/null; then
+        echo "ok $number - left out, $needs is not installed: ${scene##*/}"
+    elif (cd files && beamrate check "${scene##*/}" --trust) >output 2>&1 </dev/null; then
+        echo "ok $number - check ${scene##*/}"
+    else
+        echo "not ok $number - check ${scene##*/}"
+        sed 's/^/# /' output
+    fi
+done
 echo "1..$number"
 [ "$(wc -w <examples)" -gt 100 ]

@@ -120,6 +120,7 @@ static void solve_exactly(const struct br_scene *scene, struct verdict verdict[2
 TEST(test_agreement)
 {
     static const char *const names[] = {"axial", "bending"};
+    size_t extrapolated = 0;
     for (size_t i = 0; i < sizeof meetings / sizeof *meetings; i++) {
         const struct meeting *m = &meetings[i];
         if (m->steps > 16000 && !br_test_long())
@@ -137,14 +138,18 @@ TEST(test_agreement)
                           m->scene, names[kind], exact[kind].value, exact[kind].bar, fine[kind].bar,
                           coarse[kind].bar);
             check_agreement(m, names[kind], "exact and fine", exact[kind], fine[kind]);
+            AT_MOST(fine[kind].bar, 0.01); /* bars that say nothing agree with everything */
+            if (isnan(coarse[kind].value))
+                continue; /* the cells show no order */
+            extrapolated++;
             check_agreement(m, names[kind], "exact and Richardson", exact[kind], coarse[kind]);
             check_agreement(m, names[kind], "fine and Richardson", fine[kind], coarse[kind]);
-            /* bars that say nothing agree with everything */
-            AT_MOST(fine[kind].bar, 0.01);
             AT_MOST(coarse[kind].bar, 0.01);
         }
         br_scene_clear(&scene);
     }
+    print_message("# %zu extrapolated\n", extrapolated);
+    assert_true(extrapolated >= 3);
 }
 
 /* ---- the fourth: a solution that was there first ---- */
