@@ -312,11 +312,11 @@ int main(void)
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     setenv(KILL_AFTER, "0", 1);
     const struct CMUnitTest with_mpi[] = {
-        cmocka_unit_test(test_same_bits),   cmocka_unit_test(test_check),
-        cmocka_unit_test(test_all_commands),
-        cmocka_unit_test(test_bad_input),   cmocka_unit_test(test_other_files),
-        cmocka_unit_test(test_killed),      cmocka_unit_test(test_silent),
-        cmocka_unit_test(test_interrupted), cmocka_unit_test(test_not_joined),
+        cmocka_unit_test(test_same_bits),    cmocka_unit_test(test_check),
+        cmocka_unit_test(test_all_commands), cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_other_files),  cmocka_unit_test(test_killed),
+        cmocka_unit_test(test_silent),       cmocka_unit_test(test_interrupted),
+        cmocka_unit_test(test_not_joined),
     };
     const struct CMUnitTest without[] = {cmocka_unit_test(test_not_joined)};
     return getenv("MPIRUN") ? cmocka_run_group_tests(with_mpi, cli_make_folder, cli_remove_folder)
