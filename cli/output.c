@@ -306,8 +306,8 @@ enum br_status br_output_open(struct br_output *o, const char *folder, struct br
     name_manifest(o->hidden, o->manifest);
     if (!br_make_folders(folder, 0777, &o->made) ||
         (o->parent = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)) < 0)
-        return br_fail(err, br_status_of_errno(errno), "--out: cannot make the folder %s: %s", folder,
-                       strerror(errno));
+        return br_fail(err, br_status_of_errno(errno), "--out: cannot make the folder %s: %s",
+                       folder, strerror(errno));
     snprintf(o->staging, sizeof o->staging, "%s/%s", folder, o->hidden);
     json_t *old = NULL;
     const bool failed = br_run_id_make(o->run, &inner) || make_staging(o, &inner) ||

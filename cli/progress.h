@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Progress of long work on stderr. A terminal gets a bar with the time left. Elsewhere a line is
  * printed at each tenth of the work, but at most once a second; and once a second while an exact
- * reference is computed. --quiet: nothing. Ctrl-C, SIGTERM, SIGHUP: marches stop, no file is left. */
+ * reference is computed. --quiet: nothing. Ctrl-C, SIGTERM, SIGHUP: marches stop, no file is left.
+ */
 #ifndef BR_CLI_PROGRESS_H
 #define BR_CLI_PROGRESS_H
 

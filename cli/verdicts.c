@@ -48,8 +48,7 @@ static enum br_status check_paths(const struct br_verdicts *v, const char *basel
             if (br_whole_file_same(f, &v->file[j]))
                 return br_fail(err, BR_BAD_INPUT, "--%s and --%s both write %s",
                                br_check_formats[j]->name, name, f->path);
-        if (baseline &&
-            (br_whole_file_meets(f, baseline) || br_whole_file_same(f, &v->baseline)))
+        if (baseline && (br_whole_file_meets(f, baseline) || br_whole_file_same(f, &v->baseline)))
             return br_fail(err, BR_BAD_INPUT, "--%s would replace what it is compared with, %s",
                            name, f->path);
     }

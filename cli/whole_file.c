@@ -82,9 +82,9 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     return w->file ? BR_OK
                    : br_fail(err, br_status_of_errno(errno), "--%s: cannot write '%s': %s", option,
                              path,
-                             !*path                            ? "expected a file's name"
-                             : errno == ENXIO && !w->renamed   ? "nothing reads from this pipe"
-                                                               : strerror(errno));
+                             !*path                          ? "expected a file's name"
+                             : errno == ENXIO && !w->renamed ? "nothing reads from this pipe"
+                                                             : strerror(errno));
 }
 
 bool br_whole_file_same(const struct br_whole_file *a, const struct br_whole_file *b)

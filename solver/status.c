@@ -28,8 +28,8 @@ enum br_status br_no_memory(struct br_error *err, const char *what)
 
 enum br_status br_status_of_errno(int reason)
 {
-    static const int wrong_path[] = {ENOENT, ENOTDIR, EISDIR, EACCES, EPERM,  ELOOP, ENAMETOOLONG,
-                                     EEXIST, EINVAL,  ENXIO,  ENODEV, EBUSY,  ETXTBSY};
+    static const int wrong_path[] = {ENOENT, ENOTDIR, EISDIR, EACCES, EPERM, ELOOP,  ENAMETOOLONG,
+                                     EEXIST, EINVAL,  ENXIO,  ENODEV, EBUSY, ETXTBSY};
     for (size_t i = 0; i < sizeof wrong_path / sizeof *wrong_path; i++)
         if (reason == wrong_path[i])
             return BR_BAD_INPUT;

@@ -636,7 +636,8 @@ TEST(test_no_survivors)
             snprintf(name, sizeof name, "nest.%d%s", deadly[i] ? 8 : 4, *end);
             expect_dead(name);
         }
-        shell("for i in $(seq 100); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
+        shell(
+            "for i in $(seq 100); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
     }
 }
 

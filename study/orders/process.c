@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The program is a child of a keeper, a child of this process that does nothing but wait. The keeper
- * is a subreaper: what the program leaves behind, in any session, becomes a child of the keeper,
- * which kills it. The kernel signals the keeper when this process is gone. Only where the keeper is
- * killed, too, can something be left: the kernel then kills the program, but not what it started. */
+/* The program is a child of a keeper, a child of this process that does nothing but wait. The
+ * keeper is a subreaper: what the program leaves behind, in any session, becomes a child of the
+ * keeper, which kills it. The kernel signals the keeper when this process is gone. Only where the
+ * keeper is killed, too, can something be left: the kernel then kills the program, but not what it
+ * started. */
 #include "study/orders/process.h"
 
 #include <errno.h>
@@ -161,8 +162,8 @@ int br_process_start(struct br_process *p)
 {
     const pid_t self = getpid();
     sigset_t all, old;
-    void *shared = mmap(NULL, sizeof *p->end, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                        -1, 0);
+    void *shared =
+        mmap(NULL, sizeof *p->end, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED)
         return errno;
     p->end = shared;

@@ -13,7 +13,7 @@ struct br_process_end {
     char folder[PATH_MAX]; /* it ran there; empty: the folder could not be made */
     bool known;            /* else its keeper was killed */
     int failure;           /* errno: it could not be started; 0: it was */
-    int status;  /* as of wait4 */
+    int status;            /* as of wait4 */
     struct rusage usage;
 };
 

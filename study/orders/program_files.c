@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of a command, for hashes: the program, and the files that its words name. What these read
- * or start is not known. */
+/* The files of a command, for hashes: the program, and the files that its words name. What these
+ * read or start is not known. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -37,9 +37,9 @@ enum br_status br_scene_open(const char *name, char *path, size_t size, char **t
 #define BR_STANDARD_INPUT "/dev/stdin"
 
 /* Loads the whole text of a file, of standard input or of a pipe. *text (out): owned by the caller.
- * Fails with BR_BAD_INPUT if it is longer than `longest` bytes, is not text, or is a named pipe that
- * nothing opens for writing within some seconds; the message names what was expected, as "scene".
- * Also fails with BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
+ * Fails with BR_BAD_INPUT if it is longer than `longest` bytes, is not text, or is a named pipe
+ * that nothing opens for writing within some seconds; the message names what was expected, as
+ * "scene". Also fails with BR_IO, BR_INTERRUPTED or BR_NO_MEMORY. */
 enum br_status br_text_load(const char *path, size_t longest, const char *what, char **text,
                             struct br_error *err);
 
