@@ -105,6 +105,9 @@ TEST(test_resolutions)
     br_numbers_clear(&n);
     refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
                 "t.csv:3: h: found 0.4, which contradicts n");
+    n = read_with("n,l2\n1000,3\n1001,2\n1000000,1\n1000001,1\n", &plain); /* two are two */
+    assert_true(n.row[0].z[0] > n.row[1].z[0] && n.row[2].z[0] > n.row[3].z[0]);
+    br_numbers_clear(&n);
     /* Round-off in the other axis makes no lines of its own. */
     n = read_with("h,k,l2\n1,.3,3\n.5,.30000000000000004,2\n.25,.3,1\n", &plain);
     CLOSE(n.row[1].z[BR_AXIS_TIME], n.row[0].z[BR_AXIS_TIME], 0);
@@ -285,6 +288,24 @@ TEST(test_grid)
         }
 }
 
+/* On a grid with a floor, the fit is made again without the rows at the floor. */
+TEST(test_grid_with_a_floor)
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
+    for (int i = 0; i < 10; i++)
+        for (int j = 0; j < 14; j++)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n", pow(2, -i),
+                                 pow(2, -j), fmax(power_law(pow(2, -i), pow(2, -j), 2, 1), 2e-3));
+    find(text, NULL);
+    const struct br_quantity_orders *of = &found.orders.of[0];
+    assert_true(of->joint.points > 60 && of->joint.points < 140);
+    assert_true(br_joint_describes(&of->joint));
+    CLOSE(of->joint.order[0].value, 2, 1e-3);
+    CLOSE(of->joint.order[1].value, 1, 1e-3);
+}
+
 /* A line at a fine size may begin at a finer mesh than one at a coarser size. */
 TEST(test_lines_are_sorted)
 {
@@ -331,15 +352,34 @@ static enum br_flag flag_of(size_t point)
     return found.orders.of[0].line[0].observed.point[point].flag;
 }
 
-/* h = 1, 1/2, ... with errors h^2 that do not fall below a floor. */
-static const char *floor_table(int rows, double level)
+/* h = 1, 1/2, ... with errors h^2 that do not fall below a floor; in units of that size. */
+static const char *scaled_floor_table(int rows, double level, double unit)
 {
     static char text[4096];
     size_t used = (size_t)snprintf(text, sizeof text, "h,l2\n");
     for (int i = 0; i < rows; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", pow(2, -i),
-                                 fmax(pow(4, -i), level));
+                                 unit * fmax(pow(4, -i), level));
     return text;
+}
+
+static const char *floor_table(int rows, double level)
+{
+    return scaled_floor_table(rows, level, 1);
+}
+
+/* What is left out, and by which name, depends on no unit. */
+TEST(test_floors_in_any_unit)
+{
+    static const double units[] = {1e-12, 1e12};
+    for (size_t u = 0; u < 2; u++) {
+        find(scaled_floor_table(12, pow(4, -7), units[u]), NULL);
+        for (size_t i = 0; i < 12; i++)
+            assert_int_equal(flag_of(i), i < 6 ? BR_FLAG_NONE : BR_FLAG_STALLED);
+        find(scaled_floor_table(16, pow(4, -12), units[u]), NULL);
+        for (size_t i = 0; i < 16; i++)
+            assert_int_equal(flag_of(i), i < 11 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+    }
 }
 
 TEST(test_floors)
