@@ -336,6 +336,9 @@ TEST(test_stopped_fits)
 {
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
+    struct br_joint_fit fit;
+    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, &stops, &fit, &err),
+            BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);
         struct br_orders o;
@@ -379,7 +382,37 @@ TEST(test_floors_in_any_unit)
         find(scaled_floor_table(16, pow(4, -12), units[u]), NULL);
         for (size_t i = 0; i < 16; i++)
             assert_int_equal(flag_of(i), i < 11 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+        /* A last rate of 0.8 after those of 2: round-off, but only at its size. */
+        for (int rows = 7; rows <= 14; rows += 7) {
+            find(scaled_floor_table(rows, pow(4, 2 - rows) * pow(2, -0.8), units[u]), NULL);
+            assert_int_equal(flag_of((size_t)rows - 1),
+                             rows == 7 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+        }
     }
+}
+
+/* Only what stays along both axes is at a floor. Along k at h = 1 errors stay, too, since that of
+ * space is larger; but they fall in h. */
+TEST(test_corners_of_a_floor)
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n"), left_out = 0;
+    for (int i = 0; i < 10; i++)
+        for (int j = 0; j < 10; j++)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n", pow(2, -i),
+                                 pow(2, -j), fmax(fmax(pow(4, -i), pow(4, -j)), pow(4, -7)));
+    find(text, NULL);
+    for (size_t row = 0; row < 100; row++) {
+        const struct br_row_point *a = &found.orders.of[0].point[0][row],
+                                  *b = &found.orders.of[0].point[1][row];
+        const enum br_flag flag = a->line->observed.point[a->index].flag;
+        assert_int_equal(flag, b->line->observed.point[b->index].flag);
+        if (abs((int)(row / 10) - (int)(row % 10)) > 1) /* else the two errors are alike */
+            assert_true(!flag || found.numbers.row[row].number[0] < 10 * pow(4, -7));
+        left_out += flag != BR_FLAG_NONE;
+    }
+    assert_true(left_out > 0);
 }
 
 TEST(test_floors)
@@ -431,9 +464,20 @@ TEST(test_values)
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
             CLOSE(line->gci.order, p, 1e-8);
+            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
             CLOSE(line->gci.fine.limit, 5, 1e-9);
             assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
         }
+}
+
+/* A difference without its finer value names that one. */
+TEST(test_gap_in_values)
+{
+    find("h,u\n1,1\n.5,2\n.25,\n.125,3\n.0625,4\n", "u");
+    const struct br_point *p = found.orders.of[0].line[0].observed.point;
+    assert_string_equal(p[0].label, "h = 1");
+    assert_string_equal(p[1].label, "h = 0.25");
+    assert_string_equal(p[2].label, "h = 0.25");
 }
 
 /* Differences that fall or grow faster than any order: nothing is said of them. */

@@ -220,8 +220,8 @@ static void print_orders(FILE *out)
         numbers.row[i].bytes = 1e6 * (i + 1);
         numbers.row[i].kept = i % 5 == 1;
     }
-    numbers.row[6].failure = strdup("exit code 1");
-    numbers.row[6].number[0] = numbers.row[6].number[1] = numbers.row[6].number[2] = (double)NAN;
+    numbers.row[7].failure = strdup("exit code 1"); /* at the finest k */
+    numbers.row[7].number[0] = numbers.row[7].number[1] = numbers.row[7].number[2] = (double)NAN;
     MUST(br_orders_find(&numbers, 2, &orders, &err));
     for (int axis = 0; axis < BR_AXES; axis++)
         MUST(br_orders_growth(&orders, (enum br_axis)axis, &growth[axis], &err));
