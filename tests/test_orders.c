@@ -105,6 +105,9 @@ TEST(test_resolutions)
     br_numbers_clear(&n);
     refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
                 "t.csv:3: h: found 0.4, which contradicts n");
+    n = read_with("n,l2\n1000,3\n1001,2\n1000000,1\n1000001,1\n", &plain); /* two are two */
+    assert_true(n.row[0].z[0] > n.row[1].z[0] && n.row[2].z[0] > n.row[3].z[0]);
+    br_numbers_clear(&n);
     /* Round-off in the other axis makes no lines of its own. */
     n = read_with("h,k,l2\n1,.3,3\n.5,.30000000000000004,2\n.25,.3,1\n", &plain);
     CLOSE(n.row[1].z[BR_AXIS_TIME], n.row[0].z[BR_AXIS_TIME], 0);
@@ -285,6 +288,24 @@ TEST(test_grid)
         }
 }
 
+/* On a grid with a floor, the fit is made again without the rows at the floor. */
+TEST(test_grid_with_a_floor)
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
+    for (int i = 0; i < 10; i++)
+        for (int j = 0; j < 14; j++)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n", pow(2, -i),
+                                 pow(2, -j), fmax(power_law(pow(2, -i), pow(2, -j), 2, 1), 2e-3));
+    find(text, NULL);
+    const struct br_quantity_orders *of = &found.orders.of[0];
+    assert_true(of->joint.points > 60 && of->joint.points < 140);
+    assert_true(br_joint_describes(&of->joint));
+    CLOSE(of->joint.order[0].value, 2, 1e-3);
+    CLOSE(of->joint.order[1].value, 1, 1e-3);
+}
+
 /* A line at a fine size may begin at a finer mesh than one at a coarser size. */
 TEST(test_lines_are_sorted)
 {
@@ -315,6 +336,9 @@ TEST(test_stopped_fits)
 {
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
+    struct br_joint_fit fit;
+    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, &stops, &fit, &err),
+            BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);
         struct br_orders o;
@@ -331,15 +355,64 @@ static enum br_flag flag_of(size_t point)
     return found.orders.of[0].line[0].observed.point[point].flag;
 }
 
-/* h = 1, 1/2, ... with errors h^2 that do not fall below a floor. */
-static const char *floor_table(int rows, double level)
+/* h = 1, 1/2, ... with errors h^2 that do not fall below a floor; in units of that size. */
+static const char *scaled_floor_table(int rows, double level, double unit)
 {
     static char text[4096];
     size_t used = (size_t)snprintf(text, sizeof text, "h,l2\n");
     for (int i = 0; i < rows; i++)
         used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", pow(2, -i),
-                                 fmax(pow(4, -i), level));
+                                 unit * fmax(pow(4, -i), level));
     return text;
+}
+
+static const char *floor_table(int rows, double level)
+{
+    return scaled_floor_table(rows, level, 1);
+}
+
+/* What is left out, and by which name, depends on no unit. */
+TEST(test_floors_in_any_unit)
+{
+    static const double units[] = {1e-12, 1e12};
+    for (size_t u = 0; u < 2; u++) {
+        find(scaled_floor_table(12, pow(4, -7), units[u]), NULL);
+        for (size_t i = 0; i < 12; i++)
+            assert_int_equal(flag_of(i), i < 6 ? BR_FLAG_NONE : BR_FLAG_STALLED);
+        find(scaled_floor_table(16, pow(4, -12), units[u]), NULL);
+        for (size_t i = 0; i < 16; i++)
+            assert_int_equal(flag_of(i), i < 11 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+        /* A last rate of 0.8 after those of 2: round-off, but only at its size. */
+        for (int rows = 7; rows <= 14; rows += 7) {
+            find(scaled_floor_table(rows, pow(4, 2 - rows) * pow(2, -0.8), units[u]), NULL);
+            assert_int_equal(flag_of((size_t)rows - 1),
+                             rows == 7 ? BR_FLAG_NONE : BR_FLAG_ROUND_OFF);
+        }
+    }
+}
+
+/* Only what stays along both axes is at a floor. Along k at h = 1 errors stay, too, since that of
+ * space is larger; but they fall in h. */
+TEST(test_corners_of_a_floor)
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n"), left_out = 0;
+    for (int i = 0; i < 10; i++)
+        for (int j = 0; j < 10; j++)
+            used +=
+                (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n", pow(2, -i),
+                                 pow(2, -j), fmax(fmax(pow(4, -i), pow(4, -j)), pow(4, -7)));
+    find(text, NULL);
+    for (size_t row = 0; row < 100; row++) {
+        const struct br_row_point *a = &found.orders.of[0].point[0][row],
+                                  *b = &found.orders.of[0].point[1][row];
+        const enum br_flag flag = a->line->observed.point[a->index].flag;
+        assert_int_equal(flag, b->line->observed.point[b->index].flag);
+        if (abs((int)(row / 10) - (int)(row % 10)) > 1) /* else the two errors are alike */
+            assert_true(!flag || found.numbers.row[row].number[0] < 10 * pow(4, -7));
+        left_out += flag != BR_FLAG_NONE;
+    }
+    assert_true(left_out > 0);
 }
 
 TEST(test_floors)
@@ -391,9 +464,20 @@ TEST(test_values)
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
             CLOSE(line->gci.order, p, 1e-8);
+            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
             CLOSE(line->gci.fine.limit, 5, 1e-9);
             assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
         }
+}
+
+/* A difference without its finer value names that one. */
+TEST(test_gap_in_values)
+{
+    find("h,u\n1,1\n.5,2\n.25,\n.125,3\n.0625,4\n", "u");
+    const struct br_point *p = found.orders.of[0].line[0].observed.point;
+    assert_string_equal(p[0].label, "h = 1");
+    assert_string_equal(p[1].label, "h = 0.25");
+    assert_string_equal(p[2].label, "h = 0.25");
 }
 
 /* Differences that fall or grow faster than any order: nothing is said of them. */

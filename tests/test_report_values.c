@@ -8,7 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "plots/pictures.h"
 #include "study/foresee/prediction.h"
+#include "study/orders/request.h"
 #include "study/paper/paper.h"
 #include "study/run/run.h"
 #include "study/verify/comparison.h"
@@ -290,9 +292,52 @@ static void print_check(FILE *out)
     br_comparison_clear(&comparison);
 }
 
+/* ---- orders, with costs ---- */
+
+/* Errors that fall and that grow with n, so that other runs are the cheapest ones; a value; runs
+ * that were kept; one that failed. Time grows like n^2/k, with some scatter. */
+static void print_orders(FILE *out)
+{
+    char text[4096] = "n,k [s],fall [m],grow [N],u [J]\n";
+    for (int i = 0; i < 16; i++) {
+        const double n = 10 << i / 4, k = 0.1 / (1 << i % 4);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "%g,%.17g,%.17g,%.17g,%.17g\n", n,
+                 k, 1 / n / n + k, 3e-4 * n * k, 5 - 2 / n / n - k);
+    }
+    struct br_orders_request q = br_orders_request_default();
+    struct br_numbers numbers;
+    struct br_orders orders;
+    struct br_estimate growth[BR_AXES];
+    struct br_document d = {0};
+    q.path = (char[]){"made"};
+    q.table = text;
+    q.errors = (char[]){"fall,grow"};
+    q.values = (char[]){"u"};
+    MUST(br_orders_read(&q, &numbers, &err));
+    for (int i = 0; i < 16; i++) {
+        numbers.row[i].seconds = 0.03 * (1 << 2 * (i / 4)) * (1 << i % 4) * (1 + 0.01 * (i % 3));
+        numbers.row[i].bytes = 1e6 * (i + 1);
+        numbers.row[i].kept = i % 5 == 1;
+    }
+    numbers.row[7].failure = strdup("exit code 1"); /* at the finest k */
+    numbers.row[7].number[0] = numbers.row[7].number[1] = numbers.row[7].number[2] = (double)NAN;
+    MUST(br_orders_find(&numbers, 2, &orders, &err));
+    for (int axis = 0; axis < BR_AXES; axis++)
+        MUST(br_orders_growth(&orders, (enum br_axis)axis, &growth[axis], &err));
+    br_report_orders(&orders, growth, "made", &d);
+    print_text(out, &d);
+    print_values(out, &d);
+    struct br_figure f = br_orders_draw(&orders, "made");
+    br_figure_write_data(out, &f);
+    br_figure_clear(&f);
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
+}
+
 TEST(reports_are_as_stored)
 {
     br_test_stored("check", print_check, 1e-13);
+    br_test_stored("orders", print_orders, 1e-9);
     br_test_stored("study", print_study, 1e-13);
     br_test_stored("study_other", print_other_study, 1e-13);
     br_test_stored("study_without_judge", print_study_without_judge, 1e-13);
