@@ -58,7 +58,6 @@ static bool is_missing(double value)
     return isnan(value);
 }
 
-/* What is not a number is not lost, and what a norm does not need does not matter. */
 /* The norm of (25) of an error that is the same at all times, of a beam of 2 m and for 3 s: the sum
  * over time steps of k/T is 1, so T has no part in it. */
 TEST(test_constant)
@@ -77,6 +76,7 @@ TEST(test_constant)
     CLOSE(br_norm_of_constant(norm, &scene, size, BR_PART_TOTAL), sqrt(axial + bending), 1e-15);
 }
 
+/* What is not a number is not lost, and what a norm does not need does not matter. */
 TEST(test_nan)
 {
     struct br_scene scene = br_test_bare();
