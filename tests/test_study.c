@@ -58,6 +58,24 @@ static bool is_missing(double value)
     return isnan(value);
 }
 
+/* The norm of (25) of an error that is the same at all times, of a beam of 2 m and for 3 s: the sum
+ * over time steps of k/T is 1, so T has no part in it. */
+TEST(test_constant)
+{
+    const struct br_scene scene = {
+        .length = 2, .duration = 3, .axial.modelled = true, .bending.modelled = true};
+    double size[2][BR_MEASURES] = {{0}};
+    size[BR_AXIAL][BR_VELOCITY] = 0.5;
+    size[BR_AXIAL][BR_STRAIN_RATE] = 0.25;
+    size[BR_BENDING][BR_VELOCITY] = 0.75;
+    size[BR_BENDING][BR_STRAIN_RATE] = 0.125;
+    const double axial = 0.5 * 0.5 + 4 * 0.25 * 0.25, bending = 0.75 * 0.75 + 16 * 0.125 * 0.125;
+    const struct br_norm *norm = &br_norm_energy;
+    CLOSE(br_norm_of_constant(norm, &scene, size, BR_PART_AXIAL), sqrt(axial), 1e-15);
+    CLOSE(br_norm_of_constant(norm, &scene, size, BR_PART_BENDING), sqrt(bending), 1e-15);
+    CLOSE(br_norm_of_constant(norm, &scene, size, BR_PART_TOTAL), sqrt(axial + bending), 1e-15);
+}
+
 /* What is not a number is not lost, and what a norm does not need does not matter. */
 TEST(test_nan)
 {
