@@ -39,6 +39,7 @@ if [ "$1" = test ]; then
     mkdir -p "$3/meson-logs"
     echo '{"stdout": "ok 1 - a", "result": "OK"}' >"$3/meson-logs/testlog.json"
 fi
+case "$*" in *--clearcache) touch "$W/cleared" ;; esac
 [ "$1" = setup ] || exit 0
 echo "$*" >>"$W/set_ups"
 mkdir -p "$2/meson-private"
@@ -151,6 +152,7 @@ made mpirun </dev/null
 echo 'exit 1' | made mpicc
 starts 0 4 'a part whose compiler finds no header' --with=mpi build
 configured 'a part' '-Dmpi=enabled --reconfigure$'
+[ -e "$work/cleared" ] || failures=$((failures + 1))
 made mpicc </dev/null
 starts 0 0 'the same part' --with mpi build
 configured 'the same part'
