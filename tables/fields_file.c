@@ -141,7 +141,8 @@ static size_t last_node(const struct br_fields *f, size_t first)
 static void xdmf_array(FILE *out, const char *type, size_t rows, int columns)
 {
     fprintf(out, "<DataItem Dimensions=\"%zu", rows);
-    fprintf(out, columns > 1 ? " %d" : "", columns);
+    if (columns > 1)
+        fprintf(out, " %d", columns);
     fprintf(out, "\" NumberType=\"%s\" Precision=\"8\" Format=\"XML\">\n", type);
 }
 

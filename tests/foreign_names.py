@@ -133,7 +133,7 @@ def write(path, text):
 
 def make_reports(text):
     """All that a stranger types is `text`."""
-    unit = re.sub("[][()\t]", "", text)  # what is behind the last bracket is the unit; a tab separates
+    unit = re.sub("[][\t]", "", text)  # what is behind the last bracket is the unit; a tab separates
     name = "q" + re.sub("[,:\n=]", "", text) if text[0] == "=" else re.sub("[,:\n=]", "", text)
     short = re.sub("[,:;\\s\x85\u2028]+", " ", text).encode()[:60].decode(errors="ignore").strip()
     with open("t.csv", "w", encoding="utf-8", newline="") as file:
