@@ -139,8 +139,8 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     static const enum br_option_id of_verdicts[] = {
-        BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT,  BR_OPT_JSON,
-        BR_OPT_TAP,     BR_OPT_MARKDOWN,        BR_OPT_GITHUB, BR_OPTIONS};
+        BR_OPT_COMPARE,  BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT, BR_OPT_TAP,
+        BR_OPT_MARKDOWN, BR_OPT_GITHUB,          BR_OPTIONS};
     r->check = br_study_file_check(&r->study, o);
     if (r->study.request.expectations == 0 && br_first_given(o, of_verdicts))
         return br_fail(err, BR_BAD_INPUT,
@@ -193,7 +193,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         build_report(r, &r->session.document[0], err))
         return err->status;
     return judged ? br_verdicts_finish(&r->verdicts, &r->session, &findings, true, err)
-                  : br_session_finish(&r->session, err);
+                  : br_verdicts_write(&r->verdicts, &r->session, err);
 }
 
 /* A run without a number makes the command fail, after everything has been written. */

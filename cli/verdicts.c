@@ -105,6 +105,16 @@ static enum br_status write_files(struct br_verdicts *v, const struct br_documen
     return br_whole_file_commit(&v->baseline, err);
 }
 
+enum br_status br_verdicts_write(struct br_verdicts *v, struct br_session *session,
+                                 struct br_error *err)
+{
+    for (size_t i = 1; br_check_formats[i]; i++)
+        session->quiet |= v->file[i].file == stdout;
+    const bool failed = br_session_finish(session, err) ||
+                        write_files(v, &session->document[session->documents - 1], err);
+    return failed ? err->status : BR_OK;
+}
+
 static enum br_status conclude(const struct br_verdicts *v, const struct br_check *checks,
                                size_t count, struct br_error *err)
 {
@@ -137,10 +147,8 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
     br_report_check(&all, d);
-    for (size_t i = 1; br_check_formats[i]; i++)
-        session->quiet |= v->file[i].file == stdout;
-    const bool failed = br_session_finish(session, err) || write_files(v, d, err) ||
-                        conclude(v, all.checks, all.count, err);
+    const bool failed =
+        br_verdicts_write(v, session, err) || conclude(v, all.checks, all.count, err);
     return failed ? err->status : BR_OK;
 }
 

@@ -39,6 +39,11 @@ enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_sessio
                                   const struct br_check_findings *findings, bool whole,
                                   struct br_error *err);
 
+/* Finishes the session and writes its last report to the files; if one of them is standard output,
+ * no report is shown there. */
+enum br_status br_verdicts_write(struct br_verdicts *verdicts, struct br_session *session,
+                                 struct br_error *err);
+
 void br_verdicts_clear(struct br_verdicts *verdicts);
 
 /* ---- study files of any program: read, trusted, and checked ---- */

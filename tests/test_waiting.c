@@ -54,6 +54,13 @@ TEST(test_waiting)
     const char *second = strstr(first + 1, what);
     if (!second || !(atof(second + strlen(what)) > atof(first + strlen(what))))
         fail_msg("nothing moves: %s", terminal.shown);
+    assert_null(strstr(terminal.shown, "< ")); /* no limit, and no time before 5 % */
+    for (const char *at = terminal.shown; (at = strstr(at, " %, about ")); at++) {
+        const char *number = at;
+        while (number > terminal.shown && strchr("0123456789", number[-1]))
+            number--;
+        assert_true(atof(number) >= 5);
+    }
 }
 
 AROUND_TESTS(cli_make_folder, cli_remove_folder)
