@@ -41,7 +41,7 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
         v->method.rounding =
             br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
         if (v->n && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
-                                       &v->method, &inner))
+                                   &v->method, &inner))
             return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                            br_verify_names[kind], inner.message);
     }

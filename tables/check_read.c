@@ -154,8 +154,8 @@ static enum br_status read_document(const char *path, const json_t *document,
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
     enum br_status status = BR_OK;
-    old->version = json_string_value(json_object_get(json_object_get(document, "provenance"),
-                                                     "version"));
+    old->version =
+        json_string_value(json_object_get(json_object_get(document, "provenance"), "version"));
     old->check = br_allocate(json_array_size(list) + 1, sizeof *old->check);
     old->method = br_allocate(json_array_size(list) + 1, sizeof *old->method);
     if (!old->check || !old->method)

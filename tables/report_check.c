@@ -222,8 +222,8 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
             const struct br_expectation *e = &c->expected;
             BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]),
                        br_text(c->measure), br_text(c->part), br_number(e->order));
-            br_put_shown(d, "%s +- %g",
-                         br_theory_text(e->order, e->highest, order, sizeof order), e->tolerance);
+            br_put_shown(d, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
+                         e->tolerance);
             BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
                          br_text(*e->why ? e->why : NULL), br_number(c->order.value));
             br_put_shown(d, "%s", br_order_text(&c->order, order, sizeof order));
@@ -264,8 +264,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
     /* The methods are facts: "methods.0.space" is that of the study over h of the first scene. */
     static const struct br_column scenes_columns[] = {
         {.key = "scene"},         {.key = "path"},    {.key = "by_default"}, {.key = "seconds"},
-        {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},
-        {.key = "data"},
+        {.key = "element_steps"}, {.key = "failure"}, {.key = "problem"},    {.key = "data"},
     };
     char key[NAME];
     BR_TABLE(d, "scenes", "Scenes", BR_FOR_PROGRAMS, scenes_columns);

@@ -430,8 +430,8 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
                    .heading = "seen [95 %]");
             BR_PUT(d,
-                   br_text(br_theory_text(seen->theory.order, seen->theory.highest, text,
-                                          sizeof text)),
+                   br_text(
+                       br_theory_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
                    .heading = "theory");
             BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
             BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);

@@ -84,11 +84,14 @@ static void make(struct br_made_report *m, bool with_exact)
             m->cell[s][i].tip[BR_BENDING] = -0.07 - 0.01 * (double)i - s;
         }
     }
-    m->report.seen[BR_PART_TOTAL][BR_AXIS_SPACE] = (struct br_seen_order){
-        true, {2.03, 2.01, 2.05}, {2, 4, 4, "it is so"}, "each mesh against the next", "as in theory"};
-    m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] =
-        (struct br_seen_order){
-            true, {NAN, NAN, NAN}, {1, 1, 1, ""}, "errors", "not seen: for a reason"};
+    m->report.seen[BR_PART_TOTAL][BR_AXIS_SPACE] =
+        (struct br_seen_order){true,
+                               {2.03, 2.01, 2.05},
+                               {2, 4, 4, "it is so"},
+                               "each mesh against the next",
+                               "as in theory"};
+    m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] = (struct br_seen_order){
+        true, {NAN, NAN, NAN}, {1, 1, 1, ""}, "errors", "not seen: for a reason"};
     m->report.tip[BR_AXIAL] = (struct br_estimate){0.1715, 0.1705, 0.1725};
     m->report.tip[BR_BENDING] = (struct br_estimate){-0.0725, -0.0735, -0.0715};
 }

@@ -23,12 +23,20 @@ static bool chance(struct br_test_random *r, double p)
 }
 
 static const char *const shapes[] = {
-    "1", "x", "sin(3*x)", "exp(-x)", "(1 - x^2)", "step(x - 0.37)", "abs(x - 0.37)", "step(x - 0.5)",
+    "1",
+    "x",
+    "sin(3*x)",
+    "exp(-x)",
+    "(1 - x^2)",
+    "step(x - 0.37)",
+    "abs(x - 0.37)",
+    "step(x - 0.5)",
     "sqrt(x)",
 };
 static const char *const histories[] = {
-    "sin(3*t)", "t", "(exp(t) - 1)", "1", "cos(2*t)", "sin(9*t)^2", "step(t - 0.373)",
-    "min(t, 0.373)", "step(t - 0.5)",
+    "sin(3*t)",      "t",          "(exp(t) - 1)",    "1",
+    "cos(2*t)",      "sin(9*t)^2", "step(t - 0.373)", "min(t, 0.373)",
+    "step(t - 0.5)",
 };
 static const char *const moving[] = {"exp(-((x - t)/0.3)^2)", "step(0.77*t - x)", "sin(3*x - 2*t)"};
 
@@ -47,16 +55,19 @@ static void draw_load(struct br_test_random *r, double size, char text[200])
 static void draw_scene(struct br_test_random *r, char *text, size_t size)
 {
     char load[200];
-    const bool rod = chance(r, 0.85), beam = !rod || chance(r, 0.8), contact = rod && chance(r, 0.7);
+    const bool rod = chance(r, 0.85), beam = !rod || chance(r, 0.8),
+               contact = rod && chance(r, 0.7);
     const double density = chance(r, 0.12) ? 0 : br_test_log_uniform(r, 1e-4, 3);
     const double relax = br_test_log_uniform(r, 3e-3, 0.3), way = br_test_log_uniform(r, 0.01, 0.1);
     *text = '\0';
-    br_append(text, size, "title: Drawn\nlength: 1 m\nduration: 1 s\ndensity: %.6g kg/m\n", density);
+    br_append(text, size, "title: Drawn\nlength: 1 m\nduration: 1 s\ndensity: %.6g kg/m\n",
+              density);
     const double a1 = br_test_log_uniform(r, 10, 1e4), a2 = br_test_log_uniform(r, 1, 1e3);
     if (rod) {
         draw_load(r, 2 * way * a1, load);
-        br_append(text, size, "axial:\n  stiffness: %.6g N\n  viscosity: %.6g N s\n  load: %s [N/m]\n",
-                  a1, a1 * relax, load);
+        br_append(text, size,
+                  "axial:\n  stiffness: %.6g N\n  viscosity: %.6g N s\n  load: %s [N/m]\n", a1,
+                  a1 * relax, load);
         if (chance(r, 0.15))
             br_append(text, size, "  tip_force: %.6g*sin(4*t) [N]\n", way * a1);
         if (chance(r, 0.15))
@@ -69,16 +80,17 @@ static void draw_scene(struct br_test_random *r, char *text, size_t size)
     const double force = a2 * br_test_log_uniform(r, 0.1, 1);
     if (beam) {
         draw_load(r, chance(r, 0.5) ? force : -force, load);
-        br_append(text, size,
-                  "bending:\n  stiffness: %.6g N m^2\n  viscosity: %.6g N m^2 s\n  load: %s [N/m]\n",
-                  a2, a2 * relax, load);
+        br_append(
+            text, size,
+            "bending:\n  stiffness: %.6g N m^2\n  viscosity: %.6g N m^2 s\n  load: %s [N/m]\n", a2,
+            a2 * relax, load);
         if (chance(r, 0.15))
             br_append(text, size, "  tip_force: %.6g*sin(4*t) [N]\n", force / 4);
         if (chance(r, 0.15))
             br_append(text, size, "  tip_moment: %.6g*t [N m]\n", force / 4);
         if (density > 0 && chance(r, 0.15))
-            br_append(text, size, "  velocity: %.6g*x^2 [m/s]\n  velocity_slope: 2*%.6g*x [1/s]\n", way,
-                      way);
+            br_append(text, size, "  velocity: %.6g*x^2 [m/s]\n  velocity_slope: 2*%.6g*x [1/s]\n",
+                      way, way);
     }
     if (contact)
         br_append(text, size, "contact:\n  gap: %.6g m\n  stiffness: %.6g N/m\n",
@@ -128,7 +140,8 @@ static bool is_round_off(const struct br_case *c)
 }
 
 /* Sets what theory states of one study in all norms, of each component. */
-static void expect(const struct br_scene *scene, enum br_verify_kind kind, struct br_verify_study *v)
+static void expect(const struct br_scene *scene, enum br_verify_kind kind,
+                   struct br_verify_study *v)
 {
     for (const struct br_norm *const *norm = br_norms; *norm; norm++)
         for (enum br_part part = BR_PART_AXIAL; part <= BR_PART_BENDING; part++) {
@@ -136,8 +149,8 @@ static void expect(const struct br_scene *scene, enum br_verify_kind kind, struc
                 .scene = scene, .norm = *norm, .method = v->method, .n = v->n, .steps = v->steps};
             if (!(part == BR_PART_AXIAL ? scene->axial.modelled : scene->bending.modelled))
                 continue;
-            const struct br_theory t = br_theory_of(
-                &study, part, kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME);
+            const struct br_theory t =
+                br_theory_of(&study, part, kind == BR_VERIFY_SPACE ? BR_AXIS_SPACE : BR_AXIS_TIME);
             struct br_expectation *e = &v->expectation[v->expectations++];
             *e = (struct br_expectation){.norm = *norm,
                                          .part = part,
@@ -173,7 +186,8 @@ static void measure(struct br_test_random *r, size_t number, struct tally tally[
         expect(&scene, (enum br_verify_kind)kind, v);
     }
     snprintf(name, sizeof name, "%zu", number);
-    struct br_check check = {.path = "drawn.yaml", .name = name, .scene = &scene, .verify = &verify};
+    struct br_check check = {
+        .path = "drawn.yaml", .name = name, .scene = &scene, .verify = &verify};
     MUST(br_check_run(&check, 1, 0, NULL, &err));
     if (check.failure.status)
         print_message("# %zu: %s\n", number, check.failure.message);
@@ -214,8 +228,8 @@ TEST(test_random)
         const struct tally *t = &tally[kind];
         const size_t stated = t->of[BR_PASS] + t->of[BR_FAIL] + t->of[BR_INCONCLUSIVE];
         print_message("# %s: %zu PASS, %zu FAIL, %zu INCONCLUSIVE, %zu round-off, %zu not stated\n",
-                      br_verify_names[kind], t->of[BR_PASS], t->of[BR_FAIL],
-                      t->of[BR_INCONCLUSIVE], t->still, t->silent);
+                      br_verify_names[kind], t->of[BR_PASS], t->of[BR_FAIL], t->of[BR_INCONCLUSIVE],
+                      t->still, t->silent);
         assert_int_equal(t->of[BR_FAIL], 0);
         assert_true(4 * t->of[BR_PASS] >= 3 * stated);
         assert_true(3 * stated >= t->silent);

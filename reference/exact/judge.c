@@ -133,7 +133,8 @@ static void find_shortest(const struct br_exact *exact, struct br_judge_report *
         while (next < count && event[next].field != event[i].field)
             next++;
         const double length = next < count ? event[next].time - event[i].time : INFINITY;
-        if (isfinite(length) && (report->shortest.length == 0 || length < report->shortest.length)) {
+        if (isfinite(length) &&
+            (report->shortest.length == 0 || length < report->shortest.length)) {
             report->shortest.from = event[i].time;
             report->shortest.length = length;
             report->shortest.phase = (int)event[i].phase;

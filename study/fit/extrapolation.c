@@ -4,8 +4,9 @@
 
 #include "study/fit/grid_convergence.h"
 
-static const double safety = 3;  /* Roache's factor (1998) without an order that is certain */
-static const double near = 0.1;  /* of an order of theory: what the finest three values may be off, */
+static const double safety = 3; /* Roache's factor (1998) without an order that is certain */
+static const double near =
+    0.1; /* of an order of theory: what the finest three values may be off, */
 static const double drift = 0.3; /* and the next coarser three */
 
 enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
@@ -18,7 +19,9 @@ enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
         .n = grid->n,
         .steps = grid->steps,
         .axial_degree = grid->method.axial_degree,
-        .scheme_order = scheme && !scheme->adaptive ? scheme->order : scheme ? 0 : 1,
+        .scheme_order = scheme && !scheme->adaptive ? scheme->order
+                        : scheme                    ? 0
+                                                    : 1,
     };
     const size_t cells = grid->n_count * grid->k_count;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {

@@ -161,9 +161,10 @@ enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *stu
                                 struct br_error *err);
 void br_tips_clear(struct br_tips *tips);
 
-/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 3 times the distance
- * from the values by the order of theory and by the next coarser three cells. NaN with less than
- * three meshes or four time steps, and where the values do not show an order of theory. */
+/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 3 times the
+ * distance from the values by the order of theory and by the next coarser three cells. NaN with
+ * less than three meshes or four time steps, and where the values do not show an order of theory.
+ */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
 /* Least squares |b - A c| with A of m rows of n columns, n <= 5, m >= n, by Q R with pivoting; c

@@ -255,10 +255,9 @@ enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
                                      has && (!none || !r->meshes) && !s->method.scheme->adaptive};
         for (int axis = 0; axis < BR_AXES && !status; axis++) {
             struct br_seen_order *o = &r->seen[part][axis];
-            *o = (struct br_seen_order){
-                .asked = asked[axis],
-                .order = {NAN, NAN, NAN},
-                .theory = br_theory_of(s, part, (enum br_axis)axis)};
+            *o = (struct br_seen_order){.asked = asked[axis],
+                                        .order = {NAN, NAN, NAN},
+                                        .theory = br_theory_of(s, part, (enum br_axis)axis)};
             if (asked[axis])
                 status = (axis == BR_AXIS_SPACE ? see_in_h : see_in_k)(r, part, o, err);
         }

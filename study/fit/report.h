@@ -14,8 +14,8 @@ struct br_seen_order {
                    steps */
     struct br_estimate order; /* NaN: none is claimed, and the remark says why */
     struct br_theory theory;
-    char by[80];              /* the errors that it comes from */
-    char remark[400];         /* how it compares to theory, or why none is claimed */
+    char by[80];      /* the errors that it comes from */
+    char remark[400]; /* how it compares to theory, or why none is claimed */
 };
 
 struct br_report {

@@ -3,9 +3,9 @@
  *
  * In h, at one k. Each time step is an elliptic problem, so elements of degree p in a form with m
  * derivatives have order p + 1 - m in the energy norm (Strang and Fix, An Analysis of the Finite
- * Element Method, 1973, Theorem 3.7), and in L2 p + 1, by duality (Aubin 1967, Nitsche 1968); at the
- * nodes, where Green's function is smooth on either side, 2 (p + 1 - m) (Douglas and Dupont 1974).
- * Linear elements without mass are right at the nodes: they contain Green's function.
+ * Element Method, 1973, Theorem 3.7), and in L2 p + 1, by duality (Aubin 1967, Nitsche 1968); at
+ * the nodes, where Green's function is smooth on either side, 2 (p + 1 - m) (Douglas and Dupont
+ * 1974). Linear elements without mass are right at the nodes: they contain Green's function.
  *
  *   - This needs data that are smooth inside the elements. Loads are integrated by Gauss' rule. A
  *     jump inside an element costs it O(h), which depends on where in the element it is, a kink
@@ -16,12 +16,12 @@
  *     as A h^2, which is proportional to the rod's mass, is small. Laws at the tip are Lipschitz,
  *     so switching costs no order in h.
  *
- * In k, on one mesh. A scheme has its order where the solution is smooth in time. The lagged contact
- * takes its force one step late, O(k): Campo et al. (2006), Theorem 2.3 and Remark 2.5 with order 1.
- * Where the tip switches (stick, slip, contact opens or closes) forces have a kink, and their
- * derivatives jump: order 1 stays, higher ones do not, and what remains depends on where in the
- * step the time of switching lies. A load that jumps inside a step acts as one that jumps at its
- * end: O(k), which depends on the place, too. */
+ * In k, on one mesh. A scheme has its order where the solution is smooth in time. The lagged
+ * contact takes its force one step late, O(k): Campo et al. (2006), Theorem 2.3 and Remark 2.5 with
+ * order 1. Where the tip switches (stick, slip, contact opens or closes) forces have a kink, and
+ * their derivatives jump: order 1 stays, higher ones do not, and what remains depends on where in
+ * the step the time of switching lies. A load that jumps inside a step acts as one that jumps at
+ * its end: O(k), which depends on the place, too. */
 #include "study/fit/theory.h"
 
 #include <math.h>
@@ -119,8 +119,8 @@ static struct br_theory of_elements(const struct br_study *s, enum br_field_kind
     for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
         smooth = is_smooth(&d.load->term[i].space, BR_X, s->n[0], scene);
     const bool tip = s->norm->level == br_norm_tip.level;
-    const double order = tip ? 2 * (degree + 1 - derivatives)
-                             : degree + 1 - (s->norm->energy ? derivatives : 0);
+    const double order =
+        tip ? 2 * (degree + 1 - derivatives) : degree + 1 - (s->norm->energy ? derivatives : 0);
     if (s->method.scheme->adaptive)
         return none(order, "each mesh has time steps of its own");
     if (!smooth)

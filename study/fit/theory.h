@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The order of convergence that theory states: the one place that `check`, `study`, `tables` and the
- * pictures have it from. theory.c derives each. */
+/* The order of convergence that theory states: the one place that `check`, `study`, `tables` and
+ * the pictures have it from. theory.c derives each. */
 #ifndef BR_STUDY_FIT_THEORY_H
 #define BR_STUDY_FIT_THEORY_H
 

@@ -237,7 +237,8 @@ static void compare_data(struct br_comparison *out, const char *subject, const c
         for (const char *line = both[was]; *line; line = next_line(line)) {
             const int key = (int)strcspn(line, ":\n");
             int a, b;
-            const char *before = value_of(old, line, key, &a), *after = value_of(now, line, key, &b);
+            const char *before = value_of(old, line, key, &a),
+                       *after = value_of(now, line, key, &b);
             const bool in_both = before != not_given && after != not_given;
             if (in_both && (was || (a == b && memcmp(before, after, (size_t)a) == 0)))
                 continue;

@@ -13,8 +13,8 @@ enum br_severity {
     BR_SAME,    /* nothing that is worth a line */
     BR_NOTE,    /* moved a little, or new */
     BR_WARNING, /* moved by a quarter of the tolerance, 5 % of a constant, or 1.5 times the cost */
-    BR_SERIOUS, /* another scene or method; moved by the whole tolerance, twice the constant; a worse
-                   verdict; gone */
+    BR_SERIOUS, /* another scene or method; moved by the whole tolerance, twice the constant; a
+                   worse verdict; gone */
 };
 extern const char *const br_severity_names[];
 
@@ -27,8 +27,8 @@ struct br_old_method {
 /* The text of a method for a later check (out). */
 void br_old_method_of(const struct br_method *m, struct br_old_method *old);
 
-/* The results of an earlier check: name, data, problem and cost of each scene; norm, order, constant,
- * expectation and verdict of each case. */
+/* The results of an earlier check: name, data, problem and cost of each scene; norm, order,
+ * constant, expectation and verdict of each case. */
 struct br_old_check {
     struct br_check *check;                          /* count; owned with their cases */
     struct br_old_method (*method)[BR_VERIFY_KINDS]; /* of each; owned */

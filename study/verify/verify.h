@@ -29,9 +29,9 @@ struct br_expectation {
     double order, tolerance; /* the order's 95 % interval is to lie within order -+ tolerance */
     double floor, ceiling;   /* of C at the expected order, in the norm's unit; NaN: none */
     size_t line;             /* in the scene's file; 0: a default */
-    double highest;          /* > order: or the errors fall by orders up to highest + tolerance, which
-                                do not rise with refinement: two powers of z; else 0 */
-    char why[160];           /* of a default: why not the formal order; or "" */
+    double highest; /* > order: or the errors fall by orders up to highest + tolerance, which
+                       do not rise with refinement: two powers of z; else 0 */
+    char why[160];  /* of a default: why not the formal order; or "" */
 };
 
 enum { BR_MOST_EXPECTATIONS = BR_MOST_NORMS * BR_PARTS };
@@ -48,15 +48,16 @@ struct br_verify_study {
 
 struct br_verify {
     bool by_default; /* the scene has no section `verify` */
-    char *data;      /* what the scene's file says, a line a key: "bending.stiffness: 1000 N m^2"; owned */
+    char *
+        data; /* what the scene's file says, a line a key: "bending.stiffness: 1000 N m^2"; owned */
     struct br_verify_study study[BR_VERIFY_KINDS];
 };
 
 /* How many errors a study with so many cells gives: one less where neighbours are compared. */
 size_t br_verify_points(enum br_verify_kind kind, size_t cells);
 
-/* The default expectations of a scene: what theory states (study/fit/theory.h) of the default method,
- * in the norm of (31). Fails with BR_NO_MEMORY. */
+/* The default expectations of a scene: what theory states (study/fit/theory.h) of the default
+ * method, in the norm of (31). Fails with BR_NO_MEMORY. */
 enum br_status br_verify_default(const struct br_scene *scene, struct br_verify *verify,
                                  struct br_error *err);
 
