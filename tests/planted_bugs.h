@@ -976,6 +976,8 @@ static const struct planted_bug planted_bugs[] = {
     {"size_of_before_too_lax", "tolerance", "reference/certificate/certificate.c",
      "tests/test_certificate test_last_bit_of_before",
      "br_worse_of(size, DBL_EPSILON * *largest)", "br_worse_of(size, 1e-6 * *largest)"},
+    {"power_of_the_first_step", "stale", "study/run/tip_watch.c", "golden run_bdf2",
+     "    w->power = power;\n", ""},
     {"residuals_of_the_other_sign", "sign", "plots/convergence.c", "tests/test_figure test_stored",
      "return -1 + error_of(r, cell, part)", "return 1 - error_of(r, cell, part)"},
     {"duration_of_a_constant", "units", "study/grid/study.c", "tests/test_study test_constant",
