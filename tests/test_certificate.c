@@ -196,6 +196,28 @@ TEST(test_friction_graph)
     }
 }
 
+/* What was largest before lends only its last bit: a slip of a thousandth of what moves now is
+ * seen, where all was 1e9 times as large before. */
+TEST(test_last_bit_of_before)
+{
+    struct br_scene scene = br_test_bare();
+    scene.axial.modelled = false;
+    scene.friction = (struct br_friction){.law = BR_TRESCA, .coefficient = 3};
+    const struct br_method method = br_method_default();
+    const double zero[4] = {0}, velocity[4] = {0, 0, 1e-12, 1e-9};
+    double largest[2][BR_SCALES];
+    for (int i = 0; i < 2 * BR_SCALES; i++)
+        largest[i / BR_SCALES][i % BR_SCALES] = 1;
+    const struct br_step step = {.scene = &scene,
+                                 .method = &method,
+                                 .n = 1,
+                                 .k = 1,
+                                 .largest = largest,
+                                 .field[BR_BENDING] = {zero, velocity, zero, velocity, zero},
+                                 .tip = {.velocity[BR_BENDING] = 1e-12, .friction_bound = 3}};
+    assert_true(certify(&step).friction >= 1e-4);
+}
+
 /* The norm of a residual is that of the moment (or the force) that balances it: a force P
  * too much at the tip of a beam at rest, P (L - x), so |m| = P (L^3/3)^1/2. */
 TEST(test_residual_norm)
