@@ -395,7 +395,13 @@ static void forget(struct br_probe *p)
  * of the call. */
 static enum br_status march(struct br_probe *p, struct br_error *err)
 {
-    return p->active ? br_study_run_each(&p->study, 1, 1, NULL, err) : BR_OK;
+    struct br_error failure = {0};
+    if (!p->active || !br_study_run_each(&p->study, 1, 1, NULL, &failure))
+        return BR_OK;
+    p->study.failure = failure;             /* it has no cells any more */
+    return failure.status == BR_INTERRUPTED /* by itself: there is no observer */
+               ? BR_OK
+               : br_fail(err, failure.status, "%s", failure.message);
 }
 
 /* Marches a probe, and clears it if it fails. */
