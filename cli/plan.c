@@ -49,19 +49,6 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status foresee(struct run *r, struct br_error *err)
-{
-    struct br_foreseen work = {
-        .alone = true,
-        .then = "come trials that the models of these propose, which nobody can foresee"};
-    struct br_trial_request request = r->plan.request;
-    request.repeats = 1; /* as cheap trials have it */
-    const enum br_status status = br_plan_lay_out(&r->plan, err);
-    for (size_t i = 0; i < r->plan.count && !status; i++)
-        br_foreseen_add_trial(&work, &r->plan.trial[i], &request);
-    return status ? status : br_session_foresee(&r->session, &work, err);
-}
-
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const char *name = r->opened.scene.name;
@@ -101,9 +88,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     r = (struct run){.session = br_session_begin(options)};
     bool failed = prepare(&r, err);
     if (!failed)
-        failed = br_option_given(options, BR_OPT_DRY_RUN)
-                     ? foresee(&r, err)
-                     : br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
+        failed = br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
     br_session_close(&r.session);
     br_plan_clear(&r.plan);
     br_opened_scene_clear(&r.opened);

@@ -840,8 +840,6 @@ static const struct planted_bug planted_bugs[] = {
      "u[i * r->unknowns[BR_AXIAL]], w[2 * i]", "u[i * r->unknowns[BR_AXIAL]], w[2 * i + 1]"},
     {"split_over_n", "drawn", "plots/split.c", "golden split_meshes",
      "br_mesh_size(s->scene, s->at.n)", "(double)s->at.n"},
-    {"cost_of_an_element_in_a_step", "printed", "tables/report_run.c", "golden run_explain",
-     "br_number(ns / (double)r->n)", "br_number(ns)"},
     {"goal_of_seconds_is_the_error", "printed", "tables/report_plan.c", "golden plan_seconds",
      "br_number(p->goal.seconds)", "br_number(p->goal.error)"},
     {"model_without_its_cost", "printed", "tables/report_plan.c", "golden plan_seconds",
@@ -901,18 +899,8 @@ static const struct planted_bug planted_bugs[] = {
      "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
     {"varied_number_is_put_elsewhere", "lost", "study/scene/file.c", "golden run_vary",
      "if (key != r->varied)", "if (key || r->varied)"},
-    {"foreseen_without_its_reference", "lost", "study/foresee/foreseen.c", "golden dry_run",
-     "if (!s->judge->create)", "if (s->judge)"},
-
-    /* ---- repeated reports ---- */
     {"unstable_values_are_answers", "left out", "tables/report_variation.c", "golden run_vary",
      "if (s->unstable[i] || !isfinite(x))", "if (!isfinite(x))"},
-    {"every_number_is_near", "bound", "tables/repeated.c", "golden repeat_differs",
-     "!(fabs(b - a) <= allowed)", "!(fabs(b - a) >= 0)"},
-    {"scene_as_it_is_now", "stale", "cli/repeat.c", "golden repeat_differs",
-     "r->options.word[0] = strdup(r->scene);", "r->options.word[0] = strdup(path);"},
-    {"repeated_report_writes_elsewhere", "option", "cli/repeat.c", "golden repeat_elsewhere",
-     "BR_OPT_NO_PLOTS, BR_OPT_GITHUB};", "BR_OPT_NO_PLOTS};"},
 
     /* ---- kept work ---- */
     {"damaged_entry_is_taken", "option", "study/kept/kept.c", "tests/test_kept",
