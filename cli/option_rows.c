@@ -298,7 +298,7 @@ static const struct br_option rows[] = {
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
      NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES,
      .more = "After an interruption, or for a larger grid: finished cells, trials and cases are "
              "kept in DIR/.kept, and only the others are marched. What another version of the "
              "program or another machine has kept is not taken."},
