@@ -125,14 +125,10 @@ static enum br_status check_accepted(const struct run *r, struct br_error *err)
     return status;
 }
 
-/* ---- --dry-run ---- */
-
-static enum br_status foresee(const struct run *r, struct br_error *err)
+static void announce(const struct run *r)
 {
     struct br_foreseen work = {.together = !r->fail_fast};
     for (const struct br_check *c = r->check; c < r->check + r->count; c++) {
-        if (!c->verify)
-            work.then = "come the runs of other programs, which study files name";
         for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
             const size_t cells = c->verify->study[kind].count;
             const size_t heads = kind == BR_VERIFY_JOINT && cells ? 1 : cells ? cells - 1 : 0;
@@ -142,7 +138,7 @@ static enum br_status foresee(const struct run *r, struct br_error *err)
             }
         }
     }
-    return br_session_foresee(&r->session, &work, err);
+    br_session_announce(&r->session, &work);
 }
 
 /* ---- computing ---- */
@@ -257,9 +253,9 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                   : "no scene is given, expected files, names of bundled scenes, or --all");
     const bool writes = r.session.writes;
     bool failed = read_scenes(&r, err) || check_accepted(&r, err);
-    if (!failed && br_option_given(options, BR_OPT_DRY_RUN))
-        failed = foresee(&r, err);
-    else if (!failed)
+    if (!failed)
+        announce(&r);
+    if (!failed)
         failed = (writes && prepare_reports(&r, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err));
     clear(&r);

@@ -86,8 +86,7 @@ static void print_commands(FILE *out)
             "  beamrate check example2 example3\n"
             "  beamrate scenes --new my_scene.yaml\n\n"
             "'beamrate COMMAND --help' lists a command's options, with examples;\n%s\n"
-            "Exit codes: 0 done, 1 a verdict failed or a repeated report differs, 2 bad input,\n"
-            "3 the computation failed.\n",
+            "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n",
             methods_hint);
 }
 

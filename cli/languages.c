@@ -314,10 +314,10 @@ static const struct {
       "60 by default.",
       "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by "
       "default; then it is killed, as it is by an interrupt.",
-      "TMPDIR: the folder for what run --plot and --animate need for a moment, /tmp by "
+      "TMPDIR: the folder for what run --animate needs for a moment, /tmp by "
       "default."}},
     {"EXIT STATUS",
-     {"0 done; 1 a verdict failed, or a repeated report differs; 2 bad input; 3 the "
+     {"0 done; 1 a verdict failed; 2 bad input; 3 the "
       "computation failed (a failed cell, too, after the results have been written; a march "
       "of run that stops early keeps what it has written). An interrupted program ends by "
       "its signal and leaves no file half written; a hidden folder that a second signal "

@@ -291,23 +291,6 @@ void br_options_clear(struct br_options *o)
     *o = (struct br_options){0};
 }
 
-enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
-                             struct br_error *err)
-{
-    const struct br_option *row = br_option_of(o->command, id);
-    if (!row)
-        return BR_OK;
-    free((char *)o->given[id]);
-    free(o->number[id]);
-    free(o->whole[id]);
-    o->given[id] = text ? strdup(text) : NULL;
-    o->text[id] = text ? o->given[id] : row->standard;
-    o->number[id] = NULL;
-    o->whole[id] = NULL;
-    o->count[id] = 0;
-    return text && !o->given[id] ? br_no_memory(err, "the options") : read_value(o, row, err);
-}
-
 bool br_option_given(const struct br_options *o, enum br_option_id id)
 {
     return o->given[id];

@@ -23,13 +23,11 @@ enum {
     BR_FOR_COMPLETIONS = 512,
     BR_FOR_HELP = 1024,
     BR_FOR_ORDERS = 2048,
-    BR_FOR_REPEAT = 4096,
 };
 
 enum br_option_id {
     BR_OPT_N,
     BR_OPT_VARY,
-    BR_OPT_DRY_RUN,
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,
@@ -45,19 +43,16 @@ enum br_option_id {
     BR_OPT_FIELDS,
     BR_OPT_CHECK,
     BR_OPT_ENERGIES,
-    BR_OPT_EXPLAIN,
     BR_OPT_AT,
     BR_OPT_EVERY,
     BR_OPT_ROWS,
     BR_OPT_RATES,
     BR_OPT_ANIMATE,
-    BR_OPT_PLOT,
     BR_OPT_ALL,
     BR_OPT_COMPARE,
     BR_OPT_FAIL_FAST,
     BR_OPT_JUNIT,
     BR_OPT_JSON,
-    BR_OPT_TAP,
     BR_OPT_GITHUB,
     BR_OPT_MARKDOWN,
     BR_OPT_UPDATE_BASELINE,
@@ -160,11 +155,6 @@ bool br_option_given(const struct br_options *o, enum br_option_id id);
 
 /* The name of the first option of the list that is given; NULL: none. BR_OPTIONS ends the list. */
 const char *br_first_given(const struct br_options *o, const enum br_option_id *list);
-
-/* Sets the text of an option, even of one that the command does not take; NULL: not given. Fails as
- * br_options_parse. */
-enum br_status br_option_set(struct br_options *o, enum br_option_id id, const char *text,
-                             struct br_error *err);
 
 /* The text as given, or the default; NULL: neither. */
 const char *br_option_text(const struct br_options *o, enum br_option_id id);

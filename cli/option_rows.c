@@ -227,10 +227,6 @@ static const struct br_option rows[] = {
              "with code that the solver does not share."},
     {BR_OPT_ENERGIES, "energies", 0, NULL, "the energy balance alone", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_RUN},
-    {BR_OPT_EXPLAIN, "explain", 0, NULL, "what the parts of a step cost, as measured", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_RUN},
-    {BR_OPT_PLOT, "plot", 0, NULL, "the tip's history in the terminal, drawn with letters", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_RUN},
     {BR_OPT_OUT, "out", 'o', "DIR", "folder for history.csv, the fields and the summary", NULL,
      BR_TAKES_DIR, .commands = BR_FOR_RUN,
      .more =
@@ -258,8 +254,6 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_JSON, "json", 0, "FILE", "everything, for programs and for --compare", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
-    {BR_OPT_TAP, "tap", 0, "FILE", "the Test Anything Protocol", NULL, BR_TAKES_FILE,
-     .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_GITHUB, "github", 0, "FILE", "annotations of what did not pass, for GitHub's pages",
      NULL, BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
      .more = "GitHub reads them from a job's output: /dev/stderr leaves the report where it is."},
@@ -304,16 +298,12 @@ static const struct br_option rows[] = {
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
      NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES,
      .more = "After an interruption, or for a larger grid: finished cells, trials and cases are "
              "kept in DIR/.kept, and only the others are marched. What another version of the "
              "program or another machine has kept is not taken."},
 
-    /* what varies, and what is foreseen */
-    {BR_OPT_DRY_RUN, "dry-run", 0, NULL,
-     "say what would be run, how long it takes and how much memory; run nothing", NULL,
-     BR_TAKES_FLAG, .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN,
-     .more = "Times are estimates for a core of 2 GHz."},
+    /* what varies */
     {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
      "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_STUDY | BR_FOR_RUN,
@@ -335,7 +325,7 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES |
                  BR_FOR_ORDERS | BR_FOR_CHECK},
     {BR_OPT_NO_PLOTS, "no-plots", 0, NULL, "write no plots", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS},
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS},
     {BR_OPT_THREADS, "threads", 'j', "COUNT", "threads; 0: all cores", "0", BR_TAKES_NUMBER,
      WHOLE(0, 4096),
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_PLAN |
@@ -343,7 +333,7 @@ static const struct br_option rows[] = {
      .more = "The results have the same bits on any number."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, quiet, NULL, BR_TAKES_FLAG,
      .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES |
-                 BR_FOR_ORDERS | BR_FOR_REPEAT},
+                 BR_FOR_ORDERS},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };

@@ -139,7 +139,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->session.options;
     static const enum br_option_id of_verdicts[] = {
-        BR_OPT_COMPARE,  BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT, BR_OPT_TAP,
+        BR_OPT_COMPARE,  BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT,
         BR_OPT_MARKDOWN, BR_OPT_GITHUB,          BR_OPTIONS};
     r->check = br_study_file_check(&r->study, o);
     if (r->study.request.expectations == 0 && br_first_given(o, of_verdicts))

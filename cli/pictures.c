@@ -2,7 +2,6 @@
 #include "cli/run.h"
 
 #include <string.h>
-#include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,7 +10,7 @@
 #include "study/scene/words.h"
 
 /* All frames are kept with all nodes: 120 MB at most. */
-enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000, NARROW = 40, USUAL = 80, WIDE = 160 };
+enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000 };
 
 /* ---- where the movie goes ---- */
 
@@ -111,7 +110,7 @@ static enum br_status keep_step(void *self, const struct br_march *march,
 enum br_status br_pictures_open(struct br_pictures *p, struct br_error *err)
 {
     p->keep = br_history_recorder(&p->record, p->n);
-    p->rows = p->plot ? br_history_stride(p->steps, ROWS) : 0;
+    p->rows = p->history ? br_history_stride(p->steps, ROWS) : 0;
     p->frames = p->animate ? br_history_stride(p->steps, FRAMES) : 0;
     return p->animate ? open_movie(p, err) : BR_OK;
 }
@@ -166,35 +165,9 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
     return status ? status : br_output_commit(&p->output, err);
 }
 
-static int columns_of(FILE *letters)
+enum br_status br_pictures_finish(struct br_pictures *p, struct br_error *err)
 {
-    struct winsize size;
-    if (ioctl(fileno(letters), TIOCGWINSZ, &size) != 0 || size.ws_col < NARROW)
-        return USUAL;
-    return size.ws_col < WIDE ? size.ws_col : WIDE;
-}
-
-static enum br_status draw_letters(struct br_pictures *p, FILE *letters, struct br_error *err)
-{
-    bool missing = false;
-    struct br_figure figure = br_history_draw(p->scene, &p->record);
-    struct br_error why = {0};
-    FILE *script = tmpfile();
-    const enum br_status status = br_figure_check(&figure, err);
-    if (script)
-        br_figure_write_letters(script, &figure, columns_of(letters));
-    br_figure_clear(&figure);
-    if (br_gnuplot_run(script, letters, &missing, &why) && !missing && !status)
-        return br_picture_failed(&why, "--plot", err);
-    if (missing)
-        fprintf(stderr, "beamrate: gnuplot is not installed: --plot shows nothing\n");
-    return status;
-}
-
-enum br_status br_pictures_finish(struct br_pictures *p, FILE *letters, struct br_error *err)
-{
-    if ((p->plot && letters && p->record.rows > 1 && draw_letters(p, letters, err)) ||
-        (p->animate && p->record.samples > 0 && draw_movie(p, err)))
+    if (p->animate && p->record.samples > 0 && draw_movie(p, err))
         return err->status;
     if (p->missing)
         fprintf(stderr, "beamrate: gnuplot is not installed: the animation is written as a script "

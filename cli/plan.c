@@ -15,7 +15,6 @@ struct run {
     struct br_study_request study;
     struct br_opened_scene opened;
     struct br_plan plan;
-    struct br_kept kept;
 };
 
 static enum br_status prepare(struct run *r, struct br_error *err)
@@ -49,29 +48,12 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status foresee(struct run *r, struct br_error *err)
-{
-    struct br_foreseen work = {
-        .alone = true,
-        .then = "come trials that the models of these propose, which nobody can foresee"};
-    struct br_trial_request request = r->plan.request;
-    request.repeats = 1; /* as cheap trials have it */
-    const enum br_status status = br_plan_lay_out(&r->plan, err);
-    for (size_t i = 0; i < r->plan.count && !status; i++)
-        br_foreseen_add_trial(&work, &r->plan.trial[i], &request);
-    return status ? status : br_session_foresee(&r->session, &work, err);
-}
-
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const char *name = r->opened.scene.name;
-    if (br_session_keep(&r->session, r->opened.text, "", &r->kept, err))
-        return err->status;
-    r->plan.request.kept = *r->kept.folder ? &r->kept : NULL;
     r->plan.request.observer = br_progress_start(name, r->session.quiet);
     const enum br_status status = br_plan_make(&r->plan, err);
     br_progress_end();
-    br_session_report_kept(&r->session, &r->kept);
     if (!status)
         return br_progress_result(status, err);
     br_failed_in(err, name);
@@ -89,7 +71,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     br_report_plan(&r->plan, r->session.options->word[0], &provenance, r->session.document);
     const enum br_status status = br_session_finish(&r->session, err);
-    if (!status && r->plan.end == BR_PLAN_MISSED)
+    if (!status && r->plan.chosen == r->plan.count)
         return br_fail(err, BR_NOT_FINITE, "%s: the goal was missed by all %zu trials",
                        r->opened.scene.name, r->plan.count);
     return status;
@@ -97,13 +79,11 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
-    static struct run r; /* large: models of all methods */
+    static struct run r; /* large: all methods */
     r = (struct run){.session = br_session_begin(options)};
     bool failed = prepare(&r, err);
     if (!failed)
-        failed = br_option_given(options, BR_OPT_DRY_RUN)
-                     ? foresee(&r, err)
-                     : br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
+        failed = br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
     br_session_close(&r.session);
     br_plan_clear(&r.plan);
     br_opened_scene_clear(&r.opened);
@@ -116,14 +96,12 @@ const struct br_command br_command_plan = {
     .arguments = "SCENE",
     .title = "the cheapest way to an error, or the least error for some seconds",
     .about = "The cheapest way to a relative error, or the least error for some seconds of the "
-             "processor: models of errors and costs are fitted to cheap runs, and propose a method "
-             "with n and k (or a tolerance); that is run, and what it shows improves the models, "
-             "until nothing that would cost less is likely to do. Out come what was predicted and "
-             "what was achieved, and a command line that repeats it.",
-    .more =
-        "One of --error and --seconds is needed. The achieved error lies between a third of what "
-        "was asked for and all of it, unless the coarsest mesh is better. A goal that nothing "
-        "reaches ends with exit code 3.",
+             "processor: every method is tried on a grid of n and k (or tolerances), from the "
+             "cheapest on, until nothing cheaper is left, and then on a finer grid around the "
+             "best. All is measured. Out come the method with n and k, its error and seconds, and "
+             "a command line that marches it.",
+    .more = "One of --error and --seconds is needed. A goal that nothing reaches ends with exit "
+            "code 3.",
     .example = {"beamrate plan example2 --error 1e-3",
                 "beamrate plan example3 --error 1e-4 --methods bdf2,esdirk3,adaptive --out plan",
                 "beamrate plan example2 --seconds 1e-3 --methods euler+implicit,adaptive"},

@@ -149,7 +149,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
     r->pictures = (struct br_pictures){
         .animate = r->animate,
         .quiet = r->session.quiet,
-        .plot = br_option_given(r->session.options, BR_OPT_PLOT),
+        .history = r->out && !br_option_given(r->session.options, BR_OPT_NO_PLOTS),
         .scene = &r->plan.opened.scene,
         .n = r->plan.request.n,
         .steps = r->plan.request.steps,
@@ -188,7 +188,11 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 {
     if (open_scene(r, err) || predict(r, err) || open_files(r, err))
         return err->status;
+    struct br_foreseen work = {.alone = true};
+    const struct br_planned_march one = planned(&r->plan);
     br_print_warnings("", &r->warnings);
+    br_foreseen_add_march(&work, &one);
+    br_session_announce(&r->session, &work);
     return BR_OK;
 }
 
@@ -196,13 +200,12 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 
 static enum br_status march(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
     struct br_history_observer output[2];
     size_t outputs = 0;
     if (r->out)
         output[outputs++] =
             (struct br_history_observer){.self = r, .row = write_row, .sample = write_sample};
-    if (r->animate || br_option_given(o, BR_OPT_PLOT))
+    if (r->animate || r->pictures.history)
         output[outputs++] = br_pictures_observer(&r->pictures);
     struct br_run_request request = r->plan.request;
     request.output = output;
@@ -231,11 +234,14 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
         return err->status;
     struct br_document *d = r->session.document;
     br_report_run(&findings, d);
+    if (r->pictures.record.rows > 1)
+        br_session_draw(&r->session, d, br_history_draw(r->pictures.scene, &r->pictures.record),
+                        NULL);
     const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
                         (terminal && !r->session.quiet && br_document_show(terminal, d, err)) ||
                         (r->out && write_results(r, stopped, err)) ||
                         br_whole_file_commit(&r->summary, err) ||
-                        br_pictures_finish(&r->pictures, terminal, err);
+                        br_pictures_finish(&r->pictures, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -249,16 +255,6 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
         return br_fail(err, BR_VERDICT, "%zu of %zu steps are beyond the certificate's limits: %s",
                        p->bad_steps, p->steps, p->verdict.message);
     return BR_OK;
-}
-
-static enum br_status foresee(struct run *r, struct br_error *err)
-{
-    struct br_foreseen work = {.alone = true};
-    if (open_scene(r, err))
-        return err->status;
-    const struct br_planned_march march = planned(&r->plan);
-    br_foreseen_add_march(&work, &march);
-    return br_session_foresee(&r->session, &work, err);
 }
 
 /* ---- a parameter that varies ---- */
@@ -319,9 +315,8 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 /* With --vary, options for one march alone are refused. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY,   BR_OPT_ROWS,
-                                               BR_OPT_PLOT,    BR_OPT_ANIMATE, BR_OPT_JSON,
-                                               BR_OPT_EXPLAIN, BR_OPTIONS};
+    static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY, BR_OPT_ROWS,
+                                               BR_OPT_ANIMATE, BR_OPT_JSON,  BR_OPTIONS};
     const char *name = br_first_given(o, single);
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: it is of one march: --vary does not heed it; --out has what is "
@@ -403,9 +398,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                      .json = br_option_text(options, BR_OPT_JSON),
                      .animate = br_option_text(options, BR_OPT_ANIMATE)};
     const bool failed =
-        br_option_given(options, BR_OPT_DRY_RUN)
-            ? foresee(&r, err)
-            : prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
+        prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
     close_results(&r, NULL, NULL);
     br_pictures_discard(&r.pictures);
     br_whole_file_discard(&r.summary);

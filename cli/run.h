@@ -20,13 +20,14 @@ enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_option
                                 struct br_error *err);
 void br_run_plan_clear(struct br_run_plan *plan);
 
-/* ---- pictures of a march (pictures.c): a moving picture (--animate), and the tip's history drawn
- * with letters (--plot) ---- */
+/* ---- pictures of a march (pictures.c): a moving picture (--animate), and the tip's history, which
+ * is a picture of --out ---- */
 
 /* Begin with the options, and zeros for the rest. */
 struct br_pictures {
     const char *animate; /* a file; NULL: not wanted */
-    bool plot, quiet;
+    bool history;        /* rows of the tip are kept for br_history_draw */
+    bool quiet;
     const struct br_scene *scene;
     size_t n, steps; /* of the march */
 
@@ -47,10 +48,8 @@ enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *e
 /* An observer that keeps rows and frames; the pictures must outlive the march. */
 struct br_history_observer br_pictures_observer(struct br_pictures *pictures);
 
-/* Draws, and puts the movie in place, whole or not at all. letters: the file for --plot; NULL:
- * none. Fails with BR_IO. */
-enum br_status br_pictures_finish(struct br_pictures *pictures, FILE *letters,
-                                  struct br_error *err);
+/* Draws the movie and puts it in place, whole or not at all. Fails with BR_IO. */
+enum br_status br_pictures_finish(struct br_pictures *pictures, struct br_error *err);
 void br_pictures_discard(struct br_pictures *pictures);
 
 #endif

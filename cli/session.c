@@ -103,6 +103,22 @@ enum br_status br_session_report(struct br_session *s, size_t documents, struct 
     return s->document ? BR_OK : br_no_memory(err, "the reports");
 }
 
+/* A shorter forecast is not printed, s. */
+static const double worth_printing = 3;
+
+void br_session_announce(const struct br_session *s, const struct br_foreseen *w)
+{
+    const double seconds = br_foreseen_seconds(w, br_threads(s->threads));
+    if (s->quiet || !(seconds >= worth_printing))
+        return;
+    fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",
+            seconds, w->bytes / 1e9);
+    if (w->untimed)
+        fprintf(stderr, "; not counted is the time of %zu that choose%s their steps", w->untimed,
+                w->untimed == 1 ? "s" : "");
+    fputc('\n', stderr);
+}
+
 void br_session_draw(struct br_session *s, struct br_document *report, struct br_figure figure,
                      const char *title)
 {
@@ -117,18 +133,6 @@ void br_session_draw(struct br_session *s, struct br_document *report, struct br
         s->figure[s->figures++] = figure;
     } else
         br_figure_clear(&figure);
-}
-
-enum br_status br_session_foresee(const struct br_session *s, struct br_foreseen *work,
-                                  struct br_error *err)
-{
-    struct br_document d = {0};
-    br_report_foreseen(work, br_command_line(), br_threads(s->threads), &d);
-    const enum br_status status =
-        work->lost ? br_no_memory(err, "what would be run") : br_document_show(stdout, &d, err);
-    br_document_clear(&d);
-    br_foreseen_clear(work);
-    return status;
 }
 
 /* ---- pictures ---- */

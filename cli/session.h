@@ -12,6 +12,7 @@
 #include "study/foresee/warnings.h"
 #include "study/kept/kept.h"
 #include "study/trade/split.h"
+#include "study/trade/trial.h"
 #include "study/verify/check.h"
 #include "tables/document.h"
 
@@ -76,9 +77,9 @@ enum br_status br_session_report(struct br_session *session, size_t documents,
 void br_session_draw(struct br_session *session, struct br_document *report,
                      struct br_figure figure, const char *title);
 
-/* Shows what would be marched (--dry-run), and releases the list. Fails as br_document_show. */
-enum br_status br_session_foresee(const struct br_session *session, struct br_foreseen *work,
-                                  struct br_error *err);
+/* Prints a sentence on standard error before work of some seconds: "24 marches, about 40 s, 0.3
+ * GB". With --quiet nothing is printed. */
+void br_session_announce(const struct br_session *session, const struct br_foreseen *work);
 
 /* Writes the reports and pictures and puts all in place. For each of the formats (NULL-terminated)
  * that --format wants and each report there is a file NAME.EXTENSION; formats that have a table a

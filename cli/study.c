@@ -394,10 +394,9 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
     const bool writes = session.writes;
     struct br_foreseen work = {.together = true};
     bool failed = prepare(&r, job, with_exact, err);
-    if (!failed && br_option_given(options, BR_OPT_DRY_RUN)) {
+    if (!failed) {
         foresee(&r, &work);
-        failed = br_session_foresee(&session, &work, err);
-    } else if (!failed) {
+        br_session_announce(&session, &work);
         failed = check_memory(&r, err) || br_session_open(&session, err) || keep(&r, "", err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err)) || check_cells(&r, err);

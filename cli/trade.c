@@ -190,15 +190,6 @@ static enum br_status run_all(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status foresee(const struct run *r, struct br_error *err)
-{
-    struct br_foreseen work = {.alone = true};
-    for (size_t i = 0; i < r->items; i++)
-        for (size_t t = 0; t < r->item[i].trade.count; t++)
-            br_foreseen_add_trial(&work, &r->item[i].trade.trial[t], &r->item[i].trade.request);
-    return br_session_foresee(&r->session, &work, err);
-}
-
 /* ---- results ---- */
 
 /* A report of each scene, and where there are several one of all. */
@@ -246,8 +237,7 @@ static enum br_status check(const struct run *r, struct br_error *err)
 static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
     static const enum br_option_id others[] = {BR_OPT_REPEATS,   BR_OPT_TIME_LIMIT, BR_OPT_SECONDS,
-                                               BR_OPT_REFERENCE, BR_OPT_DRY_RUN,    BR_OPT_RESUME,
-                                               BR_OPTIONS};
+                                               BR_OPT_REFERENCE, BR_OPT_RESUME,     BR_OPTIONS};
     const char *other = br_first_given(o, others);
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
@@ -343,10 +333,8 @@ static bool trade(struct run *r, struct br_error *err)
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))
             return true;
-    return br_option_given(r->session.options, BR_OPT_DRY_RUN)
-               ? foresee(r, err)
-               : br_session_open(&r->session, err) || run_all(r, err) || write_all(r, err) ||
-                     check(r, err);
+    return br_session_open(&r->session, err) || run_all(r, err) || write_all(r, err) ||
+           check(r, err);
 }
 
 static enum br_status run(const struct br_options *options, struct br_error *err)

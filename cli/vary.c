@@ -42,13 +42,12 @@ static enum br_status prepare(struct br_vary *v, const struct br_vary_command *c
     return br_variation_create(&v->found, &v->base.scene, err);
 }
 
-static enum br_status foresee(const struct br_vary *v, const struct br_vary_command *c,
-                              void *points, struct br_error *err)
+static void announce(const struct br_vary *v, const struct br_vary_command *c, void *points)
 {
     struct br_foreseen work = {.alone = c->alone};
     for (size_t i = 0; i < v->points; i++)
         c->foresee(point_at(c, points, i), &work);
-    return br_session_foresee(&v->session, &work, err);
+    br_session_announce(&v->session, &work);
 }
 
 static enum br_status march(struct br_vary *v, const struct br_vary_command *c, void *points,
@@ -92,9 +91,9 @@ enum br_status br_vary_run(const struct br_options *options, const struct br_var
     struct br_vary v = {.session = br_session_begin(options)};
     void *points = NULL;
     bool failed = prepare(&v, c, &points, err);
-    if (!failed && br_option_given(options, BR_OPT_DRY_RUN))
-        failed = foresee(&v, c, points, err);
-    else if (!failed)
+    if (!failed)
+        announce(&v, c, points);
+    if (!failed)
         failed = march(&v, c, points, err) || (v.session.writes && write_all(&v, err));
     for (size_t i = 0; i < v.points; i++)
         c->clear(point_at(c, points, i));

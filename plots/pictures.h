@@ -163,10 +163,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *figure);
 /* Writes the script that draws stem.svg, stem.png and, if gnuplot can, stem.pdf from stem.dat. */
 void br_figure_write_script(FILE *out, const struct br_figure *figure);
 
-/* Writes a script that contains its data and draws the panels one below the other with letters,
- * `columns` wide, on standard output. */
-void br_figure_write_letters(FILE *out, const struct br_figure *figure, int columns);
-
 /* Writes a script's beginning: comments, variables `stem` and `data`. pictures: what it draws. */
 void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures);
 
@@ -264,7 +260,7 @@ struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
 void br_rows_add(struct br_figure *figure, const char *title,
                  const struct br_history_record *record, size_t place, double factor);
 
-/* For a terminal, with letters. */
+/* Its files are called history. */
 struct br_figure br_history_draw(const struct br_scene *scene,
                                  const struct br_history_record *record);
 

@@ -20,13 +20,14 @@ void br_rows_add(struct br_figure *f, const char *title, const struct br_history
 
 struct br_figure br_history_draw(const struct br_scene *scene, const struct br_history_record *r)
 {
-    struct br_figure figure = {0}, *f = &figure;
+    struct br_figure figure = {.stem = "history"}, *f = &figure;
+    BR_SAY(f->title, "The tip over time: %s", scene->title);
     if (scene->axial.modelled) {
-        br_panel_add(f, "time (s)", "horizontal displacement of the tip, u(L) (m)");
+        br_panel_add(f, "time (s)", "horizontal displacement, u(L) (m)");
         br_rows_add(f, "u", r, BR_ROW(displacement[BR_AXIAL]), 1);
     }
     if (scene->bending.modelled) {
-        br_panel_add(f, "time (s)", "vertical displacement of the tip, w(L) (m)");
+        br_panel_add(f, "time (s)", "vertical displacement, w(L) (m)");
         br_rows_add(f, "w", r, BR_ROW(displacement[BR_BENDING]), 1);
     }
     if (scene->contact.modelled) {

@@ -451,25 +451,3 @@ void br_figure_write_script(FILE *out, const struct br_figure *f)
 }
 
 /* ---- letters ---- */
-
-void br_figure_write_letters(FILE *out, const struct br_figure *f, int columns)
-{
-    enum { LINES = 17 };
-    fprintf(out, "set terminal dumb noenhanced size %d,%d\n", columns, LINES);
-    for (size_t i = 0; i < f->panels; i++) {
-        const struct br_panel *p = &f->panel[i];
-        for (size_t j = 0; j < p->count; j++) {
-            fprintf(out, "$d%zu << EOD\n", j);
-            for (size_t k = 0; k < p->series[j]->count; k++)
-                if (br_is_drawn(p, &p->series[j]->point[k]))
-                    fprintf(out, "%.9g %.9g\n", p->series[j]->point[k].x, p->series[j]->point[k].y);
-            fputs("EOD\n", out);
-        }
-        fprintf(out, "%s\nset xlabel '%s'\nset title '%s'\nplot ",
-                p->count > 1 ? "set key below" : "unset key", p->x_label, p->y_label);
-        for (size_t j = 0; j < p->count; j++)
-            fprintf(out, "%s$d%zu using 1:2 with lines title '%s'", j ? ", " : "", j,
-                    p->series[j]->title);
-        fputc('\n', out);
-    }
-}

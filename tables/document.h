@@ -132,7 +132,7 @@ enum br_outcome {
 };
 extern const char *const br_outcome_names[]; /* "PASS", ... */
 
-/* A verdict, for people, JSON, JUnit and TAP. */
+/* A verdict, for people, JSON and JUnit. */
 struct br_document_verdict {
     enum br_outcome outcome;
     const char *group, *name; /* such as a scene, and what of it was tested */
@@ -319,7 +319,7 @@ extern const struct br_document_format br_document_text, br_document_csv, br_doc
 /* Formats of the verdicts alone, for CI systems: JUnit's XML (a suite for each group) and the Test
  * Anything Protocol, version 14, both with the numbers of the rows by their keys; and annotations
  * of verdicts that did not pass (GitHub, Workflow commands for GitHub Actions). */
-extern const struct br_document_format br_document_junit, br_document_tap, br_document_github;
+extern const struct br_document_format br_document_junit, br_document_github;
 
 /* The formats of every report; NULL-terminated. */
 extern const struct br_document_format *const br_document_formats[];

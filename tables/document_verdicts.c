@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A report's verdicts for CI systems: JUnit's XML, TAP and GitHub's annotations. The first two have
- * the numbers of a verdict's row by their keys. All have the lines that explain a verdict. */
+/* A report's verdicts for CI systems: JUnit's XML and GitHub's annotations. JUnit has the numbers
+ * of a verdict's row by their keys. Both have the lines that explain a verdict. */
 #include <math.h>
 #include <string.h>
 
@@ -128,61 +128,6 @@ const struct br_document_format br_document_junit = {
     .extension = ".xml",
     .title = "JUnit's XML, for CI systems",
     .write = write_junit,
-};
-
-/* ---- TAP: without times, so that two runs of one build differ in the answers alone ---- */
-
-static void print_test(FILE *out, const struct br_document *d, size_t number)
-{
-    const struct br_document_verdict *v = &d->verdict[number];
-    const bool skipped = v->outcome == BR_OUTCOME_SKIPPED;
-    fprintf(out, "%s %zu - ", skipped || v->outcome == BR_OUTCOME_PASS ? "ok" : "not ok",
-            number + 1);
-    br_quote(out, &br_for_tap, v->group ? v->group : "");
-    fputs(v->group ? ", " : "", out);
-    br_quote(out, &br_for_tap, v->name);
-    fputs(skipped ? " # SKIP " : ": ", out);
-    br_quote(out, &br_for_tap,
-             !skipped     ? br_outcome_names[v->outcome]
-             : v->message ? v->message
-                          : "");
-    fputs("\n  ---\n", out);
-    if (v->message)
-        print_line(out, &br_for_yaml, "message", v->message);
-    if (v->file)
-        print_line(out, &br_for_yaml, "file", v->file);
-    if (v->line)
-        fprintf(out, "  line: %zu\n", v->line);
-    print_row(out, &br_for_yaml, d, v);
-    fputs(v->details ? "  details:\n" : "", out);
-    for (size_t i = 0; i < v->details; i++) {
-        fputs("    - ", out);
-        br_quote(out, &br_for_yaml, v->detail[i]);
-        fputc('\n', out);
-    }
-    fputs("  ...\n", out);
-}
-
-static enum br_status write_tap(FILE *out, const struct br_document *d,
-                                const struct br_document_table *table, struct br_error *err)
-{
-    (void)table, (void)err;
-    fprintf(out, "TAP version 14\n1..%zu\n", d->verdicts);
-    for (size_t i = 0; i < d->verdicts; i++)
-        print_test(out, d, i);
-    for (size_t i = 0; i < d->answers; i++) {
-        fputs("# ", out);
-        br_quote(out, &br_for_text, d->answer[i]);
-        fputc('\n', out);
-    }
-    return BR_OK;
-}
-
-const struct br_document_format br_document_tap = {
-    .name = "tap",
-    .extension = ".tap",
-    .title = "the Test Anything Protocol",
-    .write = write_tap,
 };
 
 /* ---- GitHub: a line for each verdict that did not pass, shown at the line of its file ---- */

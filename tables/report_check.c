@@ -7,13 +7,8 @@
 #include "tables/report_parts.h"
 
 const struct br_document_format *const br_check_formats[] = {
-    &br_document_text,
-    &br_document_junit,
-    &br_document_json,
-    &br_document_tap,
-    &br_document_markdown,
-    &br_document_github,
-    NULL,
+    &br_document_text,     &br_document_junit,  &br_document_json,
+    &br_document_markdown, &br_document_github, NULL,
 };
 
 enum { NAME = 64, FIRST_FAILURES = 3 };

@@ -426,36 +426,6 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
     br_hide_fact(d, br_text(r->bad_steps ? r->verdict.message : NULL), NULL, "certificate.first");
 }
 
-/* ---- costs ---- */
-
-static void put_cost(struct br_document *d, const struct br_run_report *r)
-{
-    const double steps = (double)r->end.last.step;
-    double all = 0;
-    if (!r->explained || steps == 0)
-        return;
-    for (int part = 0; part < BR_COST_PARTS; part++)
-        all += r->cost.seconds[part];
-    br_put_table(d, "cost", "Cost of the parts of a step, as measured", 0);
-    for (int part = 0; part < BR_COST_PARTS; part++) {
-        const double ns = 1e9 * r->cost.seconds[part] / steps;
-        if (r->cost.laps[part] == 0)
-            continue;
-        br_put_row(d);
-        BR_PUT(d, br_text(br_cost_part_text((enum br_cost_part)part)), .key = "part");
-        BR_PUT(d, br_number(ns), .key = "ns_per_step", .heading = "a step", .unit = "ns",
-               .format = "%.1f");
-        BR_PUT(d, br_number(ns / (double)r->n), .key = "ns_per_element_step",
-               .heading = "an element", .unit = "ns", .format = "%.4f");
-        BR_PUT(d, br_number(100 * r->cost.seconds[part] / all), .key = "share", .unit = "%",
-               .format = "%.1f");
-    }
-    br_put_fact_as(d, br_number(1e9 * all / steps), "sum of the parts of a step", "ns",
-                   "cost.ns_per_step");
-    br_put_fact_as(d, br_number(1e9 * r->cost.lap_seconds),
-                   "a reading of the clock, which is taken off", "ns", "cost.ns_per_reading");
-}
-
 void br_report_run(const struct br_run_findings *f, struct br_document *d)
 {
     const struct br_run_report *r = f->report;
@@ -540,8 +510,6 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
         br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
         BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
     }
-
-    put_cost(d, r);
 
     const struct br_counts *c = &r->counts;
     const double march = r->end.march_seconds;

@@ -14,7 +14,6 @@ struct br_estimate;
 struct br_extreme_map;
 struct br_finding;
 struct br_floors;
-struct br_foreseen;
 struct br_old_check;
 struct br_orders;
 struct br_plan;
@@ -54,12 +53,6 @@ struct br_run_findings {
 /* The events at the tip and the error there, then all other results. In JSON, what is not known or
  * not modelled is null. */
 void br_report_run(const struct br_run_findings *findings, struct br_document *d);
-
-/* ---- dry runs ---- */
-
-/* The marches that a command would make, on this number of threads. */
-void br_report_foreseen(const struct br_foreseen *work, const char *command, int threads,
-                        struct br_document *d);
 
 /* ---- orders ---- */
 
@@ -111,18 +104,6 @@ void br_report_split(const struct br_split *split, size_t count,
  * document is named <scene>-plan. scene_word: the scene as on the command line. */
 void br_report_plan(const struct br_plan *plan, const char *scene_word,
                     const struct br_provenance *provenance, struct br_document *d);
-
-/* ---- repeat ---- */
-
-struct br_repeated {
-    size_t compared, different; /* values */
-};
-
-/* Puts the differences between two JSON documents of one report into a document that has begun:
- * numbers that differ by more than the interval or the error stated with them, or than round-off;
- * verdicts and words; members that only one of them has. Times of the clock are not compared. */
-void br_report_repeated(const struct json_t *was, const struct json_t *is,
-                        struct br_repeated *found, struct br_document *d);
 
 /* ---- extremes, one for each experiment: without provenance ---- */
 

@@ -37,7 +37,7 @@ if command -v python3 >/dev/null; then
     page trade 0 "<title>beamrate trade: 3 reports</title>"
     page split $pictures
     page plan 0
-    page run 0 "<td"
+    page run $pictures "<td"
     page floors $pictures "<h1>Round-off floors of the linear solvers</h1>"
     echo "Python read the pages"
 fi

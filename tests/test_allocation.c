@@ -104,7 +104,6 @@ static enum br_status run_scene(const void *data, struct br_error *err)
         .level = level,
         .levels = 2,
         .check = true,
-        .explain = true,
         .output = &recorder,
         .outputs = 1,
     };

@@ -352,7 +352,7 @@ static void make_record(struct br_history_record *r, struct br_history_row row[L
                                     .field = field};
 }
 
-static void print_letters(FILE *out)
+static void print_history(FILE *out)
 {
     struct br_history_record r;
     struct br_history_row row[LOOKS];
@@ -372,5 +372,5 @@ TEST(test_stored)
     br_test_stored("drifts", print_drifts, 1e-12);
     br_test_stored("energy", print_energy, 1e-12);
     br_test_stored("map", print_map, 1e-12);
-    br_test_stored("letters", print_letters, 1e-12);
+    br_test_stored("history", print_history, 1e-12);
 }

@@ -376,8 +376,7 @@ static int march(void **state)
                                            .n = ELEMENTS,
                                            .steps = STEPS,
                                            .check = true,
-                                           .energies = true,
-                                           .explain = true};
+                                           .energies = true};
     const enum br_status status = br_run(&request, &report, &err);
     report.counts.rejected = 3; /* no step of fixed length is */
     return status != BR_OK;

@@ -236,37 +236,6 @@ TEST(test_stride)
         }
 }
 
-/* Measuring the parts of a step changes no bit of it, with any scheme and degree. */
-TEST(test_cost)
-{
-    struct br_error err = {0};
-    struct br_scene scene = br_test_bundled("example2");
-    for (size_t i = 0; br_time_schemes[i / 2]; i++) {
-        struct br_run_request request = {
-            .scene = &scene, .method = br_method_default(), .n = 7, .steps = 20};
-        struct br_run_report plain, explained;
-        request.method.scheme = br_time_schemes[i / 2];
-        request.method.contact = br_contact_rule_of(request.method.scheme);
-        request.method.axial_degree = 1 + (int)(i % 2);
-        MUST(br_run(&request, &plain, &err));
-        request.explain = true;
-        MUST(br_run(&request, &explained, &err));
-        const struct br_history_row *a = &plain.end.last, *b = &explained.end.last;
-        assert_memory_equal(a->displacement, b->displacement, sizeof a->displacement);
-        assert_memory_equal(a->velocity, b->velocity, sizeof a->velocity);
-        assert_non_null(strstr(plain.model[0].why,
-                               i % 2 ? "14 unknowns, P2 elements" : "7 unknowns, P1 elements"));
-        const struct br_step_cost *c = &explained.cost;
-        assert_true(c->seconds[BR_COST_FIELD_BENDING] > 0 && c->laps[BR_COST_CHECK] == 0);
-        if (i < 2) { /* of Euler's scheme */
-            assert_int_equal(c->laps[BR_COST_LOAD_AXIAL], 20);
-            assert_int_equal(c->laps[BR_COST_FIELD_BENDING], 40);
-            assert_int_equal(c->laps[BR_COST_FRICTION], 20);
-        }
-    }
-    br_scene_clear(&scene);
-}
-
 struct stop_at {
     size_t step, told;
 };

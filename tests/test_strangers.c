@@ -136,7 +136,7 @@ static const struct {
 } commands[] = {
     {"run SCENE --n 2 --k 0.5 --out run --json run.json", 0},
     {"study SCENE --n 2,4 --k 0.5,0.25 --reference mms --out study", 0},
-    {"check SCENE --junit c.xml --json c.json --tap c.tap --markdown c.md", 1},
+    {"check SCENE --junit c.xml --json c.json --markdown c.md", 1},
     {"trade SCENE --methods euler --n 2 --k 0.5,0.25 --reference mms --repeats 1 --out trade", 0},
     {"trade SCENE --split --methods euler --n 2 --k 0.5,0.25 --out split", 0},
     {"scenes SCENE", 0},

@@ -69,10 +69,8 @@ static enum br_status report(struct run *r, struct br_error *err)
     const bool row = is_row(r), sample = is_chosen(r);
     enum br_status status = BR_OK;
     for (const struct br_history_observer *o = q->observer; o < end && !status; o++)
-        if (o->step) {
+        if (o->step)
             status = o->step(o->self, r->march, &r->row, err);
-            br_step_cost_mark(&o->mark, r->row.step);
-        }
     if (row || sample)
         complete_row(r);
     for (const struct br_history_observer *o = q->observer; o < end && !status; o++) {
@@ -80,8 +78,6 @@ static enum br_status report(struct run *r, struct br_error *err)
             status = o->row(o->self, &r->row, err);
         if (sample && o->sample && !status)
             status = o->sample(o->self, r->march, &r->row, err);
-        if ((row && o->row) || (sample && o->sample))
-            br_step_cost_mark(&o->mark, r->row.step);
     }
     return status;
 }

@@ -17,33 +17,6 @@ struct br_history_row {
     double friction_bound;  /* h(t_n), N */
 };
 
-/* ---- the parts of a step ---- */
-
-/* X(name, text): the parts. */
-#define BR_COST_LIST(X)                          \
-    X(BR_COST_LOAD_AXIAL, "load, axial")         \
-    X(BR_COST_FIELD_AXIAL, "axial field")        \
-    X(BR_COST_CONTACT, "contact law")            \
-    X(BR_COST_LOAD_BENDING, "load, bending")     \
-    X(BR_COST_FIELD_BENDING, "bending field")    \
-    X(BR_COST_FRICTION, "friction law")          \
-    X(BR_COST_RECORD, "records")                 \
-    X(BR_COST_CHECK, "certificate and energies") \
-    X(BR_COST_OUTPUT, "output")
-
-enum br_cost_part {
-#define X(name, text) name,
-    BR_COST_LIST(X)
-#undef X
-        BR_COST_PARTS
-};
-
-/* The cost of an observer is added to a part of the step's cost; cost NULL: to none. */
-struct br_cost_mark {
-    struct br_step_cost *cost;
-    enum br_cost_part part;
-};
-
 /* ---- a march with observers ---- */
 
 /* An observer of a march; every function may be NULL. A status other than BR_OK ends the march and
@@ -62,7 +35,6 @@ struct br_history_observer {
     /* The chosen levels: br_march_get has the fields. */
     enum br_status (*sample)(void *self, const struct br_march *march,
                              const struct br_history_row *row, struct br_error *err);
-    struct br_cost_mark mark;
 };
 
 /* What is marched, and which observers get which rows. All borrowed. */
@@ -180,34 +152,5 @@ const char *br_tip_regime_word(enum br_tip_regime regime);
 /* An observer that fills a watch (out; it must outlive the march). */
 struct br_history_observer br_tip_watch_start(struct br_tip_watch *watch,
                                               const struct br_scene *scene, size_t steps);
-
-/* ---- what a step costs ---- */
-
-/* What the parts of a step cost, as measured: the march's solver is wrapped in one that reads the
- * clock around what it calls, so that the march itself knows nothing of it. */
-
-/* One march's cost; one at a time in a thread. */
-struct br_step_cost {
-    double seconds[BR_COST_PARTS]; /* the clock's own cost is taken off by br_step_cost_end */
-    size_t laps[BR_COST_PARTS];
-    double lap_seconds;                  /* what a reading of the clock costs */
-    double last;                         /* private: time of the last reading, s */
-    struct br_linear_solver wrapped;     /* private */
-    struct br_field_solver measuring[2]; /* private; by br_field_kind */
-};
-
-const char *br_cost_part_text(enum br_cost_part part);
-
-/* Begins: method (in/out) gets a solver that measures, for marches of a scene on n elements that
- * are created and made in this thread until br_step_cost_end. cost: out; it must outlive the march.
- */
-void br_step_cost_begin(struct br_step_cost *cost, const struct br_scene *scene, size_t n,
-                        struct br_method *method);
-
-/* Ends, and takes off what reading the clock took. */
-void br_step_cost_end(struct br_step_cost *cost);
-
-/* The time since the last reading goes to the mark's part; at step 0 it was setting up. */
-void br_step_cost_mark(const struct br_cost_mark *mark, size_t step);
 
 #endif

@@ -101,20 +101,13 @@ enum { MOST_OBSERVERS = BR_MOST_OUTPUTS + 3 };
 static size_t list_observers(struct run *r, struct br_history_observer list[MOST_OBSERVERS])
 {
     const struct br_run_request *q = r->request;
-    struct br_step_cost *cost = q->explain ? &r->report->cost : NULL;
     size_t count = 0;
-    list[count] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
-    list[count++].mark = (struct br_cost_mark){cost, BR_COST_RECORD};
+    list[count++] = br_tip_watch_start(&r->report->watch, &r->report->marched, q->steps);
     r->report->watch.trapezoidal = q->method.scheme != br_time_schemes[0];
     list[count++] =
-        (struct br_history_observer){.self = r,
-                                     .begin = start_checks,
-                                     .step = watch_checks,
-                                     .mark = {r->report->summed ? cost : NULL, BR_COST_CHECK}};
-    for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++) {
-        list[count] = q->output[i];
-        list[count++].mark = (struct br_cost_mark){cost, BR_COST_OUTPUT};
-    }
+        (struct br_history_observer){.self = r, .begin = start_checks, .step = watch_checks};
+    for (size_t i = 0; i < q->outputs && i < BR_MOST_OUTPUTS; i++)
+        list[count++] = q->output[i];
     if (q->progress)
         list[count++] = (struct br_history_observer){.self = r, .step = watch_progress};
     return count;
@@ -160,12 +153,9 @@ static enum br_status march(struct run *r, struct br_error *err)
     const struct br_run_request *q = r->request;
     struct br_run_report *p = r->report;
     struct br_history_observer observers[MOST_OBSERVERS];
-    struct br_method method = p->method;
-    if (q->explain)
-        br_step_cost_begin(&p->cost, &p->marched, q->n, &method);
     const struct br_history_request history = {
         .scene = &p->marched,
-        .method = &method,
+        .method = &p->method,
         .n = q->n,
         .steps = q->steps,
         .stride = q->stride,
@@ -176,8 +166,6 @@ static enum br_status march(struct run *r, struct br_error *err)
     };
     struct br_march *made = NULL;
     enum br_status status = br_history_run(&history, &made, &p->end, &p->failure);
-    if (q->explain)
-        br_step_cost_end(&p->cost);
     if (status && (!made || !is_result(status))) {
         br_fail(err, status, "%.1000s", p->failure.message);
     } else {
@@ -202,7 +190,6 @@ enum br_status br_run(const struct br_run_request *q, struct br_run_report *p, s
         .k = q->scene->duration / (double)q->steps,
         .summed = q->check || q->energies,
         .checked = q->check,
-        .explained = q->explain,
     };
     struct run r = {.request = q, .report = p};
     enum br_status status = br_model_select(q->scene, q->wanted, &p->marched, err);

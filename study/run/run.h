@@ -46,7 +46,6 @@ struct br_run_request {
     size_t levels;
     bool check;    /* the certificate and the energy balance of every step */
     bool energies; /* the energy balance */
-    bool explain;  /* what the parts of a step cost */
     const struct br_history_observer *output; /* outputs: who writes rows and fields */
     size_t outputs;                           /* at most BR_MOST_OUTPUTS */
     const struct br_observer *progress;       /* may be NULL */
@@ -79,9 +78,6 @@ struct br_run_report {
                                           round-off alone may be too much */
     struct br_error verdict;           /* BR_OK, or the first step beyond a limit */
     size_t bad_steps;
-
-    bool explained;
-    struct br_step_cost cost;
 
     double round_off;      /* predicted, of the displacements */
     bool contact_unstable; /* br_march_contact_unstable */

@@ -61,8 +61,6 @@ const struct br_quoting br_for_csv = {
 
 const struct br_quoting br_for_yaml = {.around = "\"", .escaped = "\"\\"};
 
-const struct br_quoting br_for_tap = {.around = "", .stead = {{'#', " "}}};
-
 const struct br_quoting br_for_github = {.around = "", .stead = {{'%', "%25"}}};
 
 const struct br_quoting br_for_github_property = {
