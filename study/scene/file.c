@@ -10,6 +10,7 @@
 #include <yaml.h>
 
 #include "study/scene/expression.h"
+#include "study/scene/quote.h"
 #include "study/scene/schema.h"
 #include "study/scene/value.h"
 #include "study/scene/words.h"
