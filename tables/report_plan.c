@@ -109,6 +109,8 @@ static void put_methods(struct br_document *d, const struct br_plan *p)
                                                : error_of(p, i) < error_of(p, best))))
                 best = i;
         }
+        if (p->chosen < p->count && p->trial[p->chosen].named == &p->methods.list[m])
+            best = p->chosen;
         if (best == p->count)
             continue;
         const struct br_trial *t = &p->trial[best];
