@@ -708,6 +708,8 @@ static const struct planted_bug planted_bugs[] = {
     {"verdict_by_the_value", "verdict", "study/verify/verdict.c", "tests/test_verdict",
      "if ((c->order.low >= low && c->order.high <= high) ||",
      "if ((c->order.value >= low && c->order.value <= high) ||"},
+    {"rates_may_rise", "verdict", "study/verify/verdict.c", "tests/test_verdict test_two_powers",
+     "fmin(high, last + c->expected.tolerance)", "high"},
     {"verdict_without_its_floor", "verdict", "study/verify/verdict.c", "tests/test_verdict",
      "!isnan(e->floor) && !(c->constant >= e->floor)", "!isnan(e->floor) && c->constant < 0"},
     {"verdict_of_coarse_points", "index", "study/verify/verdict.c", "tests/test_verdict",
