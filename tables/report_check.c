@@ -84,7 +84,6 @@ static void put_cells(struct br_document *d, const struct br_scene *scene,
 static void put_defaults(struct br_document *d, const struct br_check *check, size_t number)
 {
     char key[NAME], label[1200];
-    const struct br_case *c = check->cases; /* in the same order */
     snprintf(key, sizeof key, "defaults.%zu", number);
     snprintf(label, sizeof label,
              "%s has no verify part; these are the defaults, to begin one with", check->path);
@@ -98,17 +97,13 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
             continue;
         br_put_more(d, "  %s:\n", br_verify_names[kind]);
         put_cells(d, check->scene, v);
-        for (size_t i = 0; i < v->expectations; i++, c++) {
-            /* a file names one order: of two, the one that is nearer to what was seen */
+        for (size_t i = 0; i < v->expectations; i++) {
             const struct br_expectation *e = &v->expectation[i];
-            const bool above = c < check->cases + check->count &&
-                               2 * c->order.value > e->order + e->highest && e->highest > 0;
-            br_put_more(d, "    %s%s%s: %g +- %g", e->norm->name, e->part ? " " : "",
-                        e->part ? br_part_names[e->part] : "", above ? e->highest : e->order,
-                        e->tolerance);
+            br_put_more(d, "    %s%s%s: %s +- %g", e->norm->name, e->part ? " " : "",
+                        e->part ? br_part_names[e->part] : "",
+                        br_theory_text(e->order, e->highest, label, sizeof label), e->tolerance);
             if (*e->why)
-                br_put_more(d, "  # %s: %s",
-                            br_theory_text(e->order, e->highest, label, sizeof label), e->why);
+                br_put_more(d, "  # %s", e->why);
             br_put_more(d, "\n");
         }
     }

@@ -111,14 +111,14 @@ static void add_methods(json_t *properties)
                                 f->words ? method_words(f->words) : method_number(f));
 }
 
-/* "2 +- 0.1, at most 3e-4 m": as verify_file.c reads it. part: NULL, of the norm alone. */
+/* "2 +- 0.1, at most 3e-4 m", "2 to 4 +- 0.1": as verify_file.c reads it. part: NULL, of the norm alone. */
 static void add_expectation(json_t *properties, const struct br_norm *norm, const char *part)
 {
     char key[64], unit[64];
     snprintf(key, sizeof key, "%s%s%s", norm->name, part ? " " : "", part ? part : "");
     json_object_set_new(properties, key,
                         matching(norm->title,
-                                 "^ *" NUMBER " *\\+- *" NUMBER "( *, *(at most|constant *" NUMBER
+                                 "^ *" NUMBER "( *to *" NUMBER ")? *\\+- *" NUMBER "( *, *(at most|constant *" NUMBER
                                  " *to) *" NUMBER " *%s)?$",
                                  escape(norm->unit, unit)));
 }

@@ -159,6 +159,10 @@ static enum br_status check_expectation(const struct br_scene *scene,
         return br_fail(err, BR_BAD_INPUT,
                        "found %g +- %g, expected an order > 0 and a tolerance > 0", e->order,
                        e->tolerance);
+    if (e->highest != 0 && !(e->highest > e->order && isfinite(e->highest)))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found an order of %g to %g, expected the lower one first", e->order,
+                       e->highest);
     if (!(e->tolerance < e->order))
         return br_fail(
             err, BR_BAD_INPUT,
@@ -193,7 +197,8 @@ static enum br_status check_total(const struct br_verify_study *v,
     if (!axial || !bending)
         return BR_OK;
     const double low = fmin(axial->order - axial->tolerance, bending->order - bending->tolerance);
-    const double high = fmin(axial->order + axial->tolerance, bending->order + bending->tolerance);
+    const double high = fmin(fmax(axial->order, axial->highest) + axial->tolerance,
+                             fmax(bending->order, bending->highest) + bending->tolerance);
     if (total->order + total->tolerance >= low && total->order - total->tolerance <= high)
         return BR_OK;
     return br_fail(

@@ -160,12 +160,12 @@ static bool parse_range(const char *text, struct br_expectation *e)
     return end && !*end;
 }
 
-/* "2 +- 0.1", and perhaps a range of the constant behind a comma */
+/* "2 +- 0.1" or "2 to 4 +- 0.1", and perhaps a range of the constant behind a comma */
 static bool parse_expectation(const char *text, struct br_expectation *e)
 {
     e->floor = e->ceiling = NAN;
-    const char *end = br_read_number(text, &e->order);
-    end = skip(end, "+-");
+    const char *end = br_read_number(text, &e->order), *to = skip(end, "to");
+    end = skip(to ? br_read_number(to, &e->highest) : end, "+-");
     end = end ? br_read_number(end, &e->tolerance) : NULL;
     if (!end || !*end)
         return end != NULL;
