@@ -129,7 +129,8 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c,
         br_put_more(d, "; that was by beamrate %s, this is by %s", c->version, now);
     for (size_t i = 0; i < c->count && i < FIRST_FAILURES; i++)
         if (c->difference[i].severity == BR_SERIOUS && isnan(c->difference[i].now))
-            br_put_answer(d, "%s: %s", c->difference[i].subject, c->difference[i].remark);
+            br_put_answer(d, *c->difference[i].remark ? "%s: %s" : "%s", c->difference[i].subject,
+                          c->difference[i].remark);
     BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
         BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),

@@ -39,7 +39,7 @@ if [ "$1" = test ]; then
     mkdir -p "$3/meson-logs"
     echo '{"stdout": "ok 1 - a", "result": "OK"}' >"$3/meson-logs/testlog.json"
 fi
-case "$*" in *--clearcache) touch "$W/cleared" ;; esac
+case "$*" in *--clearcache) : >"$W/cleared" ;; esac
 [ "$1" = setup ] || exit 0
 echo "$*" >>"$W/set_ups"
 mkdir -p "$2/meson-private"
@@ -164,13 +164,8 @@ starts 0 4 'a package more' test
 configured 'what was installed is looked for' '--reconfigure$'
 BUILD=$work/elsewhere starts 0 0 'a folder of its own' build
 configured 'a folder of its own' "^setup $work/elsewhere "
-made clang <<'END'
-echo clang
-END
-CC=clang BUILD=$work/clang starts 3 4 'Clang wants an OpenMP of its own'
-rm "$work/bin/clang"
 CC=clang BUILD=$work/clang starts 3 4 'Clang is a package'
-grep -q ' clang libomp-dev$' "$work/calls" || failures=$((failures + 1))
+grep -q ' clang$' "$work/calls" || failures=$((failures + 1))
 CC=acc starts 2 0 'CC is no program'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build

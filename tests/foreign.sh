@@ -62,6 +62,8 @@ expect 0 "0 serious" beamrate check poisson.yaml --compare baseline.json
 expect 0 "2 PASS" beamrate check poisson.yaml --compare new.json --update-baseline
 expect 0 "0 serious" beamrate check poisson.yaml --compare new.json
 plant_bug
+expect 2 "is not trusted yet" beamrate check poisson.yaml # another program
+beamrate check poisson.yaml --trust >output 2>&1
 expect 1 "FAIL, Poisson's equation, finite differences in C, space max (poisson.yaml:11): the order, 1.0" \
     beamrate check poisson.yaml
 expect 1 "PASS before, FAIL now" beamrate check poisson.yaml --compare new.json

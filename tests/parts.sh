@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The optional parts where only half of each is there: mpicc without mpi.h, as FreeFem++ leaves it, a
-# gnuplot that does not run, a compiler without omp.h. The build leaves them out and says why; one that
-# is demanded is an error that names the package. usage: parts.sh SOURCE
+# The optional parts where only half of each is there: mpicc without mpi.h, as FreeFem++ leaves it, and a
+# gnuplot that does not run. The build leaves them out and says why; one that is demanded is an error
+# that names the package. usage: parts.sh SOURCE
 set -u
 source=$1
 folder=$(mktemp -d)
@@ -29,11 +29,6 @@ made pkg-config <<END_OF_PROGRAM
 case " \$* " in *' ompi'* | *' mpi'*) exit 1 ;; esac
 exec "$(command -v pkg-config)" "\$@"
 END_OF_PROGRAM
-# Takes -fopenmp for a header that it lacks, as Clang without libomp-dev.
-made compiler <<END_OF_PROGRAM
-case "\$*" in *openmp*) exit 1 ;; esac
-exec ${CC:-cc} "\$@"
-END_OF_PROGRAM
 unset MPICC
 
 # configures CODE TEXT OPTION...: Meson's exit code, and a text that it prints.
@@ -42,7 +37,7 @@ configures() {
     shift 2
     number=$((number + 1))
     rm -rf build
-    PATH=$folder/bin:$PATH CC=$folder/bin/compiler meson setup build "$source" "$@" >said 2>&1 || code=$?
+    PATH=$folder/bin:$PATH meson setup build "$source" "$@" >said 2>&1 || code=$?
     if [ $((code != 0)) -eq "$expected" ] && grep -qE -- "$text" said; then
         echo "ok $number - $* says '$text'"
     else
@@ -63,10 +58,8 @@ says() { # TEXT: the last configuration, too
 
 configures 0 '^ +more machines \(MPI\) +: NO: .*mpi\.h; Debian has it in the package libopenmpi-dev' -Dtests=disabled
 says '^Message: left out: more machines \(MPI\): .*mpi\.h'
-says '^ +all cores \(OpenMP\) +: NO: .*omp\.h; .*libomp-dev'
 says "^ +pictures \(gnuplot\) +: NO: $folder/bin/gnuplot --version fails"
 says '^ +tests +: NO: -Dtests=disabled'
 configures 1 'ERROR: .*-Dmpi=enabled: .*mpi\.h; .*libopenmpi-dev' -Dmpi=enabled -Dtests=disabled
-configures 1 'ERROR: .*-Dopenmp=enabled: .*omp\.h; .*libomp-dev' -Dopenmp=enabled -Dtests=disabled
 echo "1..$number"
 [ "$failures" -eq 0 ]

@@ -79,6 +79,32 @@ TEST(test_order)
     }
 }
 
+/* Where orders from 2 to 4 are expected, orders from size to size that fall from 4 to 2 pass, as of
+ * A z^2 + B z^4. Those that rise, or lie below, do not. */
+TEST(test_two_powers)
+{
+    static const struct {
+        double rate[4];
+        bool pass;
+    } rows[] = {
+        {{4, 4, 4, 4}, true},          {{2, 2, 2, 2}, true},          {{3.7, 3.1, 2.5, 2.1}, true},
+        {{2.1, 2.5, 3.1, 3.7}, false}, {{3.7, 3.1, 2.5, 1.5}, false}, {{1, 1, 1, 1}, false},
+        {{5, 5, 5, 5}, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct made m;
+        struct br_error err = {0};
+        make_power(&m, 1, 5);
+        m.it.expected.order = 2;
+        m.it.expected.highest = 4;
+        for (size_t j = 1; j < 5; j++)
+            m.point[j].error = m.point[j - 1].error * pow(2, -rows[i].rate[j - 1]);
+        MUST(br_verdict_reach(&m.it, &err));
+        if ((m.it.verdict == BR_PASS) != rows[i].pass)
+            fail_msg("row %zu: %s because '%s'", i, br_verdict_names[m.it.verdict], m.it.reason);
+    }
+}
+
 /* Errors against the next finer grid, with ratios that differ, tell the same order. */
 TEST(test_differences)
 {

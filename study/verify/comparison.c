@@ -228,6 +228,19 @@ static const char *value_of(const char *data, const char *key, int length, int *
     return value;
 }
 
+/* The length of the unit that ends a value, with the blank before it: of " 1000 N m^2", or of an
+ * expression as " 2 * x [N/m]". */
+static int unit_length(const char *value, int size)
+{
+    int from = 1;
+    if (size > 1 && value[size - 1] == ']')
+        for (from = size - 1; from > 0 && value[from] != '[';)
+            from--;
+    else
+        from += 1 + (int)strcspn(value + 1, " \n");
+    return from > 1 && from <= size ? size - from + 1 : 0;
+}
+
 /* "bending.stiffness 1000 -> 1300 N m^2": each key that has another value. */
 static void compare_data(struct br_comparison *out, const char *subject, const char *old,
                          const char *now)
@@ -242,8 +255,8 @@ static void compare_data(struct br_comparison *out, const char *subject, const c
             const bool in_both = before != not_given && after != not_given;
             if (in_both && (was || (a == b && memcmp(before, after, (size_t)a) == 0)))
                 continue;
-            const char *unit = a > 1 && in_both ? memchr(before + 1, ' ', (size_t)a - 1) : NULL;
-            const int tail = unit ? a - (int)(unit - before) : 0;
+            const int tail = in_both ? unit_length(before, a) : 0;
+            const char *unit = before + a - tail;
             if (tail && tail < b && memcmp(unit, after + b - tail, (size_t)tail) == 0)
                 a -= tail;
             add(out, subject, "another scene than the baseline's", NAN, NAN, BR_SERIOUS,

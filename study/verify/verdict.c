@@ -199,15 +199,19 @@ static void straddle(struct br_case *c, const char *order, double low, double hi
 static bool falls_by_two(const struct br_case *c, double low, double high)
 {
     double last = high;
-    for (size_t i = 0; i < c->points; i++) {
+    size_t rates = 0;
+    for (size_t i = 1; i < c->points; i++) {
         const double rate = rate_to(c, i);
-        if (isnan(rate))
+        if (!c->point[i].used)
+            continue;
+        rates += isfinite(rate) ? 1 : 0;
+        if (isnan(rate) && rates == 0) /* the first used point has none before it */
             continue;
         if (!(rate >= low && rate <= fmin(high, last + c->expected.tolerance)))
             return false;
         last = rate;
     }
-    return c->expected.highest > c->expected.order;
+    return rates >= 2 && c->expected.highest > c->expected.order;
 }
 
 static void judge_order(struct br_case *c)
