@@ -27,10 +27,7 @@ static const struct {
     enum br_option_id id;
 } own_options[] = {{"--n", BR_OPT_N},
                    {"--k", BR_OPT_K},
-                   {"--cases", BR_OPT_CASES},
-                   {"--seed", BR_OPT_SEED},
-                   {"--rounding", BR_OPT_ROUNDING},
-                   {"--resume", BR_OPT_RESUME}};
+                   {"--rounding", BR_OPT_ROUNDING}};
 enum { OPTIONS = sizeof own_options / sizeof *own_options };
 
 static bool accepts(const struct br_extremes_experiment *experiment, enum br_option_id option)
@@ -38,7 +35,7 @@ static bool accepts(const struct br_extremes_experiment *experiment, enum br_opt
     return experiment->accepts >> option & 1;
 }
 
-/* The experiments that accept an option, as in the help: "map". */
+/* The experiments that accept an option, as in the help: "floors, steps". */
 static const char *accepting(enum br_option_id option)
 {
     static char text[256];
@@ -105,8 +102,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT,
                        "found %d ranks, expected one: its threads share the work", br_ranks_size());
     r->job = (struct br_extremes_job){
-        .cases = (size_t)br_option_number(o, BR_OPT_CASES, 0),
-        .seed = (uint64_t)br_option_number(o, BR_OPT_SEED, 0),
         .threads = r->session.threads,
         .n = o->whole[BR_OPT_N],
         .k = o->number[BR_OPT_K],
@@ -124,20 +119,12 @@ static enum br_status run_experiment(struct run *r, size_t i, struct br_error *e
     const struct br_extremes_experiment *experiment = r->experiment[i];
     const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
     struct br_extremes_job job = r->job;
-    struct br_kept kept = {0};
     char what[64];
     snprintf(what, sizeof what, "%s (%zu of %zu)", experiment->name, i + 1, r->experiments);
-    if (experiment->accepts & BR_ACCEPTS(RESUME)) {
-        if (br_session_keep(&r->session, experiment->name, "", &kept, err))
-            return err->status;
-        job.kept = &kept;
-    }
-    job.folder = r->session.output.staging;
     job.observer = br_progress_start(what, r->session.quiet);
     const struct br_extremes_output to = {&r->session, &r->session.document[i], &r->verdict[i]};
     const enum br_status status = experiment->run(&job, &to, err);
     br_progress_end();
-    br_session_report_kept(&r->session, &kept);
     if (status)
         return br_failed_in(err, experiment->name);
     br_put_provenance(to.report, &provenance);
@@ -188,7 +175,7 @@ const struct br_command br_command_extremes = {
         "discrete solution in long double. Part stability has the limit of the lagged contact "
         "over its stiffness and k, predicted and measured by marches of one step. An option that "
         "no chosen part heeds is refused.",
-    .example = {"beamrate extremes", "beamrate extremes map --cases 10 --seed 7",
+    .example = {"beamrate extremes", "beamrate extremes stability --out stability",
                 "beamrate extremes floors -n 100,1000 -k 0.01"},
     .most_words = BR_MOST_WORDS,
     .words = &experiments,

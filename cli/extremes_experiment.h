@@ -22,7 +22,7 @@ _Static_assert(BR_OPT_METHOD < 64, "a bit for each option");
 struct br_extremes_experiment {
     const char *name;           /* one word, as on the command line, and of its files */
     const char *title;          /* one line for a person */
-    unsigned long long accepts; /* BR_ACCEPTS; with RESUME it has job->kept, others have NULL */
+    unsigned long long accepts; /* BR_ACCEPTS */
     /* Computes, begins the report (its name is the experiment's) and puts everything into it but
      * the provenance, draws, and judges: a wrong result is a verdict, not a failure. Fails with
      * BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */

@@ -65,8 +65,6 @@ enum br_option_id {
     BR_OPT_EXPECT,
     BR_OPT_TRUST,
     BR_OPT_KEEP,
-    BR_OPT_CASES,
-    BR_OPT_SEED,
     BR_OPT_RESUME,
     BR_OPT_ROUNDING,
     BR_OPT_NEW,

@@ -272,10 +272,6 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_CHECK},
 
     /* extremes */
-    {BR_OPT_CASES, "cases", 0, "COUNT", "cases of a map that is drawn at random", NULL,
-     BR_TAKES_NUMBER, WHOLE(1, 1e9), .commands = BR_FOR_EXTREMES},
-    {BR_OPT_SEED, "seed", 0, "SEED", "of what is drawn: a whole number", NULL, BR_TAKES_NUMBER,
-     WHOLE(1, 9e15), .commands = BR_FOR_EXTREMES, .more = "The same seed draws the same cases."},
     {BR_OPT_ROUNDING, "rounding", 0, "MODE",
      "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
      .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
@@ -298,8 +294,8 @@ static const struct br_option rows[] = {
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
      NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_EXTREMES,
-     .more = "After an interruption, or for a larger grid: finished cells, trials and cases are "
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
+     .more = "After an interruption, or for a larger grid: finished cells and trials are "
              "kept in DIR/.kept, and only the others are marched. What another version of the "
              "program or another machine has kept is not taken."},
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
-#include "study/extremes/map.h"
+#include "study/extremes/extremes.h"
 
 /* ---- floors: deviation over n, or over N ---- */
 
@@ -81,64 +81,6 @@ struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
     return picture;
 }
 
-/* ---- energy: loss a period over steps a period ---- */
-
-/* The density that is shown. */
-enum { SHOWN = BR_VIBRATION_DENSITIES / 2 };
-
-static void add_loss(const struct br_vibration_row *row, bool measured, struct br_series *s)
-{
-    for (size_t r = 0; r < BR_VIBRATION_RATES; r++) {
-        const struct br_vibration *v = &row->at[r][SHOWN];
-        const double loss = fabs(measured || row->scheme->adaptive ? v->measured : v->predicted);
-        br_point_add(s, v->steps, v->end == BR_VIBRATION_DONE ? loss : (double)NAN, NULL);
-    }
-}
-
-/* Schemes that take the same energy share a curve. */
-static bool same(const struct br_vibration_row *a, const struct br_vibration_row *b)
-{
-    for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-        if (!(fabs(a->at[r][SHOWN].predicted - b->at[r][SHOWN].predicted) <=
-              b->at[r][SHOWN].round_off))
-            return false;
-    return a->damping == b->damping && a->kind == b->kind;
-}
-
-static bool has_curve(const struct br_energy_behaviour *b, size_t i, bool damped)
-{
-    const struct br_vibration_row *row = &b->vibration[i];
-    for (size_t j = 0; j < i; j++)
-        if (same(&b->vibration[j], row))
-            return false;
-    return row->kind == BR_AXIAL && (row->damping > 0) == damped &&
-           row->at[0][SHOWN].end == BR_VIBRATION_DONE;
-}
-
-static void add_losses(const struct br_energy_behaviour *b, bool damped, struct br_figure *f)
-{
-    for (int measured = 0; measured < 2; measured++)
-        for (size_t i = 0; i < b->vibrations; i++)
-            if (has_curve(b, i, damped))
-                add_loss(&b->vibration[i], measured,
-                         measured
-                             ? br_series_add(f, BR_PEN_RINGS, "measured")
-                             : br_series_add(f, BR_PEN_LINE, "%s", b->vibration[i].scheme->name));
-}
-
-struct br_figure br_energy_draw(const struct br_energy_behaviour *b)
-{
-    struct br_figure picture = {.stem = "energy", .one_y = true}, *figure = &picture;
-    BR_SAY(figure->title, "Energy of a free vibration lost to the scheme, a period");
-    for (int damped = 0; damped < 2; damped++) {
-        struct br_panel *p = br_panel_add(figure, "steps a period", "share lost a period, size");
-        BR_SAY(p->title, damped ? "1 %% of critical damping, beside viscosity" : "undamped");
-        p->log_x = p->log_y = true;
-        add_losses(b, damped, figure);
-    }
-    return picture;
-}
-
 /* ---- stability: growth over c_H and k ---- */
 
 /* Ascending values become the edges of their cells (in/out, count values, count + 1 edges), halfway
@@ -186,35 +128,6 @@ struct br_figure br_stability_draw(const struct br_stability *s)
             br_point_add(limit, row[j].limit, row[j].k, NULL);
             br_point_add(bouncing, row[j].bouncing, row[j].k, NULL);
         }
-    }
-    return picture;
-}
-
-/* ---- map: verdicts over planes ---- */
-
-static void fill_edges(const struct br_extreme_coordinate *c, double *edge)
-{
-    for (size_t i = 0; i <= c->cells; i++)
-        edge[i] = pow(10, c->low + (c->high - c->low) * (double)i / (double)c->cells);
-}
-
-struct br_figure br_extreme_map_draw(const struct br_extreme_map *map)
-{
-    struct br_figure picture = {.stem = "map", .kinds = BR_EXTREME_CLASSES}, *figure = &picture;
-    BR_SAY(figure->title, "The map of extremes: what most of the cases in a cell are");
-    for (int i = 0; i < BR_EXTREME_CLASSES; i++)
-        BR_SAY(figure->kind[i], "%s", br_extreme_names[i].title);
-    for (size_t i = 0; i < BR_EXTREME_PLANES; i++) {
-        const struct br_extreme_plane *plane = &br_extreme_planes[i];
-        struct br_panel *p = br_panel_add(figure, plane->x.title, plane->y.title);
-        struct br_cells *c = br_cells_make(figure, plane->x.cells, plane->y.cells);
-        p->log_x = p->log_y = true;
-        BR_SAY(p->title, "%s", plane->title);
-        if (!c)
-            break;
-        fill_edges(&plane->x, c->x);
-        fill_edges(&plane->y, c->y);
-        br_extreme_plane_fill(map, plane, c->value);
     }
     return picture;
 }

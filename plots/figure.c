@@ -167,8 +167,6 @@ struct br_range br_extent(const struct br_panel *p, bool along_y)
 
 double br_colour_of(const struct br_figure *f, double value)
 {
-    if (f->kinds)
-        return value >= 0 && value < (double)f->kinds ? value : -1;
     return isnan(value) ? -1 : fmin(fmax(value, f->value.low), f->value.high);
 }
 
@@ -242,8 +240,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
         write_comment_line(out, f->about);
     if (f->hollow[0])
         fprintf(out, "# A flag tells why a point is %s; - for none.\n", f->hollow);
-    for (size_t k = 0; k < f->kinds; k++)
-        fprintf(out, "# value %zu: %s\n", k, f->kind[k]);
     for (size_t i = 0; i < f->panels; i++) {
         const struct br_panel *p = &f->panel[i];
         if (p->cells.columns) {

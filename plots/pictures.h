@@ -15,9 +15,7 @@
 
 struct br_named_method;
 struct br_orders;
-struct br_energy_behaviour;
 struct br_example;
-struct br_extreme_map;
 struct br_floors;
 struct br_history_record;
 struct br_paper;
@@ -41,7 +39,6 @@ struct br_trial;
 enum {
     BR_FIGURE_PANELS = 6,
     BR_FIGURE_NOTES = 3,
-    BR_FIGURE_KINDS = 8,
     BR_HUES = 6 /* that people can distinguish; each has a dash and a mark of its own */
 };
 
@@ -110,11 +107,9 @@ struct br_figure {
     size_t panels;
     bool failed;
     struct br_series lost; /* a filler gets this one when there is no memory */
-    /* Colours of cells: by size, with white at 1, for factors; else names of the kinds 0, 1, ... */
+    /* Colours of cells: by size, with white at 1, for factors. */
     char value_label[96];
     struct br_range value; /* the ends of the colours: below and above 1 */
-    char kind[BR_FIGURE_KINDS][64];
-    size_t kinds;
 };
 
 /* Fills a text of a figure. */
@@ -227,11 +222,8 @@ struct br_figure br_variation_draw(const struct br_variation *variation);
 /* Deviation from the exact discrete solution over n, at time step number k; or, for round-off that
  * adds up, over the number of steps. */
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
-/* Loss of energy per period over steps per period. */
-struct br_figure br_energy_draw(const struct br_energy_behaviour *behaviour);
-/* The lagged contact's growth over c_H and k; and the main kind in each cell of the map. */
+/* The lagged contact's growth over c_H and k. */
 struct br_figure br_stability_draw(const struct br_stability *stability);
-struct br_figure br_extreme_map_draw(const struct br_extreme_map *map);
 
 /* ---- paper.c: Figures 2 to 10 ---- */
 

@@ -40,10 +40,6 @@ static const char *const styles[BR_PENS] = {
 };
 static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
 
-/* Colours of verdicts: serious ones are dark, right ones are pale, also when printed in grey. */
-static const char *const kind_colours[BR_FIGURE_KINDS] = {
-    "#cce5f5", "#e69f00", "#d55e00", "#cc79a7", "#0072b2", "#f0e442", "#000000", "#009e73"};
-
 static const char empty_style[] = "lc rgb '#aaaaaa' fs pattern 4 border";
 
 static int mark_of(const struct br_series *s)
@@ -129,10 +125,6 @@ static void add_entries(const struct br_figure *f, struct key *key)
 {
     size_t empty = 0;
     char style[80];
-    for (size_t k = 0; k < f->kinds; k++) {
-        BR_SAY(style, "boxes lc rgb '%s' fs solid 1 border lc rgb '#666666'", kind_colours[k]);
-        add_entry(key, f->kind[k], style, NULL);
-    }
     for (size_t i = 0; i < f->panels; i++)
         for (size_t k = 0; k < f->panel[i].cells.rows * f->panel[i].cells.columns; k++)
             empty += br_colour_of(f, f->panel[i].cells.value[k]) < 0;
@@ -150,7 +142,7 @@ static struct page lay_out(const struct br_figure *f)
     l.across = n <= 3 ? n : n == 4 ? 2 : 3;
     l.down = (n + l.across - 1) / l.across;
     l.height = l.down > 1 ? 1250 : 800;
-    l.bar = f->panel[0].cells.columns && !f->kinds ? BAR : 0;
+    l.bar = f->panel[0].cells.columns ? BAR : 0;
     for (size_t i = 0; i < BR_FIGURE_NOTES; i++)
         l.top += f->note[i][0] ? LINE - 4 : 0;
     add_entries(f, &key);
@@ -196,19 +188,12 @@ void br_script_head(FILE *out, const char *title, const char *stem, const char *
     fputs("\ndata = stem.'.dat'\n", out);
 }
 
-/* Kinds have their colours; factors go from blue over white, which is 1, to red. */
+/* Factors go from blue over white, which is 1, to red. */
 static void write_palette(FILE *out, const struct br_figure *f)
 {
-    fputs("set palette defined (", out);
-    for (size_t k = 0; k < f->kinds; k++)
-        fprintf(out, "%s%zu '%s'", k ? ", " : "", k, kind_colours[k]);
-    if (f->kinds) {
-        fprintf(out, ")\nset cbrange [0:%zu]\nunset colorbox\n", f->kinds > 1 ? f->kinds - 1 : 1);
-        return;
-    }
     const double white = -log(f->value.low) / log(f->value.high / f->value.low);
     fprintf(out,
-            "0 '#0072b2', %.6g '#ffffff', %.6g '#d55e00', 1 '#5c1a00')\n"
+            "set palette defined (0 '#0072b2', %.6g '#ffffff', %.6g '#d55e00', 1 '#5c1a00')\n"
             "set cbrange [%.12g:%.12g]\nset logscale cb\nset format cb '10^{%%L}'\nset cblabel ",
             white, (1 + white) / 2, f->value.low, f->value.high);
     br_quote(out, &br_for_gnuplot, f->value_label);

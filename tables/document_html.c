@@ -206,7 +206,7 @@ static const struct br_markup html = {
     .classes = classes,
 };
 
-/* The title; of several reports "beamrate extremes" of the format "beamrate extremes map". */
+/* The title; of several reports "beamrate extremes" of the format "beamrate extremes floors". */
 static void print_title(const struct br_markup_page *p, const struct br_document *d, size_t count)
 {
     const size_t first = strcspn(d->format, " "), blank = d->format[first] == ' ';

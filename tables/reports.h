@@ -9,9 +9,7 @@
 
 struct br_check;
 struct br_comparison;
-struct br_energy_behaviour;
 struct br_estimate;
-struct br_extreme_map;
 struct br_finding;
 struct br_floors;
 struct br_old_check;
@@ -109,7 +107,5 @@ void br_report_plan(const struct br_plan *plan, const char *scene_word,
 
 void br_report_floors(const struct br_floors *floors, struct br_document *d);
 void br_report_stability(const struct br_stability *stability, struct br_document *d);
-void br_report_energy(const struct br_energy_behaviour *behaviour, struct br_document *d);
-void br_report_map(const struct br_extreme_map *map, struct br_document *d);
 
 #endif

@@ -73,7 +73,7 @@ offers_only 'csv,latex' beamrate study example1 --format = csv,l
 offers_only mine.yaml beamrate study mine
 offers_only '--version' beamrate --v
 offers fish beamrate completions ''
-offers_only map beamrate extremes floors ma
+offers_only stability beamrate extremes floors stab
 offers methods beamrate help ''
 offers_only folder beamrate study -o ''
 

@@ -139,5 +139,5 @@ found=$(draw "$1")
 mistakes=$(echo "$found" | sed '$d')
 files=$(echo "$found" | sed '$!d; s/ files//')
 [ -z "$mistakes" ] || echo "$mistakes" >&2
-[ "$files" -gt 300 ] || echo "only $files files in $1" >&2
-[ -z "$mistakes" ] && [ "$files" -gt 300 ] && [ "$failures" -eq 0 ]
+[ "$files" -gt 280 ] || echo "only $files files in $1" >&2
+[ -z "$mistakes" ] && [ "$files" -gt 280 ] && [ "$failures" -eq 0 ]

@@ -7,7 +7,7 @@
 
 struct heard {
     char line[512];
-    size_t rows, kept;
+    size_t rows;
 };
 
 /* ---- what it says ---- */
@@ -58,64 +58,39 @@ static void draw(const struct br_extremes_output *to)
     br_session_draw(to->session, to->report, cells, NULL);
 }
 
-/* ---- fast: seed 13 is wrong, seed 14 refused, seed 15 a failure ---- */
-
-static enum br_status write_scene(const char *folder, struct br_error *err)
-{
-    char path[1200];
-    snprintf(path, sizeof path, "%s/fast-13.yaml", folder);
-    FILE *file = fopen(path, "w");
-    if (!file)
-        return br_fail(err, BR_IO, "%s", path);
-    fputs("a reproducer\n", file);
-    return fclose(file) == 0 ? BR_OK : br_fail(err, BR_IO, "%s", path);
-}
+/* ---- fast: n = 13 is wrong, 14 refused, 15 a failure ---- */
 
 static enum br_status run_fast(const struct br_extremes_job *j, const struct br_extremes_output *to,
                                struct br_error *err)
 {
-    if (j->seed == 14)
+    const size_t n = j->n_count ? j->n[j->n_count - 1] : 0;
+    if (n == 14)
         return br_fail(err, BR_BAD_INPUT, "14 is refused");
-    if (j->seed == 15)
+    if (n == 15)
         return br_fail(err, BR_NOT_FINITE, "15 failed");
-    struct heard heard = {.kept = 0}, *h = &heard;
-    snprintf(h->line, sizeof h->line,
-             "cases %zu, seed %llu, threads %d, rounding %d, %zu n up to %zu, %zu k, kept %s",
-             j->cases, (unsigned long long)j->seed, j->threads, j->rounding, j->n_count,
-             j->n_count ? j->n[j->n_count - 1] : 0, j->k_count, j->kept ? "somewhere" : "nowhere");
-    h->rows = 3;
+    struct heard heard = {.rows = 3}, *h = &heard;
+    snprintf(h->line, sizeof h->line, "threads %d, rounding %d, %zu n up to %zu, %zu k", j->threads,
+             j->rounding, j->n_count, n, j->k_count);
     report(h, "fast", to->report);
-    if (j->seed == 13) {
+    if (n == 13)
         br_fail(to->verdict, BR_VERDICT, "13 is silently wrong");
-        if (write_scene(j->folder, err))
-            return err->status;
-    }
     draw(to);
     return BR_OK;
 }
 
-/* ---- slow: cases that take 10 ms each and are kept ---- */
+/* ---- slow: n times 10 ms ---- */
 
 static enum br_status run_slow(const struct br_extremes_job *j, const struct br_extremes_output *to,
                                struct br_error *err)
 {
-    struct heard heard = {.kept = 0}, *h = &heard;
+    struct heard heard = {.rows = 0}, *h = &heard;
     enum br_status status = BR_OK;
-    for (; h->rows < j->cases && !status; h->rows++) {
-        char what[32], key[BR_SHA256_TEXT], done = 1;
-        snprintf(what, sizeof what, "case %zu", h->rows);
-        br_kept_key(&j->kept->base, what, key);
-        if (br_kept_read_into(j->kept, key, &done, sizeof done)) {
-            h->kept++;
-            continue;
-        }
+    for (; h->rows < j->n[0] && !status; h->rows++) {
         usleep(10000);
-        br_kept_write(j->kept, key, &done, sizeof done);
         if (j->observer->stop(j->observer->self))
             status = br_fail(err, BR_INTERRUPTED, "interrupted");
     }
-    snprintf(h->line, sizeof h->line, "%s was done before, and is %zu cases now",
-             h->kept ? "something" : "nothing", h->rows);
+    snprintf(h->line, sizeof h->line, "%zu are done", h->rows);
     report(h, "slow", to->report);
     return status;
 }
@@ -124,14 +99,13 @@ const struct br_extremes_experiment br_extremes_experiments[] = {
     {
         .name = "fast",
         .title = "says what it was asked for",
-        .accepts = BR_ACCEPTS(CASES) | BR_ACCEPTS(SEED) | BR_ACCEPTS(N) | BR_ACCEPTS(K) |
-                   BR_ACCEPTS(ROUNDING),
+        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
         .run = run_fast,
     },
     {
         .name = "slow",
         .title = "takes long",
-        .accepts = BR_ACCEPTS(CASES) | BR_ACCEPTS(RESUME),
+        .accepts = BR_ACCEPTS(N),
         .run = run_slow,
     },
     {0},

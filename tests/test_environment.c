@@ -12,7 +12,7 @@
 
 #include "reference/certificate/certificate.h"
 #include "study/scene/file.h"
-#include "study/scene/rescale.h"
+#include "rescale.h"
 #include "support.h"
 
 enum { MOST = 2 * 100 };

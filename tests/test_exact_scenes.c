@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/rescale.h"
 #include "tests/exact_scenes.h"
+#include "tests/rescale.h"
 
 static const char *const scenes[] = {"example1", "example2", "example3",  "example4", "impact",
                                      "reversal", "chatter",  "vibration", "release",  "lively"};

@@ -10,7 +10,7 @@
 
 #include "made_report.h"
 #include "plots/pictures.h"
-#include "study/extremes/map.h"
+#include "study/extremes/extremes.h"
 #include "study/run/history.h"
 
 /* ---- any figure ---- */
@@ -59,15 +59,10 @@ static void fill_cells(struct br_figure *f)
     br_point_add(line, 1e4, 1, NULL);
 }
 
-static struct br_figure made(size_t panels, bool cells, size_t kinds)
+static struct br_figure made(size_t panels, bool cells)
 {
-    struct br_figure f = {.stem = "made",
-                          .title = "A \"map\" of 'it'",
-                          .hollow = "not fitted",
-                          .value = {1e-2, 10},
-                          .kinds = kinds};
-    for (size_t k = 0; k < kinds; k++)
-        BR_SAY(f.kind[k], "kind %zu", k);
+    struct br_figure f = {
+        .stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted", .value = {1e-2, 10}};
     for (size_t i = 0; i < panels; i++)
         cells ? fill_cells(&f) : fill_curves(&f);
     return f;
@@ -92,21 +87,16 @@ static void print(FILE *out, struct br_figure f)
 
 static void print_made(FILE *out)
 {
-    print(out, made(2, false, 0));
-    print(out, made(2, true, 0));
-    print(out, made(1, true, 2));
+    print(out, made(2, false));
+    print(out, made(2, true));
 }
 
-/* Infinity has the end's colour; no number and no kind has none. */
+/* Infinity has the end's colour; no number has none. */
 TEST(test_colours)
 {
     struct br_figure f = {.value = {1e-2, 10}};
     assert_true(br_colour_of(&f, 0) == 1e-2 && br_colour_of(&f, INFINITY) == 10);
     assert_true(br_colour_of(&f, 2) == 2 && br_colour_of(&f, NAN) == -1);
-    f.kinds = 2;
-    assert_true(br_colour_of(&f, 0) == 0 && br_colour_of(&f, 1) == 1);
-    assert_true(br_colour_of(&f, 2) == -1 && br_colour_of(&f, -1) == -1);
-    assert_true(br_colour_of(&f, NAN) == -1);
 }
 
 /* At most six hues in a figure; the same title looks the same in the next panel. */
@@ -184,8 +174,8 @@ TEST(test_drawn)
 {
     bool drawn = true;
     for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++)
-        for (size_t how = 0; how < 3; how++) {
-            struct br_figure f = made(panels, how > 0, how == 2 ? 2 : 0);
+        for (size_t how = 0; how < 2; how++) {
+            struct br_figure f = made(panels, how > 0);
             drawn = draw(&f) && drawn;
             br_figure_clear(&f);
         }
@@ -287,46 +277,6 @@ static void print_drifts(FILE *out)
     print(out, br_floors_draw(&d, 0));
 }
 
-/* Two schemes, undamped and damped. */
-static void print_energy(FILE *out)
-{
-    static struct br_vibration_row row[4];
-    for (int i = 0; i < 4; i++) {
-        row[i] = (struct br_vibration_row){
-            .scheme = br_time_schemes[i % 2], .kind = BR_AXIAL, .damping = i < 2 ? 0 : 0.01};
-        for (int r = 0; r < BR_VIBRATION_RATES; r++)
-            for (int density = 0; density < BR_VIBRATION_DENSITIES; density++)
-                row[i].at[r][density] =
-                    (struct br_vibration){.steps = 10 * (r + 1) + i,
-                                          .measured = -1e-3 * (r + 1 + 10 * i) * (density + 1),
-                                          .predicted = 1e-5 * (r + 1 + 10 * i) * (density + 1)};
-    }
-    print_data(out,
-               br_energy_draw(&(struct br_energy_behaviour){.vibration = row, .vibrations = 4}));
-}
-
-static void print_map(FILE *out)
-{
-    enum { CASES = 40 };
-    static struct br_extreme_case one[CASES];
-    static struct br_extreme_verdict verdict[CASES];
-    for (size_t i = 0; i < CASES; i++) {
-        br_extreme_draw(1, i, &one[i]);
-        verdict[i].which = (enum br_extreme_class)(i % BR_EXTREME_CLASSES);
-    }
-    const struct br_extreme_map map = {.cases = CASES, .one = one, .verdict = verdict};
-    char *text = NULL;
-    size_t size;
-    FILE *all = open_memstream(&text, &size);
-    assert_non_null(all);
-    print(all, br_extreme_map_draw(&map));
-    fclose(all);
-    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
-        if (!strstr(line, " NaN -1")) /* most cells are empty */
-            fprintf(out, "%s\n", line);
-    free(text);
-}
-
 /* ---- a run ---- */
 
 enum { LOOKS = 3 };
@@ -370,7 +320,5 @@ TEST(test_stored)
     br_test_stored("study_pictures", print_study, 1e-12);
     br_test_stored("floors", print_floors, 1e-12);
     br_test_stored("drifts", print_drifts, 1e-12);
-    br_test_stored("energy", print_energy, 1e-12);
-    br_test_stored("map", print_map, 1e-12);
     br_test_stored("history", print_history, 1e-12);
 }

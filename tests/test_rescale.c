@@ -8,7 +8,7 @@
 
 #include "study/grid/sweep.h"
 #include "study/run/run.h"
-#include "study/scene/rescale.h"
+#include "rescale.h"
 #include "support.h"
 
 enum { NORMS = BR_TEST_NORMS, MESHES = 3, STEPS = 3 };

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "reference/energy/energy.h"
 #include "solver/laws.h"
 #include "study/grid/each.h"
 #include "study/run/run.h"

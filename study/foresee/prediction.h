@@ -11,7 +11,7 @@
  * theory. Switching (stick and slip, contact) lowers orders above one, but coarse marches do not
  * show this: the upper bound then assumes order one.
  *
- * tests/test_prediction.c and each case of `extremes map` compare predictions with the exact
+ * tests/test_prediction.c and each case of `tests/lab/map.c` compare predictions with the exact
  * solution. */
 #ifndef BR_STUDY_FORESEE_PREDICTION_H
 #define BR_STUDY_FORESEE_PREDICTION_H

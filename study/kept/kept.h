@@ -22,7 +22,7 @@ struct br_kept {
     double
         most_reference; /* the share of it that the reference may take, which is marched in each */
     struct br_sha256 base; /* executable, machine and scene */
-    atomic_size_t taken;   /* cells, trials, cases */
+    atomic_size_t taken;   /* cells, trials */
     atomic_size_t bad;     /* entries that were damaged, */
     atomic_size_t lost;    /* or could not be written */
 };

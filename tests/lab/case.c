@@ -4,23 +4,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extremes/map.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
-#include "study/scene/random.h"
 #include "study/scene/schema.h"
 #include "study/scene/words.h"
-
-const char *const br_extreme_specials[] = {
-    [BR_SPECIAL_NONE] = "none",
-    [BR_SPECIAL_AT_LIMIT] = "c_H at the stability limit",
-    [BR_SPECIAL_AT_REACTION] = "bound equal to the reaction",
-    [BR_SPECIAL_REVERSAL] = "slip reverses within a step",
-    [BR_SPECIAL_GRAZING] = "tip grazes the foundation",
-    [BR_SPECIAL_DENORMAL] = "denormal loads",
-    [BR_SPECIAL_ZEROS] = "numbers that are 0",
-};
+#include "tests/lab/map.h"
+#include "tests/lab/random.h"
 
 /* ---- forces ---- */
 
@@ -443,9 +433,8 @@ static void add_field(char *t, const struct br_extreme_case *c, enum br_field_ki
 
 void br_extreme_scene(const struct br_extreme_case *c, char text[BR_EXTREME_TEXT])
 {
-    char command[BR_EXTREME_COMMAND], name[64];
-    snprintf(name, sizeof name, "wrong-%zu.yaml", c->index);
-    br_extreme_command(c, name, command);
+    char command[BR_EXTREME_COMMAND];
+    br_extreme_command(c, "case.yaml", command);
     *text = '\0';
     br_append(text, BR_EXTREME_TEXT, "# Case %zu of seed %llu. %s\n", c->index,
               (unsigned long long)c->seed, command);

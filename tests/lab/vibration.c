@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "study/extremes/extremes.h"
+#include "tests/lab/energy.h"
 
 /* ---- the lowest mode ---- */
 
@@ -204,7 +205,6 @@ static enum br_status march(struct trial *t, struct br_error *err)
     const double ideal = 2 * v->damping * t->mode.omega * t->k * (double)v->per_period;
     enum br_status status = advance(t, first_steps(v), err);
     const double before = amplitude(t);
-    const size_t steps = br_march_counts(t->march).steps;
     if (!status)
         status = advance(t, PERIODS * v->per_period, err);
     if (status) {
@@ -212,7 +212,6 @@ static enum br_status march(struct trial *t, struct br_error *err)
         v->failure = *err;
         return status == BR_NOT_FINITE ? BR_OK : status;
     }
-    v->steps = (double)(br_march_counts(t->march).steps - steps) / PERIODS;
     v->measured = -expm1(log(amplitude(t) / before) / PERIODS + ideal);
     predict(t);
     return BR_OK;

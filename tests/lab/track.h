@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Samples of one march at a few times and points, so that marches can be compared: on finer meshes,
- * by smaller steps, in other units, and with the exact solution. */
-#ifndef BR_STUDY_EXTREMES_TRACK_H
-#define BR_STUDY_EXTREMES_TRACK_H
+ * by smaller steps, and with the exact solution. */
+#ifndef BR_TESTS_LAB_TRACK_H
+#define BR_TESTS_LAB_TRACK_H
 
 #include "reference/exact/exact.h"
 #include "study/run/run.h"
@@ -29,13 +29,10 @@ struct br_track {
     /* Displacements by br_field_kind, and L w_x/4, which is about the bulge of a beam with a fixed
      * tip; m. */
     double value[BR_TRACK_VALUES][BR_TRACK_LEVELS + 1][BR_TRACK_POINTS];
-    size_t seen;         /* sampled levels */
-    bool finite;         /* all nodal values there */
-    double largest[2];   /* of all nodal displacements there, m */
-    double own_error[2]; /* error that an exact solution states of itself, m */
-    double speed[2];     /* of the nodes there, and of the tip at every step, m/s */
-    double unforced[2];  /* distances that the tip would move without the forces of the laws, summed
-                            over the steps, m: its displacements are differences from these */
+    size_t seen;                 /* sampled levels */
+    bool finite;                 /* all nodal values there */
+    double largest[2];           /* of all nodal displacements there, m */
+    double own_error[2];         /* error that an exact solution states of itself, m */
     struct br_run_report report; /* its scenes are freed */
     struct br_error failure;     /* BR_OK; why it did not begin, or stopped */
     bool begun;
@@ -49,7 +46,6 @@ struct br_track_request {
     const struct br_track_samples *samples;
     size_t finer, shorter; /* factors of the elements and steps of `samples` */
     bool check;            /* the certificate of every step */
-    int rounding;          /* as fesetround takes it */
 };
 
 /* Marches; *track (out, large: on the heap). A march that fails is a result: only BR_NO_MEMORY
@@ -64,10 +60,10 @@ enum br_status br_track_exact(const struct br_scene *modelled,
                               struct br_track *track, struct br_error *err);
 
 /* The largest difference of a field over the largest of its displacements in `reference`, or where
- * those are all zero over that of the other field's; `unit`: one metre of the reference in the
- * track's unit. 0 where there is no difference, NAN where a value is not finite or missing. */
+ * those are all zero over that of the other field's. 0 where there is no difference, NAN where a
+ * value is not finite or missing. */
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
-                         enum br_field_kind kind, double unit);
+                         enum br_field_kind kind);
 
 /* The error of a field: the largest root of the mean square over x of all levels, relative to that
  * of `reference` as in br_track_distance. *sure_to (out): the reference's own error, relative to

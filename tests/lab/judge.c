@@ -5,13 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/extremes/map.h"
-#include "study/extremes/track.h"
+#include "study/extremes/extremes.h"
 #include "study/foresee/prediction.h"
+#include "study/foresee/warnings.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
-#include "study/scene/random.h"
-#include "study/scene/rescale.h"
+#include "tests/lab/map.h"
+#include "tests/lab/track.h"
 
 enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive schemes */
 
@@ -33,16 +33,8 @@ struct trial {
 
 static const double no_digit = 0.05; /* predicted round-off that leaves no correct digit */
 
-const struct br_extreme_names br_extreme_names[] = {
-    {"right", "right", "right"},
-    {"inaccurate", "stable but inaccurate, and says so", "inaccurate, said"},
-    {"not-known", "inaccurate, and says that its error is not known",
-     "inaccurate, error not known"},
-    {"unstable", "unstable as predicted", "unstable as predicted"},
-    {"refused", "refused", "refused"},
-    {"unjudged", "given up by the map", "given up by the map"},
-    {"wrong", "silently wrong", "silently wrong"},
-};
+const char *const br_extreme_words[] = {"right",   "inaccurate", "not-known", "unstable",
+                                        "refused", "unjudged",   "wrong"};
 
 const char *const br_extreme_judges[] = {"nobody", "the exact solution", "refinement"};
 
@@ -78,8 +70,7 @@ static struct br_track_request request_of(const struct trial *t)
                                      .method = &t->method,
                                      .samples = &t->samples,
                                      .finer = 1,
-                                     .shorter = 1,
-                                     .rounding = t->judging->rounding};
+                                     .shorter = 1};
 }
 
 /* ---- how accurate it is: by the exact solution or by refinement, against what is stated ---- */
@@ -213,114 +204,6 @@ static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
     return status;
 }
 
-/* ---- whether other units change the answer ---- */
-
-static const double noise = 1e-12; /* relative change of data, larger than that by other units */
-static const double magnified = 8; /* times the effect of such noise: the allowed difference */
-
-static enum br_status march_changed(struct trial *t, const struct br_scene *changed, double unit,
-                                    double *distance, struct br_error *err)
-{
-    struct br_track_request request = request_of(t);
-    request.scene = changed;
-    const enum br_status status = br_track_march(&request, t->other, err);
-    *distance = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        *distance = br_worst(*distance,
-                             br_track_distance(t->other, t->own, (enum br_field_kind)kind, unit));
-    return status;
-}
-
-/* *exist (out): whether all numbers of the scene can be represented in those units. */
-static enum br_status march_in_other_units(struct trial *t, bool *exist, struct br_error *err)
-{
-    struct br_random r = br_random_of(t->one->seed ^ 0x5ca1e, t->one->index);
-    const struct br_units_change units = {
-        br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3), br_random_decades(&r, -3, 3)};
-    struct br_scene changed = {0};
-    enum br_status status = br_rescale(&t->scene, &units, &changed, err);
-    *exist = !status;
-    if (!status)
-        status = march_changed(t, &changed, units.metre, &t->verdict->units, err);
-    br_scene_clear(&changed);
-    return status == BR_BAD_INPUT ? BR_OK : status; /* a number is out of range in these units */
-}
-
-/* The largest effect of small noise on the answer. Where a last bit decides between stick and slip,
- * half of the tries decide otherwise. */
-static enum br_status march_with_noise(struct trial *t, double *most, struct br_error *err)
-{
-    *most = 0;
-    for (unsigned try = 0; try < 8; try++) {
-        struct br_scene changed = {0};
-        double distance = 0;
-        enum br_status status =
-            br_perturb(&t->scene, noise, t->one->seed + t->one->index + try, &changed, err);
-        if (!status)
-            status = march_changed(t, &changed, 1, &distance, err);
-        br_scene_clear(&changed);
-        if (status == BR_BAD_INPUT)
-            continue;
-        if (status)
-            return status;
-        *most = isnan(distance) ? INFINITY : fmax(*most, distance);
-    }
-    return BR_OK;
-}
-
-/* An adaptive scheme accepts or refuses a step by a comparison that a last bit can decide. So its
- * marches agree to the stated error, and to this many times the tolerance. */
-static const double of_tolerance = 100;
-
-static double control(const struct trial *t)
-{
-    if (!t->method.scheme->adaptive)
-        return 0;
-    double stated = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        stated = fmax(stated, br_predicted_most(&t->prediction, (enum br_field_kind)kind));
-    return fmin(stated, of_tolerance * t->method.tolerance);
-}
-
-/* The effect that rounding may have on the displacements, relative to the largest: the predicted
- * round-off, the larger one of both units, since assembled matrices are rounded differently; the
- * tolerance of an iteration; the rounding of velocities, whose sums are the displacements; the
- * rounding of the distances that the tip would move without the forces of the laws, since its
- * displacement is a difference from these; and the effect of adaptive steps. */
-static double allowed(const struct trial *t)
-{
-    const double k = t->marched.duration / (double)t->one->steps;
-    double ways = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (t->own->largest[kind] > 0)
-            ways = fmax(ways,
-                        (k * t->own->speed[kind] + t->own->unforced[kind]) / t->own->largest[kind]);
-    const double iteration = t->method.friction->iterates ? t->method.iteration.tolerance : 0;
-    const double predicted = fmax(t->verdict->round_off, t->other->report.round_off);
-    return 16 * (predicted + DBL_EPSILON * ways) + 4 * iteration + control(t);
-}
-
-static enum br_status judge_units(struct trial *t, struct br_error *err)
-{
-    double by_noise;
-    bool exist;
-    enum br_status status = march_in_other_units(t, &exist, err);
-    if (status || !exist)
-        return status;
-    const double units = t->verdict->units, limit = allowed(t);
-    const bool refused = !t->other->begun || (t->other->failure.status && limit >= 1);
-    if (units <= limit || (isnan(units) && refused))
-        return status;
-    char why[120];
-    snprintf(why, sizeof why, "%.110s", t->other->failure.message);
-    status = march_with_noise(t, &by_noise, err);
-    if (!status && !(units <= magnified * by_noise))
-        decide(t, BR_EXTREME_WRONG,
-               "in other units it differs by %.2g; round-off explains %.2g, noise %.2g %s", units,
-               limit, by_noise, why);
-    return status;
-}
-
 /* ---- before the march ---- */
 
 /* A failure that the program reports: the case is refused. */
@@ -368,7 +251,6 @@ static enum br_status march(struct trial *t, struct br_error *err)
     enum br_status status = br_track_march(&request, t->own, err);
     if (status)
         return status;
-    t->verdict->round_off = own->report.round_off;
     if (own->report.contact_unstable)
         t->verdict->warned |= 1u << BR_WARN_UNSTABLE;
     if (own->failure.status)
@@ -392,9 +274,6 @@ static enum br_status judge(struct trial *t, struct br_error *err)
         status = march(t, err);
     if (!status && !t->done)
         status = judge_accuracy(t, err);
-    if (!status && t->own->begun && !t->own->failure.status && !t->judging->quick &&
-        t->verdict->which != BR_EXTREME_WRONG && t->verdict->which != BR_EXTREME_UNSTABLE)
-        status = judge_units(t, err);
     return status;
 }
 
@@ -402,8 +281,7 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 const struct br_extreme_judging *judging,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    *verdict =
-        (struct br_extreme_verdict){.error = NAN, .stated = NAN, .units = NAN, .round_off = NAN};
+    *verdict = (struct br_extreme_verdict){.error = NAN, .stated = NAN};
     struct trial t = {.one = one, .judging = judging, .verdict = verdict, .method = one->method};
     t.method.most_steps = MOST_STEPS;
     t.samples = br_track_samples(one->n, one->steps);

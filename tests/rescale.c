@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/rescale.h"
+#include "tests/rescale.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "study/scene/expression.h"
-#include "study/scene/random.h"
 #include "study/scene/schema.h"
 #include "study/scene/units.h"
 
@@ -24,25 +23,16 @@ static struct br_dimension dimension_of(const struct br_scene *s, const void *me
     return unit.of;
 }
 
-/* A change of a scene: other units, or noise. */
 struct change {
     struct br_units_change to;
-    double noise;
-    struct br_random random;
     enum br_status status;
     struct br_error *err;
 };
 
-/* 1, or with noise a random number near 1. */
-static double noisy(struct change *c)
-{
-    return 1 + c->noise * br_random_uniform(&c->random, -1, 1);
-}
-
 static double factor_of(struct change *c, struct br_dimension u)
 {
     return pow(c->to.metre, u.metre) * pow(c->to.second, u.second) *
-           pow(c->to.kilogram, u.kilogram) * noisy(c);
+           pow(c->to.kilogram, u.kilogram);
 }
 
 static void scale(struct change *c, double *value, struct br_dimension u)
@@ -83,8 +73,8 @@ static void scale_function(struct change *c, struct br_function *f, struct br_di
             scale(c, &f->constant, u);
         return;
     }
-    const double factor = factor_of(c, u), metre = c->to.metre * noisy(c);
-    const enum br_status status = put_scaled(f, factor, metre, c->to.second * noisy(c), c->err);
+    const double factor = factor_of(c, u), metre = c->to.metre;
+    const enum br_status status = put_scaled(f, factor, metre, c->to.second, c->err);
     c->status = c->status ? c->status : status;
 }
 
@@ -146,11 +136,8 @@ static enum br_status apply(const struct br_scene *scene, struct change *c, stru
     memset(out->derived, 0, sizeof out->derived);
     copy_functions(out, c);
     change_all(c, out);
-    const double noise = c->noise;
-    c->noise = 0;
     scale(c, &out->length, dimension_of(out, &out->length));
     scale(c, &out->duration, dimension_of(out, &out->duration));
-    c->noise = noise;
     return c->status;
 }
 
@@ -158,13 +145,5 @@ enum br_status br_rescale(const struct br_scene *scene, const struct br_units_ch
                           struct br_scene *out, struct br_error *err)
 {
     struct change change = {.to = *units, .err = err};
-    return apply(scene, &change, out);
-}
-
-enum br_status br_perturb(const struct br_scene *scene, double size, unsigned long long seed,
-                          struct br_scene *out, struct br_error *err)
-{
-    struct change change = {
-        .to = {1, 1, 1}, .noise = size, .random = br_random_of(seed, 0), .err = err};
     return apply(scene, &change, out);
 }

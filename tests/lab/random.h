@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A reproducible generator of random numbers: SplitMix64 (Steele, Lea and Flood 2014). */
-#ifndef BR_STUDY_SCENE_RANDOM_H
-#define BR_STUDY_SCENE_RANDOM_H
+#ifndef BR_TESTS_LAB_RANDOM_H
+#define BR_TESTS_LAB_RANDOM_H
 
 #include <math.h>
 #include <stddef.h>

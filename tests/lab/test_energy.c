@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What schemes take from a free vibration, and the page that says so. */
+/* What schemes take from a free vibration, and each step's balance of energy. */
 #include <complex.h>
 #include <math.h>
 #include <string.h>
 
-#include "study/extremes/extremes.h"
-#include "study/grid/observer.h"
-#include "support.h"
+#include "tests/lab/energy.h"
+#include "tests/support.h"
 
 /* e^z to the scheme's order; Euler's is 1/(1 - z). */
 TEST(test_amplification)
@@ -76,7 +75,6 @@ TEST(test_one)
     assert_true(v.end == BR_VIBRATION_DONE && v.measured < 0 && br_vibration_is_right(&v));
 }
 
-/* That all rows of the part are right is seen by `golden extremes_energy`. */
 TEST(test_balance_row)
 {
     struct br_balance_row row = {.limit = 1e-11, .worst = 1e-12};
@@ -87,18 +85,28 @@ TEST(test_balance_row)
     assert_false(br_balance_row_is_right(&row));
 }
 
-static bool give_up(void *self)
-{
-    (void)self;
-    return true;
-}
-
-TEST(test_interrupted)
+/* By every scheme, in every scene. The theory says how much each takes. */
+TEST(test_all)
 {
     struct br_error err = {0};
     struct br_energy_behaviour b;
-    const struct br_observer observer = {.stop = give_up};
-    const struct br_extremes_job job = {.threads = 2, .observer = &observer};
-    REFUSED(br_energy_behaviour_run(&b, &job, &err), BR_INTERRUPTED, "interrupted");
+    size_t done = 0;
+    MUST(br_energy_behaviour_run(&b, &err));
+    for (size_t i = 0; i < b.vibrations; i++) {
+        done += b.vibration[i].at[0][0].end == BR_VIBRATION_DONE;
+        if (!br_vibration_row_is_right(&b.vibration[i]))
+            fail_msg("scheme %s does not take from a free vibration what its stability function "
+                     "tells, or a step's balance does not close",
+                     b.vibration[i].scheme->name);
+    }
+    for (size_t i = 0; i < b.balances; i++) {
+        done += b.balance[i].end == BR_VIBRATION_DONE;
+        if (!br_balance_row_is_right(&b.balance[i]))
+            fail_msg("%s by scheme %s: what is missing in the energy balance of a step is %.3g of "
+                     "the terms' sum, expected at most %.3g",
+                     b.balance[i].scene->name, b.balance[i].scheme->name, b.balance[i].worst,
+                     b.balance[i].limit);
+    }
+    assert_true(done > 100);
     br_energy_behaviour_clear(&b);
 }

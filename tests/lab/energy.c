@@ -6,6 +6,7 @@
 #include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 #include "study/scene/file.h"
+#include "tests/lab/energy.h"
 
 /* ---- the scenes ---- */
 
@@ -118,12 +119,11 @@ static enum br_status march(struct br_balance_row *row, struct br_march *march,
                             struct br_energy_meter *meter, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (row->marched = 0; row->marched < STEPS && !status; row->marched += !status) {
+    for (size_t i = 0; i < STEPS && !status; i++) {
         status = br_march_step(march, err);
         if (!status)
             row->worst = br_worst(row->worst, br_energy_meter_step(meter));
     }
-    br_energy_meter_read(meter, &row->start, &row->now, &row->work);
     if (status != BR_NOT_FINITE)
         return status;
     row->end = BR_VIBRATION_FAILED;
@@ -187,16 +187,12 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
     return status;
 }
 
-enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b,
-                                       const struct br_extremes_job *job, struct br_error *err)
+enum br_status br_energy_behaviour_run(struct br_energy_behaviour *b, struct br_error *err)
 {
     *b = (struct br_energy_behaviour){0};
     const enum br_status status = list(b, err);
-    const struct br_each each = {.count = b->vibrations + b->balances,
-                                 .threads = job->threads,
-                                 .observer = job->observer,
-                                 .turn = take_turn,
-                                 .self = b};
+    const struct br_each each = {
+        .count = b->vibrations + b->balances, .turn = take_turn, .self = b};
     return status ? status : br_each(&each, err);
 }
 
@@ -216,18 +212,6 @@ bool br_vibration_row_is_right(const struct br_vibration_row *row)
         for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++)
             right &= br_vibration_is_right(&row->at[r][i]);
     return right;
-}
-
-double br_vibration_difference(const struct br_vibration_row *row)
-{
-    double most = NAN;
-    for (size_t r = 0; r < BR_VIBRATION_RATES; r++)
-        for (size_t i = 0; i < BR_VIBRATION_DENSITIES; i++) {
-            const struct br_vibration *v = &row->at[r][i];
-            if (v->end == BR_VIBRATION_DONE)
-                most = fmax(most, fabs(v->measured - v->predicted)); /* of NAN: the other */
-        }
-    return most;
 }
 
 bool br_balance_row_is_right(const struct br_balance_row *row)

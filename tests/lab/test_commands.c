@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands that the map prints: each reproduces its case, whatever the verdict. $BEAMRATE is
- * the program. */
+/* The command line of a random case reproduces it, whatever the verdict. $BEAMRATE is the program.
+ */
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli_driver.h"
-#include "study/extremes/map.h"
-#include "support.h"
+#include "tests/cli_driver.h"
+#include "tests/lab/map.h"
+#include "tests/support.h"
 
 enum { FIRST_OF_EACH = 4, CASES = 30 };
 
@@ -53,7 +53,7 @@ static void repeat(const struct br_extreme_case *one, const struct br_extreme_ve
                                                          : "The discretisation error is not known");
     if (!same)
         fail_msg("case %zu was judged %s (%s)\n%s\nexit code %d\n%s", one->index,
-                 br_extreme_names[verdict->which].word, verdict->why, command, out.exit_code,
+                 br_extreme_words[verdict->which], verdict->why, command, out.exit_code,
                  out.output);
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same scene in other units: results must not depend on the units. */
-#ifndef BR_STUDY_SCENE_RESCALE_H
-#define BR_STUDY_SCENE_RESCALE_H
+#ifndef BR_TESTS_RESCALE_H
+#define BR_TESTS_RESCALE_H
 
 #include "solver/scene.h"
 
@@ -15,11 +15,6 @@ struct br_units_change {
  * with BR_BAD_INPUT if a number overflows or a positive one underflows, and with BR_UNSUPPORTED if
  * a function is not an expression, as the forces of a manufactured contact. */
 enum br_status br_rescale(const struct br_scene *scene, const struct br_units_change *units,
-                          struct br_scene *out, struct br_error *err);
-
-/* The same scene with random changes (seed) of a relative size of at most `size`: of each number
- * and function, and of each function's x and t. L and T are not changed. */
-enum br_status br_perturb(const struct br_scene *scene, double size, unsigned long long seed,
                           struct br_scene *out, struct br_error *err);
 
 #endif

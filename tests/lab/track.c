@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/extremes/track.h"
+#include "tests/lab/track.h"
 
 #include <math.h>
 
@@ -55,14 +55,11 @@ static void record_field(struct recorder *l, const struct br_march *march, enum 
     struct br_track *t = l->track;
     const struct br_field *f = br_march_field(march, kind);
     const size_t unknowns = br_field_unknowns(f), size = br_field_size(f);
-    const double *velocity = l->nodal + size;
     br_march_get(march, kind, l->nodal, l->nodal + size);
     for (size_t i = 0; i < 2 * size; i++)
         t->finite = t->finite && isfinite(l->nodal[i]);
-    for (size_t i = 0; i < size; i += unknowns) {
-        t->speed[kind] = fmax(t->speed[kind], fabs(velocity[i]));
+    for (size_t i = 0; i < size; i += unknowns)
         t->largest[kind] = fmax(t->largest[kind], fabs(l->nodal[i]));
-    }
     for (size_t p = 0; p < t->samples.points; p++) {
         const size_t part = l->request->finer * t->samples.point[p], parts = t->samples.parts;
         const size_t element = (part - 1) / parts; /* that contains the point or ends at it */
@@ -97,15 +94,10 @@ static enum br_status record_step(void *self, const struct br_march *march,
 {
     struct br_track *t = ((struct recorder *)self)->track;
     (void)err;
-    const double force[2] = {row->contact_force, row->friction_force};
-    const double k = t->report.k;
-    for (int i = BR_AXIAL; i <= BR_BENDING; i++) {
-        const enum br_field_kind kind = (enum br_field_kind)i;
-        if (row->step > 0)
-            t->unforced[kind] += k * fabs(force[kind]) * br_march_compliance(march, kind);
-        t->speed[kind] = fmax(t->speed[kind], fabs(row->velocity[kind]));
-        t->largest[kind] = fmax(t->largest[kind], fabs(br_march_tip_displacement(march, kind)));
-    }
+    (void)row;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->largest[kind] = fmax(t->largest[kind],
+                                fabs(br_march_tip_displacement(march, (enum br_field_kind)kind)));
     return BR_OK;
 }
 
@@ -119,12 +111,10 @@ enum br_status br_track_march(const struct br_track_request *q, struct br_track 
     size_t level[BR_TRACK_LEVELS + 1];
     for (size_t i = 0; i < t->samples.levels; i++)
         level[i] = t->samples.level[i] * q->shorter;
-    struct br_method method = *q->method;
-    method.rounding = q->rounding;
     const struct br_run_request request = {
         .scene = q->scene,
         .wanted = q->wanted,
-        .method = method,
+        .method = *q->method,
         .n = t->samples.n * q->finer,
         .steps = t->samples.steps * q->shorter,
         .level = level,
@@ -226,32 +216,31 @@ enum br_status br_track_exact(const struct br_scene *scene, const struct br_trac
 /* ---- distances ---- */
 
 /* The largest difference in a value, or largest value (b: NULL); NAN where one is not finite. */
-static double difference(const struct br_track *a, const struct br_track *b, int value, double unit)
+static double difference(const struct br_track *a, const struct br_track *b, int value)
 {
     double most = 0;
     for (size_t i = 0; i < a->samples.levels; i++)
         for (size_t p = 0; p < a->samples.points; p++) {
-            const double d = a->value[value][i][p] / unit - (b ? b->value[value][i][p] : 0);
+            const double d = a->value[value][i][p] - (b ? b->value[value][i][p] : 0);
             most = br_worst(most, isfinite(d) ? fabs(d) : NAN);
         }
     return most;
 }
 
 /* The same of a field: of a beam also of the bulge. */
-static double largest(const struct br_track *a, const struct br_track *b, enum br_field_kind kind,
-                      double unit)
+static double largest(const struct br_track *a, const struct br_track *b, enum br_field_kind kind)
 {
-    const double most = difference(a, b, (int)kind, unit);
-    return kind == BR_AXIAL ? most : br_worst(most, difference(a, b, BR_TRACK_SLOPE, unit));
+    const double most = difference(a, b, (int)kind);
+    return kind == BR_AXIAL ? most : br_worst(most, difference(a, b, BR_TRACK_SLOPE));
 }
 
 double br_track_distance(const struct br_track *track, const struct br_track *reference,
-                         enum br_field_kind kind, double unit)
+                         enum br_field_kind kind)
 {
     const double *size = reference->largest;
     if (track->seen < track->samples.levels || reference->seen < track->samples.levels)
         return NAN;
-    const double most = largest(track, reference, kind, unit);
+    const double most = largest(track, reference, kind);
     return most == 0 ? 0 : most / (size[kind] > 0 ? size[kind] : size[1 - kind]);
 }
 
@@ -287,7 +276,7 @@ static double largest_mean(const struct br_track *a, const struct br_track *b,
 /* The mean at all times: scaled by the largest value of all times over the largest sampled one. */
 static double mean_size(const struct br_track *t, enum br_field_kind kind)
 {
-    const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind, 1);
+    const double mean = largest_mean(t, NULL, kind), seen = largest(t, NULL, kind);
     return seen > 0 ? mean * fmax(1, t->largest[kind] / seen) : 0;
 }
 
@@ -301,7 +290,7 @@ double br_track_error(const struct br_track *track, const struct br_track *refer
     const double size = own > 0 ? own : mean_size(reference, (enum br_field_kind)(1 - kind));
     const double error = largest_mean(track, reference, kind);
     if (!(size > 0)) /* the squares are lost to underflow */
-        return br_track_distance(track, reference, kind, 1);
+        return br_track_distance(track, reference, kind);
     *sure_to = reference->own_error[kind] == 0 ? 0 : reference->own_error[kind] / size;
     return error == 0 ? 0 : error / size;
 }
