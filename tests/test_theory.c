@@ -46,9 +46,10 @@ static void draw_load(struct br_test_random *r, double size, char text[200])
     const bool rough = chance(r, 0.25);
     if (chance(r, 0.1))
         snprintf(text, 200, "%.6g*%s", size, PICK(r, moving));
-    else
-        snprintf(text, 200, "%.6g*%s*%s", size, shapes[br_test_index(r, rough ? 9 : 5)],
-                 histories[br_test_index(r, rough ? 9 : 6)]);
+    else {
+        const char *history = histories[br_test_index(r, rough ? 9 : 6)];
+        snprintf(text, 200, "%.6g*%s*%s", size, shapes[br_test_index(r, rough ? 9 : 5)], history);
+    }
 }
 
 /* A scene as a file; L = 1 m, T = 1 s. */
@@ -92,10 +93,11 @@ static void draw_scene(struct br_test_random *r, char *text, size_t size)
             br_append(text, size, "  velocity: %.6g*x^2 [m/s]\n  velocity_slope: 2*%.6g*x [1/s]\n",
                       way, way);
     }
-    if (contact)
-        br_append(text, size, "contact:\n  gap: %.6g m\n  stiffness: %.6g N/m\n",
-                  chance(r, 0.4) ? 0 : way * br_test_uniform(r, 0.1, 0.6),
-                  a1 * br_test_log_uniform(r, 0.1, 10));
+    if (contact) { /* one draw after the other: the same scenes from every compiler */
+        const double stiffness = a1 * br_test_log_uniform(r, 0.1, 10);
+        const double gap = chance(r, 0.4) ? 0 : way * br_test_uniform(r, 0.1, 0.6);
+        br_append(text, size, "contact:\n  gap: %.6g m\n  stiffness: %.6g N/m\n", gap, stiffness);
+    }
     const double share = br_test_log_uniform(r, 0.03, 1);
     if (beam && chance(r, 0.75)) {
         if (contact && chance(r, 0.7))
