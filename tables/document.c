@@ -19,6 +19,13 @@ const struct br_document_format *const br_document_formats[] = {&br_document_tex
                                                                 &br_document_html,
                                                                 NULL};
 
+static bool (*must_stop)(void);
+
+void br_document_stop_when(bool (*stop)(void))
+{
+    must_stop = stop;
+}
+
 /* ---- memory: pieces that are released together ---- */
 
 enum { PIECE = 1 << 14, ALIGNED = 16 };
@@ -138,9 +145,17 @@ static void refuse(struct br_document *d, const char *what, const char *key)
                 d->name ? d->name : "", what, key ? key : "");
 }
 
+/* Makes the document fail where the program must stop. */
+static void ask(struct br_document *d)
+{
+    if (!d->failure.status)
+        br_document_status(d, &d->failure);
+}
+
 /* NULL after a failure. */
 static struct br_block *put_block(struct br_document *d, enum br_block_kind kind)
 {
+    ask(d);
     d->block = grown(d, d->block, d->blocks, &d->block_room, sizeof *d->block);
     if (!d->block)
         return NULL;
@@ -334,6 +349,7 @@ void br_put_columns(struct br_document *d, const struct br_column *columns, size
 
 void br_put_row(struct br_document *d)
 {
+    ask(d);
     struct br_document_table *t = open_table(d);
     if (!t)
         return;
@@ -491,7 +507,9 @@ void br_put_provenance(struct br_document *d, const struct br_provenance *p)
 
 enum br_status br_document_status(const struct br_document *d, struct br_error *err)
 {
-    return d->failure.status ? br_fail(err, d->failure.status, "%s", d->failure.message) : BR_OK;
+    if (d->failure.status)
+        return br_fail(err, d->failure.status, "%s", d->failure.message);
+    return must_stop && must_stop() ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
 }
 
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,

@@ -324,11 +324,16 @@ extern const struct br_document_format br_document_junit, br_document_github;
 /* The formats of every report; NULL-terminated. */
 extern const struct br_document_format *const br_document_formats[];
 
-/* The failure of the document: BR_OK, BR_NO_MEMORY, or BR_IO where it was built wrongly. */
+/* Sets the function that says whether to stop building and printing documents; NULL, as at first:
+ * never. It is asked for each table and each row. */
+void br_document_stop_when(bool (*stop)(void));
+
+/* The failure of the document: BR_OK, BR_NO_MEMORY, BR_INTERRUPTED where the program must stop, or
+ * BR_IO where it was built wrongly. */
 enum br_status br_document_status(const struct br_document *d, struct br_error *err);
 
 /* Prints it, or one table of it where the format is by_table. Fails with the failure of the
- * document, or BR_NO_MEMORY; write errors stay in `out`. */
+ * document, BR_INTERRUPTED, or BR_NO_MEMORY; write errors stay in `out`. */
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,
                                  const struct br_document *d, const struct br_document_table *table,
                                  struct br_error *err);

@@ -13,6 +13,7 @@
 /* A report that is being printed. */
 struct page {
     const struct br_document *d;
+    struct br_error *err;
     bool lacked;     /* memory */
     char twice[100]; /* a key that has two values; "": none */
 };
@@ -123,7 +124,7 @@ static json_t *root_of(struct page *p)
     put(p, root, "name", br_json_string(d->name));
     put(p, root, "caption", br_json_string(d->caption));
     put(p, root, "answer", answer);
-    for (size_t i = 0; i < d->blocks; i++) {
+    for (size_t i = 0; i < d->blocks && !br_document_status(d, p->err); i++) {
         const struct br_block *b = &d->block[i];
         if (b->kind == BR_BLOCK_NOTE) {
             append(p, notes, br_json_string(b->text));
@@ -155,11 +156,13 @@ static enum br_status write_json(FILE *out, const struct br_document *d,
                                  const struct br_document_table *table, struct br_error *err)
 {
     (void)table;
-    struct page p = {.d = d};
+    struct page p = {.d = d, .err = err};
     json_t *root = root_of(&p);
     const size_t flags = JSON_INDENT(1) | JSON_ENSURE_ASCII | JSON_REAL_PRECISION(17);
-    enum br_status status = BR_OK;
-    if (*p.twice)
+    enum br_status status = br_document_status(d, err);
+    if (status)
+        fputs("null", out); /* of no use: the command ends */
+    else if (*p.twice)
         status =
             br_fail(err, BR_IO, "the report %.100s has two values for '%.100s'", d->name, p.twice);
     /* Only memory can lack, as all texts become UTF-8. Not json_dumps: without memory for its

@@ -245,8 +245,9 @@ static void print_blocks(struct br_markup_page *p)
     bool under = false;
     for (size_t i = 0; i < p->d->blocks && !p->status; i++) {
         const struct br_block *b = &p->d->block[i];
+        p->status = br_document_status(p->d, p->err);
         const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
-        if (!is_shown(p, i))
+        if (p->status || !is_shown(p, i))
             continue;
         if (before == BR_BLOCK_FACT && b->kind != before)
             say(p, m->facts.after);

@@ -35,6 +35,7 @@ struct problem {
     const struct br_observer *observer;  /* may be NULL; where it stops, no fit is found any more */
     double log_unit[BR_AXES], log_error; /* logarithms of those units in m, s, m^(3/2) */
     bool *starved;                       /* set if memory ends */
+    double *room;                        /* for `count` values of one axis */
 };
 
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom)
@@ -264,21 +265,22 @@ static struct attempt best_attempt(const struct problem *problem)
 
 /* ---- intervals ---- */
 
-/* Whether observation i is the first with its h (or k). */
-static bool is_first(const struct problem *problem, size_t i, int axis)
+static int by_size(const void *a, const void *b)
 {
-    for (size_t j = 0; j < i; j++)
-        if (problem->observation[j].x[axis] == problem->observation[i].x[axis])
-            return false;
-    return true;
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
 }
 
-/* The number of different values of h (or k) among the observations. */
-static size_t distinct(const struct problem *problem, int axis)
+/* The different values of h (or k) among the observations, ascending; their number. */
+static size_t distinct(const struct problem *problem, int axis, double *value)
 {
     size_t count = 0;
     for (size_t i = 0; i < problem->count; i++)
-        count += is_first(problem, i, axis);
+        value[i] = problem->observation[i].x[axis];
+    qsort(value, problem->count, sizeof *value, by_size);
+    for (size_t i = 0; i < problem->count; i++)
+        if (count == 0 || value[i] != value[count - 1])
+            value[count++] = value[i];
     return count;
 }
 
@@ -288,16 +290,15 @@ static size_t distinct(const struct problem *problem, int axis)
 static void widen_by_jackknife(const struct problem *problem, struct attempt *a, int axis,
                                struct br_observation *workspace)
 {
-    const double groups = (double)distinct(problem, axis);
+    const size_t count = distinct(problem, axis, problem->room);
+    const double groups = (double)count;
     double sum[UNKNOWNS] = {0}, squares[UNKNOWNS] = {0};
-    for (size_t i = 0; i < problem->count; i++) {
-        if (!is_first(problem, i, axis))
-            continue;
+    for (size_t i = 0; i < count && !br_observer_stops(problem->observer); i++) {
         struct problem rest = *problem;
         rest.observation = workspace;
         rest.count = 0;
         for (size_t j = 0; j < problem->count; j++)
-            if (problem->observation[j].x[axis] != problem->observation[i].x[axis])
+            if (problem->observation[j].x[axis] != problem->room[i])
                 workspace[rest.count++] = problem->observation[j];
         struct attempt without = {.sum = INFINITY};
         if (rest.count > kinds[problem->kind].count)
@@ -402,7 +403,7 @@ static bool enough(const struct problem *problem)
     bool good = problem->count >= kinds[problem->kind].count + 2;
     for (int a = 0; a < BR_AXES; a++)
         if (br_joint_has(problem->kind, a))
-            good = good && varies(problem, a) && distinct(problem, a) >= 3;
+            good = good && varies(problem, a) && distinct(problem, a, problem->room) >= 3;
     return good;
 }
 
@@ -492,11 +493,16 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
     struct candidate candidate[BR_JOINT_SPACE + 1];
     *fit = nothing_fitted(count);
     struct br_observation *own = br_allocate(2 * count, sizeof *own);
-    if (!own)
+    double *room = br_allocate(count, sizeof *room);
+    if (!own || !room) {
+        free(own);
+        free(room);
         return br_no_memory(err, "the fits");
+    }
     bool starved = false;
     struct problem problem = problem_of(observation, count, own);
     problem.observer = observer;
+    problem.room = room;
     problem.starved = &starved;
     for (int kind = BR_JOINT_BOTH; kind <= BR_JOINT_SPACE; kind++) {
         struct candidate *c = &candidate[kind];
@@ -516,6 +522,7 @@ enum br_status br_joint_fit_solve(const struct br_observation *observation, size
         take_kind(&problem, BR_JOINT_BOTH, &candidate[BR_JOINT_BOTH], one_determined, own + count,
                   fit);
     free(own);
+    free(room);
     if (br_observer_stops(observer))
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     return starved ? br_no_memory(err, "the fits") : BR_OK;

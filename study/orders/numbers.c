@@ -166,22 +166,27 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
 /* Sizes with a relative difference below this one are one size, written in two ways. */
 static const double nearly = 1e-9;
 
+static int by_z(const void *a, const void *b)
+{
+    return by_size(**(double *const *)a, **(double *const *)b);
+}
+
 /* Sets nearly equal sizes along an axis to the coarsest of them; returns the number of different
- * sizes. */
+ * sizes; 0: memory lacks. */
 static size_t unite_sizes(struct br_numbers *numbers, int axis)
 {
-    struct br_numbers_row *row = numbers->row;
+    double **z = br_allocate(numbers->rows, sizeof *z);
     size_t count = 0;
-    for (size_t i = 0; i < numbers->rows; i++) {
-        const double own = row[i].z[axis];
-        for (size_t j = 0; j < numbers->rows; j++)
-            if (row[j].z[axis] > row[i].z[axis] && own > (1 - nearly) * row[j].z[axis])
-                row[i].z[axis] = row[j].z[axis];
-        size_t before = 0;
-        while (row[before].z[axis] != row[i].z[axis])
-            before++;
-        count += before == i;
+    for (size_t i = 0; z && i < numbers->rows; i++)
+        z[i] = &numbers->row[i].z[axis];
+    if (z)
+        qsort(z, numbers->rows, sizeof *z, by_z);
+    for (size_t i = 0; z && i < numbers->rows; i++) {
+        const bool same = i > 0 && *z[i] > (1 - nearly) * *z[i - 1];
+        *z[i] = same ? *z[i - 1] : *z[i];
+        count += !same;
     }
+    free(z);
     return count;
 }
 
@@ -195,6 +200,8 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         return status;
     for (int axis = 0; axis < BR_AXES; axis++) {
         const size_t count = numbers->column[axis] ? unite_sizes(numbers, axis) : 0;
+        if (numbers->column[axis] && numbers->rows && !count)
+            return br_no_memory(err, "the numbers");
         if (count > BR_MOST_SIZES)
             return br_fail(err, BR_BAD_INPUT, "%s: found %zu sizes of %s, expected at most %d",
                            path, count, br_axis_letters[axis], BR_MOST_SIZES);

@@ -11,6 +11,12 @@ static enum br_axis other(enum br_axis axis)
     return axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
 }
 
+static enum br_status stopped(const struct br_numbers *numbers, struct br_error *err)
+{
+    return br_observer_stops(numbers->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                : BR_OK;
+}
+
 /* ---- stagnation ---- */
 
 /* Errors have stopped falling where the rate of a pair of points is below this share of the rate of
@@ -224,9 +230,10 @@ static enum br_status add_lines(const struct br_orders *o, struct br_quantity_or
     if (!status)
         qsort(sorted, numbers->rows, sizeof *sorted, by_line);
     for (size_t first = 0, end; first < numbers->rows && !status; first = end) {
+        status = stopped(numbers, err);
         for (end = first + 1; end < numbers->rows && sorted[end].other == sorted[first].other;)
             end++;
-        if (end - first >= LEAST_POINTS)
+        if (!status && end - first >= LEAST_POINTS)
             status = add_line(o, of, axis, &sorted[first], end - first, err);
     }
     free(sorted);
@@ -312,16 +319,15 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     of->line = br_allocate(2 * numbers->rows, sizeof *of->line);
     if (!of->line)
         return br_no_memory(err, "the orders");
-    enum br_status status = BR_OK;
+    enum br_status status = stopped(numbers, err);
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = add_lines(o, of, (enum br_axis)axis, err);
     if (!status)
         status = leave_out(o, of, err);
     for (size_t l = 0; l < of->lines && !status; l++)
-        status = br_observer_stops(numbers->observer)
-                     ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                     : br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
+        status = stopped(numbers, err) ? err->status
+                                       : br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
     return status;
 }
 

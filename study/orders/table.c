@@ -358,7 +358,7 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     struct source s = {.request = q, .path = br_orders_path(q), json_array(), .numbers = numbers};
     enum br_status status = text[strspn(text, " \t\r\n")] == '{'
                                 ? read_objects(text, s.path, s.table, err)
-                                : br_table_split(text, s.path, false, NULL, s.table, err);
+                                : br_table_split(text, s.path, false, q->observer, s.table, err);
     s.rows = json_array_size(s.table) ? json_array_size(s.table) - 1 : 0;
     s.columns = json_array_size(json_array_get(s.table, 0)) - 1;
     if (!status)
@@ -366,7 +366,8 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     for (size_t i = 0; i < s.rows && !status; i++)
         numbers->row[i].line = line_of(&s, i + 1);
     for (size_t i = 1; i <= s.columns && !status; i++)
-        status = take_column(&s, i, err);
+        status = br_observer_stops(q->observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                                                : take_column(&s, i, err);
     if (!status)
         status = br_orders_check_lists(q, numbers, err);
     const size_t heading_line = status ? 0 : line_of(&s, 0);
