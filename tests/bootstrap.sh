@@ -4,6 +4,7 @@
 # bootstrap. No command but those below is in its PATH.
 # shellcheck disable=SC2016 # what a made-up program expands
 set -u
+unset CC BUILD # of whoever runs this
 
 failures=0
 work=$(mktemp -d)

@@ -140,10 +140,13 @@ TEST(test_modes)
     }
 }
 
+/* Of the pieces, each with one more for the integral. */
+enum { LENGTH = 64 };
+
 /* The integral from 0 in x / L of -1 on the pieces before `kink` and 1 on the others. */
 static void fill_kink(const struct br_pieces *pieces, size_t kink, double *series)
 {
-    memset(series, 0, 40 * sizeof *series);
+    memset(series, 0, LENGTH * sizeof *series);
     for (size_t e = 0; e < PIECES; e++)
         series[br_pieces_at(pieces, e, 0)] = (e < kink ? -1 : 1) * sqrt(br_pieces_width(pieces, e));
     br_pieces_integrate(pieces, 0, series);
@@ -157,7 +160,7 @@ TEST(test_projection_of_pieces)
     static const size_t elements[] = {1, 3, 10, 97};
     struct br_store store = {0};
     const struct br_pieces pieces = new_pieces(false, &store);
-    double series[40];
+    double series[LENGTH];
     fill_kink(&pieces, 3, series);
     const double a = piece_end[3] / 2.5, b = 1 - a;
     const double square = 2.5 * (a * a * a / 3 + (b * b * b - 3 * a * b * b + 3 * a * a * b) / 3);
