@@ -357,7 +357,7 @@ TEST(test_long_complaint)
  * need to die. A dead one may wait to be buried by others. */
 static void expect_dead(const char *name)
 {
-    shell("for i in $(seq 100); do grep -qs '^State:.[^ZX]' /proc/$(cat %s)/status || exit 0; "
+    shell("for i in $(seq 500); do grep -qs '^State:.[^ZX]' /proc/$(cat %s)/status || exit 0; "
           "sleep 0.02; done; exit 1",
           name);
 }
@@ -625,7 +625,8 @@ TEST(test_no_survivors)
         if (child == 0)
             _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
         if (deadly[i]) {
-            shell("for i in $(seq 500); do [ -s nest.8.b ] && exit 0; sleep 0.01; done; exit 1");
+            shell("for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
+                  "done; exit 1");
             kill(child, deadly[i]);
         }
         int status;
@@ -637,7 +638,7 @@ TEST(test_no_survivors)
             expect_dead(name);
         }
         shell(
-            "for i in $(seq 100); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
+            "for i in $(seq 1000); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
     }
 }
 
