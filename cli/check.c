@@ -253,11 +253,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
                   : "no scene is given, expected files, names of bundled scenes, or --all");
     const bool writes = r.session.writes;
     bool failed = read_scenes(&r, err) || check_accepted(&r, err);
-    if (!failed)
+    if (!failed) {
         announce(&r);
-    if (!failed)
         failed = (writes && prepare_reports(&r, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err));
+    }
     clear(&r);
     return failed ? err->status : BR_OK;
 }

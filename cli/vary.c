@@ -91,10 +91,10 @@ enum br_status br_vary_run(const struct br_options *options, const struct br_var
     struct br_vary v = {.session = br_session_begin(options)};
     void *points = NULL;
     bool failed = prepare(&v, c, &points, err);
-    if (!failed)
+    if (!failed) {
         announce(&v, c, points);
-    if (!failed)
         failed = march(&v, c, points, err) || (v.session.writes && write_all(&v, err));
+    }
     for (size_t i = 0; i < v.points; i++)
         c->clear(point_at(c, points, i));
     free(points);
