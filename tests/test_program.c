@@ -622,8 +622,10 @@ TEST(test_no_survivors)
         p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, deadly[i] ? other : one, 1};
         const pid_t child = fork();
         assert_true(child >= 0);
-        if (child == 0)
+        if (child == 0) {
+            signal(SIGHUP, SIG_DFL); /* nohup ignores it */
             _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
+        }
         if (deadly[i]) {
             shell("for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
                   "done; exit 1");
