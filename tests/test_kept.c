@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies that were stopped go on with what is kept, and have the bits of one go. All that a request
- * states is in the text that an entry belongs to. Nothing else, and nothing damaged, is taken. */
+/* Studies that were stopped go on with what is kept, and have the bits of one go. All that a
+ * request states is in the text that an entry belongs to. Nothing else, and nothing damaged, is
+ * taken. */
 #include <dirent.h>
 #include <math.h>
 #include <stdio.h>
@@ -122,10 +123,8 @@ TEST(test_stopped_and_resumed)
     struct br_study whole[BR_TEST_NORMS], s[BR_TEST_NORMS];
     const struct br_observer observer = {.stop = stop_when_kept};
     struct br_scene scene = br_test_bundled("example2");
-    struct br_kept first = open_kept(false, "here"),
-                   second = open_kept(true, "here"),
-                   third = open_kept(true, "here"),
-                   more = open_kept(true, "here");
+    struct br_kept first = open_kept(false, "here"), second = open_kept(true, "here"),
+                   third = open_kept(true, "here"), more = open_kept(true, "here");
     run(whole, &scene, N, NULL);
     stop_at = 6;
     prepare(s, &scene, N, &first);
@@ -156,50 +155,59 @@ TEST(test_stopped_and_resumed)
  * compiler refuses a member that has no row. */
 #pragma GCC diagnostic error "-Wmissing-field-initializers"
 #define FIRST(in, member, a, b) a,
-#define LINEAR(X) \
-    X(CELL, scaling, "none", "sum") X(CELL, refinement, 1, 2) \
-    X(CELL, kernel, br_kernels[0], br_kernels[1])
+#define LINEAR(X)                   \
+    X(CELL, scaling, "none", "sum") \
+    X(CELL, refinement, 1, 2) X(CELL, kernel, br_kernels[0], br_kernels[1])
 #define ITERATION(X) \
     X(CELL, parameter, 0.5, 0.25) X(CELL, tolerance, 1e-8, 2e-8) X(CELL, most, 10, 11)
-#define METHOD(X) \
-    X(CELL, scheme, br_time_schemes[0], br_time_schemes[1]) X(CELL, tolerance, 1e-6, 2e-6) \
-    X(CELL, solver, br_linear_solvers[0], br_linear_solvers[1]) \
-    X(NONE, linear, linear, linear) /* LINEAR */ \
-    X(CELL, contact, br_contact_rules[0], br_contact_rules[1]) \
-    X(CELL, friction, br_friction_rules[0], br_friction_rules[1]) \
-    X(NONE, iteration, iteration, iteration) /* ITERATION */ X(CELL, axial_degree, 1, 2) \
-    X(CELL, most_steps, 7, 8) X(CELL, rounding, 0, 1)
-#define AXIAL(X) \
-    X(CELL, modelled, true, false) X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) \
-    X(CELL, load, none, load) X(CELL, tip_force, zero, one) X(CELL, displacement, zero, one) \
-    X(CELL, velocity, zero, one) X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)
-#define BENDING(X) \
-    X(CELL, modelled, true, false) X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) \
-    X(CELL, load, none, load) X(CELL, tip_force, zero, one) X(CELL, tip_moment, zero, one) \
-    X(CELL, displacement, zero, one) X(CELL, displacement_slope, zero, one) \
-    X(CELL, velocity, zero, one) X(CELL, velocity_slope, zero, one) \
-    X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one) X(CELL, stick_force, zero, one)
-#define CONTACT(X) X(CELL, modelled, true, false) X(CELL, gap, 0, 0x1p-1074) X(CELL, stiffness, 1, 2)
-#define FRICTION(X) \
-    X(CELL, law, BR_TRESCA, BR_COULOMB) X(CELL, coefficient, 1, 1 + 0x1p-52) \
-    X(CELL, regularisation, 0, 1)
-#define SCENE(X) \
-    X(NONE, name, "a", "b") X(CELL, title, "a", "b") X(CELL, remark, "a", "b") \
-    X(CELL, length, 1, 2) X(CELL, duration, 1, 2) X(CELL, density, 1, 2) \
-    X(NONE, axial, axial, axial) X(NONE, bending, bending, bending) \
-    X(NONE, contact, contact, contact) X(NONE, friction, friction, friction) /* those lists */ \
-    X(NONE, derived, {{0}}, )
-#define STUDY(X) \
-    X(NONE, scene, &scene, &scene) /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) \
-    X(NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart) \
-    X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0]) \
-    X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact) \
-    X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true) \
-    X(NONE, alone, false, true) X(CELL, n, grid_n, grid_n + 1) \
-    X(CELL, steps, grid_steps, grid_steps + 1) X(NONE, next_norm, NULL, NULL) \
-    X(NONE, kept, NULL, NULL) X(NONE, cell, NULL, NULL) X(NONE, judged_by, unjudged, ) \
-    X(NONE, events, NULL, NULL) X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
-    X(NONE, reference_error, {0}, ) X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
+#define METHOD(X)                                                                                \
+    X(CELL, scheme, br_time_schemes[0], br_time_schemes[1])                                      \
+    X(CELL, tolerance, 1e-6, 2e-6) X(CELL, solver, br_linear_solvers[0], br_linear_solvers[1])   \
+        X(NONE, linear, linear, linear) /* LINEAR */                                             \
+        X(CELL, contact, br_contact_rules[0],                                                    \
+          br_contact_rules[1]) X(CELL, friction, br_friction_rules[0], br_friction_rules[1])     \
+            X(NONE, iteration, iteration, iteration) /* ITERATION */ X(CELL, axial_degree, 1, 2) \
+                X(CELL, most_steps, 7, 8) X(CELL, rounding, 0, 1)
+#define AXIAL(X)                                                                \
+    X(CELL, modelled, true, false)                                              \
+    X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) X(CELL, load, none, load) \
+        X(CELL, tip_force, zero, one) X(CELL, displacement, zero, one)          \
+            X(CELL, velocity, zero, one) X(CELL, solution, NULL, "x [m]")       \
+                X(CELL, given, zero, one)
+#define BENDING(X)                                                                  \
+    X(CELL, modelled, true, false)                                                  \
+    X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) X(CELL, load, none, load)     \
+        X(CELL, tip_force, zero, one) X(CELL, tip_moment, zero, one)                \
+            X(CELL, displacement, zero, one) X(CELL, displacement_slope, zero, one) \
+                X(CELL, velocity, zero, one) X(CELL, velocity_slope, zero, one)     \
+                    X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)      \
+                        X(CELL, stick_force, zero, one)
+#define CONTACT(X) \
+    X(CELL, modelled, true, false) X(CELL, gap, 0, 0x1p-1074) X(CELL, stiffness, 1, 2)
+#define FRICTION(X)                     \
+    X(CELL, law, BR_TRESCA, BR_COULOMB) \
+    X(CELL, coefficient, 1, 1 + 0x1p-52) X(CELL, regularisation, 0, 1)
+#define SCENE(X)                                                                    \
+    X(NONE, name, "a", "b")                                                         \
+    X(CELL, title, "a", "b") X(CELL, remark, "a", "b") X(CELL, length, 1, 2)        \
+        X(CELL, duration, 1, 2) X(CELL, density, 1, 2) X(NONE, axial, axial, axial) \
+            X(NONE, bending, bending, bending) X(NONE, contact, contact, contact)   \
+                X(NONE, friction, friction, friction) /* those lists */             \
+        X(NONE, derived, {{0}}, )
+#define STUDY(X)                                                                                  \
+    X(NONE, scene, &scene, &scene)                                                                \
+    /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) X(                                    \
+        NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart)              \
+        X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0]) \
+            X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact)             \
+                X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true)          \
+                    X(NONE, alone, false, true) X(CELL, n, grid_n, grid_n + 1)                    \
+                        X(CELL, steps, grid_steps, grid_steps + 1) X(NONE, next_norm, NULL, NULL) \
+                            X(NONE, kept, NULL, NULL) X(NONE, cell, NULL, NULL)                   \
+                                X(NONE, judged_by, unjudged, ) X(NONE, events, NULL, NULL)        \
+                                    X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
+                                        X(NONE, reference_error, {0}, )                           \
+                                            X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
 
 static char *text_of(const struct br_study *s, size_t cell)
 {
@@ -252,12 +260,12 @@ TEST(test_all_members_are_stated)
     const struct br_study asked = {STUDY(FIRST)};
     struct br_study other = asked;
     struct br_scene of = scene;
-#define CELL(member, b, at)                         \
-    (at).member = b;                                \
+#define CELL(member, b, at)                              \
+    (at).member = b;                                     \
     expect_other(#at "." #member, &asked, &other, true); \
     reset(&asked, &other, &scene, &of);
-#define GRID(member, b, at)                          \
-    (at).member = b;                                 \
+#define GRID(member, b, at)                               \
+    (at).member = b;                                      \
     expect_other(#at "." #member, &asked, &other, false); \
     reset(&asked, &other, &scene, &of);
 #define NONE(member, b, at)
@@ -271,9 +279,10 @@ TEST(test_all_members_are_stated)
 #define IN_CONTACT(in, member, a, b) in(member, b, of.contact)
 #define IN_FRICTION(in, member, a, b) in(member, b, of.friction)
     reset(&asked, &other, &scene, &of);
-    STUDY(IN_STUDY) METHOD(IN_METHOD) LINEAR(IN_LINEAR) ITERATION(IN_ITERATION) SCENE(IN_SCENE)
-    AXIAL(IN_AXIAL) BENDING(IN_BENDING) CONTACT(IN_CONTACT) FRICTION(IN_FRICTION)
-    other.reference_method.most_steps = 9;
+    STUDY(IN_STUDY)
+    METHOD(IN_METHOD) LINEAR(IN_LINEAR) ITERATION(IN_ITERATION) SCENE(IN_SCENE) AXIAL(IN_AXIAL)
+        BENDING(IN_BENDING) CONTACT(IN_CONTACT) FRICTION(IN_FRICTION)
+            other.reference_method.most_steps = 9;
     expect_other("the reference's method", &asked, &other, true);
     /* The registries: a field of a method that is got, and a number of a scene, is stated. */
     for (const struct br_method_field *f = br_method_fields;
@@ -295,15 +304,27 @@ TEST(test_all_members_are_stated)
 /* Expressions of the same nodes in another order, or of an operation with the same word. */
 TEST(test_functions_are_stated)
 {
-    static const char *const same[][2] = {
-        {"x*t", "t*t"}, {"sin(x)", "cos(x)"},  {"x-t", "t-x"},
-        {"-x", "x-x"},  {"x+1", "x+1.0000000000000002"}, {"x>t ? x : t", "x>t ? t : x"}};
+    static const char *const same[][2] = {{"x*t", "t*t"},
+                                          {"sin(x)", "cos(x)"},
+                                          {"x-t", "t-x"},
+                                          {"-x", "x-x"},
+                                          {"x+1", "x+1.0000000000000002"},
+                                          {"x>t ? x : t", "x>t ? t : x"},
+                                          {"x*t+x", "x*t+t"}};
     struct br_scene scene = br_test_bare(), of = scene;
     const struct br_method method = br_method_default();
-    const struct br_study a = {.scene = &scene, .norm = br_norms[0], .method = method,
-                               .judge = &br_judge_mms, .n_count = 1, .k_count = 1, .n = grid_n,
+    const struct br_study a = {.scene = &scene,
+                               .norm = br_norms[0],
+                               .method = method,
+                               .judge = &br_judge_mms,
+                               .n_count = 1,
+                               .k_count = 1,
+                               .n = grid_n,
                                .steps = grid_steps};
     struct br_study b = a;
+    b.judge = &br_judge_exact;
+    expect_other("a judge without a resolution", &a, &b, true);
+    b = a;
     b.scene = &of;
     for (size_t i = 0; i < sizeof same / sizeof *same; i++) {
         scene.axial.displacement = br_test_function(same[i][0]);
@@ -349,10 +370,15 @@ static size_t taken_of(enum work work, struct br_kept *kept, const struct br_tri
         static const struct br_reading reading = {"err", "(.*)", BR_READING_REGEX};
         static const double one = 4;
         struct br_numbers numbers = {.rows = 0};
-        const struct br_orders_request request = {
-            .command = "/bin/echo {n}", .axis[BR_AXIS_SPACE] = {&cells, &one, 1}, .dimension = 1,
-            .reading = &reading, .readings = 1, .jobs = 1, .seconds = 10, .kept = kept->folder,
-            .anew = !kept->take};
+        const struct br_orders_request request = {.command = "/bin/echo {n}",
+                                                  .axis[BR_AXIS_SPACE] = {&cells, &one, 1},
+                                                  .dimension = 1,
+                                                  .reading = &reading,
+                                                  .readings = 1,
+                                                  .jobs = 1,
+                                                  .seconds = 10,
+                                                  .kept = kept->folder,
+                                                  .anew = !kept->take};
         MUST(br_program_run(&request, &numbers, &err));
         assert_true(isfinite(numbers.row[0].number[0]) && numbers.row[0].seconds >= 0);
         taken = numbers.row[0].kept;
@@ -489,6 +515,11 @@ static void pass_seven(struct br_record *r, void *self)
     br_record_number(r, self, 0, 7);
 }
 
+static void pass_count(struct br_record *r, void *self)
+{
+    br_record_count(r, self, 2, 7);
+}
+
 /* One bit of an entry is enough; so are another's name, and a number out of its range. */
 TEST(test_damaged)
 {
@@ -523,6 +554,12 @@ TEST(test_damaged)
         seven = (double[]){7.5, -1, (double)NAN, (double)INFINITY}[i];
         assert_true(br_kept_put(&k, "c", pass_seven, &seven)); /* it is no failure, but ... */
         assert_false(br_kept_take(&k, "c", pass_seven, &found));
+    }
+    for (size_t count = 1, read = 0; count <= 8; count++) {
+        const bool right = count >= 2 && count <= 7;
+        assert_true(br_kept_put(&k, "d", pass_count, &count));
+        assert_int_equal(br_kept_take(&k, "d", pass_count, &read), right || count == 8);
+        assert_int_equal(read, right ? count : count == 8 ? 7 : 0);
     }
     assert_int_equal(truncate(path[0], 20), 0);
     assert_false(br_kept_take(&k, "a", pass_seven, &found));

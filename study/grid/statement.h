@@ -15,8 +15,8 @@ struct br_statement {
     FILE *file;
     char *text;
     size_t size;
-    bool everywhere; /* set it behind the beginning: the same text on every machine: numbers to nine digits, since the last
-                        ones may differ, and no instruction set */
+    bool everywhere; /* set it behind the beginning: the same text on every machine: numbers to nine
+                        digits, since the last ones may differ, and no instruction set */
     bool failed;     /* it lacked memory, or a function of the scene is no expression */
 };
 

@@ -67,7 +67,7 @@ static enum br_status add_command(struct br_statement *command, const struct br_
 }
 
 enum br_status br_command_state(struct br_statement *command, const struct br_command_words *c,
-                              struct br_error *err)
+                                struct br_error *err)
 {
     return add_command(command, c, NULL, err);
 }
