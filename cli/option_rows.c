@@ -109,9 +109,9 @@ static const struct br_option rows[] = {
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run of the program", "600",
      BR_TAKES_NUMBER, BETWEEN(0, 1e9), .commands = BR_FOR_ORDERS},
     {BR_OPT_KEEP, "keep", 0, "DIR", "folder in which finished runs are kept, for --resume",
-     "orders-kept", BR_TAKES_DIR, .commands = BR_FOR_ORDERS | BR_FOR_CHECK},
+     "orders-kept", BR_TAKES_DIR, .commands = BR_FOR_ORDERS},
     {BR_OPT_RESUME, "resume", 0, NULL, "take runs that are kept, instead of running them again",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS,
      .more =
          "After an interruption, or for a larger grid. A run is the same where its words, its "
          "program and the files that its words name are. What the program reads or starts besides "

@@ -58,8 +58,8 @@ enum br_status br_session_open(struct br_session *s, struct br_error *err)
     return s->writes && folder ? br_output_open(&s->output, folder, err) : BR_OK;
 }
 
-enum br_status br_session_keep(const struct br_session *s, const char *text, const char *more,
-                               struct br_kept *kept, struct br_error *err)
+enum br_status br_session_keep(const struct br_session *s, struct br_kept *kept,
+                               struct br_error *err)
 {
     const bool resume = br_option_given(s->options, BR_OPT_RESUME);
     struct br_provenance here;
@@ -70,11 +70,7 @@ enum br_status br_session_keep(const struct br_session *s, const char *text, con
                                                     : "--out, the folder of what is kept")
                       : BR_OK;
     br_provenance_fill(&here, 0);
-    if (br_kept_open(kept, s->output.folder, resume, here.machine, err))
-        return err->status;
-    br_kept_add(&kept->base, text);
-    br_kept_add(&kept->base, more);
-    return BR_OK;
+    return br_kept_open(kept, s->output.folder, resume, here.machine, err);
 }
 
 void br_session_report_kept(const struct br_session *s, const struct br_kept *k)

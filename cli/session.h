@@ -58,12 +58,11 @@ enum br_status br_session_alone(struct br_error *err);
  * the session even then. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
 
-/* Opens the store of a scene's finished work (out) in the folder of --out, which is open. With
- * --resume, stored work is used. text: of the scene; more: whatever else the work depends on, or
- * "". Without a folder, or on several ranks, nothing is stored, and --resume is refused
- * (BR_BAD_INPUT). Fails with BR_IO, too. */
-enum br_status br_session_keep(const struct br_session *session, const char *text, const char *more,
-                               struct br_kept *kept, struct br_error *err);
+/* Opens the store of finished work (out) in the folder of --out, which is open. With --resume,
+ * stored work is used. Without a folder, or on several ranks, nothing is stored, and --resume is
+ * refused (BR_BAD_INPUT). Fails with BR_IO, too. */
+enum br_status br_session_keep(const struct br_session *session, struct br_kept *kept,
+                               struct br_error *err);
 
 /* Prints how much stored work was used, and warns of stored files that are damaged. */
 void br_session_report_kept(const struct br_session *session, const struct br_kept *kept);

@@ -238,14 +238,14 @@ static void clear(void *self)
 /* ---- computing ---- */
 
 /* Finished cells are kept with their scene; the differences of neighbours are not. */
-static enum br_status keep(struct run *r, const char *more, struct br_error *err)
+static enum br_status keep(struct run *r, struct br_error *err)
 {
     if (r->differences)
         return br_option_given(r->session->options, BR_OPT_RESUME)
                    ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not heed it")
                    : BR_OK;
     for (size_t i = 0; i < r->jobs; i++)
-        if (br_session_keep(r->session, r->work[i].opened.text, more, &r->work[i].kept, err))
+        if (br_session_keep(r->session, &r->work[i].kept, err))
             return err->status;
     for (size_t h = 0; h < r->heads && *r->work->kept.folder; h++)
         for (struct br_study *s = study_of(r, h, 0); s; s = s->next_norm)
@@ -397,7 +397,7 @@ static enum br_status run_jobs(const struct br_options *options, const struct jo
     if (!failed) {
         foresee(&r, &work);
         br_session_announce(&session, &work);
-        failed = check_memory(&r, err) || br_session_open(&session, err) || keep(&r, "", err) ||
+        failed = check_memory(&r, err) || br_session_open(&session, err) || keep(&r, err) ||
                  (writes && br_warn_of_studies(r.study, jobs, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err)) || check_cells(&r, err);
     }
@@ -484,7 +484,7 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     scene.name = (char *)br_varied_text(&v->varied, i, text);
     snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, v->points);
     r->what = what;
-    if (keep(r, text, err))
+    if (keep(r, err))
         return err->status;
     if ((v->session.writes && br_warn_of_studies(&named, 1, failure)) || compute(r, failure))
         return BR_OK;

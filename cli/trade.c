@@ -178,7 +178,7 @@ static enum br_status run_all(struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         struct item *item = &r->item[i];
-        if (br_session_keep(&r->session, item->opened.text, "", &item->kept, err))
+        if (br_session_keep(&r->session, &item->kept, err))
             return err->status;
         item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
     }

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/orders/sha256.h"
+#include "study/base/sha256.h"
 #include "study/scene/quote.h"
 
 /* Opens, for each format, the file that its option names. */

@@ -3,38 +3,26 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
+#include <math.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/scene/method_fields.h"
-
-static const char format[] = "beamrate kept 1\n";
+#include "study/scene/quote.h"
 
 static const double usual_slice = 2, usual_reference = 0.1;
 
 enum {
-    SUM = BR_SHA256_TEXT - 1,
-    HEAD = sizeof format - 1 + 2 * (SUM + 1), /* format, key, sum of the bytes, a line each */
-    LARGEST = 1 << 26                         /* bytes */
+    SUM = BR_SHA256_TEXT, /* of all that follows, in a line of its own */
+    LARGEST = 1 << 26     /* bytes */
 };
-
-/* ---- names ---- */
-
-/* With its final 0, so that different lists of texts have different bytes. */
-void br_kept_add(struct br_sha256 *base, const char *text)
-{
-    br_sha256_add(base, text, strlen(text) + 1);
-}
 
 enum br_status br_kept_open(struct br_kept *k, const char *folder, bool take, const char *machine,
                             struct br_error *err)
 {
-    char program[BR_SHA256_TEXT];
     long long size;
     const int self = open("/proc/self/exe", O_RDONLY | O_CLOEXEC);
-    const bool read = self >= 0 && br_sha256_file(self, &size, program);
+    const bool read = self >= 0 && br_sha256_file(self, &size, k->program);
     if (self >= 0)
         close(self);
     if (!read)
@@ -44,55 +32,94 @@ enum br_status br_kept_open(struct br_kept *k, const char *folder, bool take, co
     k->take = take;
     k->slice = usual_slice;
     k->most_reference = usual_reference;
-    br_sha256_start(&k->base);
-    br_kept_add(&k->base, format);
-    br_kept_add(&k->base, program);
-    br_kept_add(&k->base, machine);
+    k->machine = machine;
     return BR_OK;
 }
 
-void br_kept_key(const struct br_sha256 *base, const char *work, char key[BR_SHA256_TEXT])
+void br_kept_begin(const struct br_kept *k, const char *work, struct br_statement *text)
 {
-    struct br_sha256 sum = *base;
-    br_kept_add(&sum, work);
-    br_sha256_end(&sum, key);
+    br_statement_begin(text);
+    br_state(text, "beamrate-kept", "%s", "3");
+    br_state(text, "program", "%s", k->program);
+    br_state(text, "machine", "%s", k->machine ? k->machine : "");
+    br_state(text, "work", "%s", work);
 }
 
-const char *br_kept_method(const struct br_method *m, char text[BR_KEPT_METHOD])
+/* ---- the numbers of an entry ---- */
+
+static void pass_bytes(struct br_record *r, void *bytes, size_t size)
 {
-    char value[BR_METHOD_VALUE];
-    snprintf(text, BR_KEPT_METHOD, "rounding %d", m->rounding);
-    for (const struct br_method_field *f = br_method_fields;
-         f < br_method_fields + BR_METHOD_FIELDS; f++)
-        br_append(text, BR_KEPT_METHOD, " %s %s", f->name, br_method_field_text(f, m, value));
-    return text;
+    if (r->wrong || size == 0)
+        return;
+    if (!r->from)
+        r->wrong = fwrite(bytes, size, 1, r->to) != 1;
+    else if (size > r->left)
+        r->wrong = true;
+    else {
+        memcpy(bytes, r->from, size);
+        r->from += size;
+        r->left -= size;
+    }
+}
+
+static void pass(struct br_record *r, double *x, double low, double high, bool or_nan)
+{
+    double value = *x;
+    pass_bytes(r, &value, sizeof value);
+    r->wrong |= !((value >= low && value <= high && isfinite(value)) || (or_nan && isnan(value)));
+    if (!r->wrong)
+        *x = value;
+}
+
+void br_record_number(struct br_record *r, double *x, double low, double high)
+{
+    pass(r, x, low, high, false);
+}
+
+void br_record_or_nan(struct br_record *r, double *x, double low, double high)
+{
+    pass(r, x, low, high, true);
+}
+
+void br_record_count(struct br_record *r, size_t *count, size_t low, size_t high)
+{
+    size_t value = *count;
+    pass_bytes(r, &value, sizeof value);
+    r->wrong |= value < low || value > high;
+    if (!r->wrong)
+        *count = value;
+}
+
+void br_record_flag(struct br_record *r, bool *flag)
+{
+    size_t value = *flag;
+    br_record_count(r, &value, 0, 1);
+    *flag = value == 1;
+}
+
+void br_record_text(struct br_record *r, char **text, size_t most)
+{
+    const bool reads = r->from;
+    size_t size = !reads && *text ? strlen(*text) : 0;
+    br_record_count(r, &size, 0, reads && r->left < most ? r->left : most);
+    if (reads)
+        *text = r->wrong ? NULL : br_allocate(size + 1, 1);
+    r->wrong |= reads && !*text;
+    pass_bytes(r, *text, size);
+    r->wrong |= reads && *text && (strlen(*text) != size || br_not_utf8(*text));
 }
 
 /* ---- entries ---- */
 
-static void sum_of(const void *bytes, size_t size, char text[BR_SHA256_TEXT])
+/* Of a kept folder: the path of an entry, or of its unfinished file. */
+static void name(const struct br_kept *k, const char *text, bool finished, char path[1300])
 {
-    struct br_sha256 sum;
-    br_sha256_start(&sum);
-    br_sha256_add(&sum, bytes, size);
-    br_sha256_end(&sum, text);
-}
-
-static void write_head(char head[HEAD + 1], const char *key, const void *bytes, size_t size)
-{
-    char sum[BR_SHA256_TEXT];
-    sum_of(bytes, size, sum);
-    snprintf(head, HEAD + 1, "%s%s\n%s\n", format, key, sum);
-}
-
-/* Whether a whole file is the entry of that name. */
-static bool is_entry(const char *file, size_t size, const char *key)
-{
-    char head[HEAD + 1];
-    if (size < HEAD)
-        return false;
-    write_head(head, key, file + HEAD, size - HEAD);
-    return memcmp(file, head, HEAD) == 0;
+    char key[BR_SHA256_TEXT];
+    br_sha256_of(text, strlen(text), key);
+    if (finished)
+        snprintf(path, 1300, "%s/%s", k->folder, key);
+    else
+        snprintf(path, 1300, "%s/.%s.%ld", k->folder, key, (long)getpid());
 }
 
 /* All of a regular file; NULL: it is not there, or cannot be read. */
@@ -114,65 +141,84 @@ static char *read_file(const char *path, size_t *size)
     return text;
 }
 
-bool br_kept_read(struct br_kept *k, const char *key, void **bytes, size_t *size)
+/* The numbers in a whole file, if it is the entry of that text. */
+static struct br_record open_record(const char *file, size_t size, const char *text)
 {
-    char path[1300];
-    *bytes = NULL;
-    if (!k || !*k->folder || !k->take)
-        return false;
-    snprintf(path, sizeof path, "%s/%s", k->folder, key);
-    if (access(path, F_OK) != 0)
-        return false;
-    size_t whole = 0;
-    char *file = read_file(path, &whole);
-    if (!file || !is_entry(file, whole, key)) {
-        free(file);
-        atomic_fetch_add(&k->bad, 1);
-        return false;
-    }
-    *size = whole - HEAD;
-    memmove(file, file + HEAD, *size);
-    *bytes = file;
-    return true;
+    const size_t head = SUM + strlen(text) + 1;
+    char sum[BR_SHA256_TEXT];
+    if (!file || size < head)
+        return (struct br_record){.wrong = true};
+    br_sha256_of(file + SUM, size - SUM, sum);
+    sum[SUM - 1] = '\n';
+    return (struct br_record){
+        .from = file + head,
+        .left = size - head,
+        .wrong = memcmp(file, sum, SUM) != 0 || strcmp(file + SUM, text) != 0,
+    };
 }
 
-bool br_kept_read_into(struct br_kept *k, const char *key, void *into, size_t size)
+bool br_kept_take(struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
 {
-    void *bytes;
-    size_t found = 0;
-    if (!br_kept_read(k, key, &bytes, &found))
+    char path[1300];
+    if (!k || !text || !*k->folder || !k->take)
         return false;
-    if (found == size)
-        memcpy(into, bytes, size);
-    free(bytes);
-    return found == size;
+    name(k, text, true, path);
+    if (access(path, F_OK) != 0)
+        return false;
+    size_t size = 0;
+    char *file = read_file(path, &size);
+    struct br_record record = open_record(file, size, text);
+    if (!record.wrong)
+        pass_all(&record, self);
+    free(file);
+    if (!record.wrong && record.left == 0)
+        return true;
+    atomic_fetch_add(&k->bad, 1);
+    return false;
 }
 
 /* Does not wait for the disk: an entry that a crash leaves incomplete is found by its sum. */
-static bool write_file(const char *path, const char *head, const void *bytes, size_t size)
+static bool write_file(const char *path, const char *bytes, size_t size)
 {
+    char sum[BR_SHA256_TEXT];
     FILE *file = fopen(path, "we");
     if (!file)
         return false;
-    const bool written =
-        fwrite(head, HEAD, 1, file) == 1 && (size == 0 || fwrite(bytes, size, 1, file) == 1);
+    br_sha256_of(bytes, size, sum);
+    const bool written = fprintf(file, "%s\n", sum) > 0 && fwrite(bytes, size, 1, file) == 1;
     return (fclose(file) == 0) & written;
 }
 
-bool br_kept_write(struct br_kept *k, const char *key, const void *bytes, size_t size)
+static bool put_in_place(const struct br_kept *k, const char *text, const char *bytes, size_t size)
 {
-    char head[HEAD + 1], unfinished[1300], finished[1300];
-    if (!k || !*k->folder)
-        return true;
-    write_head(head, key, bytes, size);
-    snprintf(finished, sizeof finished, "%s/%s", k->folder, key);
-    snprintf(unfinished, sizeof unfinished, "%s/.%s.%ld", k->folder, key, (long)getpid());
+    char unfinished[1300], finished[1300];
+    name(k, text, false, unfinished);
+    name(k, text, true, finished);
     mkdir(k->folder, 0777); /* only where there is something to keep */
-    if (write_file(unfinished, head, bytes, size) && rename(unfinished, finished) == 0)
+    if (write_file(unfinished, bytes, size) && rename(unfinished, finished) == 0)
         return true;
     const int reason = errno;
     unlink(unfinished);
     errno = reason;
-    atomic_fetch_add(&k->lost, 1);
     return false;
+}
+
+bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, void *self)
+{
+    char *bytes = NULL;
+    size_t size;
+    if (!k || !*k->folder)
+        return true;
+    struct br_record record = {.to = text ? open_memstream(&bytes, &size) : NULL};
+    bool kept = false;
+    if (record.to) {
+        pass_bytes(&record, (char *)text, strlen(text) + 1);
+        if (!record.wrong)
+            pass_all(&record, self);
+        kept = fclose(record.to) == 0 && (record.wrong || put_in_place(k, text, bytes, size));
+    }
+    free(bytes);
+    if (!kept)
+        atomic_fetch_add(&k->lost, 1);
+    return kept;
 }

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finished work that is kept in a folder, one file per entry, so that it is not done again.
  *
- * An entry is named after all that its bytes follow from: a SHA-256 of this executable and this
- * machine, the scene's text, and what the work is. So another version never takes it, nor another
- * machine its times. It is written whole or not at all (a rename), and has the sum of its bytes:
- * what is damaged, or was put under another's name, is not taken, and is counted. */
+ * An entry belongs to one text, which states the whole request (study/grid/statement.h). Its name
+ * is the SHA-256 of that text, and its file has the text, the numbers, and a sum of both. It is
+ * written whole or not at all (a rename). What is damaged, stands under another's name, or has a
+ * number out of its range is not taken, and is counted. */
 #ifndef BR_STUDY_KEPT_KEPT_H
 #define BR_STUDY_KEPT_KEPT_H
 
 #include <stdatomic.h>
 #include <stdbool.h>
 
+#include "study/base/sha256.h"
 #include "study/grid/observer.h"
-#include "study/grid/study.h"
-#include "study/orders/sha256.h"
+#include "study/grid/statement.h"
 
 struct br_kept {
     char folder[1100]; /* "": nothing is kept */
@@ -21,39 +21,46 @@ struct br_kept {
     double slice;      /* s of work between two times of writing, */
     double
         most_reference; /* the share of it that the reference may take, which is marched in each */
-    struct br_sha256 base; /* executable, machine and scene */
-    atomic_size_t taken;   /* cells, trials */
-    atomic_size_t bad;     /* entries that were damaged, */
-    atomic_size_t lost;    /* or could not be written */
+    char program[BR_SHA256_TEXT]; /* the sum of the executable; "": entries are of any version */
+    const char *machine;          /* what this one is, borrowed; NULL: entries are of any */
+    atomic_size_t taken;          /* cells, trials */
+    atomic_size_t bad;            /* entries that were damaged, */
+    atomic_size_t lost;           /* or could not be written */
 };
 
-/* Entries will be in DIR/.kept, which the first one makes; machine: what this one is. Fails with
- * BR_IO. */
+/* Entries will be in DIR/.kept, which the first one makes. Fails with BR_IO. */
 enum br_status br_kept_open(struct br_kept *kept, const char *folder, bool take,
                             const char *machine, struct br_error *err);
 
-/* Adds to what entries follow from, as the scene's text to kept->base. */
-void br_kept_add(struct br_sha256 *base, const char *text);
+/* Begins the text of an entry: program and machine, and what work it is of ("trial"). */
+void br_kept_begin(const struct br_kept *kept, const char *work, struct br_statement *text);
 
-/* The name of an entry for a work that a text describes (out). */
-void br_kept_key(const struct br_sha256 *base, const char *work, char key[BR_SHA256_TEXT]);
+/* ---- the numbers of an entry ---- */
 
-/* Reads an entry: *bytes (out, *size of them) is owned by the caller. False: it is not there, or is
- * not to be taken. kept: NULL, nothing is. */
-bool br_kept_read(struct br_kept *kept, const char *key, void **bytes, size_t *size);
+/* One function passes the numbers of an entry, to read and to write them. Each has a range, with
+ * its ends; a number out of it, or a rest, makes the record wrong, and nothing passes any more. */
+struct br_record {
+    const char *from; /* `left` bytes; NULL: it writes */
+    size_t left;
+    FILE *to;
+    bool wrong;
+};
+typedef void br_record_pass(struct br_record *record, void *self);
 
-/* The same into so many bytes; another size is no entry of this kind. */
-bool br_kept_read_into(struct br_kept *kept, const char *key, void *bytes, size_t size);
+void br_record_number(struct br_record *record, double *x, double low, double high);
+void br_record_or_nan(struct br_record *record, double *x, double low, double high);
+void br_record_count(struct br_record *record, size_t *count, size_t low, size_t high);
+void br_record_flag(struct br_record *record, bool *flag);
+/* UTF-8, of at most `most` bytes. What is read is owned by the caller, even of a wrong record. */
+void br_record_text(struct br_record *record, char **text, size_t most);
 
-/* Writes an entry. Where that fails (a full disk; see errno), the work may go on, and it is
- * counted. kept: NULL, does nothing. */
-bool br_kept_write(struct br_kept *kept, const char *key, const void *bytes, size_t size);
+/* Reads the entry of a text into *self (out; means nothing where it fails). False: it is not there,
+ * or is not to be taken. kept or text NULL: nothing is. */
+bool br_kept_take(struct br_kept *kept, const char *text, br_record_pass *pass, void *self);
 
-/* ---- a method in words ---- */
-
-/* All that a march by a method follows from; returns text (out). */
-enum { BR_KEPT_METHOD = 700 };
-const char *br_kept_method(const struct br_method *method, char text[BR_KEPT_METHOD]);
+/* Writes an entry, but no wrong one. Where that fails (a full disk; see errno), the work may go on,
+ * and it is counted. kept NULL: does nothing. */
+bool br_kept_put(struct br_kept *kept, const char *text, br_record_pass *pass, void *self);
 
 /* ---- studies ---- */
 

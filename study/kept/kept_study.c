@@ -1,95 +1,113 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies whose cells are kept. What is missing is cut into slices, each of which marches some of
  * the cells and the whole reference; the results of each are kept before the next one begins. */
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <string.h>
 
+#include "reference/exact/exact.h"
 #include "study/kept/kept.h"
 #include "study/ranks/batches.h"
 
-enum { WORK = 2400 };
+enum { MOST_EVENTS = 1 << 20 }; /* bytes of the lines that a reference prints */
 
-/* What is kept of a study besides its cells, which went well; the lines of its events follow. */
-struct kept_study {
-    uint64_t audited;
-    struct br_judge_report judged_by;
-    double scale, size[2], error[BR_PARTS], tip[2];
+/* ---- the entries: of a cell, and (SIZE_MAX) of a study itself ---- */
+
+static char *text_of(const struct br_study *s, size_t cell)
+{
+    struct br_statement text;
+    br_kept_begin(s->kept, cell == SIZE_MAX ? "study" : "cell", &text);
+    br_state_study(&text, s, cell);
+    return br_statement_end(&text);
+}
+
+static void pass_size(struct br_record *r, double *x)
+{
+    br_record_or_nan(r, x, 0, DBL_MAX);
+}
+
+/* A cell that went well; its resolution is the one that was asked for. */
+static void pass_cell(struct br_record *r, void *self)
+{
+    struct br_cell *c = self;
+    br_record_count(r, &c->at.n, c->at.n, c->at.n);
+    br_record_count(r, &c->at.steps, c->at.steps, c->at.steps);
+    br_record_number(r, &c->error[BR_PART_TOTAL], 0, DBL_MAX);
+    for (int part = 0; part < BR_PARTS; part++) {
+        pass_size(r, &c->error[part]);
+        pass_size(r, &c->worst_time[part]);
+    }
+    for (int field = 0; field < 2; field++)
+        br_record_number(r, &c->tip[field], -DBL_MAX, DBL_MAX);
+    br_record_number(r, &c->seconds, 0, DBL_MAX);
+    br_record_flag(r, &c->unstable);
+}
+
+/* A study's results on its reference; they depend on all cells' meshes and time levels. */
+struct reference {
+    struct br_study *study;
+    size_t cells;
+    bool audited;
 };
 
-/* ---- what the work is ---- */
-
-/* Describes the norm, the judge and its method. */
-static size_t describe(const struct br_study *s, const char *what, char work[WORK])
+static void pass_judge(struct br_record *r, struct br_judge_report *j)
 {
-    char method[BR_KEPT_METHOD];
-    const struct br_resolution fine = s->judge->nests ? s->reference : (struct br_resolution){0};
-    return (size_t)snprintf(work, WORK, "%s, norm %s, degree %d, judge %s %zu %zu %s", what,
-                            s->norm->name, s->method.axial_degree, s->judge->name, fine.n,
-                            fine.steps,
-                            s->judge->nests ? br_kept_method(&s->reference_method, method) : "");
+    const size_t phases = sizeof((const char[]){
+#define X(name, text) 0,
+        BR_PHASE_LIST(X)
+#undef X
+    });
+    size_t phase = (size_t)j->shortest.phase;
+    for (int field = 0; field < 2; field++)
+        for (int m = 0; m < BR_MEASURES; m++)
+            pass_size(r, &j->own_error[field][m]);
+    pass_size(r, &j->round_off);
+    pass_size(r, &j->seconds);
+    br_record_flag(r, &j->unstable);
+    pass_size(r, &j->shortest.from);
+    pass_size(r, &j->shortest.length);
+    br_record_count(r, &phase, 0, phases - 1);
+    j->shortest.phase = (int)phase;
 }
 
-static void key_of_cell(const struct br_study *s, size_t cell, char key[BR_SHA256_TEXT])
+static void pass_reference(struct br_record *r, void *self)
 {
-    char work[WORK], method[BR_KEPT_METHOD];
-    const struct br_resolution at = br_study_resolution(s, cell);
-    const size_t used = describe(s, "cell", work);
-    snprintf(work + used, WORK - used, ", n %zu, steps %zu, %s", at.n, at.steps,
-             br_kept_method(br_study_method(s, cell), method));
-    br_kept_key(&s->kept->base, work, key);
-}
-
-/* A study's results on its reference depend on all cells' meshes and time levels. */
-static void key_of_study(const struct br_study *s, char key[BR_SHA256_TEXT])
-{
-    struct br_sha256 grid = s->kept->base;
-    char work[WORK];
-    for (size_t c = 0; c < br_study_cells(s); c++) {
-        key_of_cell(s, c, key);
-        br_kept_add(&grid, key);
+    struct reference *of = self;
+    struct br_study *s = of->study;
+    br_record_count(r, &of->cells, of->cells, of->cells);
+    br_record_flag(r, &of->audited);
+    pass_judge(r, &s->judged_by);
+    pass_size(r, &s->reference_scale);
+    for (int field = 0; field < 2; field++) {
+        pass_size(r, &s->reference_size[field]);
+        br_record_or_nan(r, &s->reference_tip[field], -DBL_MAX, DBL_MAX);
     }
-    describe(s, s->auditor ? s->auditor->name : "study", work);
-    br_kept_key(&grid, work, key);
+    for (int part = 0; part < BR_PARTS; part++)
+        pass_size(r, &s->reference_error[part]);
+    br_record_text(r, &s->events, MOST_EVENTS);
 }
 
-/* ---- reading ---- */
-
-static bool read_cell(struct br_study *s, size_t cell)
+/* Takes an entry into *s (in/out) only if all of it is right. */
+static bool read_entry(struct br_study *s, size_t cell)
 {
-    char key[BR_SHA256_TEXT];
-    struct br_cell k, *c = &s->cell[cell];
-    key_of_cell(s, cell, key);
-    if (!br_kept_read_into(s->kept, key, &k, sizeof k))
-        return false;
-    k.against = c->against;
-    *c = k;
-    return true;
-}
-
-static bool read_study(struct br_study *s)
-{
-    char key[BR_SHA256_TEXT];
-    struct kept_study k;
-    void *bytes;
-    size_t size;
-    key_of_study(s, key);
-    if (!br_kept_read(s->kept, key, &bytes, &size))
-        return false;
-    const bool whole = size >= sizeof k;
-    if (whole) {
-        memcpy(&k, bytes, sizeof k);
-        s->judged_by = k.judged_by;
-        s->reference_scale = k.scale;
-        memcpy(s->reference_size, k.size, sizeof k.size);
-        memcpy(s->reference_error, k.error, sizeof k.error);
-        memcpy(s->reference_tip, k.tip, sizeof k.tip);
-        s->events = strndup((const char *)bytes + sizeof k, size - sizeof k);
-        s->auditor = k.audited ? s->auditor : NULL;
-    }
-    free(bytes);
-    return whole && s->events;
+    char *text = text_of(s, cell);
+    struct br_study found = *s;
+    struct br_cell one = {.at = br_study_resolution(s, cell == SIZE_MAX ? 0 : cell)};
+    struct reference all = {&found, br_study_cells(s), false};
+    found.events = NULL;
+    const bool taken = cell == SIZE_MAX ? br_kept_take(s->kept, text, pass_reference, &all)
+                                        : br_kept_take(s->kept, text, pass_cell, &one);
+    free(text);
+    if (taken && cell == SIZE_MAX) {
+        free(s->events);
+        *s = found;
+        s->auditor = all.audited ? s->auditor : NULL;
+    } else if (taken) {
+        one.against = s->cell[cell].against;
+        s->cell[cell] = one;
+    } else
+        free(found.events);
+    return taken;
 }
 
 /* Whether all norms of a cell, or (SIZE_MAX) of a study itself, are kept. */
@@ -97,41 +115,22 @@ static bool is_kept(struct br_study *s, size_t cell)
 {
     bool kept = true;
     for (; s && kept; s = s->next_norm)
-        kept = cell == SIZE_MAX ? read_study(s) : read_cell(s, cell);
+        kept = read_entry(s, cell);
     return kept;
 }
 
-/* ---- writing ---- */
-
-static void write_cell(const struct br_study *s, size_t cell)
+/* auditor: as it was requested; it may have failed. */
+static void write_entry(struct br_study *s, size_t cell, const struct br_judge *auditor)
 {
-    char key[BR_SHA256_TEXT];
-    key_of_cell(s, cell, key);
-    br_kept_write(s->kept, key, &s->cell[cell], sizeof s->cell[cell]);
-}
-
-/* auditor: as requested, since the key must not depend on its success. */
-static enum br_status write_study(struct br_study *s, const struct br_judge *auditor,
-                                  struct br_error *err)
-{
-    char key[BR_SHA256_TEXT];
+    struct reference all = {s, br_study_cells(s), s->auditor != NULL};
     struct br_study asked = *s;
-    struct kept_study k = {.audited = s->auditor != NULL, .scale = s->reference_scale};
-    k.judged_by = s->judged_by;
-    memcpy(k.size, s->reference_size, sizeof k.size);
-    memcpy(k.error, s->reference_error, sizeof k.error);
-    memcpy(k.tip, s->reference_tip, sizeof k.tip);
     asked.auditor = auditor;
-    key_of_study(&asked, key);
-    const char *events = s->events ? s->events : "";
-    char *bytes = br_allocate(sizeof k + strlen(events) + 1, 1);
-    if (!bytes)
-        return br_no_memory(err, "what is kept");
-    memcpy(bytes, &k, sizeof k);
-    strcpy(bytes + sizeof k, events);
-    br_kept_write(s->kept, key, bytes, sizeof k + strlen(events));
-    free(bytes);
-    return BR_OK;
+    char *text = text_of(&asked, cell);
+    if (cell == SIZE_MAX)
+        br_kept_put(s->kept, text, pass_reference, &all);
+    else
+        br_kept_put(s->kept, text, pass_cell, &s->cell[cell]);
+    free(text);
 }
 
 /* ---- slices ---- */
@@ -205,7 +204,7 @@ static void keep_cells(const struct work *w, size_t slice)
             for (size_t c = 0; c < br_study_cells(norm); c++)
                 if (of[c] == slice && !norm->cell[c].failure.status &&
                     isfinite(norm->cell[c].error[BR_PART_TOTAL]))
-                    write_cell(norm, c);
+                    write_entry(norm, c, NULL);
 }
 
 static enum br_status march(struct work *w, int threads, struct br_error *err)
@@ -246,7 +245,7 @@ static enum br_status put_together(struct work *w, struct br_error *err)
         }
         for (struct br_study *norm = first; norm && marched && !status; norm = norm->next_norm)
             if (!norm->failure.status)
-                status = write_study(norm, w->auditor[s], err);
+                write_entry(norm, SIZE_MAX, w->auditor[s]);
     }
     return status;
 }

@@ -2,6 +2,7 @@
 /* A source of numbers: a program that is run at each resolution. */
 #include <errno.h>
 #include <fcntl.h>
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -240,53 +241,70 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
 
 /* ---- finished cells ---- */
 
-/* The key of a cell is a hash of what its numbers depend on: the command, with the files that it
+/* *text (out, owned): all that a cell's numbers follow from: the command, with the files that it
  * names, and the readings. Other files that the program reads are not known. */
-static enum br_status key_of(const struct job *j, const struct br_command_words *cell,
-                             char key[BR_SHA256_TEXT], struct br_error *err)
+static enum br_status text_of(const struct job *j, const struct br_command_words *cell, char **text,
+                              struct br_error *err)
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
-    struct br_sha256 sum = j->kept->base;
-    const enum br_status status = br_command_add(&sum, cell, err);
+    struct br_statement s;
+    br_kept_begin(j->kept, "run", &s);
+    const enum br_status status = br_command_state(&s, cell, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
-        br_kept_add(&sum, reading->name);
-        br_kept_add(&sum, kinds[reading->kind]);
-        br_kept_add(&sum, reading->what);
+        br_state(&s, "name", "%s", reading->name);
+        br_state(&s, kinds[reading->kind], "%s", reading->what);
     }
-    br_sha256_end(&sum, key);
-    return status;
+    *text = br_statement_end(&s);
+    return *text || status ? status : br_no_memory(err, "a finished cell");
 }
 
-/* Takes a row from its kept entry, or runs it and keeps it; it is not kept where its program has
- * changed during the run. An entry has the seconds, the bytes and the numbers. */
+struct row {
+    struct br_numbers_row *row;
+    size_t numbers;
+};
+
+static void pass_row(struct br_record *r, void *self)
+{
+    const struct row *of = self;
+    size_t numbers = of->numbers;
+    br_record_count(r, &numbers, numbers, numbers);
+    br_record_number(r, &of->row->seconds, 0, DBL_MAX);
+    br_record_or_nan(r, &of->row->bytes, 0, DBL_MAX);
+    for (size_t i = 0; i < numbers; i++)
+        br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
+}
+
+/* Runs a cell and keeps it, but not where its program has changed during the run. */
+static enum br_status run_and_keep(const struct job *j, const struct br_command_words *words,
+                                   const char *text, struct row *of, struct br_error *err)
+{
+    char *now = NULL;
+    bool failed = run_words(j, words, of->row, err);
+    if (!failed && !of->row->failure) {
+        failed = text_of(j, words, &now, err);
+        if (!failed && strcmp(text, now) == 0)
+            failed = !br_kept_put(j->kept, text, pass_row, of) &&
+                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                             j->program->kept, strerror(errno));
+    }
+    free(now);
+    return failed ? err->status : BR_OK;
+}
+
 static enum br_status take_row(const struct job *j, const struct br_command_words *words,
                                struct br_numbers_row *row, struct br_error *err)
 {
-    const size_t numbers = j->program->readings, size = (numbers + 2) * sizeof(double);
-    char key[BR_SHA256_TEXT], now[BR_SHA256_TEXT];
+    struct row of = {row, j->program->readings};
+    char *text = NULL;
     if (!j->program->kept)
         return run_words(j, words, row, err);
-    double *entry = br_allocate(1, size);
-    bool failed = !entry ? br_no_memory(err, "a finished cell") : key_of(j, words, key, err);
-    if (!failed && br_kept_read_into(j->kept, key, entry, size)) {
-        row->kept = true;
-        row->seconds = entry[0];
-        row->bytes = entry[1];
-        memcpy(row->number, entry + 2, numbers * sizeof *entry);
-    } else if (!failed) {
-        failed = run_words(j, words, row, err) || (!row->failure && key_of(j, words, now, err));
-        if (!failed && !row->failure && strcmp(key, now) == 0) {
-            entry[0] = row->seconds;
-            entry[1] = row->bytes;
-            memcpy(entry + 2, row->number, numbers * sizeof *entry);
-            failed = !br_kept_write(j->kept, key, entry, size) &&
-                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                             j->program->kept, strerror(errno));
-        }
-    }
-    free(entry);
-    return failed ? err->status : BR_OK;
+    enum br_status status = text_of(j, words, &text, err);
+    row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
+    if (!status && !row->kept)
+        status = run_and_keep(j, words, text, &of, err);
+    free(text);
+    return status;
 }
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
@@ -362,8 +380,6 @@ static enum br_status open_kept(struct job *j, struct br_error *err)
     const char *folder = j->program->kept;
     const int length = snprintf(j->kept->folder, sizeof j->kept->folder, "%s", folder);
     const bool fits = (size_t)length < sizeof j->kept->folder;
-    br_sha256_start(&j->kept->base);
-    br_kept_add(&j->kept->base, "beamrate-cell 2");
     if (fits && (mkdir(folder, 0777) == 0 || errno == EEXIST))
         return BR_OK;
     return br_fail(err, BR_IO, "%.900s: %s", folder, strerror(fits ? errno : ENAMETOOLONG));

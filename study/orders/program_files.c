@@ -8,14 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/kept/kept.h"
+#include "study/grid/statement.h"
 #include "study/orders/request.h"
 
 enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes; of a larger one the contents are not read */
 
 /* The contents of a regular file, or, where it is larger, its size and times. Of any other file,
  * only the name counts. place: the real path, too. */
-static enum br_status add_file(struct br_sha256 *sum, const char *path, long long largest,
+static enum br_status add_file(struct br_statement *command, const char *path, long long largest,
                                bool place, struct br_error *err)
 {
     struct stat info;
@@ -36,43 +36,40 @@ static enum br_status add_file(struct br_sha256 *sum, const char *path, long lon
         close(file);
     if (!read || (place && !real))
         return br_fail(err, BR_IO, "%.800s cannot be read: %s", path, strerror(reason));
-    br_kept_add(sum, "file");
-    br_kept_add(sum, text);
+    br_state(command, "file", "%s", text);
     if (place)
-        br_kept_add(sum, real);
+        br_state(command, "place", "%s", real);
     free(real);
     return BR_OK;
 }
 
 /* before: the command at another resolution; files of equal words are not read again. NULL: none,
  * and no places. */
-static enum br_status add_command(struct br_sha256 *sum, const struct br_command_words *c,
+static enum br_status add_command(struct br_statement *command, const struct br_command_words *c,
                                   const struct br_command_words *before, struct br_error *err)
 {
     const bool place = before;
     char **same = before ? before->word : NULL;
     enum br_status status = BR_OK;
-    br_kept_add(sum, "program");
-    br_kept_add(sum, c->program);
+    br_state(command, "program", "%s", c->program);
     if (!place || !before->program || strcmp(before->program, c->program) != 0)
-        status = add_file(sum, c->program, INT64_MAX, place, err);
+        status = add_file(command, c->program, INT64_MAX, place, err);
     for (char **word = c->word; *word && !status; word++) {
         const char *behind = strchr(*word, '='), *old = same && *same ? *same++ : NULL;
-        br_kept_add(sum, "word");
-        br_kept_add(sum, *word);
+        br_state(command, "word", "%s", *word);
         if (old && strcmp(*word, old) == 0)
             continue;
-        status = add_file(sum, *word, LARGEST_WORD_FILE, place, err);
+        status = add_file(command, *word, LARGEST_WORD_FILE, place, err);
         if (behind && !status)
-            status = add_file(sum, behind + 1, LARGEST_WORD_FILE, place, err);
+            status = add_file(command, behind + 1, LARGEST_WORD_FILE, place, err);
     }
     return status;
 }
 
-enum br_status br_command_add(struct br_sha256 *sum, const struct br_command_words *c,
-                              struct br_error *err)
+enum br_status br_command_state(struct br_statement *command, const struct br_command_words *c,
+                                struct br_error *err)
 {
-    return add_command(sum, c, NULL, err);
+    return add_command(command, c, NULL, err);
 }
 
 static size_t count_of(const struct br_program_axis *axis)
@@ -83,14 +80,14 @@ static size_t count_of(const struct br_program_axis *axis)
 enum br_status br_command_identify(const struct br_orders_request *r, const char *text,
                                    char sum[BR_SHA256_TEXT], struct br_error *err)
 {
-    struct br_sha256 s;
+    struct br_statement s;
     struct br_command_words before = {NULL, NULL};
     char *real = realpath(r->path, NULL); /* NULL: a pipe, for example */
     enum br_status status = BR_OK;
-    br_sha256_start(&s);
-    br_kept_add(&s, "beamrate-trust 2");
-    br_kept_add(&s, real ? real : r->path);
-    br_kept_add(&s, text);
+    br_statement_begin(&s);
+    br_state(&s, "beamrate-trust", "%s", "3");
+    br_state(&s, "place", "%s", real ? real : r->path);
+    br_state(&s, "study", "%s", text);
     free(real);
     const size_t inner = count_of(&r->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&r->axis[BR_AXIS_SPACE]) * inner;
@@ -108,6 +105,11 @@ enum br_status br_command_identify(const struct br_orders_request *r, const char
         before = words;
     }
     br_command_clear(&before);
-    br_sha256_end(&s, sum);
+    char *all = br_statement_end(&s);
+    if (all)
+        br_sha256_of(all, strlen(all), sum);
+    else if (!status)
+        status = br_no_memory(err, "a command");
+    free(all);
     return status;
 }

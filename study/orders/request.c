@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/kept/kept.h"
 #include "study/scene/quote.h"
 #include "study/scene/words.h"
 
@@ -148,7 +147,7 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
 /* NULL counts as an empty text. */
 static void add_text(struct br_sha256 *sum, const char *text)
 {
-    br_kept_add(sum, text ? text : "");
+    br_sha256_add_text(sum, text ? text : "");
 }
 
 void br_orders_problem(const struct br_orders_request *r, char problem[40])

@@ -7,9 +7,10 @@
 
 #include <jansson.h>
 
+#include "study/base/sha256.h"
 #include "study/grid/observer.h"
+#include "study/grid/statement.h"
 #include "study/orders/orders.h"
-#include "study/orders/sha256.h"
 
 /* How a number is found in standard output. */
 enum br_reading_kind {
@@ -136,14 +137,14 @@ enum br_status br_command_split(const struct br_orders_request *request,
                                 struct br_error *err);
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
-/* Adds the words, the program's bytes and those of the files that words name, also behind a "=" (of
- * large files their size and time). Fails with BR_IO. */
-enum br_status br_command_add(struct br_sha256 *sum, const struct br_command_words *words,
-                              struct br_error *err);
+/* States the words, the program's bytes and those of the files that words name, also behind a "="
+ * (of large files their size and time). Fails with BR_IO. */
+enum br_status br_command_state(struct br_statement *statement,
+                                const struct br_command_words *words, struct br_error *err);
 
 /* A hash (out) of what a study file runs: its text and real path, and at all resolutions the
  * command, with the bytes and the real paths of the program and of the files that words name. Fails
- * as br_command_split and br_command_add. */
+ * as br_command_split and br_command_state. */
 enum br_status br_command_identify(const struct br_orders_request *request, const char *text,
                                    char sum[BR_SHA256_TEXT], struct br_error *err);
 

@@ -7,9 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "study/grid/statement.h"
 #include "study/grid/sweep.h"
-#include "study/scene/method_fields.h"
-#include "study/scene/schema.h"
 
 /* ---- costs ---- */
 
@@ -343,94 +342,19 @@ enum br_status br_batches_read(struct br_study *studies, size_t count, const str
 
 /* ---- whether ranks have read the same ---- */
 
-/* FNV-1a, 64 bits. */
-static void add(unsigned long long *hash, const char *text)
-{
-    for (; *text; text++)
-        *hash = (*hash ^ (unsigned char)*text) * 0x100000001b3ull;
-    *hash = (*hash ^ 0xff) * 0x100000001b3ull;
-}
-
-/* Nine digits: the last bits may differ between processors. */
-static void add_number(unsigned long long *hash, double value)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.9g", value);
-    add(hash, text);
-}
-
-static void add_counts(unsigned long long *hash, const size_t *list, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        add_number(hash, (double)list[i]);
-    add(hash, "");
-}
-
-static void add_function(unsigned long long *hash, const struct br_function *f,
-                         const struct br_scene *s)
-{
-    static const double point[] = {0, 0.137, 0.5, 0.823, 1};
-    enum { POINTS = sizeof point / sizeof *point };
-    double x[POINTS], value[POINTS];
-    for (size_t i = 0; i < POINTS; i++)
-        x[i] = point[i] * s->length;
-    for (size_t j = 0; j < POINTS; j++) {
-        br_function_evaluate(f, POINTS, x, point[j] * s->duration, value);
-        for (size_t i = 0; i < POINTS; i++)
-            add_number(hash, value[i]);
-    }
-}
-
-static void add_scene(unsigned long long *hash, const struct br_scene *s)
-{
-    struct br_scene borrowed = *s;
-    const struct br_function *f;
-    add_counts(hash,
-               (const size_t[]){s->axial.modelled, s->bending.modelled, s->contact.modelled,
-                                s->friction.law},
-               4);
-    for (const struct br_scene_key *key = br_scene_keys; key->name; key++)
-        if ((key->kind == BR_KEY_POSITIVE || key->kind == BR_KEY_NOT_NEGATIVE) &&
-            key->need != BR_MAKES)
-            add_number(hash, *(const double *)((const char *)s + key->offset));
-    for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
-        add_function(hash, f, s);
-}
-
-/* All fields but the instruction set, which depends on the machine. */
-static void add_method(unsigned long long *hash, const struct br_method *m)
-{
-    char text[BR_METHOD_VALUE];
-    for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
-        const struct br_method_field *f = &br_method_fields[i];
-        if (!f->unsaid && br_method_field_used(f, m))
-            add(hash, br_method_field_text(f, m, text));
-    }
-}
-
-static void add_study(unsigned long long *hash, const struct br_study *s)
-{
-    add_counts(hash, s->n, s->n_count);
-    add_counts(hash, s->steps, s->k_count);
-    add_counts(hash, (const size_t[]){s->path, s->reference.n, s->reference.steps}, 3);
-    for (size_t cell = 0; cell < (s->cell_method ? br_study_cells(s) : 1); cell++)
-        add_method(hash, br_study_method(s, cell));
-    if (s->judge->nests) /* else it need not be set */
-        add_method(hash, &s->reference_method);
-    add(hash, s->judge->name);
-    add(hash, s->auditor ? s->auditor->name : "");
-    for (; s; s = s->next_norm)
-        add(hash, s->norm->name);
-}
-
 unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count)
 {
-    unsigned long long hash = 0xcbf29ce484222325ull;
-    add_counts(&hash, (const size_t[]){count, sizeof(struct br_cell)}, 2);
-    for (size_t i = 0; i < count; i++) {
-        if (i == 0 || studies[i].scene != studies[i - 1].scene)
-            add_scene(&hash, studies[i].scene);
-        add_study(&hash, &studies[i]);
-    }
+    struct br_statement text;
+    unsigned long long hash = 0xcbf29ce484222325ull; /* FNV-1a, 64 bits */
+    br_statement_begin(&text);
+    text.everywhere = true;
+    br_state(&text, "cell-bytes", "%zu", sizeof(struct br_cell));
+    for (size_t i = 0; i < count; i++)
+        for (const struct br_study *s = &studies[i]; s; s = s->next_norm)
+            br_state_study(&text, s, SIZE_MAX);
+    br_statement_end(&text);
+    for (const char *c = text.text; c && *c; c++)
+        hash = (hash ^ (unsigned char)*c) * 0x100000001b3ull;
+    free(text.text);
     return hash;
 }

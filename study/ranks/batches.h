@@ -47,9 +47,8 @@ double br_reference_cost(const struct br_study *study);
  * the largest cost of a slice's cells, ns. -1: out of memory. */
 double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
 
-/* A hash of studies, equal on ranks that have read the same scenes and options. Expressions enter
- * by their values at some points and times, to nine digits. Not for studies whose scenes another
- * thread is using. */
+/* A hash of what studies ask (study/grid/statement.h), equal on ranks that have read the same
+ * scenes and options. */
 unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count);
 
 #endif

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/trade/trial.h"
 
+#include <float.h>
 #include <math.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "solver/clock.h"
@@ -201,48 +200,85 @@ static enum br_status repeat(struct br_trial *t, const struct br_trial_request *
 
 /* ---- kept ---- */
 
-/* The kept timing of a trial that is complete or over the limit. */
-struct kept_trial {
-    struct br_trial_cost cost;
-    struct br_error failure;
-    uint64_t end;
-};
-
-static void key_of(const struct br_trial *t, const struct br_trial_request *r,
-                   char key[BR_SHA256_TEXT])
+static char *text_of(const struct br_trial *t, const struct br_trial_request *r)
 {
     const struct br_method method = br_trial_method(t);
-    char text[BR_KEPT_METHOD], work[BR_KEPT_METHOD + 200];
-    snprintf(work, sizeof work, "trial, n %zu, steps %zu, repeats %zu in %a s, limit %a s, %s",
-             t->at.n, t->at.steps, r->repeats, r->repeat_seconds, r->time_limit,
-             br_kept_method(&method, text));
-    br_kept_key(&r->kept->base, work, key);
+    struct br_statement text;
+    br_kept_begin(r->kept, "trial", &text);
+    br_state_scene(&text, r->scene);
+    br_state_method(&text, &method);
+    br_state(&text, "n", "%zu", t->at.n);
+    br_state(&text, "steps", "%zu", t->at.steps);
+    br_state(&text, "repeats", "%zu", r->repeats);
+    br_state(&text, "repeat-seconds", "%a", r->repeat_seconds);
+    br_state(&text, "time-limit", "%a", r->time_limit);
+    return br_statement_end(&text);
+}
+
+/* A trial and its request. */
+struct timed {
+    struct br_trial *trial;
+    const struct br_trial_request *request;
+};
+
+static void pass_cost(struct br_record *r, const struct timed *of)
+{
+    const size_t most = (size_t)1 << 53; /* of a count */
+    struct br_trial_cost *cost = &of->trial->cost;
+    br_record_number(r, &cost->set_up, 0, DBL_MAX);
+    br_record_number(r, &cost->march, 0, DBL_MAX);
+    br_record_count(r, &cost->repeats, 1, of->request->repeats);
+    br_record_count(r, &cost->levels, of->trial->at.steps, of->trial->at.steps);
+    br_record_count(r, &cost->counts.steps, 1, most);
+    br_record_count(r, &cost->counts.rejected, 0, most);
+    br_record_count(r, &cost->counts.stages, 0, most);
+    br_record_count(r, &cost->counts.iterations, 0, most);
+    br_record_count(r, &cost->counts.set_ups, 0, most);
+}
+
+/* The timing of a trial that is complete or over the limit. */
+static void pass_trial(struct br_record *r, void *self)
+{
+    const struct timed *of = self;
+    struct br_trial *t = of->trial;
+    bool over = t->end == BR_TRIAL_OVER;
+    char *why = t->failure.message;
+    br_record_count(r, &t->at.n, t->at.n, t->at.n);
+    br_record_flag(r, &over);
+    t->end = over ? BR_TRIAL_OVER : BR_TRIAL_DONE;
+    if (!over) {
+        pass_cost(r, of);
+        return;
+    }
+    br_record_text(r, &why, sizeof t->failure.message - 1);
+    if (why && why != t->failure.message) {
+        br_fail(&t->failure, BR_VERDICT, "%s", why);
+        free(why);
+    }
 }
 
 static bool take_kept(struct br_trial *t, const struct br_trial_request *r)
 {
-    struct kept_trial k;
-    char key[BR_SHA256_TEXT];
+    struct br_trial found = *t;
     if (!r->kept)
         return false;
-    key_of(t, r, key);
-    if (!br_kept_read_into(r->kept, key, &k, sizeof k))
-        return false;
-    t->cost = k.cost;
-    t->failure = k.failure;
-    t->end = (enum br_trial_end)k.end;
-    atomic_fetch_add(&r->kept->taken, 1);
-    return true;
+    char *text = text_of(t, r);
+    const bool taken = br_kept_take(r->kept, text, pass_trial, &(struct timed){&found, r});
+    free(text);
+    if (taken) {
+        *t = found;
+        atomic_fetch_add(&r->kept->taken, 1);
+    }
+    return taken;
 }
 
-static void keep_trial(const struct br_trial *t, const struct br_trial_request *r)
+static void keep_trial(struct br_trial *t, const struct br_trial_request *r)
 {
-    struct kept_trial k = {.cost = t->cost, .failure = t->failure, .end = (uint64_t)t->end};
-    char key[BR_SHA256_TEXT];
     if (!r->kept || t->end == BR_TRIAL_FAILED)
         return;
-    key_of(t, r, key);
-    br_kept_write(r->kept, key, &k, sizeof k);
+    char *text = text_of(t, r);
+    br_kept_put(r->kept, text, pass_trial, &(struct timed){t, r});
+    free(text);
 }
 
 /* Trials that are run in one call. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/orders/sha256.h"
+#include "study/base/sha256.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -77,6 +77,11 @@ void br_sha256_add(struct br_sha256 *s, const void *bytes, size_t count)
     }
 }
 
+void br_sha256_add_text(struct br_sha256 *s, const char *text)
+{
+    br_sha256_add(s, text, strlen(text) + 1);
+}
+
 void br_sha256_end(struct br_sha256 *s, char text[BR_SHA256_TEXT])
 {
     static const unsigned char padding[64] = {0x80};
@@ -88,6 +93,14 @@ void br_sha256_end(struct br_sha256 *s, char text[BR_SHA256_TEXT])
     br_sha256_add(s, size, sizeof size);
     for (int i = 0; i < 8; i++)
         snprintf(text + 8 * i, 9, "%08x", s->state[i]);
+}
+
+void br_sha256_of(const void *bytes, size_t count, char text[BR_SHA256_TEXT])
+{
+    struct br_sha256 sum;
+    br_sha256_start(&sum);
+    br_sha256_add(&sum, bytes, count);
+    br_sha256_end(&sum, text);
 }
 
 bool br_sha256_file(int file, long long *size, char text[BR_SHA256_TEXT])

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "study/grid/statement.h"
+
+#include <stdarg.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "study/scene/expression.h"
+#include "study/scene/method_fields.h"
+#include "study/scene/schema.h"
+
+void br_statement_begin(struct br_statement *s)
+{
+    *s = (struct br_statement){0};
+    s->file = open_memstream(&s->text, &s->size);
+    s->failed = !s->file;
+}
+
+char *br_statement_end(struct br_statement *s)
+{
+    s->failed |= s->file && fclose(s->file) != 0;
+    if (s->failed) {
+        free(s->text);
+        s->text = NULL;
+    }
+    return s->text;
+}
+
+void br_state(struct br_statement *s, const char *name, const char *format, ...)
+{
+    char *value = NULL;
+    va_list values;
+    va_start(values, format);
+    const int size = s->failed ? -1 : vasprintf(&value, format, values);
+    va_end(values);
+    if (size < 0)
+        s->failed = true;
+    else {
+        s->failed |= fprintf(s->file, "%s %d %s\n", name, size, value) < 0;
+        free(value);
+    }
+}
+
+/* ---- a scene ---- */
+
+static void state_number(struct br_statement *s, const char *name, double value)
+{
+    if (s->everywhere)
+        br_state(s, name, "%.9g", value);
+    else
+        br_state(s, name, "%a", value);
+}
+
+static void state_function(struct br_statement *s, size_t i, const struct br_function *f)
+{
+    const struct br_tree *tree = br_tree_of(f);
+    s->failed |= f->ops && !tree;
+    br_state(s, "function", "%zu", i);
+    if (!tree)
+        state_number(s, "number", f->constant);
+    for (size_t k = 0; tree && k < tree->count; k++) {
+        const struct br_node *n = &tree->node[k];
+        if (n->operation == BR_OP_NUMBER)
+            state_number(s, "number", n->number);
+        else
+            br_state(s, "node", "%s%u %u %u %u", br_operation_word(n->operation),
+                     br_operation_arguments(n->operation), n->argument[0], n->argument[1],
+                     n->argument[2]);
+    }
+}
+
+/* The compiler warns here of a new kind of key. */
+static void state_key(struct br_statement *s, const struct br_scene_key *key,
+                      const struct br_scene *scene)
+{
+    const void *at = (const char *)scene + key->offset;
+    char name[64];
+    snprintf(name, sizeof name, "%s.%s", key->section, key->name);
+    switch (key->kind) {
+    case BR_KEY_POSITIVE:
+    case BR_KEY_NOT_NEGATIVE:
+        if (key->need != BR_MAKES)
+            state_number(s, name, *(const double *)at);
+        break;
+    case BR_KEY_SECTION:
+        if (key->offset)
+            br_state(s, name, "%d", *(const bool *)at);
+        break;
+    case BR_KEY_TEXT:
+    case BR_KEY_SOLUTION: {
+        const char *text = *(char *const *)at;
+        br_state(s, name, "%s", text ? text : "");
+        break;
+    }
+    case BR_KEY_LAW:
+        br_state(s, name, "%d", (int)scene->friction.law);
+        break;
+    case BR_KEY_LOAD: /* functions follow */
+    case BR_KEY_INITIAL:
+    case BR_KEY_HISTORY:
+    case BR_KEY_SHAPE: /* other numbers are made of it */
+    case BR_KEY_VERIFY:
+        break;
+    }
+}
+
+void br_state_scene(struct br_statement *s, const struct br_scene *scene)
+{
+    struct br_scene borrowed = *scene;
+    const struct br_function *f;
+    for (const struct br_scene_key *key = br_scene_keys; key->name; key++)
+        state_key(s, key, scene);
+    for (size_t i = 0; (f = br_scene_function(&borrowed, i)); i++)
+        if (!br_function_is_zero(f))
+            state_function(s, i, f);
+}
+
+/* ---- a method and a study ---- */
+
+void br_state_method(struct br_statement *s, const struct br_method *m)
+{
+    char value[BR_METHOD_VALUE];
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++)
+        if (!f->unsaid || !s->everywhere)
+            br_state(s, f->name, "%s", br_method_field_text(f, m, value));
+    br_state(s, "most_steps", "%zu", m->most_steps);
+    br_state(s, "rounding", "%d", m->rounding);
+}
+
+static void state_resolution(struct br_statement *s, struct br_resolution at)
+{
+    br_state(s, "n", "%zu", at.n);
+    br_state(s, "steps", "%zu", at.steps);
+}
+
+void br_state_study(struct br_statement *s, const struct br_study *study, size_t cell)
+{
+    const bool all = cell == SIZE_MAX;
+    br_state_scene(s, study->scene);
+    br_state(s, "norm", "%s", study->norm->name);
+    br_state(s, "judge", "%s", study->judge->name);
+    if (study->judge->nests) { /* else they need not be set */
+        state_resolution(s, study->reference);
+        br_state_method(s, &study->reference_method);
+    }
+    if (all)
+        br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
+    for (size_t c = all ? 0 : cell; c < (all ? br_study_cells(study) : cell + 1); c++) {
+        br_state(s, "cell", "%s", "");
+        state_resolution(s, br_study_resolution(study, c));
+        if (!all || c == 0 || study->cell_method)
+            br_state_method(s, br_study_method(study, c));
+    }
+}
