@@ -222,7 +222,7 @@ struct br_figure br_variation_draw(const struct br_variation *variation);
 /* Deviation from the exact discrete solution over n, at time step number k; or, for round-off that
  * adds up, over the number of steps. */
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
-/* The lagged contact's growth over c_H and k. */
+/* Stable and unstable marches over n and k, and over c_H and k. */
 struct br_figure br_stability_draw(const struct br_stability *stability);
 
 /* ---- paper.c: Figures 2 to 10 ---- */

@@ -240,8 +240,10 @@ static void print_floors(FILE *out)
     size_t n[] = {10, 100};
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
+    static char name[] = "one";
+    const struct br_scene scene = {.name = name};
     struct br_floors floors = {
-        .scenes = 1, .methods = 2, .n_count = 2, .k_count = 3, .floors = 12, .floor = floor};
+        .scene = {&scene}, .scenes = 1, .methods = 2, .n_count = 2, .k_count = 3, .floors = 12, .floor = floor};
     MUST(br_named_method_read("euler+riccati", &floors.method[0], &err));
     MUST(br_named_method_read("euler+umfpack", &floors.method[1], &err));
     for (int i = 0; i < 12; i++)
@@ -258,7 +260,10 @@ static void print_drifts(FILE *out)
     struct br_error err = {0};
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
+    static char name[][4] = {"one", "two"};
+    const struct br_scene one = {.name = name[0]}, two = {.name = name[1]};
     struct br_floors d = {.gathered = true,
+                          .scene = {&one, &two},
                           .scenes = 2,
                           .methods = 2,
                           .solvers = 1,

@@ -9,7 +9,6 @@
 #include "reference/discrete.h"
 #include "study/extremes/extremes.h"
 #include "study/grid/each.h"
-#include "study/scene/file.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
@@ -56,25 +55,10 @@ static void add_schemes(struct br_floors *f)
                     add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
 
-static enum br_status read_scenes(struct br_floors *f, struct br_error *err)
-{
-    static const char *const names[] = {"example1", "example2"};
-    enum br_status status = BR_OK;
-    const char *const *name = f->gathered ? names : names + 1;
-    f->scenes = f->gathered ? 2 : 1;
-    for (size_t i = 0; i < f->scenes && !status; i++) {
-        char path[1024];
-        status = br_scene_find(name[i], path, sizeof path, err);
-        if (!status)
-            status = br_scene_read(path, &f->scene[i], err);
-    }
-    return status;
-}
-
 /* ---- what is measured ---- */
 
 static const size_t usual_n[] = {100, 400, 1600, 6400, 12800, 100000, 1000000};
-static const size_t usual_steps[] = {100, 10000, 1000000}; /* of 1 s */
+static const size_t usual_steps[] = {100, 10000, 1000000};
 static const size_t gathered_n[] = {BR_GATHERED_N};
 static const size_t gathered_steps[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
 
@@ -94,10 +78,10 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
 {
     const size_t most = f->gathered ? SIZE_MAX : BR_FLOOR_STEPS;
     for (size_t i = 0; i < f->scenes * f->methods; i++) {
-        const struct br_scene *scene = &f->scene[i / f->methods];
+        const struct br_scene *scene = f->scene[i / f->methods];
         const struct br_named_method *by = &f->method[i % f->methods];
         const bool marched =
-            chosen || !f->gathered || is_usual(&by->method, scene == f->scene, steps);
+            chosen || !f->gathered || is_usual(&by->method, scene == f->scene[0], steps);
         f->floor[i * f->n_count * f->k_count + at] = (struct br_floor){
             .scene = scene,
             .by = by,
@@ -119,10 +103,13 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
                               struct br_error *err)
 {
     const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
-    const size_t *usual = f->gathered ? gathered_steps : usual_steps;
-    enum br_status status = read_scenes(f, err);
-    if (status)
-        return status;
+    const size_t *steps = job->steps ? job->steps : f->gathered ? gathered_steps : usual_steps;
+    if (job->scenes > BR_FLOOR_SCENES)
+        return br_fail(err, BR_BAD_INPUT, "found %zu scenes, expected at most %d", job->scenes,
+                       BR_FLOOR_SCENES);
+    f->scenes = job->scenes;
+    for (size_t i = 0; i < f->scenes; i++)
+        f->scene[i] = job->scene[i];
     if (f->gathered)
         add_schemes(f);
     else
@@ -130,25 +117,20 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
     for (size_t i = 0; i < f->methods; i++)
         f->method[i].method.rounding = job->rounding;
     f->n_count = f->gathered ? COUNT(gathered_n) : job->n ? job->n_count : COUNT(usual_n);
-    f->k_count = job->k ? job->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
+    f->k_count = job->steps    ? job->step_count
+                 : f->gathered ? COUNT(gathered_steps)
+                               : COUNT(usual_steps);
     f->floors = f->scenes * f->methods * f->n_count * f->k_count;
     f->floor = br_allocate(f->floors, sizeof *f->floor);
     if (!f->floor)
         return br_no_memory(err, "the floors");
-    for (size_t i = 0; i < f->n_count * f->k_count && !status; i++) {
-        const size_t j = i % f->k_count;
-        size_t steps = usual[job->k ? 0 : j];
-        if (job->k)
-            status = br_steps_of(&f->scene[0], job->k[j], &steps, err);
-        list_marches(f, i, n[i / f->k_count], steps, job->k != NULL);
-    }
-    return status;
+    for (size_t i = 0; i < f->n_count * f->k_count; i++)
+        list_marches(f, i, n[i / f->k_count], steps[i % f->k_count], job->steps != NULL);
+    return BR_OK;
 }
 
 void br_floors_clear(struct br_floors *f)
 {
-    for (size_t i = 0; i < f->scenes; i++)
-        br_scene_clear(&f->scene[i]);
     free(f->floor);
     *f = (struct br_floors){0};
 }
