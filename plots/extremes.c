@@ -87,7 +87,7 @@ struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
 static void add_points(const struct br_stability *s, const struct br_stability_plane *p,
                        enum br_stability_outcome outcome, struct br_figure *figure)
 {
-    static const enum br_pen pens[] = {BR_PEN_DOTS, BR_PEN_STARS, BR_PEN_SQUARES};
+    static const enum br_pen pens[] = {BR_PEN_RINGS, BR_PEN_STARS, BR_PEN_SQUARES};
     if (!br_stability_count(s, p, outcome))
         return;
     struct br_series *series =

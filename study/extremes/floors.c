@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <fenv.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -6,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/discrete.h"
+#include "reference/long_plain.h"
 #include "study/extremes/extremes.h"
 #include "study/grid/each.h"
 
@@ -141,8 +142,8 @@ void br_floors_clear(struct br_floors *f)
 struct work {
     struct br_floor *first; /* the others follow, with a stride */
     const struct br_observer *observer;
-    long double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
-    double *march;         /* workspace, 2 (n + 1); owned */
+    double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
+    double *march;    /* workspace, 2 (n + 1); owned */
 };
 
 /* Checks so often that on any mesh little time passes between two checks. */
@@ -151,23 +152,28 @@ static bool stopped(const struct work *w, size_t step)
     return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
 
+/* The same march by `plain` in long double. Where it is refused, or fails, there is nothing to
+ * compare with. */
 static enum br_status find_exact(struct work *w, struct br_error *err)
 {
     const struct br_floor *f = w->first;
-    struct br_discrete *d;
-    enum br_status status = br_discrete_create(&d, f->scene, f->n, f->of, &f->by->method, err);
+    struct br_method method = f->by->method;
+    method.solver = &br_long_plain;
+    method.rounding = FE_TONEAREST;
+    struct br_march *march;
+    enum br_status status = br_march_create(&march, f->scene, f->n, f->of, &method, err);
     for (size_t i = 0; i < f->steps && !status; i++)
-        status =
-            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_discrete_step(d, err);
+        status = stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted")
+                               : br_march_step(march, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        w->nodal[kind] = br_allocate((size_t)(kind + 1) * (f->n + 1), sizeof(long double));
+        w->nodal[kind] = br_allocate(2 * (f->n + 1), sizeof *w->nodal[kind]);
         if (w->nodal[kind])
-            br_discrete_get(d, (enum br_field_kind)kind, w->nodal[kind], NULL);
+            br_march_get(march, (enum br_field_kind)kind, w->nodal[kind], NULL);
         else
             status = br_no_memory(err, "the exact discrete solution");
     }
-    br_discrete_free(d);
-    return status;
+    br_march_free(march);
+    return status == BR_NO_MEMORY || status == BR_INTERRUPTED ? status : BR_OK;
 }
 
 /* Compares nodal displacements. Slopes belong to the same functions and need no comparison. */
@@ -175,16 +181,18 @@ static void compare(const struct work *w, const struct br_march *march, enum br_
                     struct br_floor *floor)
 {
     const size_t stride = kind == BR_AXIAL ? 1 : 2, last = stride * floor->n;
-    const long double *exact = w->nodal[kind];
-    long double most = 0, largest = 0;
+    const double *exact = w->nodal[kind];
+    double most = 0, largest = 0;
+    if (!exact)
+        return; /* the deviation stays NaN */
     br_march_get(march, kind, w->march, NULL);
     for (size_t i = 0; i <= last; i += stride) {
-        const long double error = fabsl(exact[i] - w->march[i]);
-        largest = fmaxl(largest, fabsl(exact[i]));
+        const double error = fabs(exact[i] - w->march[i]);
+        largest = fmax(largest, fabs(exact[i]));
         most = isnan(most) || error <= most ? most : error;
     }
-    floor->deviation[kind] = (double)(most / largest);
-    floor->tip[kind] = (double)(fabsl(exact[last] - w->march[last]) / largest);
+    floor->deviation[kind] = largest > 0 ? most / largest : most;
+    floor->tip[kind] = largest > 0 ? fabs(exact[last] - w->march[last]) / largest : most;
 }
 
 /* The difference of the march's time from i T/N, which long double has to 64 bits. */
@@ -258,7 +266,7 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 {
     *f = (struct br_floors){.gathered = gathered};
     const enum br_status status = prepare(f, job, err);
-    if (!status && !br_discrete_judges())
+    if (!status && !br_long_plain_judges())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");
