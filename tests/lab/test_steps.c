@@ -3,8 +3,9 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-#include "tests/support.h"
+#include "study/run/run.h"
 #include "tests/lab/step_matrix.h"
+#include "tests/support.h"
 
 /* One element without inertia: u_n = (c/k - c_H L)/(a + c/k) u_{n-1}, whatever the velocity was. */
 TEST(test_matrix)
@@ -54,4 +55,38 @@ TEST(test_limit)
         }
     }
     gsl_set_error_handler(handler);
+}
+
+/* The rest of a pressed rod by its balance: the free tip is at q L^2 / (2 a), and the contact's share
+ * of q L / 2 is c_H L over a + c_H L. */
+static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
+{
+    static struct br_run_report report;
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    scene.bending.modelled = false;
+    scene.density = 1e-4;
+    scene.axial.stiffness = 1000;
+    scene.axial.load = (struct br_load){{{{.constant = 1000}, {.constant = 1}}}};
+    scene.contact = (struct br_contact){.modelled = true, .stiffness = stiffness};
+    struct br_run_request request = {
+        .scene = &scene, .method = br_method_default(), .n = 8, .steps = steps, .check = true};
+    request.method.scheme = scheme;
+    request.method.contact = br_contact_rule_find("implicit");
+    MUST(br_run(&request, &report, &err));
+    MUST(report.failure.status);
+    MUST(report.verdict.status);
+    const double rest = 500 / (1000 + stiffness); /* 1e-8 of the way is left by bdf3 in 10 steps */
+    CLOSE(report.end.last.contact_force / (stiffness * rest), 1, 1e-7);
+    CLOSE(report.end.last.displacement[BR_AXIAL] / 0.5, rest / 0.5, 1e-7);
+}
+
+/* Contact at u_n has no limit, and every scheme damps at infinity: ten steps of a hundred relaxation
+ * times bring a pressed rod to rest. */
+TEST(test_rest)
+{
+    for (size_t i = 0; br_time_schemes[i]; i++)
+        for (double stiffness = 1; stiffness < 2e15; stiffness *= 1e3)
+            for (size_t steps = 10; steps <= 1000; steps *= 10)
+                check_rest(br_time_schemes[i], stiffness, steps);
 }
