@@ -150,9 +150,9 @@ static enum br_status open_scenes(struct run *r, struct part *p, struct br_error
             return err->status;
         p->scene[p->scenes] = &opened->scene;
     }
-    return p->scenes ? br_option_steps(r->session.options, p->scene[0], &p->steps, &p->step_count,
-                                       err)
-                     : BR_OK;
+    return p->scenes
+               ? br_option_steps(r->session.options, p->scene[0], &p->steps, &p->step_count, err)
+               : BR_OK;
 }
 
 static enum br_status read_request(struct run *r, struct br_error *err)
@@ -235,8 +235,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     struct run r = {.session = br_session_begin(options)};
     const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        run_parts(&r, err) || br_session_finish(&r.session, err) ||
-                        judge(&r, err);
+                        run_parts(&r, err) || br_session_finish(&r.session, err) || judge(&r, err);
     br_session_close(&r.session);
     close_scenes(&r);
     return failed ? err->status : BR_OK;

@@ -223,10 +223,10 @@ static void write_command(FILE *out, const struct language *l, const struct br_c
     f.of['o'] = options;
     f.of['g'] = words;
     f.of['j'] = c->most_words > 1 ? "*" : "";
-    f.of['p'] = l->arguments[c->or_scenes                       ? EITHER
-                             : *words                           ? WORDS
+    f.of['p'] = l->arguments[c->or_scenes                     ? EITHER
+                             : *words                         ? WORDS
                              : !c->words && c->most_words > 0 ? SCENES
-                                                                : NONE];
+                                                              : NONE];
     emit(out, l, l->command, &f);
     if (l->examples_first)
         write_examples(out, l, c, f);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The solver `plain` in long double: the same recursions (solver/linear/plain.h), with 64 bits in
  * place of 53. A march by it loses only the rounding of loads and tip forces, which are doubles, so
- * the difference of another march from it is that march's round-off. Whether the equations are right
- * is checked by judges that share nothing with the solver.
+ * the difference of another march from it is that march's round-off. Whether the equations are
+ * right is checked by judges that share nothing with the solver.
  *
  * Against quadruple precision it is right to 1e-14 of a field's largest displacement, but to 1e-12
  * where friction holds the tip: the held tip creeps by the rounding of the force. */

@@ -128,10 +128,11 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
     br_document_begin(d, "floors", "beamrate extremes floors", 1,
                       "Round-off floors of the linear solvers");
     put_floors(d, f);
-    br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
-                   "discrete solution (the same march by 'plain' in long double), relative to the "
-                   "largest displacement of the field, after 20 steps of %s by implicit Euler with "
-                   "lagged contact; the larger of both fields.",
+    br_put_note(d,
+                "Deviation: the largest difference of all nodal displacements from the exact "
+                "discrete solution (the same march by 'plain' in long double), relative to the "
+                "largest displacement of the field, after 20 steps of %s by implicit Euler with "
+                "lagged contact; the larger of both fields.",
                 f->scene[0]->name);
     br_put_note(d, "Refused: the assembled matrix would leave a march more than a twentieth off. "
                    "'refined' does up to 2 steps of refinement a solve, 'scaled' scales the rows.");
@@ -223,10 +224,11 @@ static void answer_stiffnesses(struct br_document *d, const struct br_stability_
         br_put_answer(d, "At n = %zu it breaks with all c_H that were tried, from %.3g N/m on.",
                       c->n, c->stiffness);
     else
-        br_put_answer(d,
-                      "Over c_H, at n = %zu: up to %.3g N/m all these k are stable; at %.3g N/m they "
-                      "are up to %.4g s.",
-                      c->n, c[-1].stiffness, c->stiffness, c->largest);
+        br_put_answer(
+            d,
+            "Over c_H, at n = %zu: up to %.3g N/m all these k are stable; at %.3g N/m they "
+            "are up to %.4g s.",
+            c->n, c[-1].stiffness, c->stiffness, c->largest);
 }
 
 void br_report_stability(const struct br_stability *s, struct br_document *d)
@@ -254,13 +256,15 @@ void br_report_stability(const struct br_stability *s, struct br_document *d)
     for (const struct br_stability_plane *p = s->plane; p < end; p++)
         put_points(d, s, p);
     br_put_section(d, "What is unstable");
-    br_put_note(d, "A march that is not finite, or whose scheme makes energy. The work of loads and "
-                   "the energy of the start do not count. Implicit Euler: the share of energy that "
-                   "the scheme added, by the balance of every step, over what was put into the "
-                   "field; more than %g is unstable. With contact at u_n it adds nothing.",
+    br_put_note(d,
+                "A march that is not finite, or whose scheme makes energy. The work of loads and "
+                "the energy of the start do not count. Implicit Euler: the share of energy that "
+                "the scheme added, by the balance of every step, over what was put into the "
+                "field; more than %g is unstable. With contact at u_n it adds nothing.",
                 br_stability_most(&(struct br_method){.scheme = br_time_schemes[0]}));
     br_put_note(d, "Other schemes: the energy at the end over what the loads put in, in this march "
                    "and in one by implicit Euler with contact at u_n; more than 10 is unstable.");
-    br_put_note(d, "By theory a lagged contact that stays closed is stable if c_H G(2/k) is at most "
-                   "1; one that opens and closes gains nothing if c_H is at most (a + 2c/k)/L.");
+    br_put_note(d,
+                "By theory a lagged contact that stays closed is stable if c_H G(2/k) is at most "
+                "1; one that opens and closes gains nothing if c_H is at most (a + 2c/k)/L.");
 }

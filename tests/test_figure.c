@@ -242,8 +242,13 @@ static void print_floors(FILE *out)
     struct br_floor floor[12];
     static char name[] = "one";
     const struct br_scene scene = {.name = name};
-    struct br_floors floors = {
-        .scene = {&scene}, .scenes = 1, .methods = 2, .n_count = 2, .k_count = 3, .floors = 12, .floor = floor};
+    struct br_floors floors = {.scene = {&scene},
+                               .scenes = 1,
+                               .methods = 2,
+                               .n_count = 2,
+                               .k_count = 3,
+                               .floors = 12,
+                               .floor = floor};
     MUST(br_named_method_read("euler+riccati", &floors.method[0], &err));
     MUST(br_named_method_read("euler+umfpack", &floors.method[1], &err));
     for (int i = 0; i < 12; i++)

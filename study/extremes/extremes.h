@@ -31,9 +31,9 @@ static inline double br_worst(double a, double b)
 
 /* ---- round-off ---- */
 
-/* How far the displacements of marches are from the exact discrete solution (reference/long_plain.h),
- * compared with the round-off that marches predict. One experiment with two lists of marches: the
- * floors of the linear solvers, and the round-off that steps gather. */
+/* How far the displacements of marches are from the exact discrete solution
+ * (reference/long_plain.h), compared with the round-off that marches predict. One experiment with
+ * two lists of marches: the floors of the linear solvers, and the round-off that steps gather. */
 
 /* One march. */
 struct br_floor {
@@ -58,7 +58,8 @@ struct br_floors {
      * paper's lagged contact. A tip that slips (example2) is best, since a free tip is the softest
      * motion, which loses most. So many steps are enough for the memory of inertia at k = 1e-6.
      * True: round-off that steps gather until the end of the duration, of BR_GATHERED_N elements by
-     * every time scheme of equal steps, with contact and friction (example1 sticks, example2 slips). */
+     * every time scheme of equal steps, with contact and friction (example1 sticks, example2
+     * slips). */
     bool gathered;
     const struct br_scene *scene[BR_FLOOR_SCENES]; /* borrowed */
     struct br_named_method method[BR_FLOOR_METHODS];
@@ -100,11 +101,11 @@ enum br_status br_floors_verdict(const struct br_floors *floors, struct br_error
  * and energy of the start are no sign of it.
  *
  * Implicit Euler, by its energy balance (reference/energy/energy.h): more than a tenth of what was
- * put into a field, by the start and the loads, was added by the scheme. With contact at u_n it adds
- * nothing, whatever the scene; the lagged contact adds nothing within its limit (solver/laws.h).
- * For other schemes coarse steps make the balance itself inexact. There the energy at the end
- * counts: more than 10 times what the loads put in, in its own march or in one of implicit Euler
- * with contact at u_n on the same mesh and steps, which is stable. */
+ * put into a field, by the start and the loads, was added by the scheme. With contact at u_n it
+ * adds nothing, whatever the scene; the lagged contact adds nothing within its limit
+ * (solver/laws.h). For other schemes coarse steps make the balance itself inexact. There the energy
+ * at the end counts: more than 10 times what the loads put in, in its own march or in one of
+ * implicit Euler with contact at u_n on the same mesh and steps, which is stable. */
 
 enum { BR_STABILITY_METHODS = 3, BR_STABILITY_PLANES = 2 * BR_STABILITY_METHODS };
 
@@ -127,7 +128,7 @@ struct br_stability_column {
     double largest;                   /* the largest stable step, s: all smaller ones that were
                                          tried are stable, too; 0: not even the smallest is */
     double broken;                    /* the next step that is not stable, s; INFINITY: none */
-    enum br_stability_outcome by; /* of that one: unstable or refused; BR_STABLE: none */
+    enum br_stability_outcome by;     /* of that one: unstable or refused; BR_STABLE: none */
     double predicted; /* the longest stable step of a closed contact, s; INFINITY: any, or above a
                          million durations */
 };
@@ -151,10 +152,10 @@ struct br_stability {
     double own; /* c_H of the scene, N/m; NaN: it has no contact */
 };
 
-/* Of the job: the first scene; at most BR_STABILITY_METHODS methods, by default that of `run`; n, by
- * default 10 to 200; steps, by default 10 to 10,000 of the duration. c_H runs from a hundredth of
- * the scene's to 10,000 times it, on the first n. Where a column breaks, its largest stable step is
- * found to 2 %. Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED; clear it even then. */
+/* Of the job: the first scene; at most BR_STABILITY_METHODS methods, by default that of `run`; n,
+ * by default 10 to 200; steps, by default 10 to 10,000 of the duration. c_H runs from a hundredth
+ * of the scene's to 10,000 times it, on the first n. Where a column breaks, its largest stable step
+ * is found to 2 %. Fails with BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED; clear it even then. */
 enum br_status br_stability_run(struct br_stability *s, const struct br_extremes_job *job,
                                 struct br_error *err);
 void br_stability_clear(struct br_stability *s);

@@ -163,8 +163,8 @@ static enum br_status find_exact(struct work *w, struct br_error *err)
     struct br_march *march;
     enum br_status status = br_march_create(&march, f->scene, f->n, f->of, &method, err);
     for (size_t i = 0; i < f->steps && !status; i++)
-        status = stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                               : br_march_step(march, err);
+        status =
+            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_march_step(march, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         w->nodal[kind] = br_allocate(2 * (f->n + 1), sizeof *w->nodal[kind]);
         if (w->nodal[kind])

@@ -115,8 +115,8 @@ static enum br_status find_largest(struct work *w, size_t stable, size_t broken,
 {
     enum br_status status = BR_OK;
     while (stable - broken > 1 && (double)stable > 1.02 * (double)broken && !status) {
-        struct br_stability_point p = {
-            .steps = (size_t)llround(sqrt((double)stable * (double)broken))};
+        struct br_stability_point p = {.steps =
+                                           (size_t)llround(sqrt((double)stable * (double)broken))};
         if (p.steps <= broken || p.steps >= stable)
             p.steps = broken + (stable - broken) / 2;
         status = try_steps(w, &p, err);
@@ -258,7 +258,7 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
 {
     const size_t *n = job->n_count ? job->n : usual_n;
     const size_t n_count = job->n_count ? job->n_count : COUNT(usual_n);
-    size_t methods;
+    size_t methods = 0;
     s->scene = job->scene[0];
     const struct br_contact *contact = &s->scene->contact;
     s->own = contact->modelled ? contact->stiffness : NAN;
@@ -309,7 +309,8 @@ size_t br_stability_count(const struct br_stability *s, const struct br_stabilit
     return count;
 }
 
-/* Whether theory allows a break: a lagged contact beyond the limit within which it gains nothing. */
+/* Whether theory allows a break: a lagged contact beyond the limit within which it gains nothing.
+ */
 static bool may_break(const struct br_stability *s, const struct br_method *method,
                       const struct br_stability_column *c, size_t steps)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The eigenvalues of a rod's step: what the limit of the lagged contact (solver/laws.h) is held to. */
+/* The eigenvalues of a rod's step: what the limit of the lagged contact (solver/laws.h) is held to.
+ */
 #ifndef BR_LAB_STEP_MATRIX_H
 #define BR_LAB_STEP_MATRIX_H
 

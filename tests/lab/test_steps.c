@@ -33,7 +33,8 @@ TEST(test_limit)
         double density, viscosity;
         int degree;
     } rods[] = {{1e-4, 1, 1}, {0, 1, 1}, {1000, 1, 1}, {1, 1e-6, 1}, {1, 0, 1}, {1, 1e-3, 2}};
-    static const double k[] = {1e-5, 1e-3, 1e-1}, shares[] = {1e-3, 0.9, 1 - 1e-9, 1 + 1e-9, 2, 1e6};
+    static const double k[] = {1e-5, 1e-3, 1e-1},
+                        shares[] = {1e-3, 0.9, 1 - 1e-9, 1 + 1e-9, 2, 1e6};
     struct br_error err = {0};
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     for (size_t i = 0; i < 18; i++) {
@@ -57,8 +58,8 @@ TEST(test_limit)
     gsl_set_error_handler(handler);
 }
 
-/* The rest of a pressed rod by its balance: the free tip is at q L^2 / (2 a), and the contact's share
- * of q L / 2 is c_H L over a + c_H L. */
+/* The rest of a pressed rod by its balance: the free tip is at q L^2 / (2 a), and the contact's
+ * share of q L / 2 is c_H L over a + c_H L. */
 static void check_rest(const struct br_time_scheme *scheme, double stiffness, size_t steps)
 {
     static struct br_run_report report;
@@ -81,8 +82,8 @@ static void check_rest(const struct br_time_scheme *scheme, double stiffness, si
     CLOSE(report.end.last.displacement[BR_AXIAL] / 0.5, rest / 0.5, 1e-7);
 }
 
-/* Contact at u_n has no limit, and every scheme damps at infinity: ten steps of a hundred relaxation
- * times bring a pressed rod to rest. */
+/* Contact at u_n has no limit, and every scheme damps at infinity: ten steps of a hundred
+ * relaxation times bring a pressed rod to rest. */
 TEST(test_rest)
 {
     for (size_t i = 0; br_time_schemes[i]; i++)
