@@ -879,8 +879,6 @@ static const struct planted_bug planted_bugs[] = {
      "(double)NAN : c->error[part];", "(double)NAN : c->error[0];"},
     {"work_in_steps", "drawn", "plots/trade.c", "golden trade", "(double)trial->cost.counts.stages",
      "(double)trial->cost.counts.steps"},
-    {"cells_without_width", "drawn", "plots/figure.c", "tests/test_figure",
-     "write_number(out, c->x[j + 1]);", "write_number(out, c->x[j]);"},
     {"slope_lines_of_order_one", "drawn", "plots/convergence.c", "golden study",
      "if (axial)\n        order[orders++] = 2;", "if (axial)\n        order[orders++] = 1;"},
     {"movie_of_slopes", "drawn", "plots/run.c", "golden run_animate",
