@@ -193,9 +193,13 @@ static void answer_meshes(struct br_document *d, const struct br_stability *s,
             worst = &p->column[i];
     if (isinf(worst->broken)) {
         br_put_answer(d,
-                      "%s by %s does not break: each of %zu meshes is stable with all steps that "
-                      "were tried, up to k = %.4g s.",
-                      s->scene->name, p->by->name, p->columns, worst->largest);
+                      "%s by %s does not break: all steps that were tried, up to k = %.4g s, are "
+                      "stable at n = %zu",
+                      s->scene->name, p->by->name, worst->largest, p->column[0].n);
+        if (p->columns > 1)
+            br_put_more(d, " to %zu.", p->column[p->columns - 1].n);
+        else
+            br_put_more(d, ".");
         return;
     }
     br_put_answer(d, "%s by %s %s: at n = %zu ", s->scene->name, p->by->name,
