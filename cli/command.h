@@ -18,6 +18,7 @@ struct br_command {
     const char *example[BR_MOST_EXAMPLES];
     size_t least_words, most_words; /* number of arguments that are no options */
     const struct br_words *words;   /* the values that these may have; NULL: scenes */
+    bool or_scenes;                 /* or scenes; `run` reads which is which */
     /* The options are parsed. On failure err says why. */
     enum br_status (*run)(const struct br_options *options, struct br_error *err);
 };

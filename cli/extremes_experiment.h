@@ -19,10 +19,13 @@ struct br_extremes_output {
 #define BR_ACCEPTS(option) (1ull << BR_OPT_##option)
 _Static_assert(BR_OPT_METHOD < 64, "a bit for each option");
 
+enum { BR_EXTREMES_SCENES = 2 };
+
 struct br_extremes_experiment {
-    const char *name;           /* one word, as on the command line, and of its files */
-    const char *title;          /* one line for a person */
-    unsigned long long accepts; /* BR_ACCEPTS */
+    const char *name;                      /* one word, as on the command line, and of its files */
+    const char *title;                     /* one line for a person */
+    unsigned long long accepts;            /* BR_ACCEPTS */
+    const char *scene[BR_EXTREMES_SCENES]; /* bundled ones, where the user names none */
     /* Computes, begins the report (its name is the experiment's) and puts everything into it but
      * the provenance, draws, and judges: a wrong result is a verdict, not a failure. Fails with
      * BR_BAD_INPUT, BR_NO_MEMORY, BR_INTERRUPTED, BR_IO. */

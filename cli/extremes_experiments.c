@@ -36,7 +36,7 @@ static enum br_status run_steps(const struct br_extremes_job *job,
     return run_round_off(job, true, to, err);
 }
 
-/* The lagged contact's limit. */
+/* Where a scene breaks. */
 static enum br_status run_stability(const struct br_extremes_job *job,
                                     const struct br_extremes_output *to, struct br_error *err)
 {
@@ -56,18 +56,21 @@ const struct br_extremes_experiment br_extremes_experiments[] = {
         .name = "floors",
         .title = "round-off of every linear solver over n and k, measured and predicted",
         .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
+        .scene = {"example2"},
         .run = run_floors,
     },
     {
         .name = "steps",
         .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
         .accepts = BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
+        .scene = {"example1", "example2"},
         .run = run_steps,
     },
     {
         .name = "stability",
-        .title = "the contact's stability limit over c_H and k, predicted and measured",
-        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K),
+        .title = "where a scene breaks, over n and k and over c_H and k",
+        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K) | BR_ACCEPTS(METHODS),
+        .scene = {"example2"},
         .run = run_stability,
     },
     {0},

@@ -27,7 +27,7 @@ enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };
 
 /* The kinds of an option's value, and of a command's arguments. */
 enum value { FLAG, ANYTHING, FILES, FOLDERS, ONE_WORD, SOME_WORDS, VALUES };
-enum arguments { NONE, WORDS, SCENES, ARGUMENTS };
+enum arguments { NONE, WORDS, SCENES, EITHER, ARGUMENTS };
 
 struct language {
     const char *name;
@@ -223,7 +223,10 @@ static void write_command(FILE *out, const struct language *l, const struct br_c
     f.of['o'] = options;
     f.of['g'] = words;
     f.of['j'] = c->most_words > 1 ? "*" : "";
-    f.of['p'] = l->arguments[*words ? WORDS : !c->words && c->most_words > 0 ? SCENES : NONE];
+    f.of['p'] = l->arguments[c->or_scenes                     ? EITHER
+                             : *words                         ? WORDS
+                             : !c->words && c->most_words > 0 ? SCENES
+                                                              : NONE];
     emit(out, l, l->command, &f);
     if (l->examples_first)
         write_examples(out, l, c, f);
@@ -451,7 +454,8 @@ static const struct language languages[] = {
         .value = {"", "return", "_beamrate_files -f", "_beamrate_files -d", "_beamrate_words %W",
                   "_beamrate_list %W"},
         .end = "    %c,*) case $cur in -*) _beamrate_words '%o' ;; *) %p ;; esac ;;\n",
-        .arguments = {"_beamrate_words ''", "_beamrate_words '%g'", "_beamrate_scenes '%z'"},
+        .arguments = {"_beamrate_words ''", "_beamrate_words '%g'", "_beamrate_scenes '%z'",
+                      "_beamrate_scenes '%g %z'"},
         .foot = "    esac\n%}\n\ncomplete -F _beamrate beamrate\n",
     },
     {
@@ -475,7 +479,9 @@ static const struct language languages[] = {
         .value = {"", ":%a:", ":%a:_files", ":%a:_files -/", ":%a:(%W)",
                   ":%a:_sequence compadd - %W"},
         .end = "            %p\n            ;;\n",
-        .arguments = {"&& return", "'%j:argument:(%g)'", "'*:scene:_beamrate_scenes'"},
+        .arguments = {"&& return", "'%j:argument:(%g)'", "'*:scene:_beamrate_scenes'",
+                      "'*:part or scene:_alternative \"parts:part:(%g)\" "
+                      "\"scenes:scene:_beamrate_scenes\"'"},
         .foot = "        esac\n        ;;\n    esac\n%}\n\n"
                 "if [[ $funcstack[1] = _beamrate ]]; then\n    _beamrate \"$@\"\nelse\n"
                 "    compdef _beamrate beamrate\nfi\n",
@@ -493,7 +499,8 @@ static const struct language languages[] = {
             "complete -c beamrate -n '__fish_seen_subcommand_from %c' -l %n{ -s %l}%v -d %H\n",
         .value = {"", " -x", " -r -F", " -x -a '(__fish_complete_directories)'", " -x -a '%w'",
                   " -x -a '(__fish_append , %w)'"},
-        .arguments = {"", "%g", "$__beamrate_scenes (__fish_complete_suffix .yaml)"},
+        .arguments = {"", "%g", "$__beamrate_scenes (__fish_complete_suffix .yaml)",
+                      "%g $__beamrate_scenes (__fish_complete_suffix .yaml)"},
     },
 };
 

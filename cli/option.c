@@ -232,7 +232,8 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
     for (; o->words < given; o->words++) {
         size_t row;
         const char *text = word[o->words];
-        if (c->words && br_words_read(c->words, text, strlen(text), &row, err))
+        if (c->words && !c->or_scenes &&
+            br_words_read(c->words, text, strlen(text), &row, err))
             return err->status;
         if (!(o->word[o->words] = strdup(text)))
             return br_no_memory(err, "the options");

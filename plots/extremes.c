@@ -32,8 +32,8 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
     const double step = br_floor_at(f, 0, 0, 0, k)->k;
     BR_SAY(figure->stem, "floors-k%g", step);
     BR_SAY(figure->title,
-           "Deviation from the exact discrete solution after %d steps of Example 2, k = %g s",
-           BR_FLOOR_STEPS, step);
+           "Deviation from the exact discrete solution after %d steps of %s, k = %g s",
+           BR_FLOOR_STEPS, f->scene[0]->name, step);
     br_panel_add(figure, "elements n", "relative deviation");
     for (size_t m = 0; m < f->methods; m++) {
         const char *name = f->method[m].name;
@@ -50,7 +50,7 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
 static void draw_gathered(const struct br_floors *f, size_t scene, struct br_figure *figure)
 {
     struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
-    BR_SAY(p->title, scene ? "Example 2, slip" : "Example 1, stick");
+    BR_SAY(p->title, "%s", f->scene[scene]->name);
     for (size_t m = 0; m < f->methods; m += f->solvers) {
         const char *name = f->method[m].name, *solver = strrchr(name, '+');
         const size_t length = solver ? (size_t)(solver - name) : strlen(name);
@@ -81,53 +81,58 @@ struct br_figure br_floors_draw(const struct br_floors *f, size_t k)
     return picture;
 }
 
-/* ---- stability: growth over c_H and k ---- */
+/* ---- stability: a panel for each plane ---- */
 
-/* Ascending values become the edges of their cells (in/out, count values, count + 1 edges), halfway
- * between their logarithms. */
-static void to_edges(size_t count, double *edge)
+/* The points of one outcome. */
+static void add_points(const struct br_stability *s, const struct br_stability_plane *p,
+                       enum br_stability_outcome outcome, struct br_figure *figure)
 {
-    const double first = count > 1 ? sqrt(edge[1] / edge[0]) : 2;
-    const double last = count > 1 ? sqrt(edge[count - 1] / edge[count - 2]) : 2;
-    edge[count] = edge[count - 1] * last;
-    for (size_t i = count - 1; i > 0; i--)
-        edge[i] = sqrt(edge[i - 1]) * sqrt(edge[i]);
-    edge[0] /= first;
+    static const enum br_pen pens[] = {BR_PEN_RINGS, BR_PEN_STARS, BR_PEN_SQUARES};
+    if (!br_stability_count(s, p, outcome))
+        return;
+    struct br_series *series =
+        br_series_add(figure, pens[outcome], "%s", br_stability_words[outcome]);
+    for (size_t i = 0; i < p->columns * s->rows; i++) {
+        const struct br_stability_column *c = &p->column[i / s->rows];
+        const struct br_stability_point *point = &c->point[i % s->rows];
+        if (point->outcome == outcome)
+            br_point_add(series, p->over_stiffness ? c->stiffness : (double)c->n,
+                         s->scene->duration / (double)point->steps, NULL);
+    }
 }
 
-static void fill_cells(const struct br_stability *s, const struct br_stability_row *row,
+static void draw_plane(const struct br_stability *s, const struct br_stability_plane *p,
                        struct br_figure *figure)
 {
-    struct br_cells *c = br_cells_make(figure, BR_STABILITY_COLUMNS, s->rows);
-    if (!c)
-        return;
-    memcpy(c->x, s->stiffness, BR_STABILITY_COLUMNS * sizeof *c->x);
-    for (size_t i = 0; i < s->rows; i++) {
-        c->y[i] = row[i].k;
-        memcpy(c->value + i * BR_STABILITY_COLUMNS, row[i].radius, sizeof row[i].radius);
+    struct br_panel *panel =
+        br_panel_add(figure, p->over_stiffness ? "c_H (N/m)" : "elements n", "k (s)");
+    panel->log_x = panel->log_y = true;
+    if (p->over_stiffness)
+        BR_SAY(panel->title, "%s, n = %zu", p->by->name, p->column[0].n);
+    else if (s->own > 0)
+        BR_SAY(panel->title, "%.60s, c_H = %.3g N/m", p->by->name, s->own);
+    else
+        BR_SAY(panel->title, "%s", p->by->name);
+    for (int outcome = BR_STABLE; outcome <= BR_REFUSED; outcome++)
+        add_points(s, p, (enum br_stability_outcome)outcome, figure);
+    const double smallest = s->scene->duration / (double)s->steps[0];
+    const double largest = s->scene->duration / (double)s->steps[s->rows - 1];
+    struct br_series *found = br_series_add(figure, BR_PEN_CURVE, "largest stable k");
+    struct br_series *theory = br_series_add(figure, BR_PEN_GUIDE, "by theory, closed contact");
+    for (size_t i = 0; i < p->columns; i++) {
+        const struct br_stability_column *c = &p->column[i];
+        const double x = p->over_stiffness ? c->stiffness : (double)c->n;
+        const bool inside = c->predicted >= smallest && c->predicted <= largest;
+        br_point_add(found, x, isfinite(c->broken) ? c->largest : (double)NAN, NULL);
+        br_point_add(theory, x, inside ? c->predicted : (double)NAN, NULL);
     }
-    to_edges(BR_STABILITY_COLUMNS, c->x);
-    to_edges(s->rows, c->y);
 }
 
 struct br_figure br_stability_draw(const struct br_stability *s)
 {
-    struct br_figure picture = {.stem = "stability", .value = {1e-1, 1e3}}, *figure = &picture;
-    BR_SAY(figure->title, "The closed lagged contact: growth of an error in a step, measured");
-    BR_SAY(figure->value_label, "largest eigenvalue of a step");
-    for (size_t i = 0; i < BR_STABILITY_RODS; i++) {
-        const struct br_stability_row *row = &s->row[i * s->rows];
-        struct br_panel *p = br_panel_add(figure, "c_H (N/m)", "k (s)");
-        p->log_x = p->log_y = true;
-        BR_SAY(p->title, "%s", row->rod->title);
-        fill_cells(s, row, figure);
-        struct br_series *limit = br_series_add(figure, BR_PEN_GUIDE, "predicted limit");
-        struct br_series *bouncing =
-            br_series_add(figure, BR_PEN_GUIDE, "no energy is gained left of this");
-        for (size_t j = 0; j < s->rows; j++) {
-            br_point_add(limit, row[j].limit, row[j].k, NULL);
-            br_point_add(bouncing, row[j].bouncing, row[j].k, NULL);
-        }
-    }
+    struct br_figure picture = {.stem = "stability"}, *figure = &picture;
+    BR_SAY(figure->title, "Where %s breaks", s->scene->name);
+    for (size_t i = 0; i < s->planes; i++)
+        draw_plane(s, &s->plane[i], figure);
     return picture;
 }

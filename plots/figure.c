@@ -129,22 +129,6 @@ void br_slopes_add(struct br_figure *f, size_t count, const double *order)
     }
 }
 
-struct br_cells *br_cells_make(struct br_figure *f, size_t columns, size_t rows)
-{
-    struct br_cells *c = &last_panel(f)->cells;
-    *c = (struct br_cells){
-        .columns = columns,
-        .rows = rows,
-        .x = br_allocate(columns + 1, sizeof *c->x),
-        .y = br_allocate(rows + 1, sizeof *c->y),
-        .value = br_allocate(rows * columns + 1, sizeof *c->value),
-    };
-    f->failed |= !c->x || !c->y || !c->value;
-    for (size_t i = 0; c->value && i < rows * columns; i++)
-        c->value[i] = NAN;
-    return f->failed ? NULL : c;
-}
-
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *p)
 {
     return isfinite(p->x) && isfinite(p->y) && (p->x > 0 || !panel->log_x) &&
@@ -163,11 +147,6 @@ struct br_range br_extent(const struct br_panel *p, bool along_y)
             r.high = fmax(r.high, along_y ? at->y : at->x);
         }
     return r;
-}
-
-double br_colour_of(const struct br_figure *f, double value)
-{
-    return isnan(value) ? -1 : fmin(fmax(value, f->value.low), f->value.high);
 }
 
 enum br_status br_figure_check(const struct br_figure *f, struct br_error *err)
@@ -193,9 +172,6 @@ void br_figure_clear(struct br_figure *f)
         }
         free(p->series);
         free(p->top.point);
-        free(p->cells.x);
-        free(p->cells.y);
-        free(p->cells.value);
     }
     *f = (struct br_figure){0};
 }
@@ -208,21 +184,6 @@ static void write_number(FILE *out, double value)
         fprintf(out, "%.17g ", value);
     else
         fputs(isnan(value) ? "NaN " : value > 0 ? "Inf " : "-Inf ", out);
-}
-
-static void write_cells(FILE *out, const struct br_figure *f, const struct br_cells *c)
-{
-    for (size_t i = 0; i < c->rows; i++)
-        for (size_t j = 0; j < c->columns; j++) {
-            const double value = c->value[i * c->columns + j];
-            write_number(out, c->x[j]);
-            write_number(out, c->x[j + 1]);
-            write_number(out, c->y[i]);
-            write_number(out, c->y[i + 1]);
-            write_number(out, value);
-            fprintf(out, "%.9g\n", br_colour_of(f, value));
-        }
-    fputs("\n\n", out);
 }
 
 static void write_comment_line(FILE *out, const char *text)
@@ -242,13 +203,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
         fprintf(out, "# A flag tells why a point is %s; - for none.\n", f->hollow);
     for (size_t i = 0; i < f->panels; i++) {
         const struct br_panel *p = &f->panel[i];
-        if (p->cells.columns) {
-            fprintf(out,
-                    "\n# index %zu: %s; cells: x from, to, y from, to, value, its colour (-1: "
-                    "none)\n# %s | %s\n",
-                    index++, p->title, p->x_label, p->y_label);
-            write_cells(out, f, &p->cells);
-        }
         for (size_t j = 0; j < p->count; j++) {
             const struct br_series *s = p->series[j];
             if (!s->count)

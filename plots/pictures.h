@@ -29,7 +29,7 @@ struct br_trial;
 
 /* ---- figure.c ---- */
 
-/* A picture as data: panels of series between axes, or of coloured cells, and one key for all of
+/* A picture as data: panels of series between axes, and one key for all of
  * them. A filler fills it from a result. Only script.c writes it for gnuplot.
  *
  * Fillers add to the last panel, and need not check for lack of memory: the figure remembers it,
@@ -77,12 +77,6 @@ struct br_series {
     bool failed;
 };
 
-/* Cells of a plane. value: rows * columns, by rows; NaN: an empty cell. */
-struct br_cells {
-    size_t columns, rows;
-    double *x, *y, *value; /* x, y: edges, columns + 1 and rows + 1, ascending; owned */
-};
-
 struct br_range {
     double low, high;
 };
@@ -93,7 +87,6 @@ struct br_panel {
     struct br_series **series; /* `count` of them; owned */
     size_t count, room;
     struct br_series top;  /* ticks of the upper axis: the number y is printed at x */
-    struct br_cells cells; /* 0 columns: none */
 };
 
 struct br_figure {
@@ -107,9 +100,6 @@ struct br_figure {
     size_t panels;
     bool failed;
     struct br_series lost; /* a filler gets this one when there is no memory */
-    /* Colours of cells: by size, with white at 1, for factors. */
-    char value_label[96];
-    struct br_range value; /* the ends of the colours: below and above 1 */
 };
 
 /* Fills a text of a figure. */
@@ -133,24 +123,18 @@ void br_series_sort(struct br_series *series);
 void br_mark_add(struct br_figure *figure, double x, const char *title);
 void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 
-/* Makes the last panel's cells, all NaN; the caller fills their edges. NULL: no memory. */
-struct br_cells *br_cells_make(struct br_figure *figure, size_t columns, size_t rows);
-
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);
 
 /* The range of the points that are drawn; low > high: there are none. */
 struct br_range br_extent(const struct br_panel *panel, bool along_y);
 
-/* The number that colours a cell: its kind, or its value limited to the range; -1: it is empty. */
-double br_colour_of(const struct br_figure *figure, double value);
-
 /* Fails with BR_NO_MEMORY if a part of the figure is missing, and with BR_BAD_INPUT if its stem
  * cannot begin a file's name; a figure for the terminal has no stem. */
 enum br_status br_figure_check(const struct br_figure *figure, struct br_error *err);
 void br_figure_clear(struct br_figure *figure);
 
-/* Writes the data: a block for each panel's cells and each series with points. */
+/* Writes the data: a block for each series with points. */
 void br_figure_write_data(FILE *out, const struct br_figure *figure);
 
 /* ---- script.c ---- */
@@ -222,7 +206,7 @@ struct br_figure br_variation_draw(const struct br_variation *variation);
 /* Deviation from the exact discrete solution over n, at time step number k; or, for round-off that
  * adds up, over the number of steps. */
 struct br_figure br_floors_draw(const struct br_floors *floors, size_t k);
-/* The lagged contact's growth over c_H and k. */
+/* Stable and unstable marches over n and k, and over c_H and k. */
 struct br_figure br_stability_draw(const struct br_stability *stability);
 
 /* ---- paper.c: Figures 2 to 10 ---- */

@@ -15,8 +15,7 @@ enum {
     SMALL = 21,  /* the default of all terminals */
     LINE = 37,   /* height of a line of small text, with the space below it */
     LETTER = 12, /* about the width of a small letter */
-    SAMPLE = 95, /* width of the sample in a key's entry, with the space beside it */
-    BAR = 170    /* room for a colour bar */
+    SAMPLE = 95  /* width of the sample in a key's entry, with the space beside it */
 };
 
 /* ---- pens ---- */
@@ -39,8 +38,6 @@ static const char *const styles[BR_PENS] = {
     [BR_PEN_STARS] = "points pt 3 ps 1.5*size lw 1.5 lc rgb '#707070'",
 };
 static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
-
-static const char empty_style[] = "lc rgb '#aaaaaa' fs pattern 4 border";
 
 static int mark_of(const struct br_series *s)
 {
@@ -75,7 +72,6 @@ static size_t count_drawn(const struct br_panel *p, const struct br_series *s, b
 
 struct page {
     double width, height, top, bottom; /* above and below all panels */
-    double bar;                        /* right of them */
     size_t across, down;
     size_t key_rows;
 };
@@ -121,19 +117,6 @@ static void add_series(const struct br_figure *f, struct key *key)
         add_entry(key, f->hollow, "points pt 6 ps 1.8*size lc rgb '#444444'", NULL);
 }
 
-static void add_entries(const struct br_figure *f, struct key *key)
-{
-    size_t empty = 0;
-    char style[80];
-    for (size_t i = 0; i < f->panels; i++)
-        for (size_t k = 0; k < f->panel[i].cells.rows * f->panel[i].cells.columns; k++)
-            empty += br_colour_of(f, f->panel[i].cells.value[k]) < 0;
-    BR_SAY(style, "boxes %s", empty_style);
-    if (empty)
-        add_entry(key, "no case", style, NULL);
-    add_series(f, key);
-}
-
 static struct page lay_out(const struct br_figure *f)
 {
     const size_t n = f->panels ? f->panels : 1;
@@ -142,10 +125,9 @@ static struct page lay_out(const struct br_figure *f)
     l.across = n <= 3 ? n : n == 4 ? 2 : 3;
     l.down = (n + l.across - 1) / l.across;
     l.height = l.down > 1 ? 1250 : 800;
-    l.bar = f->panel[0].cells.columns ? BAR : 0;
     for (size_t i = 0; i < BR_FIGURE_NOTES; i++)
         l.top += f->note[i][0] ? LINE - 4 : 0;
-    add_entries(f, &key);
+    add_series(f, &key);
     const double columns = (l.width - 60) / (double)(key.longest * LETTER + SAMPLE);
     l.key_rows = (size_t)ceil((double)key.entries / fmax(1, floor(columns)));
     l.bottom = l.key_rows ? LINE * (double)l.key_rows + 15 : 0;
@@ -186,18 +168,6 @@ void br_script_head(FILE *out, const char *title, const char *stem, const char *
             pictures, name, name);
     br_quote(out, &br_for_gnuplot, stem);
     fputs("\ndata = stem.'.dat'\n", out);
-}
-
-/* Factors go from blue over white, which is 1, to red. */
-static void write_palette(FILE *out, const struct br_figure *f)
-{
-    const double white = -log(f->value.low) / log(f->value.high / f->value.low);
-    fprintf(out,
-            "set palette defined (0 '#0072b2', %.6g '#ffffff', %.6g '#d55e00', 1 '#5c1a00')\n"
-            "set cbrange [%.12g:%.12g]\nset logscale cb\nset format cb '10^{%%L}'\nset cblabel ",
-            white, (1 + white) / 2, f->value.low, f->value.high);
-    br_quote(out, &br_for_gnuplot, f->value_label);
-    fprintf(out, " font ',%d'\n", FONT);
 }
 
 /* Writes the loop over the three terminals, which scale marks and ticks differently. Marks shrink
@@ -241,10 +211,6 @@ static double decades(struct br_range r)
 /* A little more than the points, except along a linear x; not below 0 if the points begin at 0. */
 static struct br_range axis_range(const struct br_figure *f, const struct br_panel *p, bool along_y)
 {
-    const struct br_cells *c = &p->cells;
-    if (c->columns)
-        return along_y ? (struct br_range){c->y[0], c->y[c->rows]}
-                       : (struct br_range){c->x[0], c->x[c->columns]};
     struct br_range r = br_extent(p, along_y);
     for (size_t i = 0; i < f->panels && along_y && f->one_y; i++) {
         const struct br_range other = br_extent(&f->panel[i], true);
@@ -314,12 +280,8 @@ static void write_text(FILE *out, const char *what, const char *text)
 
 /* ---- the script: what is plotted ---- */
 
-/* Lines over cells get a white background. */
-static void write_curve(FILE *out, const struct br_panel *p, const struct br_series *s,
-                        size_t index)
+static void write_curve(FILE *out, const struct br_series *s, size_t index)
 {
-    if (p->cells.columns)
-        fprintf(out, ", \\\n     data index %zu using 1:2 with lines lw 7 lc rgb 'white'", index);
     if (s->pen == BR_PEN_CURVE)
         fprintf(out,
                 ", \\\n     data index %zu using 1:2:(mark(%d, strcol(3))) with linespoints ls %zu "
@@ -331,24 +293,16 @@ static void write_curve(FILE *out, const struct br_panel *p, const struct br_ser
     }
 }
 
-/* Draws the cells first, then the curves that lie behind, then the others. */
+/* Draws the curves that lie behind first. */
 static void write_plot(FILE *out, const struct br_panel *p, size_t index)
 {
     fputs("plot NaN", out);
-    if (p->cells.columns) {
-        fprintf(out,
-                ", \\\n     data index %zu using ($6 < 0 ? $1 : NaN):3:1:2:3:4 with boxxyerror %s"
-                ", \\\n     data index %zu using ($6 < 0 ? NaN : $1):3:1:2:3:4:6 with boxxyerror "
-                "lc palette lw 0.5 fs solid 1 border",
-                index, empty_style, index);
-        index++;
-    }
     for (int behind = 1; behind >= 0; behind--)
         for (size_t j = 0, at = index; j < p->count; j++) {
             const struct br_series *s = p->series[j];
             const bool is_behind = s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND;
             if (is_behind == behind && count_drawn(p, s, false))
-                write_curve(out, p, s, at);
+                write_curve(out, s, at);
             at += s->count > 0;
         }
     fputc('\n', out);
@@ -359,7 +313,7 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
 {
     const struct br_panel *p = &f->panel[i];
     const struct br_range x = axis_range(f, p, false);
-    const double width = (l->width - l->bar) / (double)l->across;
+    const double width = l->width / (double)l->across;
     const double height = (l->height - l->top - l->bottom) / (double)l->down;
     fprintf(out, "\nset origin %.4f,%.4f; set size %.4f,%.4f\nunset label; unset logscale xyx2\n",
             (double)(i % l->across) * width / l->width,
@@ -367,19 +321,13 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
             width / l->width, height / l->height);
     if (i == 0)
         write_titles(out, f, l);
-    if (l->bar > 0 && i == 0)
-        fprintf(out, "set colorbox user origin screen %.4f,%.4f size screen 0.018,%.4f\n",
-                1 - l->bar / l->width, (l->bottom + 95) / l->height,
-                (l->height - l->top - l->bottom - 150) / l->height);
-    else if (l->bar > 0)
-        fputs("unset colorbox\n", out);
     write_text(out, "title", p->title);
     write_text(out, "xlabel", p->x_label);
     write_text(out, "ylabel", p->y_label);
     write_axis(out, 'x', x, p->log_x, 0.75 * width);
     write_axis(out, 'y', axis_range(f, p, true), p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));
-    fputs(p->cells.columns ? "unset grid\n" : "set grid xtics ytics ls 102\n", out);
+    fputs("set grid xtics ytics ls 102\n", out);
     for (size_t j = 0; j < p->count; j++) {
         const struct br_series *s = p->series[j];
         if (s->end[0] && s->count)
@@ -403,7 +351,7 @@ static void write_key(FILE *out, const struct br_figure *f, const struct page *l
             "set key center center vertical Left reverse samplen 2.5 maxrows %zu font ',19'\n"
             "plot NaN notitle",
             l->bottom / l->height, l->key_rows);
-    add_entries(f, &(struct key){.out = out});
+    add_series(f, &(struct key){.out = out});
     fputs("\nset border; unset key; set lmargin; set rmargin; set tmargin; set bmargin\n", out);
 }
 
@@ -422,12 +370,9 @@ void br_figure_write_script(FILE *out, const struct br_figure *f)
           "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n"
           "set border front lw 1\nset title offset 0,-0.5\nunset key\n",
           out);
-    if (f->panel[0].cells.columns)
-        write_palette(out, f);
     write_loop(out, &l);
     for (size_t i = 0; i < f->panels; i++) {
         write_panel(out, f, i, index, &l);
-        index += f->panel[i].cells.columns > 0;
         for (size_t j = 0; j < f->panel[i].count; j++)
             index += f->panel[i].series[j]->count > 0;
     }

@@ -121,153 +121,154 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
                     "exact discrete solution at the end of the duration, relative to the "
                     "largest displacement of the field; the larger of both fields; 10 elements.");
         br_put_note(d, "Predicted: what a solver loses in a step, and a random walk of "
-                       "64 * 2^-52 * sqrt(N). In Example 1 the tip sticks: friction holds its "
+                       "64 * 2^-52 * sqrt(N). In example1 the tip sticks: friction holds its "
                        "velocity, and nothing its displacement.");
         return;
     }
     br_document_begin(d, "floors", "beamrate extremes floors", 1,
                       "Round-off floors of the linear solvers");
     put_floors(d, f);
-    br_put_note(d, "Deviation: the largest difference of all nodal displacements from the exact "
-                   "discrete solution (the same equations in long double, in a form that loses "
-                   "nothing), relative to the largest displacement of the field, after 20 steps of "
-                   "Example 2 by implicit Euler with lagged contact; the larger of both fields.");
+    br_put_note(d,
+                "Deviation: the largest difference of all nodal displacements from the exact "
+                "discrete solution (the same march by 'plain' in long double), relative to the "
+                "largest displacement of the field, after 20 steps of %s by implicit Euler with "
+                "lagged contact; the larger of both fields.",
+                f->scene[0]->name);
     br_put_note(d, "Refused: the assembled matrix would leave a march more than a twentieth off. "
                    "'refined' does up to 2 steps of refinement a solve, 'scaled' scales the rows.");
 }
 
-/* ---- stability of the contact ---- */
+/* ---- stability ---- */
 
-static void put_limits(struct br_document *d, const struct br_stability *s)
+static void put_stiffness(struct br_document *d, const struct br_stability_column *c)
 {
-    br_put_table(d, "limits", "Stability limit of the lagged contact", BR_FILES_ONLY);
-    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows; i++) {
-        const struct br_stability_row *r = &s->row[i];
-        br_put_row(d);
-        BR_PUT(d, br_text(r->rod->title), .key = "rod");
-        BR_PUT(d, br_number(r->rod->density), .key = "rho", .unit = "kg/m", .format = "%.4g");
-        BR_PUT(d, br_number(r->rod->viscosity), .key = "c", .unit = "N s", .format = "%.4g");
-        BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.4g");
-        BR_PUT(d, br_number(r->limit), .key = "predicted", .unit = "N/m", .format = "%.12g");
-        BR_PUT(d, br_number(r->measured), .key = "measured", .unit = "N/m", .format = "%.12g");
-        BR_PUT(d, br_number(r->measured / r->limit - 1), .key = "difference", .format = "%.1e");
-    }
+    BR_PUT(d, br_number(c->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
 }
 
-static void put_growth(struct br_document *d, const struct br_stability *s)
+static void put_limits(struct br_document *d, const struct br_stability_plane *p)
 {
-    br_put_table(d, "cells", "Growth a step of the closed lagged contact", BR_FILES_ONLY);
-    for (size_t i = 0; i < BR_STABILITY_RODS * s->rows * BR_STABILITY_COLUMNS; i++) {
-        const struct br_stability_row *r = &s->row[i / BR_STABILITY_COLUMNS];
-        const size_t j = i % BR_STABILITY_COLUMNS;
+    for (size_t i = 0; i < p->columns; i++) {
+        const struct br_stability_column *c = &p->column[i];
         br_put_row(d);
-        BR_PUT(d, br_text(r->rod->name), .key = "rod");
-        BR_PUT(d, br_number(r->k), .key = "k", .unit = "s", .format = "%.6g");
-        BR_PUT(d, br_number(s->stiffness[j]), .key = "c_H", .unit = "N/m", .format = "%.6g");
-        BR_PUT(d, br_number(r->radius[j]), .key = "eigenvalue", .heading = "largest eigenvalue",
-               .format = "%.15g");
-        BR_PUT(d, br_number(r->growth[j] > 1 ? r->growth[j] : NAN), .key = "predicted",
-               .heading = "predicted growth", .format = "%.15g");
-    }
-}
-
-static void put_schemes(struct br_document *d, const struct br_stability *s)
-{
-    br_put_table(d, "schemes", "Contact at u_n, c_H from 1 to 1e15 N/m", 0);
-    for (size_t i = 0; i < s->schemes; i++) {
-        const struct br_stability_scheme *c = &s->scheme[i];
-        br_put_row(d);
-        BR_PUT(d, br_text(c->scheme->name), .key = "scheme");
-        BR_PUT(d, br_count(c->marches), .key = "marches");
-        BR_PUT(d, br_count(c->failed), .key = "failed");
-        BR_PUT(d, br_count(c->uncertain), .key = "uncertain", .heading = "without a certificate");
-        BR_PUT(d, br_number(c->force), .key = "force", .heading = "force off by", .format = "%.1e");
-        BR_PUT(d, br_number(c->depth), .key = "depth", .heading = "depth off by", .format = "%.1e");
-    }
-}
-
-static void put_tips(struct br_document *d, const struct br_stability *s)
-{
-    br_put_table(d, "pressed", "A pressed tip, lagged contact", 0);
-    for (size_t i = 0; i < BR_STABILITY_TIPS; i++) {
-        const struct br_stability_tip *t = &s->tip[i];
-        br_put_row(d);
-        BR_PUT(d, br_number(t->limit), .key = "share", .heading = "c_H over its limit");
-        BR_PUT(d, br_number(t->stiffness), .key = "c_H", .unit = "N/m");
-        BR_PUT(d, br_count(t->opened), .key = "opened", .heading = "times it opened");
-        BR_PUT(d, br_number(t->swing), .key = "swing", .format = "%.2e");
-        BR_PUT(d, br_number(t->farthest), .key = "farthest", .format = "%.2e");
-    }
-}
-
-static void put_bounces(struct br_document *d, const struct br_stability *s)
-{
-    br_put_table(d, "bouncing", "A bouncing rod, lagged contact", 0);
-    for (size_t i = 0; i < BR_STABILITY_BOUNCES; i++) {
-        const struct br_stability_tip *b = &s->bounce[i];
-        br_put_row(d);
-        BR_PUT(d, br_number(b->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
-        BR_PUT(d, br_number(b->bouncing), .key = "over_bouncing",
-               .heading = "over the limit without inertia", .format = "%.4g");
-        BR_PUT(d, br_number(b->limit), .key = "over_limit", .heading = "over the limit",
+        BR_PUT(d, br_text(p->by->name), .key = "method");
+        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
+        BR_PUT(d, br_count(c->n), .key = "n");
+        put_stiffness(d, c);
+        BR_PUT(d, br_if(c->largest > 0, br_number(c->largest)), .key = "largest",
+               .heading = "largest stable k", .unit = "s", .format = "%.4g");
+        BR_PUT(d, br_number(c->broken), .key = "broken", .heading = "breaks at k", .unit = "s",
                .format = "%.4g");
-        BR_PUT(d, br_count(b->impacts), .key = "impacts");
-        BR_PUT(d, br_number(b->energy), .key = "energy", .heading = "largest energy over the first",
-               .format = "%.7g");
+        BR_PUT(d, br_number(c->predicted), .key = "predicted",
+               .heading = "by theory, if it stays closed", .unit = "s", .format = "%.4g");
     }
 }
 
-static void answer_stability(struct br_document *d, const struct br_stability *s)
+static void put_points(struct br_document *d, const struct br_stability *s,
+                       const struct br_stability_plane *p)
 {
-    struct br_error err = {0};
-    if (br_stability_verdict(s, &err))
-        br_put_answer(d, "Not as predicted: %s.", err.message);
+    for (size_t i = 0; i < p->columns * s->rows; i++) {
+        const struct br_stability_column *c = &p->column[i / s->rows];
+        const struct br_stability_point *point = &c->point[i % s->rows];
+        br_put_row(d);
+        BR_PUT(d, br_text(p->by->name), .key = "method");
+        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
+        BR_PUT(d, br_count(c->n), .key = "n");
+        put_stiffness(d, c);
+        BR_PUT(d, br_number(s->scene->duration / (double)point->steps), .key = "k", .unit = "s",
+               .format = "%.4g");
+        BR_PUT(d, br_text(br_stability_words[point->outcome]), .key = "outcome");
+        BR_PUT(d, br_number(point->share), .key = "share", .heading = "share of energy",
+               .format = "%.2g");
+        BR_PUT(d, br_text(*point->why ? point->why : NULL), .key = "message", .flags = BR_WRAP);
+    }
+}
+
+/* Where the scene itself breaks. The columns are meshes. */
+static void answer_meshes(struct br_document *d, const struct br_stability *s,
+                          const struct br_stability_plane *p)
+{
+    const struct br_stability_column *worst = p->column;
+    for (size_t i = 1; i < p->columns; i++)
+        if (p->column[i].largest < worst->largest)
+            worst = &p->column[i];
+    if (isinf(worst->broken)) {
+        br_put_answer(d,
+                      "%s by %s does not break: all steps that were tried, up to k = %.4g s, are "
+                      "stable at n = %zu",
+                      s->scene->name, p->by->name, worst->largest, p->column[0].n);
+        if (p->columns > 1)
+            br_put_more(d, " to %zu.", p->column[p->columns - 1].n);
+        else
+            br_put_more(d, ".");
+        return;
+    }
+    br_put_answer(d, "%s by %s %s: at n = %zu ", s->scene->name, p->by->name,
+                  worst->by == BR_REFUSED ? "is refused with long steps" : "breaks", worst->n);
+    if (isfinite(worst->stiffness))
+        br_put_more(d, "and c_H = %.4g N/m ", worst->stiffness);
+    if (worst->largest > 0)
+        br_put_more(d, "the largest stable k is %.4g s.", worst->largest);
     else
-        br_put_answer(d, "The contact is stable and unstable exactly where it is predicted to be.");
-    br_put_answer(d,
-                  "The largest relative difference between a predicted and a measured stability "
-                  "limit of the lagged contact is %.1e.",
-                  s->limit_error);
-    br_put_answer(d,
-                  "Between predicted and measured growth, in %zu of %zu cells of the planes, it is "
-                  "%.1e.",
-                  s->growing, s->cells, s->growth_error);
-    if (s->excess > 0)
-        br_put_answer(d, "In the other cells eigenvalues are up to %.1e outside the unit circle.",
-                      s->excess);
+        br_put_more(d, "no k that was tried is stable, not even %.4g s.", worst->broken);
+    if (isfinite(worst->predicted))
+        br_put_more(d, " Theory has %.4g s for a contact that stays closed.", worst->predicted);
+}
+
+/* From which c_H on it breaks. */
+static void answer_stiffnesses(struct br_document *d, const struct br_stability_plane *p)
+{
+    size_t sound = 0;
+    while (sound < p->columns && isinf(p->column[sound].broken))
+        sound++;
+    const struct br_stability_column *last = &p->column[p->columns - 1], *c = &p->column[sound];
+    if (sound == p->columns)
+        br_put_answer(d, "With c_H up to %.3g N/m all these k are stable at n = %zu, too.",
+                      last->stiffness, last->n);
+    else if (sound == 0)
+        br_put_answer(d, "At n = %zu it breaks with all c_H that were tried, from %.3g N/m on.",
+                      c->n, c->stiffness);
     else
-        br_put_answer(d, "In the other cells all eigenvalues are within the unit circle.");
-    br_put_answer(d, "Contact at u_n has no limit: every scheme brings a pressed rod to rest with "
-                     "c_H up to 1e15 N/m.");
+        br_put_answer(
+            d,
+            "Over c_H, at n = %zu: up to %.3g N/m all these k are stable; at %.3g N/m they "
+            "are up to %.4g s.",
+            c->n, c[-1].stiffness, c->stiffness, c->largest);
 }
 
 void br_report_stability(const struct br_stability *s, struct br_document *d)
 {
-    br_document_begin(d, "stability", "beamrate extremes stability", 1,
-                      "The contact's stability: predicted, and measured by marches");
-    answer_stability(d, s);
-    put_limits(d, s);
-    put_growth(d, s);
-    put_schemes(d, s);
-    put_tips(d, s);
-    put_bounces(d, s);
-    br_put_section(d, "How it was measured");
-    br_put_note(
-        d,
-        "Measured: the matrix of a step against a closed contact, column by column by marches of "
-        "one step of %zu elements, its largest eigenvalue, and by bisection the c_H where that "
-        "leaves the unit circle. Predicted: c_H times the tip's flexibility at s = 2/k is 1.",
-        s->n);
-    br_put_note(
-        d,
-        "Pressed tips (the paper's rod, k = %g s, 4000 steps of a constant load): swing of the last "
-        "quarter, and largest displacement, over the free rod's. Within the limit they rest, "
-        "beyond it they chatter.",
-        s->tip_k);
-    br_put_note(
-        d,
-        "Bouncing rods (no viscosity, k = %g s): within the limit without inertia, (a + 2c/k)/L, a "
-        "lagged contact never gains energy; between that and the limit a closed one is stable, but "
-        "impacts may gain some. Euler with contact at u_n gains none.",
-        s->bounce_k);
+    struct br_error err = {0};
+    const struct br_stability_plane *end = s->plane + s->planes;
+    size_t count[] = {0, 0, 0};
+    br_document_begin(d, "stability", "beamrate extremes stability", 2, "Where the scene breaks");
+    for (const struct br_stability_plane *p = s->plane; p < end; p++) {
+        if (p->over_stiffness)
+            answer_stiffnesses(d, p);
+        else
+            answer_meshes(d, s, p);
+        for (size_t i = 0; i < 3; i++)
+            count[i] += br_stability_count(s, p, (enum br_stability_outcome)i);
+    }
+    br_put_answer(d, "%zu marches are stable, %zu are unstable, %zu are refused.", count[BR_STABLE],
+                  count[BR_UNSTABLE], count[BR_REFUSED]);
+    if (br_stability_verdict(s, &err))
+        br_put_answer(d, "NOT AS PREDICTED: %s.", err.message);
+    br_put_table(d, "limits", "The largest stable k of each column", BR_FILES_ONLY);
+    for (const struct br_stability_plane *p = s->plane; p < end; p++)
+        put_limits(d, p);
+    br_put_table(d, "points", "All marches", BR_FILES_ONLY | BR_MAIN);
+    for (const struct br_stability_plane *p = s->plane; p < end; p++)
+        put_points(d, s, p);
+    br_put_section(d, "What is unstable");
+    br_put_note(d,
+                "A march that is not finite, or whose scheme makes energy. The work of loads and "
+                "the energy of the start do not count. Implicit Euler: the share of energy that "
+                "the scheme added, by the balance of every step, over what was put into the "
+                "field; more than %g is unstable. With contact at u_n it adds nothing.",
+                br_stability_most(&(struct br_method){.scheme = br_time_schemes[0]}));
+    br_put_note(d, "Other schemes: the energy at the end over what the loads put in, in this march "
+                   "and in one by implicit Euler with contact at u_n; more than 10 is unstable.");
+    br_put_note(d,
+                "By theory a lagged contact that stays closed is stable if c_H G(2/k) is at most "
+                "1; one that opens and closes gains nothing if c_H is at most (a + 2c/k)/L.");
 }

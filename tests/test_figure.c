@@ -39,32 +39,12 @@ static void fill_curves(struct br_figure *f)
     br_slopes_add(f, 2, (const double[]){1, 2});
 }
 
-/* 3 cells by 2, of unequal size; a line with a gap. */
-static void fill_cells(struct br_figure *f)
-{
-    static const double x[] = {1, 10, 1000, 1e4}, y[] = {1e-4, 1e-2, 1};
-    static const double value[] = {1e-3, 2, INFINITY, 0, NAN, 1e5};
-    struct br_panel *p = br_panel_add(f, "c_H (N/m)", "k (s)");
-    struct br_cells *c = br_cells_make(f, 3, 2);
-    assert_non_null(c);
-    for (size_t i = 0; i < 6; i++)
-        assert_true(isnan(c->value[i]));
-    memcpy(c->x, x, sizeof x);
-    memcpy(c->y, y, sizeof y);
-    memcpy(c->value, value, sizeof value);
-    p->log_x = p->log_y = true;
-    struct br_series *line = br_series_add(f, BR_PEN_GUIDE, "limit of %s", "it");
-    br_point_add(line, 1, 1e-4, NULL);
-    br_point_add(line, NAN, 1, NULL);
-    br_point_add(line, 1e4, 1, NULL);
-}
-
-static struct br_figure made(size_t panels, bool cells)
+static struct br_figure made(size_t panels)
 {
     struct br_figure f = {
-        .stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted", .value = {1e-2, 10}};
+        .stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
     for (size_t i = 0; i < panels; i++)
-        cells ? fill_cells(&f) : fill_curves(&f);
+        fill_curves(&f);
     return f;
 }
 
@@ -87,16 +67,7 @@ static void print(FILE *out, struct br_figure f)
 
 static void print_made(FILE *out)
 {
-    print(out, made(2, false));
-    print(out, made(2, true));
-}
-
-/* Infinity has the end's colour; no number has none. */
-TEST(test_colours)
-{
-    struct br_figure f = {.value = {1e-2, 10}};
-    assert_true(br_colour_of(&f, 0) == 1e-2 && br_colour_of(&f, INFINITY) == 10);
-    assert_true(br_colour_of(&f, 2) == 2 && br_colour_of(&f, NAN) == -1);
+    print(out, made(2));
 }
 
 /* At most six hues in a figure; the same title looks the same in the next panel. */
@@ -173,12 +144,11 @@ static bool draw(const struct br_figure *f)
 TEST(test_drawn)
 {
     bool drawn = true;
-    for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++)
-        for (size_t how = 0; how < 2; how++) {
-            struct br_figure f = made(panels, how > 0);
-            drawn = draw(&f) && drawn;
-            br_figure_clear(&f);
-        }
+    for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++) {
+        struct br_figure f = made(panels);
+        drawn = draw(&f) && drawn;
+        br_figure_clear(&f);
+    }
     if (!drawn)
         SKIP("gnuplot is not installed");
 }
@@ -193,10 +163,9 @@ TEST(test_no_memory)
         struct br_panel *p = br_panel_add(&f, "x", "y");
         br_point_add(br_series_add(&f, BR_PEN_LINE, "one"), 1, 1, NULL);
         br_point_add(&p->top, 1, 1, NULL);
-        br_cells_make(&f, 2, 2);
         br_allocation_fails_at(-1);
         failed = br_figure_check(&f, &err) == BR_NO_MEMORY;
-        assert_int_equal(failed, i < 7); /* series twice, points, ticks, edges twice, values */
+        assert_int_equal(failed, i < 4); /* series twice, points, ticks */
         br_figure_clear(&f);
     }
 }
@@ -240,8 +209,15 @@ static void print_floors(FILE *out)
     size_t n[] = {10, 100};
     double k[] = {0.1, 0.01, 0.001};
     struct br_floor floor[12];
-    struct br_floors floors = {
-        .scenes = 1, .methods = 2, .n_count = 2, .k_count = 3, .floors = 12, .floor = floor};
+    static char name[] = "one";
+    const struct br_scene scene = {.name = name};
+    struct br_floors floors = {.scene = {&scene},
+                               .scenes = 1,
+                               .methods = 2,
+                               .n_count = 2,
+                               .k_count = 3,
+                               .floors = 12,
+                               .floor = floor};
     MUST(br_named_method_read("euler+riccati", &floors.method[0], &err));
     MUST(br_named_method_read("euler+umfpack", &floors.method[1], &err));
     for (int i = 0; i < 12; i++)
@@ -258,7 +234,10 @@ static void print_drifts(FILE *out)
     struct br_error err = {0};
     size_t steps[] = {10, 1000, 7};
     struct br_floor drift[12];
+    static char name[][4] = {"one", "two"};
+    const struct br_scene one = {.name = name[0]}, two = {.name = name[1]};
     struct br_floors d = {.gathered = true,
+                          .scene = {&one, &two},
                           .scenes = 2,
                           .methods = 2,
                           .solvers = 1,

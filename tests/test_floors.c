@@ -8,6 +8,9 @@
 #include "study/extremes/extremes.h"
 #include "support.h"
 
+static struct br_scene example[2];
+static const struct br_scene *const both[] = {&example[0], &example[1]}, *const *scenes = both + 1;
+
 /* The index of a method, by its name. */
 static size_t named(const struct br_floors *f, const char *name)
 {
@@ -21,8 +24,9 @@ static size_t named(const struct br_floors *f, const char *name)
 TEST(test_floors)
 {
     static const size_t n[] = {100, 400};
-    static const double k[] = {1e-2, 1e-6};
-    const struct br_extremes_job job = {.n = n, .k = k, .n_count = 2, .k_count = 2};
+    static const size_t steps[] = {100, 1000000};
+    const struct br_extremes_job job = {
+        .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 2, .step_count = 2};
     struct br_error err = {0};
     struct br_floors f;
     MUST(br_floors_run(&f, false, &job, &err));
@@ -48,8 +52,9 @@ TEST(test_floors)
 TEST(test_refused)
 {
     static const size_t n[] = {25600};
-    static const double k[] = {1e-6};
-    const struct br_extremes_job job = {.n = n, .k = k, .n_count = 1, .k_count = 1};
+    static const size_t steps[] = {1000000};
+    const struct br_extremes_job job = {
+        .scene = scenes, .scenes = 1, .n = n, .steps = steps, .n_count = 1, .step_count = 1};
     struct br_error err = {0};
     struct br_floors f;
     if (br_test_quick())
@@ -65,22 +70,11 @@ TEST(test_refused)
     br_floors_clear(&f);
 }
 
-TEST(test_bad_plans)
-{
-    static const double k[] = {0.3};
-    struct br_error err = {0};
-    for (int gathered = 0; gathered < 2; gathered++) {
-        struct br_floors f;
-        REFUSED(br_floors_run(&f, gathered, &(struct br_extremes_job){.k = k, .k_count = 1}, &err),
-                BR_BAD_INPUT, "0.3");
-        br_floors_clear(&f);
-    }
-}
-
 TEST(test_drift)
 {
-    static const double k[] = {1, 0.1, 1.0 / 3000, 1e-4};
-    const struct br_extremes_job job = {.k = k, .k_count = 4};
+    static const size_t steps[] = {1, 10, 3000, 10000};
+    const struct br_extremes_job job = {
+        .scene = both, .scenes = 2, .steps = steps, .step_count = 4};
     struct br_error err = {0};
     struct br_floors d;
     MUST(br_floors_run(&d, true, &job, &err));
@@ -105,5 +99,10 @@ int main(void)
         puts("1..0 # SKIP nothing to measure round-off by");
         return 0;
     }
-    return br_test_all();
+    example[0] = br_test_bundled("example1");
+    example[1] = br_test_bundled("example2");
+    const int failed = br_test_all();
+    br_scene_clear(&example[0]);
+    br_scene_clear(&example[1]);
+    return failed;
 }

@@ -29,8 +29,8 @@
  * includes it.
  *
  * recursion.c implements this for all kinds of elements, with numbers of the type `real`: compiled
- * as double for the solver (plain.c), and with BR_LONG as long double for the exact discrete
- * solution (reference/discrete_field.c), where the names begin with br_long. The state y has d
+ * as double for the solver (plain.c), and with BR_LONG as long double for what round-off is measured
+ * by (reference/long_plain.c), where the names begin with br_long. The state y has d
  * numbers, the control kappa m.
  *
  *     rod             d = 1, m = 1    y = u             kappa = the elongation h u_x

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <fenv.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -6,10 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/discrete.h"
+#include "reference/long_plain.h"
 #include "study/extremes/extremes.h"
 #include "study/grid/each.h"
-#include "study/scene/file.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 
@@ -56,25 +56,10 @@ static void add_schemes(struct br_floors *f)
                     add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
 }
 
-static enum br_status read_scenes(struct br_floors *f, struct br_error *err)
-{
-    static const char *const names[] = {"example1", "example2"};
-    enum br_status status = BR_OK;
-    const char *const *name = f->gathered ? names : names + 1;
-    f->scenes = f->gathered ? 2 : 1;
-    for (size_t i = 0; i < f->scenes && !status; i++) {
-        char path[1024];
-        status = br_scene_find(name[i], path, sizeof path, err);
-        if (!status)
-            status = br_scene_read(path, &f->scene[i], err);
-    }
-    return status;
-}
-
 /* ---- what is measured ---- */
 
 static const size_t usual_n[] = {100, 400, 1600, 6400, 12800, 100000, 1000000};
-static const size_t usual_steps[] = {100, 10000, 1000000}; /* of 1 s */
+static const size_t usual_steps[] = {100, 10000, 1000000};
 static const size_t gathered_n[] = {BR_GATHERED_N};
 static const size_t gathered_steps[] = {1, 10, 100, 1000, 10000, 100000, 1000000, 10000000};
 
@@ -94,10 +79,10 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
 {
     const size_t most = f->gathered ? SIZE_MAX : BR_FLOOR_STEPS;
     for (size_t i = 0; i < f->scenes * f->methods; i++) {
-        const struct br_scene *scene = &f->scene[i / f->methods];
+        const struct br_scene *scene = f->scene[i / f->methods];
         const struct br_named_method *by = &f->method[i % f->methods];
         const bool marched =
-            chosen || !f->gathered || is_usual(&by->method, scene == f->scene, steps);
+            chosen || !f->gathered || is_usual(&by->method, scene == f->scene[0], steps);
         f->floor[i * f->n_count * f->k_count + at] = (struct br_floor){
             .scene = scene,
             .by = by,
@@ -119,10 +104,13 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
                               struct br_error *err)
 {
     const size_t *n = f->gathered ? gathered_n : job->n ? job->n : usual_n;
-    const size_t *usual = f->gathered ? gathered_steps : usual_steps;
-    enum br_status status = read_scenes(f, err);
-    if (status)
-        return status;
+    const size_t *steps = job->steps ? job->steps : f->gathered ? gathered_steps : usual_steps;
+    if (job->scenes > BR_FLOOR_SCENES)
+        return br_fail(err, BR_BAD_INPUT, "found %zu scenes, expected at most %d", job->scenes,
+                       BR_FLOOR_SCENES);
+    f->scenes = job->scenes;
+    for (size_t i = 0; i < f->scenes; i++)
+        f->scene[i] = job->scene[i];
     if (f->gathered)
         add_schemes(f);
     else
@@ -130,25 +118,20 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
     for (size_t i = 0; i < f->methods; i++)
         f->method[i].method.rounding = job->rounding;
     f->n_count = f->gathered ? COUNT(gathered_n) : job->n ? job->n_count : COUNT(usual_n);
-    f->k_count = job->k ? job->k_count : f->gathered ? COUNT(gathered_steps) : COUNT(usual_steps);
+    f->k_count = job->steps    ? job->step_count
+                 : f->gathered ? COUNT(gathered_steps)
+                               : COUNT(usual_steps);
     f->floors = f->scenes * f->methods * f->n_count * f->k_count;
     f->floor = br_allocate(f->floors, sizeof *f->floor);
     if (!f->floor)
         return br_no_memory(err, "the floors");
-    for (size_t i = 0; i < f->n_count * f->k_count && !status; i++) {
-        const size_t j = i % f->k_count;
-        size_t steps = usual[job->k ? 0 : j];
-        if (job->k)
-            status = br_steps_of(&f->scene[0], job->k[j], &steps, err);
-        list_marches(f, i, n[i / f->k_count], steps, job->k != NULL);
-    }
-    return status;
+    for (size_t i = 0; i < f->n_count * f->k_count; i++)
+        list_marches(f, i, n[i / f->k_count], steps[i % f->k_count], job->steps != NULL);
+    return BR_OK;
 }
 
 void br_floors_clear(struct br_floors *f)
 {
-    for (size_t i = 0; i < f->scenes; i++)
-        br_scene_clear(&f->scene[i]);
     free(f->floor);
     *f = (struct br_floors){0};
 }
@@ -159,8 +142,8 @@ void br_floors_clear(struct br_floors *f)
 struct work {
     struct br_floor *first; /* the others follow, with a stride */
     const struct br_observer *observer;
-    long double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
-    double *march;         /* workspace, 2 (n + 1); owned */
+    double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
+    double *march;    /* workspace, 2 (n + 1); owned */
 };
 
 /* Checks so often that on any mesh little time passes between two checks. */
@@ -169,23 +152,28 @@ static bool stopped(const struct work *w, size_t step)
     return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
 
+/* The same march by `plain` in long double. Where it is refused, or fails, there is nothing to
+ * compare with. */
 static enum br_status find_exact(struct work *w, struct br_error *err)
 {
     const struct br_floor *f = w->first;
-    struct br_discrete *d;
-    enum br_status status = br_discrete_create(&d, f->scene, f->n, f->of, &f->by->method, err);
+    struct br_method method = f->by->method;
+    method.solver = &br_long_plain;
+    method.rounding = FE_TONEAREST;
+    struct br_march *march;
+    enum br_status status = br_march_create(&march, f->scene, f->n, f->of, &method, err);
     for (size_t i = 0; i < f->steps && !status; i++)
         status =
-            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_discrete_step(d, err);
+            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_march_step(march, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        w->nodal[kind] = br_allocate((size_t)(kind + 1) * (f->n + 1), sizeof(long double));
+        w->nodal[kind] = br_allocate(2 * (f->n + 1), sizeof *w->nodal[kind]);
         if (w->nodal[kind])
-            br_discrete_get(d, (enum br_field_kind)kind, w->nodal[kind], NULL);
+            br_march_get(march, (enum br_field_kind)kind, w->nodal[kind], NULL);
         else
             status = br_no_memory(err, "the exact discrete solution");
     }
-    br_discrete_free(d);
-    return status;
+    br_march_free(march);
+    return status == BR_NO_MEMORY || status == BR_INTERRUPTED ? status : BR_OK;
 }
 
 /* Compares nodal displacements. Slopes belong to the same functions and need no comparison. */
@@ -193,16 +181,18 @@ static void compare(const struct work *w, const struct br_march *march, enum br_
                     struct br_floor *floor)
 {
     const size_t stride = kind == BR_AXIAL ? 1 : 2, last = stride * floor->n;
-    const long double *exact = w->nodal[kind];
-    long double most = 0, largest = 0;
+    const double *exact = w->nodal[kind];
+    double most = 0, largest = 0;
+    if (!exact)
+        return; /* the deviation stays NaN */
     br_march_get(march, kind, w->march, NULL);
     for (size_t i = 0; i <= last; i += stride) {
-        const long double error = fabsl(exact[i] - w->march[i]);
-        largest = fmaxl(largest, fabsl(exact[i]));
+        const double error = fabs(exact[i] - w->march[i]);
+        largest = fmax(largest, fabs(exact[i]));
         most = isnan(most) || error <= most ? most : error;
     }
-    floor->deviation[kind] = (double)(most / largest);
-    floor->tip[kind] = (double)(fabsl(exact[last] - w->march[last]) / largest);
+    floor->deviation[kind] = largest > 0 ? most / largest : most;
+    floor->tip[kind] = largest > 0 ? fabs(exact[last] - w->march[last]) / largest : most;
 }
 
 /* The difference of the march's time from i T/N, which long double has to 64 bits. */
@@ -276,7 +266,7 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 {
     *f = (struct br_floors){.gathered = gathered};
     const enum br_status status = prepare(f, job, err);
-    if (!status && !br_discrete_judges())
+    if (!status && !br_long_plain_judges())
         return br_fail(err, BR_UNSUPPORTED,
                        "long double has no more digits than double on this machine: there is "
                        "nothing to measure round-off by");

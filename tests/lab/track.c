@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "study/extremes/extremes.h"
+#include "tests/lab/step_matrix.h"
 
 /* Chooses even points of `count`, where an element has `parts`, and then points nearer and nearer
  * to the tip, which is the last. The even points lie in all parts of elements: nodes alone may be

@@ -6,6 +6,7 @@
 
 #include "study/extremes/extremes.h"
 #include "tests/lab/energy.h"
+#include "tests/lab/step_matrix.h"
 
 /* ---- the lowest mode ---- */
 

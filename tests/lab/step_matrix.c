@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "study/extremes/extremes.h"
+#include "tests/lab/step_matrix.h"
 
 /* ---- nodal values as functions of x, for the initial data of a scene ---- */
 
@@ -70,7 +70,13 @@ static enum br_status march_once(const struct br_field *rod, double stiffness, d
     struct br_nodal start[2] = {{rod, state, false}, {rod, state + size, false}};
     struct br_method method = br_method_default();
     method.axial_degree = rod->degree;
-    struct br_scene scene = br_stability_scene(rod, rod->k);
+    struct br_scene scene = {
+        .length = (double)rod->n * rod->h,
+        .duration = rod->k,
+        .density = rod->density,
+        .axial = {.modelled = true, .stiffness = rod->stiffness, .viscosity = rod->viscosity},
+        .contact = {.modelled = true},
+    };
     scene.axial.displacement = br_nodal_function(&start[0]);
     scene.axial.velocity = br_nodal_function(&start[1]);
     scene.contact.stiffness = stiffness;
