@@ -107,14 +107,14 @@ static enum br_status read_lines(FILE *file, struct list *l, struct br_error *er
 static enum br_status read_list(int folder, struct list *l, struct br_error *err)
 {
     *l = (struct list){0};
-    const int open = openat(folder, list_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (open < 0 && errno == ENOENT)
+    const int found = openat(folder, list_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (found < 0 && errno == ENOENT)
         return BR_OK;
-    if (open < 0 && errno == ELOOP)
+    if (found < 0 && errno == ELOOP)
         return br_fail(err, BR_BAD_INPUT, "%s is a symbolic link; remove it", list_name);
-    FILE *file = open < 0 ? NULL : fdopen(open, "r");
+    FILE *file = found < 0 ? NULL : fdopen(found, "r");
     if (!file) {
-        br_close(open);
+        br_close(found);
         return fail_with_errno(list_name, err);
     }
     const enum br_status status = read_lines(file, l, err);
@@ -136,7 +136,8 @@ static enum br_status write_list(int folder, const struct list *l, struct br_err
     enum br_status status = BR_OK;
     if (lost || !closed)
         status = br_no_memory(err, list_name);
-    else if (!br_put_whole(folder, list_name, br_new_permissions(0666), text, size))
+    else if (!br_put_whole(folder, list_name, br_new_permissions(0666), text, size) ||
+             !br_sync_folder(folder))
         status = fail_with_errno(list_name, err);
     free(text);
     return status;
@@ -152,7 +153,7 @@ enum br_status br_set_check(int folder, struct br_error *err)
 
 /* ---- the new list ---- */
 
-/* Step 1 for one file: its time is final when it is on the disk. */
+/* For one file; its time is final when it is on the disk. */
 static bool add_new(int hidden, const char *name, struct list *new, unsigned set)
 {
     struct stat info;
@@ -173,19 +174,26 @@ static int is_visible(const struct dirent *entry)
     return entry->d_name[0] != '.';
 }
 
-static enum br_status list_new(int hidden, struct list *new, unsigned set, struct br_error *err)
+/* Step 1; new is empty. */
+static enum br_status list_new(int hidden, const struct list *old, struct list *new,
+                               struct br_error *err)
 {
+    unsigned last = 0;
+    for (size_t i = 0; i < old->count; i++)
+        last = old->entry[i].set > last ? old->entry[i].set : last;
     struct dirent **found;
     const int count = scandirat(hidden, ".", &found, is_visible, alphasort);
     if (count < 0)
         return fail_with_errno("the new results", err);
     enum br_status status = BR_OK;
     for (int i = 0; i < count; i++) {
-        if (!status && !add_new(hidden, found[i]->d_name, new, set))
+        if (!status && !add_new(hidden, found[i]->d_name, new, last + 1))
             status = fail_with_errno(found[i]->d_name, err);
         free(found[i]);
     }
     free(found);
+    if (!status && !br_sync_folder(hidden))
+        status = fail_with_errno("the new results", err);
     return status;
 }
 
@@ -199,7 +207,7 @@ bool br_same_stem(const char *a, const char *b)
 /* Whether a new file has this name, whatever the formats are. All runs share the page. */
 static bool is_replaced(const struct list *new, const char *name)
 {
-    for (size_t i = 0; i < new->count && strcmp(name, BR_PAGE) != 0; i++)
+    for (size_t i = 0; i < new->count &&strcmp(name, BR_PAGE) != 0; i++)
         if (strcmp(new->entry[i].name, BR_PAGE) != 0 && br_same_stem(new->entry[i].name, name))
             return true;
     return false;
@@ -216,13 +224,14 @@ static void leave_out_replaced(struct list *old, const struct list *new)
     }
 }
 
-/* The old sets that stay, without a page if the new set has one. */
-static bool add_kept(struct list *new, const struct list *old)
+/* Adds the old sets that stay, without a page if the new set has one. */
+static enum br_status add_kept(struct list *new, struct list *old, struct br_error *err)
 {
+    leave_out_replaced(old, new);
     for (size_t i = 0; i < old->count; i++)
         if (old->entry[i].set && !find(new, old->entry[i].name) && !append(new, &old->entry[i]))
-            return false;
-    return true;
+            return br_no_memory(err, list_name);
+    return BR_OK;
 }
 
 /* The first file that is still to be moved and whose place somebody's file has; NULL: none. */
@@ -242,21 +251,12 @@ enum br_status br_set_decide(int folder, int hidden, char in_way[BR_FILE_NAME],
                              struct br_error *err)
 {
     struct list old, new = {0};
-    unsigned last = 0;
-    in_way[0] = '\0';
-    bool failed = read_list(folder, &old, err) != BR_OK;
-    for (size_t i = 0; i < old.count; i++)
-        last = old.entry[i].set > last ? old.entry[i].set : last;
-    failed = failed || list_new(hidden, &new, last + 1, err) || br_progress_result(BR_OK, err);
+    bool failed = read_list(folder, &old, err) || list_new(hidden, &old, &new, err) ||
+                  br_progress_result(BR_OK, err);
     const char *name = failed ? NULL : find_in_way(folder, hidden, &new, &old);
-    if (name)
-        snprintf(in_way, BR_FILE_NAME, "%s", name);
-    leave_out_replaced(&old, &new);
-    if (!failed && !name && !add_kept(&new, &old))
-        failed = br_no_memory(err, list_name);
-    failed = failed || (!name && write_list(hidden, &new, err));
-    if (!failed && !br_sync_folder(hidden))
-        failed = fail_with_errno(list_name, err);
+    snprintf(in_way, BR_FILE_NAME, "%s", name ? name : "");
+    if (!failed && !name)
+        failed = add_kept(&new, &old, err) || write_list(hidden, &new, err);
     free(old.entry);
     free(new.entry);
     return failed ? err->status : BR_OK;

@@ -68,7 +68,8 @@ static bool lock(int file, bool wait)
     return flock(file, LOCK_EX | (wait ? 0 : LOCK_NB)) == 0 || errno == ENOSYS || errno == ENOLCK;
 }
 
-/* The one who had the lock before may have removed the file, which is then nobody's: begin again. */
+/* The one who had the lock before may have removed the file, which is then nobody's: begin again.
+ */
 int br_lock_file(int folder, const char *name, bool wait)
 {
     struct stat ours, there;

@@ -42,9 +42,9 @@ enum br_status br_output_file(const struct br_output *output, const char *name, 
 /* Closes a written file: fails with BR_IO if any write did (a full disk). */
 enum br_status br_output_close(FILE *file, const char *name, struct br_error *err);
 
-/* Puts the set in place of the old one. Where a file in the way is not as an earlier run wrote it (a
- * scene, a person's own), the new set is put into a folder beside it, set-1 or the next number, and
- * the call fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a
+/* Puts the set in place of the old one. Where a file in the way is not as an earlier run wrote it
+ * (a scene, a person's own), the new set is put into a folder beside it, set-1 or the next number,
+ * and the call fails with BR_IO, as it does where the disk fails. Fails with BR_INTERRUPTED after a
  * signal. */
 enum br_status br_output_commit(struct br_output *output, struct br_error *err);
 
@@ -96,8 +96,8 @@ void br_whole_file_discard(struct br_whole_file *whole);
 bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count);
 
 /* Opens and locks a file of an open folder; makes it if it is missing. Where the file system has no
- * locks it is only opened. -1 with errno; EWOULDBLOCK: another program has the lock; EINTR: a signal
- * came while it waited. */
+ * locks it is only opened. -1 with errno; EWOULDBLOCK: another program has the lock; EINTR: a
+ * signal came while it waited. */
 int br_lock_file(int folder, const char *name, bool wait);
 
 /* Waits until a folder's names are on the disk. False: errno says why. */

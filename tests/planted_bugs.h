@@ -1098,9 +1098,8 @@ static const struct planted_bug planted_bugs[] = {
     {"old_files_of_a_set_stay", "lost", "cli/commit.c", "tests/test_whole test_killed",
      "} else if (unlinkat(folder, e->name, 0) != 0)", "} else if (0)"},
     {"removed_before_it_is_decided", "sequence", "cli/commit.c", "tests/test_whole test_killed",
-     "failed = failed || (!name && write_list(hidden, &new, err));",
-     "failed = failed || (old.count && unlinkat(folder, old.entry[0].name, 0)) || "
-     "(!name && write_list(hidden, &new, err));"},
+     "failed = add_kept(&new, &old, err) ||",
+     "failed = (old.count && unlinkat(folder, old.entry[0].name, 0)) || add_kept(&new, &old, err) ||"},
     {"edited_file_is_replaced", "lost", "cli/commit.c", "tests/test_whole test_edited",
      "info.st_size == e->bytes && time_of(&info) == e->time;", "info.st_size >= 0 && e->time > 0;"},
     {"decided_set_is_thrown_away", "lost", "cli/output.c", "tests/test_whole test_killed",

@@ -122,8 +122,8 @@ static char set_that_is_there(void)
             which = *name == 'h' ? 'r' : 's';
     }
     fclose(list);
-    const size_t hidden = (size_t)cli_is_there("set/.beamrate-new") +
-                          cli_is_there("set/.beamrate-lock");
+    const size_t hidden =
+        (size_t)cli_is_there("set/.beamrate-new") + cli_is_there("set/.beamrate-lock");
     if (cli_count_files("set") != count + hidden) {
         shell("ls -lA set; cat set/.beamrate-set");
         fail_msg("%zu files, and %zu listed", cli_count_files("set") - hidden, count);
@@ -176,7 +176,7 @@ static size_t try_everywhere(const char *what)
     assert_int_equal(set_that_is_there(), 'r');
     print_message("# %s, %ld calls: %zu left the old set, %zu the new one, %zu the decision\n",
                   what, n - 1, old, new, decided);
-    return old * new * decided;
+    return old * new *decided;
 }
 
 TEST(test_killed)
@@ -205,7 +205,8 @@ TEST(test_stopped)
             break;
         const bool written = set_that_is_there() == 'r';
         const char *said = written ? "interrupted when all was written" : "no file is half written";
-        if (out.exit_code != -SIGTERM || !strstr(out.output, said) || cli_is_there("set/.beamrate-new"))
+        if (out.exit_code != -SIGTERM || !strstr(out.output, said) ||
+            cli_is_there("set/.beamrate-new"))
             fail_msg("disk %ld stop: exit code %d: %s", n, out.exit_code, out.output);
         *(written ? &late : &in_time) += 1;
     }
@@ -259,7 +260,8 @@ TEST(test_lock_is_of_the_name)
     int ending;
     clear_set();
     cli_path("set", path);
-    const int folder = open(path, O_RDONLY | O_DIRECTORY), lock = br_lock_file(folder, "lock", true);
+    const int folder = open(path, O_RDONLY | O_DIRECTORY),
+              lock = br_lock_file(folder, "lock", true);
     assert_true(lock >= 0 && br_lock_file(folder, "lock", false) < 0);
     const pid_t child = fork();
     assert_true(child >= 0);
