@@ -13,6 +13,8 @@
 
 static const char lock_name[] = ".beamrate-lock", hidden_name[] = ".beamrate-new";
 
+enum { TRIALS = 1000 }; /* to lock what others remove meanwhile */
+
 void br_close(int descriptor)
 {
     const int reason = errno;
@@ -68,13 +70,12 @@ static bool lock(int file, bool wait)
     return flock(file, LOCK_EX | (wait ? 0 : LOCK_NB)) == 0 || errno == ENOSYS || errno == ENOLCK;
 }
 
-/* The one who had the lock before may have removed the file, which is then nobody's: begin again.
- */
+/* Who had the lock before may have removed the file, which is then nobody's: begin again. */
 int br_lock_file(int folder, const char *name, bool wait)
 {
+    const int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
     struct stat ours, there;
-    for (;;) {
-        const int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    for (int i = 0; i < TRIALS; i++) {
         const int file = openat(folder, name, flags, 0666);
         if (file < 0)
             return -1;
@@ -87,6 +88,8 @@ int br_lock_file(int folder, const char *name, bool wait)
             return file;
         close(file);
     }
+    errno = ESTALE;
+    return -1;
 }
 
 static void write_owner(int file)
@@ -120,19 +123,19 @@ static enum br_status fail_to_lock(const struct br_output *o, struct br_error *e
 
 /* ---- opening ---- */
 
-/* Between our making of the folder and our lock, the program that made it first may remove it. */
+/* Before we have the lock, the program that made the folder first may remove it: make it again. */
 static enum br_status make_and_lock(struct br_output *o, struct br_error *err)
 {
-    do {
+    for (int i = 0; i < TRIALS && o->lock < 0 && (i == 0 || errno == ENOENT); i++) {
         br_close(o->parent);
-        o->parent = -1;
-        if (br_make_folders(o->folder, 0777, &o->made))
-            o->parent = open(o->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        o->parent = br_make_folders(o->folder, 0777, &o->made)
+                        ? open(o->folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                        : -1;
         if (o->parent < 0)
             return br_fail(err, br_status_of_errno(errno), "cannot make the folder: %s",
                            strerror(errno));
         o->lock = br_lock_file(o->parent, lock_name, o->waits);
-    } while (o->lock < 0 && errno == ENOENT);
+    }
     if (o->lock < 0)
         return fail_to_lock(o, err);
     write_owner(o->lock);
