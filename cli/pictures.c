@@ -72,21 +72,31 @@ static enum br_status check_programs(struct br_pictures *p, struct br_error *err
                    p->animate, name, p->format->terminal);
 }
 
-static enum br_status open_movie(struct br_pictures *p, struct br_error *err)
+/* Another program may write there: its lock is waited for. */
+static enum br_status open_folder(struct br_pictures *p, const char *folder, struct br_error *err)
+{
+    struct br_error inner = {0};
+    p->output.waits = true;
+    return br_output_open(&p->output, folder, &inner)
+               ? br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "))
+               : BR_OK;
+}
+
+/* Opens the folder once to see that it can be written, and leaves it to --out and to others until
+ * the movie is drawn. */
+static enum br_status try_movie(struct br_pictures *p, struct br_error *err)
 {
     char folder[sizeof p->output.folder];
-    struct br_error inner = {0};
     if (strlen(p->animate) >= sizeof folder)
         return br_fail(err, BR_BAD_INPUT, "--animate: the name is too long");
     if (p->n > MOST_ELEMENTS)
         return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->n,
                        MOST_ELEMENTS);
-    if (choose_format(p, err) || split(p, folder, sizeof folder, err) || check_programs(p, err))
+    if (choose_format(p, err) || split(p, folder, sizeof folder, err) || check_programs(p, err) ||
+        open_folder(p, folder, err))
         return err->status;
-    p->output.stem = p->stem;
-    return br_output_open(&p->output, folder, &inner)
-               ? br_fail(err, inner.status, "--animate %s", inner.message + strlen("--out: "))
-               : BR_OK;
+    br_output_discard(&p->output);
+    return BR_OK;
 }
 
 /* ---- what is kept ---- */
@@ -112,7 +122,7 @@ enum br_status br_pictures_open(struct br_pictures *p, struct br_error *err)
     p->keep = br_history_recorder(&p->record, p->n);
     p->rows = p->history ? br_history_stride(p->steps, ROWS) : 0;
     p->frames = p->animate ? br_history_stride(p->steps, FRAMES) : 0;
-    return p->animate ? open_movie(p, err) : BR_OK;
+    return p->animate ? try_movie(p, err) : BR_OK;
 }
 
 struct br_history_observer br_pictures_observer(struct br_pictures *p)
@@ -147,8 +157,11 @@ static enum br_status render_movie(struct br_pictures *p, const struct br_movie 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
     const struct br_movie movie = {p->scene, &p->record, p->format, p->stem};
-    enum br_status status = BR_OK;
-    char name[300];
+    char name[300], folder[sizeof p->output.folder];
+    snprintf(folder, sizeof folder, "%s", p->output.folder);
+    enum br_status status = open_folder(p, folder, err);
+    if (status)
+        return status;
     for (int script = 0; script < 2; script++) {
         FILE *file;
         snprintf(name, sizeof name, "%s%s", p->stem, script ? ".gp" : ".dat");

@@ -5,7 +5,6 @@
 #include <fcntl.h>
 #include <libgen.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -124,18 +123,16 @@ static bool write_out(int file, const char *bytes, size_t count)
     return fsync(file) == 0;
 }
 
+/* What a program that was killed left under the hidden name is written anew. */
 bool br_put_whole(int folder, const char *name, mode_t mode, const char *bytes, size_t count)
 {
-    char run[BR_RUN_ID], hidden[sizeof BR_HIDDEN + BR_RUN_ID];
-    if (br_run_id_make(run, NULL))
-        return false;
-    snprintf(hidden, sizeof hidden, "%s-%s", BR_HIDDEN, run);
-    const int file = openat(folder, hidden, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    static const char hidden[] = ".beamrate-part";
+    const int file = br_lock_file(folder, hidden, true);
     if (file < 0)
         return false;
-    flock(file, LOCK_EX | LOCK_NB); /* else the next program would remove it */
-    (void)!fchmod(file, mode);      /* some file systems have no permissions */
-    const bool put = write_out(file, bytes, count) && renameat(folder, hidden, folder, name) == 0;
+    (void)!fchmod(file, mode); /* some file systems have no permissions */
+    const bool put = ftruncate(file, 0) == 0 && write_out(file, bytes, count) &&
+                     renameat(folder, hidden, folder, name) == 0;
     const int reason = errno;
     if (!put)
         unlinkat(folder, hidden, 0);
@@ -155,8 +152,8 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
     if (fclose(file) != 0 || failed || br_json_lacked_memory() || (w->renamed && !w->text))
         return w->renamed ? br_no_memory(err, w->path)
                           : br_fail(err, BR_IO, "%s could not be written whole", w->path);
-    if (!w->renamed || br_output_sweep(w->folder, err))
-        return w->renamed ? err->status : BR_OK;
+    if (!w->renamed)
+        return BR_OK;
     const mode_t mode = stat(w->place, &old) == 0 ? old.st_mode & 07777 : br_new_permissions(0666);
     return br_put_whole(w->folder, strrchr(w->place, '/') + 1, mode, w->text, w->size)
                ? BR_OK

@@ -111,7 +111,7 @@ while IFS='	' read -r how origin line; do
         ;;
     esac
     if [ "$how" = long ]; then line="$line --help"; else shorten; fi
-    rm -rf here && cp -r files here
+    rm -rf here && cp -a files here
     case $line in *--new*) rm here/my_scene.yaml ;; esac
     (
         cd here && case $line in *--all*) export BEAMRATE_DATA="$work/few" ;; esac

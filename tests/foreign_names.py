@@ -162,7 +162,7 @@ def forms():
             path = os.path.join(folder, name)
             stem, extension = os.path.splitext(path)
             assert not name.startswith("MARK"), "something was run"
-            if extension not in FORMS or path == "./t.csv" or ".kept" in path or name == "manifest.json" \
+            if extension not in FORMS or path == "./t.csv" or ".kept" in path \
                     or "orders-kept" in path:
                 continue
             with open(path, encoding="utf-8", newline="") as file:

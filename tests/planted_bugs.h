@@ -1160,6 +1160,25 @@ static const struct planted_bug planted_bugs[] = {
      "order[orders++] = 4;"},
     {"floors_of_the_first_mesh", "index", "study/extremes/floors.c", "golden extremes_floors",
      "n[i / f->k_count], steps", "n[i % f->n_count], steps"},
+    {"set_is_listed_before_it_is_moved", "sequence", "cli/commit.c", "tests/test_whole test_killed",
+     "    failed = failed || move_new(folder, hidden, &new, err) || remove_old(folder, &new, &old, err);\n"
+     "    if (!failed && (!br_sync_folder(folder) ||\n"
+     "                    renameat(hidden, list_name, folder, list_name) != 0 || !br_sync_folder(folder)))",
+     "    if (!failed && renameat(hidden, list_name, folder, list_name) != 0)\n"
+     "        failed = true;\n"
+     "    failed = failed || move_new(folder, hidden, &new, err) || remove_old(folder, &new, &old, err);\n"
+     "    if (!failed && !br_sync_folder(folder))"},
+    {"old_files_of_a_set_stay", "lost", "cli/commit.c", "tests/test_whole test_killed",
+     "} else if (unlinkat(folder, e->name, 0) != 0)", "} else if (0)"},
+    {"removed_before_it_is_decided", "sequence", "cli/commit.c", "tests/test_whole test_killed",
+     "failed = add_kept(&new, &old, err) ||",
+     "failed = (old.count && unlinkat(folder, old.entry[0].name, 0)) || add_kept(&new, &old, err) ||"},
+    {"edited_file_is_replaced", "lost", "cli/commit.c", "tests/test_whole test_edited",
+     "info.st_size == e->bytes && time_of(&info) == e->time;", "info.st_size >= 0 && e->time > 0;"},
+    {"decided_set_is_thrown_away", "lost", "cli/output.c", "tests/test_whole test_killed",
+     "if (!br_set_is_decided(hidden) || !br_set_finish(o->parent, hidden, &inner))", ""},
+    {"lock_of_a_removed_file", "sequence", "cli/output.c", "tests/test_whole test_lock_is_of_the_name",
+     "there.st_ino == ours.st_ino && there.st_dev == ours.st_dev)", "ours.st_dev == ours.st_dev)"},
     {"a_week_is_no_warning", "default", "study/foresee/resources.c", "tests/test_resources",
      "if (days > 1)", "if (days > 7)"},
 };

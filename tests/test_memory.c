@@ -75,7 +75,7 @@ TEST(test_sweep)
         {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23},
         {"run small.yaml --n 4 --k 0.1 --quiet --out set", 97},
         {"study small.yaml --n 2,4 --k 0.1,0.05 --reference none --format csv --no-plots --quiet --out set",
-         7}, /* manifests */
+         7}, /* lists of sets */
         {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37},
         {"check small.yaml --quiet --json set.json", 37},
         {"check small.yaml --quiet --compare old.json", 37},

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A set of results is the old one or the new one, wherever the program is ended. */
-#include <errno.h>
 #include <fcntl.h>
-#include <jansson.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,24 +11,67 @@
 
 #include "cli/output.h"
 #include "cli_driver.h"
+#include "solver/clock.h"
 #include "support.h"
 
 static struct cli_outcome out;
 
+/* ---- who writes a set ---- */
+
 /* Two commands whose sets share some names, and not all. */
 static const char old_line[] = "study summary.yaml --n 4 --k 0.1 --no-plots --quiet --out set",
-                  new_line[] = "run example1 --n 4 --k 0.1 --quiet --out set";
+                  new_line[] = "run example1 --n 4 --k 0.1 --no-plots --quiet --out set";
 
-/* Runs a line with a fault; returns whether the call was reached. */
-static bool run_with(const char *line, const char *kind, long n, const char *what)
+/* As a command: puts files of these names into the set. Returns the exit code. */
+static int write_set(const char *folder, char *names)
+{
+    struct br_output output = {0};
+    struct br_error err = {0};
+    bool failed = br_output_open(&output, folder, &err) != BR_OK;
+    for (char *name = strtok(names, " "); name && !failed; name = strtok(NULL, " ")) {
+        FILE *file;
+        failed = br_output_file(&output, name, &file, &err) != BR_OK;
+        if (!failed)
+            failed = fputs(name, file) < 0 || br_output_close(file, name, &err);
+    }
+    failed = failed || br_output_commit(&output, &err);
+    br_output_discard(&output);
+    return br_status_exit_code(err.status);
+}
+
+/* Lets this program do that in a process of its own. Returns its exit code, or -signal. */
+static int write_as_program(const char *names)
+{
+    char path[512];
+    int ending;
+    cli_path("set", path);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (!child) {
+        setenv("BR_WRITE_SET", names, 1);
+        setenv("BR_FOLDER", path, 1);
+        dup2(STDERR_FILENO, STDOUT_FILENO); /* cmocka's own lines */
+        execl("/proc/self/exe", "test_whole", (char *)NULL);
+        _exit(99);
+    }
+    assert_int_equal(waitpid(child, &ending, 0), child);
+    return WIFEXITED(ending) ? WEXITSTATUS(ending) : -WTERMSIG(ending);
+}
+
+/* Makes the next program fail, and runs it; whether the call was reached. line NULL: this program
+ * itself writes the new set, see write_set; it is quicker, and a planted bug is in it. */
+static bool run_with(const char *line, long n, const char *what)
 {
     char fault[64], record[512];
     cli_path("reached", record);
     unlink(record);
-    snprintf(fault, sizeof fault, "%s %ld %s", kind, n, what);
+    snprintf(fault, sizeof fault, "disk %ld %s", n, what);
     setenv("BR_FAULT", fault, 1);
     setenv("BR_FAULT_LOG", record, 1);
-    cli_run_line(line, NULL, &out);
+    if (line)
+        cli_run_line(line, NULL, &out);
+    else
+        out.exit_code = write_as_program("fields.csv history.csv report.html summary.json");
     unsetenv("BR_FAULT");
     return cli_is_there("reached");
 }
@@ -49,60 +90,56 @@ static void clear_set(void)
 
 /* ---- the reader of a set ---- */
 
-/* Checksums of the folder's files, by another program: lines of sum, blanks, name. */
-static const char *sums(void)
+/* Whether a file of the set has the size and the time that a line of its list says. */
+static bool is_as_listed(const char *line, char name[256])
 {
-    static char lines[8192];
-    char command[600], path[512];
-    cli_path("set", path);
-    snprintf(command, sizeof command, "cd '%s' && sha256sum -- *", path);
-    FILE *pipe = popen(command, "r");
-    assert_non_null(pipe);
-    lines[fread(lines, 1, sizeof lines - 1, pipe)] = '\0';
-    assert_int_equal(pclose(pipe), 0);
-    return lines;
+    long long size, time;
+    char path[512], place[300];
+    struct stat info;
+    assert_int_equal(sscanf(line, "%*u %lld %lld %255[^\n]", &size, &time, name), 3);
+    snprintf(place, sizeof place, "set/%s", name);
+    cli_path(place, path);
+    return stat(path, &info) == 0 && info.st_size == size &&
+           info.st_mtim.tv_sec * 1000000000LL + info.st_mtim.tv_nsec == time;
 }
 
-/* The command that wrote the set, which must be whole and alone in the folder; '-': no set. */
+/* The command that wrote the set, which must be whole and alone in the folder: s or r; d: it is
+ * decided for the new set, but that is not in place. */
 static char set_that_is_there(void)
 {
-    char path[512];
-    cli_path("set/manifest.json", path);
-    json_t *manifest = json_load_file(path, 0, NULL);
-    if (!manifest)
-        return '-';
-    const json_t *set = json_array_get(json_object_get(manifest, "sets"), 0);
-    const json_t *files = json_object_get(set, "files");
-    assert_int_equal(json_array_size(json_object_get(manifest, "sets")), 1);
-    const size_t count = json_array_size(files);
-    assert_true(count > 0);
-    const char *lines = sums();
-    for (size_t i = 0; i < count; i++) {
-        const json_t *file = json_array_get(files, i);
-        char line[400];
-        snprintf(line, sizeof line, "%s  %s\n", json_string_value(json_object_get(file, "sha256")),
-                 json_string_value(json_object_get(file, "name")));
-        if (!strstr(lines, line))
-            fail_msg("not as the manifest says: %s", line);
+    char path[512], line[400], name[256], which = '?';
+    size_t count = 0;
+    if (cli_is_there("set/.beamrate-new/.beamrate-set"))
+        return 'd';
+    cli_path("set/.beamrate-set", path);
+    FILE *list = fopen(path, "r");
+    assert_non_null(list);
+    assert_non_null(fgets(line, sizeof line, list));
+    for (; fgets(line, sizeof line, list); count++) {
+        if (!is_as_listed(line, name))
+            fail_msg("not as the list says: %s", line);
+        if (strcmp(name, "history.csv") == 0 || strcmp(name, "summary.csv") == 0)
+            which = *name == 'h' ? 'r' : 's';
     }
-    const char *command = json_string_value(json_object_get(set, "command"));
-    const char which = strstr(command, " study ") ? 's' : 'r';
-    const size_t hidden = cli_is_there("set/.beamrate");
-    assert_int_equal(cli_count_files("set"), count + hidden);
-    json_decref(manifest);
+    fclose(list);
+    const size_t hidden =
+        (size_t)cli_is_there("set/.beamrate-new") + cli_is_there("set/.beamrate-lock");
+    if (cli_count_files("set") != count + hidden) {
+        shell("ls -lA set; cat set/.beamrate-set");
+        fail_msg("%zu files, and %zu listed", cli_count_files("set") - hidden, count);
+    }
     return which;
 }
 
 /* The first thing that the next command does. */
-static enum br_status sweep(void)
+static enum br_status open_folder(void)
 {
     struct br_error err;
     char path[512];
     cli_path("set", path);
-    const int folder = open(path, O_RDONLY | O_DIRECTORY);
-    assert_true(folder >= 0);
-    const enum br_status status = br_output_sweep(folder, &err);
-    close(folder);
+    struct br_output output = {.waits = true}; /* until a killed program is gone */
+    const enum br_status status = br_output_open(&output, path, &err);
+    br_output_discard(&output);
     return status;
 }
 
@@ -110,59 +147,52 @@ static enum br_status sweep(void)
 
 static void make_old(void)
 {
-    if (cli_is_there("old")) {
-        shell("rm -rf set && cp -r old set");
-        return;
-    }
     clear_set();
-    cli_expect(old_line, NULL, 0, "");
+    assert_int_equal(write_as_program("report.html summary-fits.csv summary.csv summary.json"), 0);
     assert_int_equal(set_that_is_there(), 's');
-    shell("cp -r set old");
 }
 
-/* Applies the fault to call n = 1, 1 + every, ..., until no call n is reached. Each time the folder
- * has the old set, the new one, or none; after the sweep it has the new one if that was decided. */
-static size_t try_everywhere(const char *what, long every)
+/* Applies the fault to call n = 1, 2, ..., until no call n is reached. Each time the folder
+ * has the old set, the new one, or the decision for it; the next command finishes that. */
+static size_t try_everywhere(const char *what)
 {
-    size_t sets[3] = {0};
+    size_t old = 0, new = 0, decided = 0;
+    const bool killed = strcmp(what, "kill") == 0;
     long n = 1;
-    for (;; n += every) {
+    for (;; n++) {
         make_old();
-        if (!run_with(new_line, "disk", n, what))
+        if (!run_with(NULL, n, what))
             break;
         const char before = set_that_is_there();
-        const bool decided = cli_is_there("set/.beamrate/.manifest");
-        assert_int_equal(sweep(), BR_OK);
+        assert_int_equal(open_folder(), BR_OK);
         const char after = set_that_is_there();
-        if (after != (decided || before == 'r' ? 'r' : 's') || (before == '-' && !decided))
-            fail_msg("disk %ld %s: %c, then %c: %s", n, what, before, after, out.output);
-        if (strcmp(what, "kill") != 0 && out.exit_code == 0 && after != 'r')
-            fail_msg("disk %ld %s: exit code 0 without the new set", n, what);
-        if (strcmp(what, "kill") != 0 && out.exit_code != 0 && out.exit_code != 3)
-            fail_msg("disk %ld %s: exit code %d: %s", n, what, out.exit_code, out.output);
-        assert_false(cli_is_there("set/.beamrate"));
-        sets[before == 's' ? 0 : before == 'r' ? 1 : 2]++;
+        if (after != (before == 's' ? 's' : 'r'))
+            fail_msg("disk %ld %s: %c, then %c", n, what, before, after);
+        if (!killed && out.exit_code != 3 && (out.exit_code != 0 || after != 'r'))
+            fail_msg("disk %ld %s: exit code %d", n, what, out.exit_code);
+        assert_false(cli_is_there("set/.beamrate-new") || cli_is_there("set/.beamrate-lock"));
+        *(before == 's' ? &old : before == 'r' ? &new : &decided) += 1;
     }
     assert_int_equal(set_that_is_there(), 'r');
     print_message("# %s, %ld calls: %zu left the old set, %zu the new one, %zu the decision\n",
-                  what, n - 1, sets[0], sets[1], sets[2]);
-    return sets[0] * sets[1] * sets[2];
+                  what, n - 1, old, new, decided);
+    return old * new *decided;
 }
 
 TEST(test_killed)
 {
-    assert_true(try_everywhere("kill", 1) > 0); /* each of the three happened */
+    assert_true(try_everywhere("kill") > 0); /* each of the three happened */
 }
 
 TEST(test_broken_disk)
 {
-    assert_true(try_everywhere("fail", br_test_long() ? 1 : 3) > 0);
+    assert_true(try_everywhere("fail") > 0);
 }
 
 /* The disk fails for good, then is mended. */
 TEST(test_dead_disk)
 {
-    assert_true(try_everywhere("from", br_test_long() ? 1 : 4) > 0);
+    assert_true(try_everywhere("from") > 0);
 }
 
 /* A signal always has an effect: it stops the work, or is reported when all is written. */
@@ -171,11 +201,12 @@ TEST(test_stopped)
     size_t in_time = 0, late = 0;
     for (long n = 1;; n++) {
         make_old();
-        if (!run_with(new_line, "disk", n, "stop"))
+        if (!run_with(new_line, n, "stop"))
             break;
         const bool written = set_that_is_there() == 'r';
         const char *said = written ? "interrupted when all was written" : "no file is half written";
-        if (out.exit_code != -SIGTERM || !strstr(out.output, said) || cli_is_there("set/.beamrate"))
+        if (out.exit_code != -SIGTERM || !strstr(out.output, said) ||
+            cli_is_there("set/.beamrate-new"))
             fail_msg("disk %ld stop: exit code %d: %s", n, out.exit_code, out.output);
         *(written ? &late : &in_time) += 1;
     }
@@ -183,7 +214,71 @@ TEST(test_stopped)
     assert_true(in_time > 0 && late > 0);
 }
 
+/* Killed at any time, and not only at a call that changes the folder. */
+TEST(test_killed_at_random)
+{
+    const int kills = br_test_long() ? 160 : 20;
+    char command[600];
+    size_t old = 0, new = 0, decided = 0;
+    make_old();
+    const double start = br_seconds();
+    cli_expect(new_line, NULL, 0, "");
+    const double last = 1.3 * (br_seconds() - start);
+    for (int i = 0; i < kills; i++) {
+        make_old();
+        snprintf(command, sizeof command, "timeout -s KILL %.4f \"$BEAMRATE\" %s 2>&1 || true",
+                 last * (i + 1) / kills, new_line);
+        shell(command);
+        const char before = set_that_is_there();
+        assert_int_equal(open_folder(), BR_OK);
+        assert_int_equal(set_that_is_there(), before == 's' ? 's' : 'r');
+        *(before == 's' ? &old : before == 'r' ? &new : &decided) += 1;
+    }
+    print_message("# kill at any time: %zu left the old set, %zu the new one, %zu the decision\n",
+                  old, new, decided);
+    assert_true(old > 0);
+}
+
+/* An edited result of the same size: the new set is beside it, and the old one stays. */
+TEST(test_edited)
+{
+    make_old();
+    shell("printf SUMMARY.csv >set/summary.csv");
+    assert_int_equal(write_as_program("history.csv summary.csv"), 3);
+    assert_string_equal(cli_read("set/summary.csv"), "SUMMARY.csv");
+    assert_string_equal(cli_read("set/set-1/summary.csv"), "summary.csv");
+    assert_false(cli_is_there("set/history.csv"));
+}
+
 /* ---- two at once ---- */
+
+/* One waits for the lock of a file that is then removed, and made again by a third. */
+TEST(test_lock_is_of_the_name)
+{
+    char path[512];
+    struct stat locked, named;
+    int ending;
+    clear_set();
+    cli_path("set", path);
+    const int folder = open(path, O_RDONLY | O_DIRECTORY),
+              lock = br_lock_file(folder, "lock", true);
+    assert_true(lock >= 0 && br_lock_file(folder, "lock", false) < 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (!child) {
+        close(lock); /* it has the parent's lock, too */
+        const int file = br_lock_file(folder, "lock", true);
+        const bool same = fstat(file, &locked) == 0 && fstatat(folder, "lock", &named, 0) == 0 &&
+                          locked.st_ino == named.st_ino;
+        _exit(!same);
+    }
+    usleep(100000);
+    shell("mv set/lock set/removed && touch set/lock");
+    close(lock);
+    assert_int_equal(waitpid(child, &ending, 0), child);
+    assert_int_equal(ending, 0);
+    close(folder);
+}
 
 static pid_t start_slow(const char *line)
 {
@@ -191,7 +286,7 @@ static pid_t start_slow(const char *line)
     assert_true(child >= 0);
     if (child)
         return child;
-    run_with(line, "disk", 0, "slow");
+    run_with(line, 0, "slow");
     _exit(out.exit_code);
 }
 
@@ -200,14 +295,13 @@ TEST(test_two_at_once)
     int ending;
     make_old();
     const pid_t first = start_slow(new_line);
-    for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate/.owner"); i++)
+    for (int i = 0; i < 1000 && !cli_is_there("set/.beamrate-new"); i++)
         usleep(5000);
-    usleep(20000); /* until it has written to the file */
     cli_expect(new_line, NULL, 2, "in use by process");
     assert_int_equal(waitpid(first, &ending, 0), first);
     assert_int_equal(ending, 0);
     assert_int_equal(set_that_is_there(), 'r');
-    assert_false(cli_is_there("set/.beamrate"));
+    assert_false(cli_is_there("set/.beamrate-new") || cli_is_there("set/.beamrate-lock"));
 }
 
 /* Of commands that start together, in any order, at least one succeeds, and its set is whole. */
@@ -226,11 +320,44 @@ TEST(test_many_at_once)
         done += WEXITSTATUS(ending) == 0;
     }
     assert_true(done >= 1);
-    assert_true(set_that_is_there() != '-');
+    set_that_is_there();
+}
+
+/* Both make the folder, and one is refused or begins when the other has ended. */
+TEST(test_pairs_in_a_new_folder)
+{
+    size_t refused = 0;
+    for (int i = 0; i < (br_test_long() ? 200 : 20); i++) {
+        int ending[2];
+        pid_t child[2];
+        shell("rm -rf set");
+        for (int j = 0; j < 2; j++) {
+            child[j] = fork();
+            assert_true(child[j] >= 0);
+            if (!child[j]) {
+                cli_run_line(j ? old_line : new_line, NULL, &out);
+                _exit(out.exit_code);
+            }
+        }
+        for (int j = 0; j < 2; j++) {
+            assert_int_equal(waitpid(child[j], &ending[j], 0), child[j]);
+            assert_true(WIFEXITED(ending[j]));
+            ending[j] = WEXITSTATUS(ending[j]);
+            assert_true(ending[j] == 0 || ending[j] == 2);
+        }
+        if (ending[0] && ending[1])
+            fail_msg("pair %d: both are refused", i);
+        refused += ending[0] || ending[1];
+        assert_true(strchr("rs", set_that_is_there()));
+    }
+    print_message("# in a new folder one was refused in %zu pairs\n", refused);
 }
 
 static int make_folder(void **state)
 {
+    char *names = getenv("BR_WRITE_SET");
+    if (names)
+        _exit(write_set(getenv("BR_FOLDER"), names));
     if (cli_make_folder(state))
         return -1;
     cli_run_line("scenes example1", NULL, &out);

@@ -19,9 +19,9 @@ wanted=" $* "
 # Without what no two runs have in common, and seconds on the wall; of JSON a row of a table is a line.
 mask() {
     sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
-        -e 's/"(version|commit|size|run)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
+        -e 's/"(version|commit)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
         -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
-        -e '/^  (avx[0-9a-z]*|portable) /d' |
+        -e 's/^([0-9]+) [0-9]+ [0-9]{19} /\1 SIZE TIME /' -e '/^  (avx[0-9a-z]*|portable) /d' |
         awk -f "$here/join.awk"
 }
 
