@@ -38,6 +38,7 @@ struct br_case {
     size_t points, used;
     struct br_estimate order;
     double low99, high99; /* the order's 99 % interval: what lies outside is excluded */
+    const char *law;      /* what explains the errors best, beside one power; NULL: one power */
     double constant; /* the largest of the finest five used points'; NaN: none */
     double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */

@@ -100,6 +100,8 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     c->order = found.order;
     c->low99 = found.low99;
     c->high99 = found.high99;
+    for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
+        c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
     for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
         if (c->point[i].used)
             c->point[i].flag = left_out(c, &found, i);
@@ -281,11 +283,15 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     c->margin = NAN;
     c->reason[0] = c->note[0] = '\0';
     c->low99 = c->high99 = NAN;
+    c->law = NULL;
     choose_points(c);
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
     list_left_out(c);
+    if (c->law)
+        br_append(c->note, sizeof c->note, "%sbeside one power the errors show %s",
+                  c->note[0] ? "; " : "", c->law);
     find_constants(c);
     return status;
 }
