@@ -397,11 +397,13 @@ static void add_law(struct mixture *all, const struct rows *r, const struct fami
         change = fmax(change, bend(r, i, f, parameter));
         r->least[i] = 1e-6 + share * change;
     }
-    if (f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8)
+    const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
+    const bool small = f->law == BR_LAW_CANCEL && !crosses;
+    if (crosses)
         log_prior += log(passes_zero);
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
     add_windows(all, r,
-                (struct part){.law = f->law,
+                (struct part){.law = small ? BR_LAW_NEXT : f->law,
                               .weight = log_prior,
                               .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
 }

@@ -135,12 +135,8 @@ static enum br_status observe(const struct br_quantity_orders *of,
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
     const struct br_estimate *joint = &of->joint.order[line->axis];
-    if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
-        c->order = *joint;
-        c->low99 = joint->low;
-        c->high99 = joint->high;
-        c->constant = fabs(of->joint.c[line->axis].value);
-    }
+    if (br_joint_describes(&of->joint) && br_order_determined(joint))
+        br_case_take_order(c, *joint, fabs(of->joint.c[line->axis].value));
     return BR_OK;
 }
 

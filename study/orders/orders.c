@@ -258,9 +258,8 @@ static enum br_status observe_lines(const struct br_orders *o, struct br_quantit
     for (size_t l = 0; l < of->lines && !status; l++) {
         struct br_case *c = &of->line[l].observed;
         status = stopped(o->numbers, err) ? err->status : br_case_observe(c, LEAST_POINTS, err);
-        for (size_t i = 0; i < c->points && !leave_out; i++)
-            if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
-                c->point[i].flag = BR_FLAG_NONE;
+        if (!status && !leave_out)
+            br_case_take_order(c, c->order, c->constant);
     }
     return status;
 }

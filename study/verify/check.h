@@ -52,6 +52,10 @@ struct br_case {
  * without a verdict. Fails with BR_NO_MEMORY. */
 enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
 
+/* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all points:
+ * none is left out. */
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
+
 /* The verdict on what was observed. */
 void br_case_judge(struct br_case *c);
 

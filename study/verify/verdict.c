@@ -81,6 +81,10 @@ static enum br_flag left_out(const struct br_case *c, const struct br_line_order
         return BR_FLAG_OUTLIER;
     if (i <= found->last && !(floors && error < 2 * found->floor))
         return BR_FLAG_NONE;
+    const struct br_point *last = &c->point[found->last];
+    const double falls_to = last->error * pow(c->point[i].z / last->z, found->order.value);
+    if (i > found->last && error < 2 * falls_to)
+        return BR_FLAG_OUTLIER;
     return error <= deep * c->point[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
 }
 
@@ -132,6 +136,25 @@ static void end_rates(const struct br_case *c, double *first, double *last)
         *first = isnan(*first) ? rate : *first;
         *last = isnan(rate) ? *last : rate;
     }
+}
+
+/* Says so where the last three orders from size to size go away from the order. */
+static void note_drift(struct br_case *c)
+{
+    enum { LAST = 3 };
+    double off[LAST] = {NAN, NAN, NAN}, rate = NAN;
+    for (size_t i = 0; i < c->points; i++) {
+        const double next = rate_to(c, i);
+        if (isnan(next))
+            continue;
+        rate = next;
+        off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
+    }
+    const double sign = off[2] < 0 ? -1 : 1;
+    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.02 &&
+        !(c->order.low <= rate && rate <= c->order.high))
+        br_append(c->note, sizeof c->note, "%sfrom size to size the order still %s, the last is %.2f",
+                  c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
 }
 
 /* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
@@ -285,6 +308,7 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     c->low99 = c->high99 = NAN;
     c->law = NULL;
     choose_points(c);
+    find_constants(c);
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
@@ -292,8 +316,22 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     if (c->law)
         br_append(c->note, sizeof c->note, "%sbeside one power the errors show %s",
                   c->note[0] ? "; " : "", c->law);
-    find_constants(c);
+    note_drift(c);
     return status;
+}
+
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant)
+{
+    c->order = order;
+    c->low99 = order.low;
+    c->high99 = order.high;
+    c->constant = constant;
+    c->law = NULL;
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
+            c->point[i].flag = BR_FLAG_NONE;
+    c->note[0] = '\0';
+    choose_points(c);
 }
 
 void br_case_judge(struct br_case *c)
@@ -305,9 +343,10 @@ void br_case_judge(struct br_case *c)
     else if (c->points < BR_VERIFY_LEAST_POINTS)
         conclude(c, BR_INCONCLUSIVE, "the study has %zu errors, expected at least %d", c->points,
                  BR_VERIFY_LEAST_POINTS);
-    else if (stalled)
+    else if (stalled) {
         judge_stalled(c, stalled);
-    else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
+        judge_constant(c);
+    } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
         judge_too_few(c);
     else {
         judge_order(c);

@@ -99,14 +99,20 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether the rates of a class are within bounds: for a sample of 20, rarely beyond by chance. */
+/* Whether at most this share of n lines was found, but for chance: two deviations and one line. */
+static bool at_most(size_t found, double share, size_t n)
+{
+    const double mean = share * (double)n;
+    return (double)found <= mean + 2 * sqrt(mean) + 1;
+}
+
 static bool is_good(const struct br_error_class *class, const struct tally *t)
 {
-    const double n = (double)t->lines;
-    const bool none = class->group == BR_NO_ORDER;
-    return (double)t->silent <= 0.03 * n + 1 && (none || (double)t->fail <= 0.03 * n + 1) &&
-           (double)t->wrong_pass <= 0.005 * n + 1 &&
-           (class->group > BR_NOISY_ERRORS || (double)t->covers >= 0.9 * (double)t->claims);
+    const bool hard = class->group > BR_NOISY_ERRORS, none = class->group == BR_NO_ORDER;
+    return at_most(t->silent, hard ? 0.03 : 0.02, t->lines) &&
+           (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
+           at_most(t->wrong_pass, 0.002, t->lines) &&
+           (hard || at_most(t->claims - t->covers, 0.05, t->claims));
 }
 
 static void print(const struct br_error_class *class, struct tally *t)
