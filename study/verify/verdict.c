@@ -151,8 +151,7 @@ static void note_drift(struct br_case *c)
         off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
     }
     const double sign = off[2] < 0 ? -1 : 1;
-    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.02 &&
-        !(c->order.low <= rate && rate <= c->order.high))
+    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
         br_append(c->note, sizeof c->note, "%sfrom size to size the order still %s, the last is %.2f",
                   c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
 }

@@ -17,7 +17,13 @@ struct br_error_line {
     double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
 };
 
-enum br_error_group { BR_SMOOTH_ERRORS, BR_NOISY_ERRORS, BR_HARD_ERRORS, BR_NO_ORDER };
+enum br_error_group {
+    BR_SMOOTH_ERRORS,
+    BR_NOISY_ERRORS,
+    BR_HARD_ERRORS,
+    BR_HIDDEN_ERRORS, /* in some lines nothing shows that the last term comes up */
+    BR_NO_ORDER,
+};
 
 /* Classes of lines; const records, the last one without a name. */
 struct br_error_class {
