@@ -201,12 +201,59 @@ static struct br_point *point_on(const struct br_quantity_orders *of, enum br_ax
     return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
-/* An error that stays along one axis but falls along the other belongs to the other: no flag. */
+static bool is_level(enum br_flag flag)
+{
+    return flag == BR_FLAG_STALLED || flag == BR_FLAG_ROUND_OFF;
+}
+
+/* Where neighbours on a grid show a smaller order the error stays. */
+static const double hardly_falls = 0.25;
+
+/* Errors below this many times a floor are changed by it. */
+static const double floor_margin = 2;
+
+/* Whether the error is at a level of its line, or hardly another one than that of the next coarser
+ * size (that of the coarsest size: than that of the next finer one). */
+static bool stays(const struct br_row_point *at)
+{
+    const struct br_point *p = at->line->observed.point;
+    const size_t fine = at->index > 0 ? at->index : 1;
+    return is_level(p[at->index].flag) || fabs(rate(&p[fine - 1], &p[fine])) < hardly_falls;
+}
+
+/* The level of a floor, along both axes and below all other errors; 0: there is none. */
+static double floor_of(const struct br_orders *o, const struct br_quantity_orders *of)
+{
+    double lowest = INFINITY, level = 0;
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t i = 0; i < o->numbers->rows; i++) {
+            const struct br_point *a = point_on(of, BR_AXIS_SPACE, i);
+            if (!a || !point_on(of, BR_AXIS_TIME, i) || !(a->error > 0))
+                continue;
+            if (turn == 0)
+                lowest = fmin(lowest, a->error);
+            else if (a->error < floor_margin * lowest && stays(&of->point[BR_AXIS_SPACE][i]) &&
+                     stays(&of->point[BR_AXIS_TIME][i]))
+                level = fmax(level, a->error);
+        }
+    return level;
+}
+
+/* An error that stays along one axis but falls along the other belongs to the other: no flag. One
+ * that stays along both is at a floor, also where a line takes that for its order, zero. */
 static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
 {
+    const double level = floor_of(o, of);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         struct br_point *a = point_on(of, BR_AXIS_SPACE, i), *b = point_on(of, BR_AXIS_TIME, i);
-        if (a && b && (a->flag == BR_FLAG_NONE || b->flag == BR_FLAG_NONE))
+        if (!a || !b || a->flag == BR_FLAG_FAILED || !(a->error > 0))
+            continue;
+        if (a->error < floor_margin * level)
+            a->flag = b->flag = is_level(a->flag)   ? a->flag
+                                : is_level(b->flag) ? b->flag
+                                                    : BR_FLAG_STALLED;
+        else if (is_level(a->flag) != is_level(b->flag) || a->flag == BR_FLAG_NONE ||
+                 b->flag == BR_FLAG_NONE)
             a->flag = b->flag = BR_FLAG_NONE;
     }
 }
