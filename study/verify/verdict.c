@@ -83,7 +83,7 @@ static enum br_flag left_out(const struct br_case *c, const struct br_line_order
         return BR_FLAG_NONE;
     const struct br_point *last = &c->point[found->last];
     const double falls_to = last->error * pow(c->point[i].z / last->z, found->order.value);
-    if (i > found->last && error < 2 * falls_to)
+    if (i > found->last && error < 1.05 * falls_to)
         return BR_FLAG_OUTLIER;
     return error <= deep * c->point[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
 }
