@@ -254,14 +254,15 @@ static double quantile(const struct mixture *all, double share)
 /* ---- windows ---- */
 
 struct sums {
-    double w, x, y, xx, xy, yy, log_density;
+    double w, x, y, xx, xy, yy, log_density; /* y: less start + order x, else digits cancel */
+    double start, order;
     size_t rows;
 };
 
 /* Adds a row to a window, or (sign < 0) takes it out again. */
 static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
 {
-    const double w = sign * r->weight[i], x = r->x[i], y = r->bent[i];
+    const double w = sign * r->weight[i], x = r->x[i], y = r->bent[i] - s->start - s->order * x;
     s->w += w, s->x += w * x, s->y += w * y;
     s->xx += w * x * x, s->xy += w * x * y, s->yy += w * y * y;
     s->log_density += sign * r->log_density[i];
@@ -279,7 +280,7 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double freedom = (double)s->rows - 2;
     const double seen = all->only_best ? cell_scatter : least_scatter;
     const double squares = left + seen * seen * freedom;
-    p.mean = xy / xx;
+    p.mean = s->order + xy / xx;
     p.freedom = freedom;
     p.scale = sqrt((left / freedom + least * least) / xx);
     p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) -
@@ -311,7 +312,7 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double prior = p.weight;
     for (p.first = 0; p.first + 3 <= n; p.first += stride) {
-        struct sums s = {0};
+        struct sums s = {.start = r->y[n - 1], .order = r->order};
         for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
