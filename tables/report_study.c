@@ -55,6 +55,8 @@ static void say_flags(struct br_document *d, const struct br_study *s)
         [BR_FLAG_UNSTABLE] = "U, beyond the stability limit of the lagged contact: the tip may "
                              "chatter; smaller k or --contact implicit mends it",
         [BR_FLAG_STALLED] = "S, no smaller than on coarser grids",
+        [BR_FLAG_COARSE] = "C, not asymptotic",
+        [BR_FLAG_OUTLIER] = "O, far from its neighbours",
     };
     const size_t cells = s->n_count * s->k_count;
     size_t count[BR_CELL_FLAGS] = {0};

@@ -77,7 +77,7 @@ sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
 grep -v '^#' poisson.yaml | diff printed - >output || complain "$page has another poisson.yaml"
 expect 0 "limit 24.9371129, between 24.9215676 and 24.9394632 (least squares" \
     beamrate orders drag.csv --value drag
-expect 0 "l2: order in h 1.99 [1.98, 2.01]." beamrate orders errors.csv
+expect 0 "l2: order in h 2.00 [1.99, 2.01]." beamrate orders errors.csv
 printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
 expect 0 "order in h not seen." beamrate orders units.tsv --value drag --out units
 cp units/orders.gp whole

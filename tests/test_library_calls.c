@@ -590,11 +590,11 @@ TEST(used_numbers_are_counted)
     WORKS(beamrate_orders_find(&orders, &numbers, &failure));
     assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
     assert_int_equal(order.points, 8);
-    assert_int_equal(order.used, 5);
+    assert_int_equal(order.used, 6);
     WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
     WORKS(beamrate_check_case(check, 0, &c));
     assert_int_equal(c.points, order.points);
-    assert_int_equal(c.used, 5);
+    assert_int_equal(c.used, 6);
     CLOSE(c.constant, 1, 1e-6);
     assert_true(*c.note);
     beamrate_check_free(check);

@@ -114,31 +114,6 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
  * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);
 
-/* ---- one order ----
- *
- * One order from a line of errors, refined in one quantity z (h/L or k/T):
- *     e = C |z^p - z_against^p|.
- * p may be zero or negative: then the errors stall or grow. */
-
-struct br_order_point {
-    double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
-    double error;
-};
-
-/* Fits p to the logarithms by least squares. Its 95 % interval is the wider one of two: that of the
- * regression, which takes the residuals for noise, and that of leaving out one point after the
- * other (jackknife, Efron 1982), which shows a drift. NaN with less than 3 points, or where an
- * error is not > 0. Fails with BR_NO_MEMORY. */
-enum br_status br_order_fit(const struct br_order_point *point, size_t count,
-                            struct br_estimate *order, struct br_error *err);
-
-/* The same of errors that may still be far from their asymptotic range,
- *     e = C |z^p - z_against^p| exp(D z):
- * where D explains nearly all residuals of the plain power law, the order is that of this model,
- * and its interval reaches at least to the order of the power law. It needs five points. */
-enum br_status br_order_fit_drifting(const struct br_order_point *point, size_t count,
-                                     struct br_estimate *order, struct br_error *err);
-
 /* ---- extrapolation ----
  *
  * The tip at h = k = 0 from the tips of a grid's cells, without any reference:

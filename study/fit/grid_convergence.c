@@ -8,6 +8,8 @@
 #include <gsl/gsl_min.h>
 #include <math.h>
 
+#include "study/fit/line_order.h"
+
 static const double safety_observed = 1.25; /* with an observed order */
 static const double safety_else = 3;
 
@@ -360,7 +362,7 @@ static void find_uncertainty(size_t count, double formal, struct br_least_square
                             : 3 * sigma / r->range * (error + sigma + misfit); /* (21) */
 }
 
-/* The observed order with its interval, from the differences of successive values (br_order_fit).
+/* The observed order with its interval, from the differences of successive values.
  * It needs four grids. */
 static enum br_status order_of_values(const double *h, const double *value, size_t count,
                                       struct br_estimate *order, struct br_error *err)
@@ -370,7 +372,9 @@ static enum br_status order_of_values(const double *h, const double *value, size
         return br_no_memory(err, "the order");
     for (size_t i = 0; i + 1 < count; i++)
         point[i] = (struct br_order_point){h[i], h[i + 1], fabs(value[i] - value[i + 1])};
-    const enum br_status status = br_order_fit(point, count - 1, order, err);
+    struct br_line_order found;
+    const enum br_status status = br_line_order_find(point, count - 1, &found, err);
+    *order = found.order;
     free(point);
     return status;
 }
@@ -389,7 +393,7 @@ static enum br_status name_sequence(const double *h, const double *value, size_t
     r->sequence = BR_SEQUENCE_ANOMALOUS;
     if (changes < count / 3)
         return BR_OK;
-    struct br_estimate order;
+    struct br_estimate order = {NAN, NAN, NAN};
     const enum br_status status = order_of_values(h, value, count, &order, err);
     if (order.value > 0)
         r->sequence = BR_OSCILLATORY_CONVERGENCE;

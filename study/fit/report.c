@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/fit/line_order.h"
 #include "study/scene/words.h"
 
 enum { LEAST = 3, MOST = 5 }; /* number of errors for an order; of more, the finest are used */
@@ -132,7 +133,7 @@ static void say_too_few(struct br_seen_order *o, const struct line *l)
 static enum br_status judge_line(struct br_seen_order *o, const struct line *l, int axis,
                                  struct br_error *err)
 {
-    struct br_estimate order;
+    struct br_line_order found;
     bool falls = true;
     if (l->count < LEAST) {
         say_too_few(o, l);
@@ -140,7 +141,8 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
     }
     for (size_t i = 1; i < l->count; i++)
         falls = falls && l->point[i].error < l->point[i - 1].error;
-    const enum br_status status = br_order_fit(l->point, l->count, &order, err);
+    const enum br_status status = br_line_order_find(l->point, l->count, &found, err);
+    const struct br_estimate order = found.order;
     if (status)
         return status;
     const bool settled = order.high - order.low <= near * order.value;

@@ -7,7 +7,8 @@
 const char *br_flag_name(enum br_flag flag)
 {
     static const char *const names[BR_CELL_FLAGS] = {"",       "reference", "round-off",
-                                                     "failed", "unstable",  "stagnation"};
+                                                     "failed", "unstable",  "stagnation",
+                                                     "not asymptotic", "outlier"};
     return names[flag];
 }
 

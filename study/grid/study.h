@@ -83,10 +83,13 @@ enum br_flag {
     BR_FLAG_FAILED,    /* the march failed, or its error is not a number */
     BR_FLAG_UNSTABLE,  /* lagged contact beyond its stability limit: bounded chatter */
     BR_FLAG_STALLED,   /* finer grids have no smaller error */
+    BR_FLAG_COARSE,    /* the grid is too coarse for the order of the finer ones */
+    BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
     BR_CELL_FLAGS
 };
 const char *br_flag_name(
-    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation" */
+    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation",
+                      "not asymptotic", "outlier" */
 
 struct br_cell {
     struct br_resolution at;

@@ -130,15 +130,13 @@ static enum br_status observe(const struct br_quantity_orders *of,
         return br_no_memory(err, "the verdict");
     memcpy(c->point, line->observed.point, c->points * sizeof *c->point);
     for (size_t i = 0; i < c->points; i++)
-        if (e->down_to > 0 && c->point[i].flag != BR_FLAG_FAILED)
+        if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
     const struct br_estimate *joint = &of->joint.order[line->axis];
-    if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
-        c->order = *joint;
-        c->constant = fabs(of->joint.c[line->axis].value);
-    }
+    if (br_joint_describes(&of->joint) && br_order_determined(joint))
+        br_case_take_order(c, *joint, fabs(of->joint.c[line->axis].value));
     return BR_OK;
 }
 

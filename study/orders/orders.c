@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/fit/line_order.h"
+
 enum { LEAST_POINTS = 3 }; /* for an order with an interval */
 
 static enum br_axis other(enum br_axis axis)
@@ -17,18 +19,7 @@ static enum br_status stopped(const struct br_numbers *numbers, struct br_error 
                                                 : BR_OK;
 }
 
-/* ---- stagnation ---- */
-
-/* Errors have stopped falling where the rate of a pair of points is below this share of the rate of
- * the pairs before. Near a limit as small as round-off the share may be larger: there a lower rate
- * is not the order of the program any more. */
-static const double stagnates = 0.25, stagnates_deep = 0.6;
-
-/* A level below this share of the coarsest error is taken for round-off. */
-static const double deep = 1e-6;
-
-/* Errors below this many times the level at which errors stay are changed by that level. */
-static const double level_margin = 10;
+/* ---- rates ---- */
 
 /* Orders of differences are believed up to this magnitude. */
 static const double steepest = 60;
@@ -44,44 +35,6 @@ static double rate(const struct br_point *coarse, const struct br_point *fine)
         return falls / ratio;
     const double order = br_order_of_differences(log(fine->z / fine->z_against), ratio, falls, 1);
     return fmax(-steepest, fmin(order, steepest));
-}
-
-/* The first of the points at the fine end that are hardly smaller than the point before, by the
- * median rate of the pairs before; count: there is none. sorted: room for `count` rates. */
-static size_t find_plateau(const struct br_point *p, size_t count, double *sorted)
-{
-    size_t first = count;
-    for (size_t i = 1; i < count; i++) {
-        const double now = rate(&p[i - 1], &p[i]), before = i > 1 ? sorted[(i - 1) / 2] : 0;
-        const double share = p[i].error <= deep * p[0].error ? stagnates_deep : stagnates;
-        const bool stays = i >= LEAST_POINTS && before > stagnates && now < share * before;
-        first = !stays ? count : first < count ? first : i;
-        size_t at = i - 1;
-        for (; at > 0 && sorted[at - 1] > now; at--)
-            sorted[at] = sorted[at - 1];
-        sorted[at] = now;
-    }
-    return first;
-}
-
-/* Flags the points near the level at which the errors of a line stay. */
-static enum br_status flag_plateau(struct br_case *c, struct br_error *err)
-{
-    struct br_point *p = c->point;
-    double *room = br_allocate(c->points + 1, sizeof *room);
-    if (!room)
-        return br_no_memory(err, "the orders");
-    size_t good = 0;
-    while (good < c->points && p[good].flag == BR_FLAG_NONE)
-        good++;
-    double level = 0;
-    for (size_t i = find_plateau(p, good, room); i < good; i++)
-        level = fmax(level, p[i].error);
-    for (size_t i = 0; i < good; i++)
-        if (p[i].error < level_margin * level)
-            p[i].flag = level <= deep * p[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
-    free(room);
-    return BR_OK;
 }
 
 /* ---- lines ---- */
@@ -248,12 +201,59 @@ static struct br_point *point_on(const struct br_quantity_orders *of, enum br_ax
     return at && at->line ? &at->line->observed.point[at->index] : NULL;
 }
 
-/* An error that stays along one axis but falls along the other belongs to the other: no flag. */
+static bool is_level(enum br_flag flag)
+{
+    return flag == BR_FLAG_STALLED || flag == BR_FLAG_ROUND_OFF;
+}
+
+/* Where neighbours on a grid show a smaller order the error stays. */
+static const double hardly_falls = 0.25;
+
+/* Errors below this many times a floor are changed by it. */
+static const double floor_margin = 2;
+
+/* Whether the error is at a level of its line, or hardly another one than that of the next coarser
+ * size (that of the coarsest size: than that of the next finer one). */
+static bool stays(const struct br_row_point *at)
+{
+    const struct br_point *p = at->line->observed.point;
+    const size_t fine = at->index > 0 ? at->index : 1;
+    return is_level(p[at->index].flag) || fabs(rate(&p[fine - 1], &p[fine])) < hardly_falls;
+}
+
+/* The level of a floor, along both axes and below all other errors; 0: there is none. */
+static double floor_of(const struct br_orders *o, const struct br_quantity_orders *of)
+{
+    double lowest = INFINITY, level = 0;
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t i = 0; i < o->numbers->rows; i++) {
+            const struct br_point *a = point_on(of, BR_AXIS_SPACE, i);
+            if (!a || !point_on(of, BR_AXIS_TIME, i) || !(a->error > 0))
+                continue;
+            if (turn == 0)
+                lowest = fmin(lowest, a->error);
+            else if (a->error < floor_margin * lowest && stays(&of->point[BR_AXIS_SPACE][i]) &&
+                     stays(&of->point[BR_AXIS_TIME][i]))
+                level = fmax(level, a->error);
+        }
+    return level;
+}
+
+/* An error that stays along one axis but falls along the other belongs to the other: no flag. One
+ * that stays along both is at a floor, also where a line takes that for its order, zero. */
 static void flag_corners(const struct br_orders *o, struct br_quantity_orders *of)
 {
+    const double level = floor_of(o, of);
     for (size_t i = 0; i < o->numbers->rows; i++) {
         struct br_point *a = point_on(of, BR_AXIS_SPACE, i), *b = point_on(of, BR_AXIS_TIME, i);
-        if (a && b && (a->flag == BR_FLAG_NONE || b->flag == BR_FLAG_NONE))
+        if (!a || !b || a->flag == BR_FLAG_FAILED || !(a->error > 0))
+            continue;
+        if (a->error < floor_margin * level)
+            a->flag = b->flag = is_level(a->flag)   ? a->flag
+                                : is_level(b->flag) ? b->flag
+                                                    : BR_FLAG_STALLED;
+        else if (is_level(a->flag) != is_level(b->flag) || a->flag == BR_FLAG_NONE ||
+                 b->flag == BR_FLAG_NONE)
             a->flag = b->flag = BR_FLAG_NONE;
     }
 }
@@ -295,18 +295,31 @@ static bool is_grid(const struct br_orders *o)
     return o->numbers->column[BR_AXIS_SPACE] && o->numbers->column[BR_AXIS_TIME] && !o->tied;
 }
 
-/* Leaves out errors at a floor. On a grid, errors may stay along one axis since the error of the
- * other axis is larger; where the joint fit describes all errors, none is left out. */
-static enum br_status leave_out(const struct br_orders *o, struct br_quantity_orders *of,
-                                struct br_error *err)
+/* Finds the orders of all lines, which leaves out the errors that do not show them. On a grid,
+ * errors may stay along one axis since the error of the other axis is larger; where the joint fit
+ * describes all errors, none is left out. */
+static enum br_status observe_lines(const struct br_orders *o, struct br_quantity_orders *of,
+                                    bool leave_out, struct br_error *err)
+{
+    enum br_status status = BR_OK;
+    for (size_t l = 0; l < of->lines && !status; l++) {
+        struct br_case *c = &of->line[l].observed;
+        status = stopped(o->numbers, err) ? err->status : br_case_observe(c, LEAST_POINTS, err);
+        if (!status && !leave_out)
+            br_case_take_order(c, c->order, c->constant);
+    }
+    return status;
+}
+
+static enum br_status observe_all(const struct br_orders *o, struct br_quantity_orders *of,
+                                  struct br_error *err)
 {
     const bool joint = is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
     enum br_status status = joint ? fit_both(o, of, err) : BR_OK;
-    if (status || (joint && br_joint_describes(&of->joint)))
-        return status;
-    for (size_t l = 0; l < of->lines && !status; l++)
-        status = flag_plateau(&of->line[l].observed, err);
-    if (status || !joint)
+    const bool described = joint && br_joint_describes(&of->joint);
+    if (!status)
+        status = observe_lines(o, of, !described, err);
+    if (status || !joint || described)
         return status;
     flag_corners(o, of);
     return fit_both(o, of, err);
@@ -324,10 +337,7 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
         if (numbers->column[axis] && !(o->tied && axis == BR_AXIS_TIME) && !status)
             status = add_lines(o, of, (enum br_axis)axis, err);
     if (!status)
-        status = leave_out(o, of, err);
-    for (size_t l = 0; l < of->lines && !status; l++)
-        status = stopped(numbers, err) ? err->status
-                                       : br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
+        status = observe_all(o, of, err);
     return status;
 }
 
@@ -410,8 +420,9 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
         if (row->seconds >= least_seconds)
             point[count++] = (struct br_order_point){row->z[axis], 0, row->seconds};
     }
-    const enum br_status status = br_order_fit(point, count, growth, err);
-    *growth = (struct br_estimate){-growth->value, -growth->high, -growth->low};
+    struct br_line_order found;
+    const enum br_status status = br_line_order_find(point, count, &found, err);
+    *growth = (struct br_estimate){-found.order.value, -found.order.high, -found.order.low};
     free(point);
     return status;
 }

@@ -24,7 +24,7 @@ struct br_point {
     double constant;                  /* C of e = C (z^order - z_against^order) */
     char label[64];                   /* "n = 40", for messages */
     enum br_flag flag;                /* why it is left out */
-    bool used;                        /* for the verdict: among the finest that are not left out */
+    bool used;                        /* for the order: it is not left out */
     char failure[256];                /* of the march; "": it went well */
 };
 
@@ -37,7 +37,9 @@ struct br_case {
     struct br_point *point;         /* points, from coarse to fine; owned */
     size_t points, used;
     struct br_estimate order;
-    double constant; /* the largest of the used points'; NaN: none */
+    double low99, high99; /* the order's 99 % interval: what lies outside is excluded */
+    const char *law;      /* what explains the errors best, beside one power; NULL: one power */
+    double constant; /* the largest of the finest five used points'; NaN: none */
     double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
     double margin;   /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
@@ -45,10 +47,14 @@ struct br_case {
     char note[512];   /* what was left out; or "" */
 };
 
-/* Finds the order of a case whose kind, expected, measure, part, unit and points (at, against, z,
+/* Finds the order of a case, and leaves out the points that do not show it (line_order.h), whose kind, expected, measure, part, unit and points (at, against, z,
  * z_against, error, label, flag, failure) are set, from at least so many that are not left out;
  * without a verdict. Fails with BR_NO_MEMORY. */
 enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
+
+/* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all points:
+ * none is left out. */
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
 
 /* The verdict on what was observed. */
 void br_case_judge(struct br_case *c);

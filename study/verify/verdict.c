@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/fit/fit.h"
+#include "study/fit/line_order.h"
 #include "study/scene/words.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
@@ -24,14 +24,12 @@ __attribute__((format(printf, 3, 4))) static void conclude(struct br_case *c,
 
 /* ---- the observation ---- */
 
-/* The finest points that are not left out. */
 static void choose_points(struct br_case *c)
 {
     c->used = 0;
-    for (size_t i = c->points; i-- > 0;) {
-        struct br_point *p = &c->point[i];
-        p->used = p->flag == BR_FLAG_NONE && c->used < BR_VERIFY_MOST_POINTS;
-        c->used += p->used;
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].used = c->point[i].flag == BR_FLAG_NONE;
+        c->used += c->point[i].used;
     }
 }
 
@@ -59,29 +57,59 @@ static void list_left_out(struct br_case *c)
 static void find_constants(struct br_case *c)
 {
     const double order = c->expected.order;
+    size_t finest = 0;
     c->constant = NAN;
-    for (size_t i = 0; i < c->points; i++) {
+    for (size_t i = c->points; i-- > 0;) {
         struct br_point *p = &c->point[i];
         p->constant = p->error / (pow(p->z, order) - pow(p->z_against, order));
-        if (p->used && !(p->constant <= c->constant))
+        if (p->used && finest++ < BR_VERIFY_MOST_POINTS && !(p->constant <= c->constant))
             c->constant = p->constant; /* also where there was none yet */
     }
 }
 
-/* The order with its interval, from the points that are not left out. */
+/* A level below this share of the coarsest error is taken for round-off. */
+static const double deep = 1e-6;
+
+/* Why the order does not rest on point i; BR_FLAG_NONE: it does. */
+static enum br_flag left_out(const struct br_case *c, const struct br_line_order *found, size_t i)
+{
+    const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
+    const double error = c->point[i].error;
+    if (i < found->first)
+        return BR_FLAG_COARSE;
+    if (i == found->outlier)
+        return BR_FLAG_OUTLIER;
+    if (i <= found->last && !(floors && error < 2 * found->floor))
+        return BR_FLAG_NONE;
+    const struct br_point *last = &c->point[found->last];
+    const double falls_to = last->error * pow(c->point[i].z / last->z, found->order.value);
+    if (i > found->last && error < 1.05 * falls_to)
+        return BR_FLAG_OUTLIER;
+    return error <= deep * c->point[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
+}
+
+/* The order with its intervals, from the points that are not left out; those that do not show it
+ * are left out then. */
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
-    struct br_order_point *used = br_allocate(c->points, sizeof *used);
-    if (!used)
+    struct br_order_point *all = br_allocate(c->points, sizeof *all);
+    struct br_line_order found;
+    if (!all)
         return br_no_memory(err, "the verdict");
-    size_t count = 0;
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
-        if (p->used)
-            used[count++] = (struct br_order_point){p->z, p->z_against, p->error};
+        all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
     }
-    const enum br_status status = br_order_fit_drifting(used, count, &c->order, err);
-    free(used);
+    const enum br_status status = br_line_order_find(all, c->points, &found, err);
+    c->order = found.order;
+    c->low99 = found.low99;
+    c->high99 = found.high99;
+    for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
+        c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
+    for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
+        if (c->point[i].used)
+            c->point[i].flag = left_out(c, &found, i);
+    free(all);
     return status;
 }
 
@@ -108,6 +136,24 @@ static void end_rates(const struct br_case *c, double *first, double *last)
         *first = isnan(*first) ? rate : *first;
         *last = isnan(rate) ? *last : rate;
     }
+}
+
+/* Says so where the last three orders from size to size go away from the order. */
+static void note_drift(struct br_case *c)
+{
+    enum { LAST = 3 };
+    double off[LAST] = {NAN, NAN, NAN}, rate = NAN;
+    for (size_t i = 0; i < c->points; i++) {
+        const double next = rate_to(c, i);
+        if (isnan(next))
+            continue;
+        rate = next;
+        off[0] = off[1], off[1] = off[2], off[2] = rate - c->order.value;
+    }
+    const double sign = off[2] < 0 ? -1 : 1;
+    if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
+        br_append(c->note, sizeof c->note, "%sfrom size to size the order still %s, the last is %.2f",
+                  c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
 }
 
 /* Names a tolerance that would contain the interval, rounded up; none if it would accept any order.
@@ -223,9 +269,9 @@ static void judge_order(struct br_case *c)
     c->margin = fmin(c->order.low - low, high - c->order.high);
     if ((c->order.low >= low && c->order.high <= high) || falls_by_two(c, low, high))
         conclude(c, BR_PASS, "%s", "");
-    else if (c->order.high < low || c->order.low > high) {
+    else if (c->high99 < low || c->low99 > high) {
         conclude(c, BR_FAIL, "the order, %s, lies %s the band, %.4g to %.4g", text,
-                 c->order.high < low ? "below" : "above", low, high);
+                 c->high99 < low ? "below" : "above", low, high);
         advise(c);
     } else if (isfinite(c->margin)) {
         straddle(c, text, low, high);
@@ -258,10 +304,33 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     c->order = (struct br_estimate){NAN, NAN, NAN};
     c->margin = NAN;
     c->reason[0] = c->note[0] = '\0';
+    c->low99 = c->high99 = NAN;
+    c->law = NULL;
+    choose_points(c);
+    find_constants(c);
+    const bool known = !first_failed(c) && c->used >= least;
+    const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
     list_left_out(c);
-    find_constants(c);
-    return first_failed(c) || c->points < least || c->used < least ? BR_OK : find_order(c, err);
+    if (c->law)
+        br_append(c->note, sizeof c->note, "%sbeside one power the errors show %s",
+                  c->note[0] ? "; " : "", c->law);
+    note_drift(c);
+    return status;
+}
+
+void br_case_take_order(struct br_case *c, struct br_estimate order, double constant)
+{
+    c->order = order;
+    c->low99 = order.low;
+    c->high99 = order.high;
+    c->constant = constant;
+    c->law = NULL;
+    for (size_t i = 0; i < c->points; i++)
+        if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
+            c->point[i].flag = BR_FLAG_NONE;
+    c->note[0] = '\0';
+    choose_points(c);
 }
 
 void br_case_judge(struct br_case *c)
@@ -271,12 +340,13 @@ void br_case_judge(struct br_case *c)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
     else if (c->points < BR_VERIFY_LEAST_POINTS)
-        conclude(c, BR_FAIL, "the study has %zu errors, expected at least %d", c->points,
+        conclude(c, BR_INCONCLUSIVE, "the study has %zu errors, expected at least %d", c->points,
                  BR_VERIFY_LEAST_POINTS);
-    else if (c->used < BR_VERIFY_LEAST_POINTS)
-        judge_too_few(c);
-    else if (stalled)
+    else if (stalled) {
         judge_stalled(c, stalled);
+        judge_constant(c);
+    } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
+        judge_too_few(c);
     else {
         judge_order(c);
         judge_constant(c);

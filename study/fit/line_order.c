@@ -1,0 +1,502 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each law bends the line log e = log C + p log z by a correction that one parameter sets. For each
+ * parameter of a table, and each window of rows, log C and p follow by linear regression. With a
+ * flat prior of log C and p, and 1/sigma of the scatter, the order then has Student's
+ * distribution, and the rows have the evidence
+ *     prior Gamma(f/2) (pi S)^(-f/2) (sum w)^(-1/2) Sxx^(-1/2),   f = rows - 2,
+ * with S the sum of squares that is left (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
+ * 1994, 5.2). A row outside the window has the density of a number that nothing explains. The order
+ * is the mixture of all these distributions. */
+#include "study/fit/line_order.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_sf_gamma.h>
+#include <math.h>
+#include <stdlib.h>
+
+static const char *const law_texts[] = {
+#define X(name, text) text,
+    BR_LAW_LIST(X)
+#undef X
+};
+
+const char *br_law_text(enum br_law law)
+{
+    return law_texts[law];
+}
+
+/* ---- priors: each was chosen on seeds of tests/lab/orders.c that its table does not use ---- */
+
+/* The density of the logarithm of an error that nothing explains: even over seven units. */
+static const double unexplained = 0.15;
+
+/* The probability that one more row does not count: at the coarse end, at the fine end, inside. */
+static const double leaves_coarse = 0.6, leaves_fine = 0.25, leaves_inside = 0.05;
+
+/* Errors of a computation rarely scatter by more than this. */
+static const double usual_scatter = 0.15;
+
+/* No law describes logarithms of errors better than that, for the choice among laws. */
+static const double least_scatter = 1e-7;
+
+/* The middle of a cell of parameters (below) describes the whole cell to about this. */
+static const double cell_scatter = 4e-3;
+
+/* A correction is known to this share of itself: there is always another term. */
+static const double truncation = 0.01;
+
+/* The share of lines with a term of opposite sign that pass zero within the rows. */
+static const double passes_zero = 0.15;
+
+/* A smaller order, with a correction, is the law of a floor. */
+static const double least_order = 0.25;
+
+/* The parameter of a law is even in its logarithm between low and high: a z^s at the finest row; of
+ * a logarithm, a - log z there; of a floor, F over the finest error. */
+struct family {
+    enum br_law law;
+    double s, low, high, prior;
+};
+
+#define NEXT_TERM(s, share)                              \
+    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
+        {BR_LAW_LOWER, s, 0.1, 1.6, 0.03 * (share)},     \
+        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
+
+static const double prior_of_power = 0.45;
+static const struct family families[] = {
+    NEXT_TERM(0.5, 0.1),
+    NEXT_TERM(1, 0.4),
+    NEXT_TERM(1.5, 0.08),
+    NEXT_TERM(2, 0.3),
+    NEXT_TERM(3, 0.06),
+    NEXT_TERM(4, 0.06),
+    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
+    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005},
+    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005},
+    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005},
+    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005},
+    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05},
+    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02},
+    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03},
+};
+
+enum { FAMILIES = sizeof families / sizeof *families };
+
+/* ---- rows ---- */
+
+struct rows {
+    size_t count;
+    size_t *index;          /* in the points */
+    double *z, *x, *y;      /* x, y: of the regression, slope p */
+    double *ratio;          /* z_against / z */
+    double order;           /* of the regression over all rows */
+    double *bent, *weight;  /* of a law: y - correction; relative to 1/sigma^2 */
+    double *log_density;    /* the part of the density of y that the weight does not cancel */
+    double *least;          /* the smallest standard deviation in a window that begins here */
+};
+
+/* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
+static double loss(double ratio, double p, double *slope)
+{
+    const double decay = ratio > 0 ? p * log(ratio) : 0;
+    *slope = 0;
+    if (ratio == 0)
+        return 0;
+    *slope = fabs(decay) < 1e-4 ? log(ratio) / 2 : log(ratio) / expm1(-decay) * -1 - 1 / p;
+    return fabs(decay) < 1e-8 ? log(-log(ratio)) : log(-expm1(decay) / p);
+}
+
+/* The regression over all rows; where errors are differences the loss depends on its slope. */
+static double regress_all(const struct rows *r, double p)
+{
+    double x = 0, y = 0, xx = 0, xy = 0, slope;
+    const double n = (double)r->count;
+    for (size_t i = 0; i < r->count; i++) {
+        const double log_z = r->x[i], log_e = r->y[i] - loss(r->ratio[i], p, &slope);
+        x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e;
+    }
+    return (xy - x * y / n) / (xx - x * x / n);
+}
+
+static bool usable(const struct br_order_point *p)
+{
+    return p->error > 0 && isfinite(p->error);
+}
+
+static void take_rows(struct rows *r, const struct br_order_point *point, size_t count)
+{
+    double finest = NAN, slope;
+    for (size_t i = 0; i < count; i++)
+        finest = usable(&point[i]) ? point[i].z : finest;
+    for (size_t i = 0; i < count; i++) {
+        if (!usable(&point[i]))
+            continue;
+        r->index[r->count] = i;
+        r->z[r->count] = point[i].z / finest;
+        r->x[r->count] = log(point[i].z / finest);
+        r->ratio[r->count] = point[i].z_against / point[i].z;
+        r->y[r->count++] = log(point[i].error);
+    }
+    if (r->count < 3)
+        return;
+    r->order = 1;
+    for (int turn = 0; turn < 30; turn++)
+        r->order = regress_all(r, r->order);
+    for (size_t i = 0; i < r->count; i++) { /* the loss is linear about that order */
+        r->y[i] -= loss(r->ratio[i], r->order, &slope) - slope * r->order;
+        r->x[i] += slope;
+    }
+}
+
+/* ---- the mixture ---- */
+
+/* Student's distribution of the order, from one parameter of one law in one window. */
+struct part {
+    double weight; /* its logarithm, until all are known */
+    double mean, scale, freedom, floor;
+    enum br_law law;
+    size_t first, last, outlier;
+};
+
+struct mixture {
+    struct part *part; /* owned */
+    size_t count, room;
+    double best; /* the largest logarithm of a weight */
+    bool only_best, starved;
+};
+
+/* Parts of less weight than e^-8.5 of the best are not kept. */
+static const double kept = 8.5;
+
+static void add_part(struct mixture *all, const struct part *p)
+{
+    if (!(p->weight > all->best - kept))
+        return;
+    all->best = fmax(all->best, p->weight);
+    if (all->only_best)
+        return;
+    if (all->count == all->room) {
+        const size_t room = 2 * all->room + 1024;
+        struct part *more = realloc(all->part, room * sizeof *more);
+        if (!more) {
+            all->starved = true;
+            return;
+        }
+        all->part = more;
+        all->room = room;
+    }
+    all->part[all->count++] = *p;
+}
+
+static int by_weight(const void *a, const void *b)
+{
+    const struct part *x = a, *y = b;
+    return (x->weight < y->weight) - (x->weight > y->weight);
+}
+
+/* From logarithms to weights of sum 1; the least, together 0.2 %, are left out. */
+static void normalise(struct mixture *all)
+{
+    double sum = 0, used = 0;
+    qsort(all->part, all->count, sizeof *all->part, by_weight);
+    for (size_t i = 0; i < all->count; i++)
+        sum += all->part[i].weight = exp(all->part[i].weight - all->best);
+    size_t count = 0;
+    while (count < all->count && used < 0.998 * sum)
+        used += all->part[count++].weight;
+    all->count = count;
+    for (size_t i = 0; i < count; i++)
+        all->part[i].weight /= used;
+}
+
+static double probability_below(const struct mixture *all, double order)
+{
+    double sum = 0;
+    for (size_t i = 0; i < all->count; i++) {
+        const struct part *p = &all->part[i];
+        sum += p->weight * gsl_cdf_tdist_P((order - p->mean) / p->scale, p->freedom);
+    }
+    return sum;
+}
+
+/* By false position (Illinois), each third step a bisection. */
+static double quantile(const struct mixture *all, double share)
+{
+    double low = INFINITY, high = -INFINITY, least = INFINITY;
+    for (size_t i = 0; i < all->count; i++) {
+        const struct part *p = &all->part[i];
+        const double width = p->scale * gsl_cdf_tdist_Qinv(0.0005, p->freedom);
+        low = fmin(low, p->mean - width);
+        high = fmax(high, p->mean + width);
+        least = fmin(least, p->scale);
+    }
+    double below = -share, above = 1 - share;
+    for (int i = 0; i < 80 && high - low > 1e-3 * least; i++) {
+        const double at =
+            i % 3 == 2 ? 0.5 * (low + high) : (low * above - high * below) / (above - below);
+        const double off = probability_below(all, at) - share;
+        if (fabs(off) < 1e-6)
+            return at;
+        if (off < 0) {
+            low = at;
+            below = off;
+            above /= 2;
+        } else {
+            high = at;
+            above = off;
+            below /= 2;
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+/* ---- windows ---- */
+
+struct sums {
+    double w, x, y, xx, xy, yy, log_density; /* y: less start + order x, else digits cancel */
+    double start, order;
+    size_t rows;
+};
+
+/* Adds a row to a window, or (sign < 0) takes it out again. */
+static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
+{
+    const double w = sign * r->weight[i], x = r->x[i], y = r->bent[i] - s->start - s->order * x;
+    s->w += w, s->x += w * x, s->y += w * y;
+    s->xx += w * x * x, s->xy += w * x * y, s->yy += w * y * y;
+    s->log_density += sign * r->log_density[i];
+    s->rows = sign > 0 ? s->rows + 1 : s->rows - 1;
+}
+
+/* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
+ * their prior; least: the smallest standard deviation of a logarithm. */
+static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
+{
+    const double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
+    const double left = fmax(0, s->yy - s->y * s->y / s->w - xy * xy / xx);
+    if (!(s->rows >= 3 && xx > 0))
+        return;
+    const double freedom = (double)s->rows - 2;
+    const double seen = all->only_best ? cell_scatter : least_scatter;
+    const double squares = left + seen * seen * freedom;
+    p.mean = s->order + xy / xx;
+    p.freedom = freedom;
+    p.scale = sqrt((left / freedom + least * least) / xx);
+    p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) -
+                freedom / 2 * log(M_PI * squares) - 0.5 * log(s->w * xx) -
+                log1p(squares / freedom / (usual_scatter * usual_scatter));
+    if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > least_order))
+        add_part(all, &p);
+}
+
+/* The same without one row inside, each in turn. */
+static void add_without_one(struct mixture *all, const struct rows *r, const struct sums *s,
+                            struct part p, double least)
+{
+    enum { LEAST = 5, MOST = 16 };
+    const size_t inside = p.last - p.first - 1;
+    if (s->rows < LEAST || r->count > MOST || (p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT))
+        return;
+    p.weight += log(unexplained * leaves_inside / (double)inside);
+    for (p.outlier = p.first + 1; p.outlier < p.last; p.outlier++) {
+        struct sums without = *s;
+        add_row(&without, r, p.outlier, -1);
+        add_window(all, &without, p, least);
+    }
+}
+
+/* All windows of a law whose correction is set. Of many rows, not every window is tried. */
+static void add_windows(struct mixture *all, const struct rows *r, struct part p)
+{
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    const double prior = p.weight;
+    for (p.first = 0; p.first + 3 <= n; p.first += stride) {
+        struct sums s = {.start = r->y[n - 1], .order = r->order};
+        for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
+            const size_t lost = n - 1 - p.last;
+            add_row(&s, r, p.last, 1);
+            if (s.rows < 3 || (lost > 4 && lost % stride))
+                continue;
+            p.weight = prior + (double)p.first * log(unexplained * leaves_coarse) +
+                       (double)lost * log(unexplained * leaves_fine);
+            p.outlier = n;
+            add_window(all, &s, p, r->least[p.first]);
+            add_without_one(all, r, &s, p, r->least[p.first]);
+        }
+    }
+}
+
+/* ---- laws ---- */
+
+/* The next term of a difference, relative to that of the error itself. */
+static double next_of_difference(const struct rows *r, size_t i, double s)
+{
+    const double p = r->order, log_ratio = log(r->ratio[i]);
+    if (r->ratio[i] == 0 || fabs(p * log_ratio) < 1e-8)
+        return 1;
+    return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
+}
+
+/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. A
+ * difference of two terms scatters more, relative to itself, than each of them. */
+static double bend(const struct rows *r, size_t i, const struct family *f, double parameter)
+{
+    const double finest = r->y[r->count - 1] - r->y[i]; /* log of the finest error over this one */
+    double t = parameter * pow(r->z[i], f->s) * next_of_difference(r, i, f->s);
+    double correction = 0, weight = 1, change = 0;
+    bool density = false; /* whether the density of y has the weight in it */
+    switch (f->law) {
+    case BR_LAW_NEXT:
+    case BR_LAW_LOWER:
+        correction = log1p(t);
+        change = t / (1 + t);
+        break;
+    case BR_LAW_CANCEL:
+        correction = log(fabs(1 - t));
+        weight = fmin(1, (1 - t) * (1 - t) / (1 + t * t)) + 1e-12;
+        change = fmin(1, t);
+        density = true;
+        break;
+    case BR_LAW_SQUARES:
+        correction = 0.5 * log1p(t * t);
+        change = t * t / (1 + t * t);
+        break;
+    case BR_LAW_LOGARITHM:
+        t = parameter - log(r->z[i]);
+        correction = t > 0.1 ? f->s * log(t) : NAN;
+        change = 0.05;
+        break;
+    case BR_LAW_FLOOR:
+    case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
+        t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * exp(finest);
+        correction = t < 1 ? -log1p(-t) : NAN;
+        weight = (1 - t) * (1 - t);
+        change = fabs(t) / (1 + fabs(t));
+        break;
+    case BR_LAW_FLOOR_SQUARES:
+        t = parameter * exp(finest);
+        correction = t < 1 ? -0.5 * log1p(-t * t) : NAN;
+        weight = (1 - t * t) * (1 - t * t);
+        change = t * t;
+        break;
+    default:
+        break;
+    }
+    r->bent[i] = r->y[i] - correction;
+    r->weight[i] = weight;
+    r->log_density[i] = density ? 0.5 * log(weight) : 0;
+    return change;
+}
+
+/* Adds a law with one parameter. share: of its correction that is not known. */
+static void add_law(struct mixture *all, const struct rows *r, const struct family *f,
+                    double parameter, double share, double log_prior)
+{
+    double change = 0;
+    for (size_t i = r->count; i-- > 0;) {
+        change = fmax(change, bend(r, i, f, parameter));
+        r->least[i] = 1e-6 + share * change;
+    }
+    const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
+    const bool small = f->law == BR_LAW_CANCEL && !crosses;
+    if (crosses)
+        log_prior += log(passes_zero);
+    const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
+    add_windows(all, r,
+                (struct part){.law = small ? BR_LAW_NEXT : f->law,
+                              .weight = log_prior,
+                              .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
+}
+
+/* Parameters are first tried in coarse cells, then within the cells that may matter. */
+enum { MOST_CELLS = 80, WITHIN = 6 };
+static const double cell = 0.16;    /* of the logarithm of the parameter */
+static const double matters = 8; /* logarithm of the weight below the best one's */
+
+static size_t cells_of(const struct family *f)
+{
+    return (size_t)ceil(log(f->high / f->low) / cell);
+}
+
+/* Adds a family at this fraction of the way from its lowest parameter to the highest. */
+static void add_member(struct mixture *all, const struct rows *r, const struct family *f,
+                       double at, double members, double share)
+{
+    add_law(all, r, f, f->low * pow(f->high / f->low, (at + 0.5) / members), share,
+            log(f->prior / members));
+}
+
+static void add_laws(struct mixture *all, const struct rows *r)
+{
+    static const struct family power = {.law = BR_LAW_POWER};
+    struct mixture rough = {.best = -INFINITY, .only_best = true};
+    double best[FAMILIES][MOST_CELLS];
+    add_law(all, r, &power, 0, 0, log(prior_of_power));
+    add_law(&rough, r, &power, 0, 0, log(prior_of_power));
+    double top = rough.best;
+    for (size_t f = 0; f < FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++) {
+            rough.best = -INFINITY;
+            add_member(&rough, r, &families[f], (double)i, (double)n, truncation);
+            best[f][i] = rough.best;
+            top = fmax(top, rough.best);
+        }
+    for (size_t f = 0; f < FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++)
+            for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
+                add_member(all, r, &families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
+                           truncation);
+}
+
+/* ---- the order ---- */
+
+static void describe(const struct mixture *all, const struct rows *r, struct br_line_order *found)
+{
+    const struct part *likely = &all->part[0];
+    found->order = (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025),
+                                        quantile(all, 0.975)};
+    found->low99 = quantile(all, 0.005);
+    found->high99 = quantile(all, 0.995);
+    for (size_t i = 0; i < all->count; i++)
+        found->law[all->part[i].law] += all->part[i].weight;
+    found->first = r->index[likely->first];
+    found->last = r->index[likely->last];
+    if (likely->outlier < r->count)
+        found->outlier = r->index[likely->outlier];
+    found->floor = likely->floor;
+}
+
+enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
+                                struct br_line_order *found, struct br_error *err)
+{
+    enum { ARRAYS = 8 };
+    *found = (struct br_line_order){.order = {NAN, NAN, NAN},
+                                  .low99 = NAN,
+                                  .high99 = NAN,
+                                  .last = count ? count - 1 : 0,
+                                  .outlier = count};
+    double *room = br_allocate(ARRAYS * count + 1, sizeof *room);
+    size_t *index = br_allocate(count + 1, sizeof *index);
+    struct mixture all = {.best = -INFINITY};
+    enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
+    if (!status) {
+        struct rows r = {.index = index, .z = room};
+        double **const array[] = {&r.x, &r.y, &r.ratio, &r.bent, &r.weight, &r.log_density,
+                                  &r.least};
+        for (size_t i = 0; i + 1 < ARRAYS; i++)
+            *array[i] = room + (i + 1) * count;
+        take_rows(&r, point, count);
+        if (r.count >= 3 && isfinite(r.order))
+            add_laws(&all, &r);
+        normalise(&all);
+        if (all.starved)
+            status = br_no_memory(err, "the order");
+        else if (all.count)
+            describe(&all, &r, found);
+    }
+    free(all.part);
+    free(index);
+    free(room);
+    return status;
+}

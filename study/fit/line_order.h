@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The observed order of a line of errors: the one place where it is found.
+ *
+ * One power C z^p never fits real errors. Coarse grids are not asymptotic, fine ones reach a floor,
+ * a lower power comes up, a logarithm bends the line, numbers scatter. So several laws compete,
+ * each on several windows of rows. The order is their average, weighted by how well each explains
+ * the rows (Bayesian model averaging: Hoeting, Madigan, Raftery and Volinsky, Statistical Science
+ * 14, 382-417, 1999), and its interval covers each law that the rows do not rule out.
+ * tests/lab/orders.c measures how often that is right. */
+#ifndef BR_STUDY_FIT_LINE_ORDER_H
+#define BR_STUDY_FIT_LINE_ORDER_H
+
+#include "study/fit/fit.h"
+
+/* X(name, text): e(z) of each law. Each a > 0, s > 0. */
+#define BR_LAW_LIST(X)                                                           \
+    X(BR_LAW_POWER, "one power")                 /* C z^p */                     \
+    X(BR_LAW_NEXT, "a next term")                /* C z^p (1 +- a z^s), a small */ \
+    X(BR_LAW_LOWER, "a lower power comes up")    /* the same, a z^s not small */ \
+    X(BR_LAW_CANCEL, "terms that cancel")  /* C z^p |1 - a z^s|, zero inside */ \
+    X(BR_LAW_SQUARES, "two powers in one norm")  /* C z^p sqrt(1 + (a z^s)^2) */ \
+    X(BR_LAW_LOGARITHM, "a logarithm")           /* C z^p (a - log z)^s */       \
+    X(BR_LAW_FLOOR, "a floor")                   /* C z^p + F */                 \
+    X(BR_LAW_FLOOR_SQUARES, "a floor in one norm") /* sqrt((C z^p)^2 + F^2) */   \
+    X(BR_LAW_OFFSET, "an offset")                /* C z^p - F: of the reference */
+
+enum br_law {
+#define X(name, text) name,
+    BR_LAW_LIST(X)
+#undef X
+    BR_LAWS
+};
+
+const char *br_law_text(enum br_law law);
+
+/* One error of a line that is refined in one quantity z (h/L or k/T). An error against a finer
+ * solution is C (z^p - z_against^p). */
+struct br_order_point {
+    double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
+    double error;        /* in any unit */
+};
+
+struct br_line_order {
+    struct br_estimate order; /* the median and the 95 % interval; NaN: not known */
+    double low99, high99;     /* the 99 % interval: what is outside is excluded */
+    double law[BR_LAWS];      /* the probability of each law; all together 1, or 0 */
+    size_t first, last;       /* the most probable window of rows: those outside do not count, */
+    size_t outlier;           /* nor does this row inside it; the number of rows: there is none */
+    double floor;             /* F of the most probable law, in the unit of the errors; else 0 */
+};
+
+/* The order of point[count], from coarse to fine; rows whose error is not above 0, or not finite,
+ * are left aside. An order of zero or less means that the errors stay or grow. Not known with less
+ * than three rows. Fails with BR_NO_MEMORY. */
+enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
+                                struct br_line_order *found, struct br_error *err);
+
+#endif

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random lines of errors, or of values, with an order that is known. */
+#ifndef BR_TESTS_LAB_ERRORS_H
+#define BR_TESTS_LAB_ERRORS_H
+
+#include <stdbool.h>
+
+#include "tests/lab/random.h"
+
+enum { BR_MOST_ERRORS = 16 };
+
+struct br_error_line {
+    size_t rows;
+    double h[BR_MOST_ERRORS]; /* from coarse to fine */
+    double e[BR_MOST_ERRORS]; /* errors, or values */
+    bool values;              /* their limit is not known */
+    double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
+};
+
+enum br_error_group {
+    BR_SMOOTH_ERRORS,
+    BR_NOISY_ERRORS,
+    BR_HARD_ERRORS,
+    BR_HIDDEN_ERRORS, /* in some lines nothing shows that the last term comes up */
+    BR_NO_ORDER,
+};
+
+/* Classes of lines; const records, the last one without a name. */
+struct br_error_class {
+    const char *name;
+    enum br_error_group group;
+    void (*draw)(struct br_random *random, struct br_error_line *line);
+};
+extern const struct br_error_class br_error_classes[];
+
+#endif
