@@ -60,7 +60,7 @@ struct family {
 
 #define NEXT_TERM(s, share)                              \
     {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
-        {BR_LAW_LOWER, s, 0.1, 1.6, 0.03 * (share)},     \
+        {BR_LAW_LOWER, s, 0.1, 1.6, 0.1 * (share)},     \
         {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
 
 static const double prior_of_power = 0.45;
@@ -71,6 +71,8 @@ static const struct family families[] = {
     NEXT_TERM(2, 0.3),
     NEXT_TERM(3, 0.06),
     NEXT_TERM(4, 0.06),
+    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004},
+    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004},
     {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
     {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005},
     {BR_LAW_SQUARES, 1, 0.03, 3, 0.005},
@@ -350,6 +352,10 @@ static double bend(const struct rows *r, size_t i, const struct family *f, doubl
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
         correction = log1p(t);
+        change = t / (1 + t);
+        break;
+    case BR_LAW_LOCKING:
+        correction = -log1p(t);
         change = t / (1 + t);
         break;
     case BR_LAW_CANCEL:

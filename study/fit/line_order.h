@@ -18,6 +18,7 @@
     X(BR_LAW_NEXT, "a next term")                /* C z^p (1 +- a z^s), a small */ \
     X(BR_LAW_LOWER, "a lower power comes up")    /* the same, a z^s not small */ \
     X(BR_LAW_CANCEL, "terms that cancel")  /* C z^p |1 - a z^s|, zero inside */ \
+    X(BR_LAW_LOCKING, "a slow start")    /* C z^p / (1 + a z^s) */               \
     X(BR_LAW_SQUARES, "two powers in one norm")  /* C z^p sqrt(1 + (a z^s)^2) */ \
     X(BR_LAW_LOGARITHM, "a logarithm")           /* C z^p (a - log z)^s */       \
     X(BR_LAW_FLOOR, "a floor")                   /* C z^p + F */                 \

@@ -21,7 +21,6 @@ enum br_error_group {
     BR_SMOOTH_ERRORS,
     BR_NOISY_ERRORS,
     BR_HARD_ERRORS,
-    BR_HIDDEN_ERRORS, /* in some lines nothing shows that the last term comes up */
     BR_NO_ORDER,
 };
 

@@ -109,7 +109,7 @@ static bool at_most(size_t found, double share, size_t n)
 static bool is_good(const struct br_error_class *class, const struct tally *t)
 {
     const bool hard = class->group > BR_NOISY_ERRORS, none = class->group == BR_NO_ORDER;
-    const double silent = class->group == BR_HIDDEN_ERRORS ? 0.1 : hard ? 0.03 : 0.02;
+    const double silent = hard ? 0.03 : 0.02;
     return at_most(t->silent, silent, t->lines) &&
            (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
            at_most(t->wrong_pass, 0.002, t->lines) &&
