@@ -161,9 +161,6 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_TRADE},
     {BR_OPT_REFERENCE, "reference", 0, "NAME", "judge of the errors: exact (default) or mms", NULL,
      BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_PLAN},
-    {BR_OPT_REFERENCE_SOLVER, "reference-solver", 0, "NAME",
-     "that of the reference, where it differs", NULL, BR_TAKES_WORD,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error, one table each", "l2", BR_TAKES_WORD_LIST,
      .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip."},
@@ -338,12 +335,8 @@ size_t br_options_of(const struct br_command *command, struct br_option row[BR_O
 {
     size_t count = 0;
     for (size_t i = 0; i < ROWS; i++)
-        if (rows[i].commands & command->bit) {
-            row[count] = rows[i];
-            if (rows[i].id == BR_OPT_REFERENCE_SOLVER)
-                row[count].words = br_method_fields[BR_METHOD_SOLVER].words;
-            count++;
-        }
+        if (rows[i].commands & command->bit)
+            row[count++] = rows[i];
     for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         row[count++] = (struct br_option){.id = (enum br_option_id)(BR_OPT_METHOD + i),

@@ -80,7 +80,7 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
         .scene = scene,
         .norm = q->norm[0],
         .method = q->method,
-        .reference_method = q->reference_method,
+        .reference_method = q->method,
         .judge = q->judge ? q->judge : br_judge_best(scene),
         .n = o->whole[BR_OPT_N],
         .n_count = o->count[BR_OPT_N],

@@ -65,7 +65,7 @@ for scene in $("$BEAMRATE" scenes | sed 's/ .*//'); do
     offers "$scene" beamrate check example1 ''
 done
 offers_only riccati beamrate tables --solver r
-offers_only umfpack beamrate tables --reference-solver = u
+offers_only umfpack beamrate tables --solver = u
 offers_only riccati beamrate tables --solver = ri
 offers 'fine:' beamrate study example1 --reference f
 offers 'l2,tip' beamrate study example1 --norm l2,
