@@ -45,7 +45,6 @@ enum br_option_id {
     BR_OPT_AT,
     BR_OPT_EVERY,
     BR_OPT_ROWS,
-    BR_OPT_RATES,
     BR_OPT_ANIMATE,
     BR_OPT_ALL,
     BR_OPT_COMPARE,

@@ -204,9 +204,6 @@ static const struct br_option rows[] = {
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "60", BR_TAKES_NUMBER,
      BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
 
-    {BR_OPT_RATES, "rates", 0, NULL, "the slope of every row and column of the table, too", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY,
-     .more = "An order only where one of the errors, in h or in k, is far larger than the other."},
 
     /* what `run` shows */
     {BR_OPT_FIELDS, "fields", 0, "LIST",

@@ -167,7 +167,6 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &w->tips : NULL,
         .meshes = over_k ? NULL : &w->apart[m].over_h,
-        .rates = br_option_given(r->session->options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;

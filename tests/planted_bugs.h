@@ -859,9 +859,6 @@ static const struct planted_bug planted_bugs[] = {
      "kind == BR_AXIAL ? 3 : 5;", "1;"},
     {"cells_have_the_other_tip", "printed", "tables/report_study.c", "golden study",
      "br_number(c->tip[BR_AXIAL])", "br_number(c->tip[BR_BENDING])"},
-    {"slopes_of_the_other_direction", "printed", "tables/report_grids.c", "golden study",
-     "&r->fits[part].slope[row ? BR_AXIS_TIME : BR_AXIS_SPACE][j]",
-     "&r->fits[part].slope[BR_AXIS_TIME][0]"},
     {"low_end_is_the_high", "printed", "tables/report_parts.c", "golden study", "br_number(e->low)",
      "br_number(e->high)"},
     {"triangle_with_one_corner", "printed", "tables/report_grids.c", "golden tables",
@@ -1112,8 +1109,6 @@ static const struct planted_bug planted_bugs[] = {
      ".friction_force = t->friction_force,", ".friction_force = t->contact_force,"},
     {"failed_march_goes_on", "lost", "study/library/march.c", "tests/test_library_calls",
      "if (m->failure.status)", "if (0)"},
-    {"slopes_of_the_other_axis", "index", "study/library/study.c", "tests/test_library_calls",
-     "fits->slope[axis]", "fits->slope[1 - axis]"},
     {"tolerance_above_the_order", "expected", "study/library/study.c", "tests/test_library_calls",
      "e->tolerance < e->order && isfinite(e->order)", "isfinite(e->order)"},
     /* ---- --vary, verdict formats, the adaptive certificate, pictures, defaults ---- */

@@ -282,12 +282,6 @@ void beamrate_study_free(struct beamrate_study *study); /* accepts NULL */
 enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
                                          struct beamrate_cell *cell);
 
-/* The slope (out) of log(error) over log(h) at steps[at], or, for time, of log(error) over log(k)
- * at n[at]. NaN with fewer than two cells; its interval is NaN with fewer than three. */
-enum beamrate_status beamrate_study_slope(const struct beamrate_study *study,
-                                          enum beamrate_part part, enum beamrate_axis axis,
-                                          size_t at, struct beamrate_estimate *order);
-
 /* The joint fit of an error component (out). */
 enum beamrate_status beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,
                                         struct beamrate_fit *fit);
