@@ -37,7 +37,6 @@ enum br_option_id {
     BR_OPT_SPLIT,
     BR_OPT_ERROR,
     BR_OPT_SECONDS,
-    BR_OPT_REPEATS,
     BR_OPT_TIME_LIMIT,
     BR_OPT_FIELDS,
     BR_OPT_CHECK,

@@ -64,7 +64,6 @@ static const char meshes[] = "elements of the meshes",
                   counts[] = "numbers of time steps, instead of --k",
                   folder[] = "folder of the results",
                   methods[] = "methods, by names like bdf2+implicit ('beamrate help methods')",
-                  repeats[] = "timed marches of a trial after a warm-up, at most",
                   limit[] = "longest march and set-up, s",
                   quiet[] = "no progress, no report on the terminal";
 static const char
@@ -196,8 +195,6 @@ static const struct br_option rows[] = {
      .more =
          "Where -n, -k, --steps or --tolerances say what is tried, nothing is left out unless it "
          "is given."},
-    {BR_OPT_REPEATS, "repeats", 0, "COUNT", repeats, "3", BR_TAKES_NUMBER, WHOLE(1, 1000),
-     .commands = BR_FOR_TRADE | BR_FOR_PLAN, .more = "Marches of more than 0.1 s are made once."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "10", BR_TAKES_NUMBER,
      BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more = "One that will surely take longer is ended early, and is shown as such."},

@@ -41,7 +41,6 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.norm = r->study.norm[0];
     p->request.judge = judge;
     p->request.threads = r->session.threads;
-    p->request.repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (r->study.methods.count)
         p->methods = r->study.methods;
