@@ -47,7 +47,6 @@ enum br_option_id {
     BR_OPT_ANIMATE,
     BR_OPT_ALL,
     BR_OPT_COMPARE,
-    BR_OPT_FAIL_FAST,
     BR_OPT_JUNIT,
     BR_OPT_JSON,
     BR_OPT_GITHUB,

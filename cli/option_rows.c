@@ -257,9 +257,6 @@ static const struct br_option rows[] = {
     {BR_OPT_UPDATE_BASELINE, "update-baseline", 0, NULL,
      "write what was found into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not be there yet."},
-    {BR_OPT_FAIL_FAST, "fail-fast", 0, NULL,
-     "one scene after the other, the cheapest first, until one fails", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_CHECK},
 
     /* extremes */
     {BR_OPT_ROUNDING, "rounding", 0, "MODE",

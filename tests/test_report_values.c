@@ -271,7 +271,7 @@ static void print_check(FILE *out)
     struct br_comparison comparison;
     MUST(br_compare(checks, 3, true, &old, &comparison, &err));
     struct br_document d = {0};
-    br_report_check(&(struct br_check_findings){checks, 3, true, 4.5, &comparison, &provenance},
+    br_report_check(&(struct br_check_findings){checks, 3, 4.5, &comparison, &provenance},
                     &d);
     br_put_verdict(&d, &(struct br_document_verdict){.outcome = BR_OUTCOME_SKIPPED,
                                                      .group = "e",

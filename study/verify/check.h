@@ -95,9 +95,6 @@ void br_check_clear(struct br_check *check);
  * norm. */
 struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h);
 
-/* What a check will cost: element-steps of all its marches, a field. */
-double br_check_work(const struct br_check *check);
-
 /* How many checks have a failure, and which is the first; NULL: none. */
 size_t br_check_failures(const struct br_check *checks, size_t count,
                          const struct br_check **first);
