@@ -40,7 +40,6 @@ enum br_option_id {
     BR_OPT_TIME_LIMIT,
     BR_OPT_FIELDS,
     BR_OPT_CHECK,
-    BR_OPT_ENERGIES,
     BR_OPT_AT,
     BR_OPT_EVERY,
     BR_OPT_ROWS,

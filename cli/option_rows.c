@@ -215,8 +215,6 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_FLAG, .commands = BR_FOR_RUN,
      .more = "Recomputes the residuals and laws of every step from nodal values, stage by stage, "
              "with code that the solver does not share."},
-    {BR_OPT_ENERGIES, "energies", 0, NULL, "the energy balance alone", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_RUN},
     {BR_OPT_OUT, "out", 'o', "DIR", "folder for history.csv, the fields and the summary", NULL,
      BR_TAKES_DIR, .commands = BR_FOR_RUN,
      .more =

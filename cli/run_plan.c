@@ -132,7 +132,6 @@ enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_option
         .n = (size_t)br_option_number(o, BR_OPT_N, 0),
         .steps = (size_t)br_option_number(o, BR_OPT_STEPS, 0),
         .check = br_option_given(o, BR_OPT_CHECK),
-        .energies = br_option_given(o, BR_OPT_ENERGIES),
     };
     if (br_method_read(given, BR_METHOD_OPTION, &q->method, err) ||
         br_method_check_used(given, BR_METHOD_OPTION, methods, 1, err) ||
