@@ -41,7 +41,6 @@ enum br_option_id {
     BR_OPT_FIELDS,
     BR_OPT_CHECK,
     BR_OPT_AT,
-    BR_OPT_EVERY,
     BR_OPT_ROWS,
     BR_OPT_ANIMATE,
     BR_OPT_ALL,
