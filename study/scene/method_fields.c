@@ -39,7 +39,6 @@ NUMBER(tolerance, tolerance, double)
 NUMBER(refinement, linear.refinement, int)
 NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
-NUMBER(friction_iterations, iteration.most, size_t)
 
 /* Words that are not rows of a registry: their index in the list is the value. */
 #define LIST(list, ...)                                           \
@@ -189,16 +188,8 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                                       "of such a rule, relative to the friction bound",
                                       VALUE(friction_tolerance), .key = "friction_tolerance",
                                       .range = {1e-14, 1, false}, .by = BR_METHOD_FRICTION,
-                                      .in = has_friction, .before = ", to ", .group = "iteration",
-                                      .member = "tolerance"},
-    [BR_METHOD_FRICTION_ITERATIONS] = {"friction-iterations", "friction iterations", "COUNT",
-                                       "of such a rule, a step at most", VALUE(friction_iterations),
-                                       .key = "friction_iterations",
-                                       .more = "A march that needs more fails.",
-                                       .range = {1, 1e9, true}, .by = BR_METHOD_FRICTION,
-                                       .in = has_friction, .before = ", at most ",
-                                       .after = " iterations)", .group = "iteration",
-                                       .member = "most"},
+                                      .in = has_friction, .before = ", to ", .after = ")",
+                                      .group = "iteration", .member = "tolerance"},
 };
 
 /* ---- one field ---- */
