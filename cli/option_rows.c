@@ -326,6 +326,8 @@ size_t br_options_of(const struct br_command *command, struct br_option row[BR_O
             row[count++] = rows[i];
     for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
+        if (!f->help)
+            continue;
         row[count++] = (struct br_option){.id = (enum br_option_id)(BR_OPT_METHOD + i),
                                           .name = f->name,
                                           .argument = f->argument,

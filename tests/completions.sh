@@ -114,7 +114,7 @@ END
     done <<'END'
 beamrate st|LINE<beamrate study >
 beamrate study --nor|LINE<beamrate study --norm=>
-beamrate study --s|umfpack's row scaling: none, sum or max
+beamrate study --s|linear solver
 beamrate check --solver um|LINE<beamrate check --solver umfpack >
 beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
 beamrate study --reference=fi|LINE<beamrate study --reference=fine: >

@@ -469,4 +469,7 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
              c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
         br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");
+    if (!br_method_has_options(&c->method))
+        br_append(text, BR_EXTREME_COMMAND, " # and, in a verify part, scaling: %s, refinement: %d",
+                  c->method.linear.scaling, c->method.linear.refinement);
 }
