@@ -220,7 +220,7 @@ static const struct br_option rows[] = {
      .more =
          "history.csv has the tip, in SI units; fields.csv and fields.xdmf (for ParaView) have the "
          "fields; summary.txt, summary.json and report.html what the terminal shows."},
-    {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k, or 'every TIME' from 0 on", NULL,
+    {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k, or 'every:TIME' from 0 on", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},

@@ -33,7 +33,7 @@ static enum br_status read_times(const char *text, struct br_run_plan *plan, str
         if (!end)
             return br_fail(err, BR_BAD_INPUT,
                            "--at: found '%s', expected times separated by commas, like 0.1,0.5, or "
-                           "'every TIME'",
+                           "'every:TIME'",
                            rest);
         if (read_level(t, q->scene, q->steps, &plan->level[q->levels++], err))
             return err->status;
@@ -47,7 +47,7 @@ static enum br_status read_times(const char *text, struct br_run_plan *plan, str
     return BR_OK;
 }
 
-/* The steps (out) between two times of 'every TIME'. */
+/* The steps (out) between two times of 'every:TIME'. */
 static enum br_status read_every(const char *text, const struct br_run_request *q, size_t *interval,
                                  struct br_error *err)
 {
@@ -55,12 +55,12 @@ static enum br_status read_every(const char *text, const struct br_run_request *
     const char *end = br_read_time(text, q->scene->duration, &t);
     if (!end || *end || !(t > 0))
         return br_fail(err, BR_BAD_INPUT,
-                       "--at: found 'every %s', expected a time above 0, like every 0.1", text);
+                       "--at: found 'every:%s', expected a time above 0, like every:0.1", text);
     if (read_level(t, q->scene, q->steps, interval, err))
         return err->status;
     return *interval ? BR_OK
                      : br_fail(err, BR_BAD_INPUT,
-                               "--at: found 'every %s', expected a multiple of k = %g s", text,
+                               "--at: found 'every:%s', expected a multiple of k = %g s", text,
                                q->scene->duration / (double)q->steps);
 }
 
@@ -69,7 +69,7 @@ static enum br_status make_levels(struct br_run_plan *plan, const struct br_opti
                                   struct br_error *err)
 {
     enum { PARTS = 10 };
-    static const char word[] = "every ";
+    static const char word[] = "every:";
     struct br_run_request *q = &plan->request;
     const char *at = br_option_text(o, BR_OPT_AT);
     const bool every = at && strncmp(at, word, strlen(word)) == 0;
