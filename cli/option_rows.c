@@ -107,12 +107,11 @@ static const struct br_option rows[] = {
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run of the program", "600",
      BR_TAKES_NUMBER, BETWEEN(0, 1e9), .commands = BR_FOR_ORDERS},
-    {BR_OPT_KEEP, "keep", 0, "DIR", "folder in which finished runs are kept, for --resume",
-     "orders-kept", BR_TAKES_DIR, .commands = BR_FOR_ORDERS},
     {BR_OPT_RESUME, "resume", 0, NULL, "take runs that are kept, instead of running them again",
      NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS,
      .more =
-         "After an interruption, or for a larger grid. A run is the same where its words, its "
+         "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept of --out, "
+         "or in orders-kept without one. A run is the same where its words, its "
          "program and the files that its words name are. What the program reads or starts besides "
          "is not seen: do not give it when that has changed."},
     {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,
@@ -171,7 +170,7 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_TRADE | BR_FOR_EXTREMES, .more = names_more},
     {BR_OPT_METHODS, "methods", 0, "LIST", methods, NULL, BR_TAKES_TEXT, .commands = BR_FOR_PLAN,
      .more = "By default all time schemes."},
-    {BR_OPT_TOLERANCES, "tolerances", 0, "LIST", "tolerances of schemes that choose their steps",
+    {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
     {BR_OPT_SPLIT, "split", 0, NULL,
      "where the error of each run comes from, instead (one run: n = 100, T/1000)", NULL,
@@ -193,7 +192,7 @@ static const struct br_option rows[] = {
      "what the trials of a scene may take, about; the dearest are left out", "30", BR_TAKES_NUMBER,
      BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
      .more =
-         "Where -n, -k, --steps or --tolerances say what is tried, nothing is left out unless it "
+         "Where -n, -k, --steps or --tolerance say what is tried, nothing is left out unless it "
          "is given."},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "10", BR_TAKES_NUMBER,
      BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
@@ -260,7 +259,7 @@ static const struct br_option rows[] = {
      .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
      .more = "Not of their judges."},
 
-    /* scenes, help */
+    /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_SCENES,
      .more =
@@ -269,10 +268,6 @@ static const struct br_option rows[] = {
     {BR_OPT_SCHEMA, "schema", 0, NULL,
      "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_SCENES},
-    {BR_OPT_MAN, "man", 0, NULL, "print the manual page", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_HELP},
-    {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_HELP},
 
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",

@@ -15,6 +15,7 @@ struct run {
     struct br_study_file study;
     struct br_check check;
     struct br_verdicts verdicts;
+    char kept[1100]; /* the folder of finished runs */
     double wall_seconds;
 };
 
@@ -54,7 +55,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
                                    struct br_error *err)
 {
     static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_DOFS,       BR_OPT_K,
-                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT, BR_OPT_KEEP,
+                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT,
                                                 BR_OPT_RESUME, BR_OPTIONS};
     static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
@@ -149,6 +150,10 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     const bool failed = br_verdicts_open(&r->verdicts, o, &r->check, 1, err) ||
                         br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
                         br_session_open(&r->session, err);
+    const bool open = br_output_is_open(&r->session.output);
+    snprintf(r->kept, sizeof r->kept, open ? "%s/.kept" : "%sorders-kept",
+             open ? r->session.output.folder : "");
+    r->study.request.kept = r->kept;
     return failed ? err->status : BR_OK;
 }
 

@@ -109,7 +109,7 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
     static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPT_STEPS, BR_OPTIONS};
-    const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerances"
+    const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
     return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it", dropped)
