@@ -87,6 +87,14 @@ enum br_option_kind {
     BR_TAKES_METHOD, /* a field of the method */
 };
 
+/* What a row has of its own for some of the commands that take it. */
+struct br_own {
+    unsigned commands;                             /* 0: the end of the list */
+    const char *standard, *argument, *help, *more; /* NULL: as in the row */
+    enum br_option_kind kind;                      /* BR_TAKES_FLAG: kind and range as in the row */
+    struct br_number_range range;
+};
+
 struct br_option {
     enum br_option_id id;
     const char *name; /* without -- */
@@ -97,9 +105,10 @@ struct br_option {
     enum br_option_kind kind;
     struct br_number_range range;
     const struct br_words *words;
-    unsigned commands; /* that take it */
-    const char *more;  /* sentences for the manual; NULL: none */
-    bool repeats;      /* it may be given several times: its text has a line for each */
+    unsigned commands;        /* that take it */
+    const char *more;         /* sentences for the manual; NULL: none */
+    bool repeats;             /* it may be given several times: its text has a line for each */
+    const struct br_own *own; /* NULL: all commands have the same */
 };
 
 struct br_command;
@@ -107,8 +116,8 @@ struct br_command;
 /* The rows that a command takes, in the help's order (out); returns how many. */
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
 
-/* The row of an option that is no method's; NULL: the command does not take it. */
-const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id);
+/* The name of an option that is no method's. */
+const char *br_option_name(enum br_option_id id);
 
 /* The default as the help shows it, or NULL. text: workspace. */
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);
