@@ -67,7 +67,7 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     struct item *item = &r->item[i];
     char *text = NULL;
     const char *dot = strrchr(name, '.');
-    if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0 || strcmp(dot, ".jsonl") == 0))
+    if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0))
         return br_fail(err, BR_BAD_INPUT,
                        "found the table %s, expected a scene or a study file (.yaml) that names "
                        "it; orders of a table: beamrate orders %s",

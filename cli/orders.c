@@ -235,7 +235,7 @@ const struct br_command br_command_orders = {
     .arguments = "FILE",
     .title = "the orders of any program's errors or values",
     .about = "The orders of convergence of numbers from any program: of a table in a file (CSV, "
-             "TSV, JSON lines; - is standard input), of a program that is run at each resolution "
+             "TSV; - is standard input), of a program that is run at each resolution "
              "(--run), or of a study file (.yaml) that says either.",
     .more =
         "Columns h, n or dofs tell the mesh, k, dt or steps the time step; a unit may follow in "

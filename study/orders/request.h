@@ -87,7 +87,6 @@ enum br_status br_orders_check_lists(const struct br_orders_request *request,
 /* In a table; a row without its heading. A report takes 20 microseconds for each field. */
 enum {
     BR_LONGEST_TABLE = 64 << 20, /* bytes */
-    BR_LONGEST_OBJECT = 1 << 20, /* bytes of a line of JSON */
     BR_MOST_COLUMNS = 1000,
     BR_MOST_FIELDS = 40000
 };

@@ -92,20 +92,17 @@ static enum br_status add_row(json_t *table, size_t line, const char *path, json
     return BR_OK;
 }
 
-static enum br_status refuse_columns(const char *path, size_t line, struct br_error *err)
-{
-    return br_fail(err, BR_BAD_INPUT, "%s:%zu: found more than %d columns, expected fewer", path,
-                   line, BR_MOST_COLUMNS);
-}
-
 static enum br_status take_line(struct cursor *c, json_t *table, struct br_error *err)
 {
     const size_t line = c->line;
     json_t *row;
     enum br_status status = add_row(table, line, c->path, &row, err);
     for (bool more = true; more && !status;)
-        status = json_array_size(row) > BR_MOST_COLUMNS ? refuse_columns(c->path, line, err)
-                                                        : take_field(c, row, &more, err);
+        status =
+            json_array_size(row) > BR_MOST_COLUMNS
+                ? br_fail(err, BR_BAD_INPUT, "%s:%zu: found more than %d columns, expected fewer",
+                          c->path, line, BR_MOST_COLUMNS)
+                : take_field(c, row, &more, err);
     const size_t fields = json_array_size(row),
                  expected = json_array_size(json_array_get(table, 0));
     if (status || fields == expected)
@@ -135,65 +132,6 @@ enum br_status br_table_split(const char *text, const char *path, bool only_last
                                              : take_line(&c, table, err);
     }
     free(c.field);
-    return status;
-}
-
-/* ---- JSON lines ---- */
-
-static enum br_status take_object(json_t *object, size_t line, const char *path, json_t *table,
-                                  struct br_error *err)
-{
-    const char *key;
-    json_t *value, *row;
-    if (json_object_size(object) > BR_MOST_COLUMNS)
-        return refuse_columns(path, line, err);
-    if (json_array_size(table) == 0) {
-        if (add_row(table, line, path, &row, err))
-            return err->status;
-        json_object_foreach (object, key, value)
-            if (json_array_append_new(row, json_string(key)))
-                return br_no_memory(err, "the table");
-    }
-    if (add_row(table, line, path, &row, err))
-        return err->status;
-    const json_t *heading = json_array_get(table, 0);
-    const size_t keys = json_array_size(heading) - 1;
-    if (json_object_size(object) != keys)
-        return br_fail(err, BR_BAD_INPUT, "%s:%zu: found %zu keys, expected the first line's %zu",
-                       path, line, json_object_size(object), keys);
-    for (size_t i = 1; i <= keys; i++) {
-        key = json_string_value(json_array_get(heading, i));
-        value = json_object_get(object, key);
-        if (!value)
-            return br_fail(err, BR_BAD_INPUT, "%s:%zu: there is no key '%s', as in the first line",
-                           path, line, key);
-        if (json_array_append(row, value))
-            return br_no_memory(err, "the table");
-    }
-    return BR_OK;
-}
-
-static enum br_status read_objects(const char *text, const char *path, json_t *table,
-                                   struct br_error *err)
-{
-    enum br_status status = BR_OK;
-    size_t line = 1;
-    for (const char *at = text; *at && !status; line++) {
-        const size_t length = strcspn(at, "\n");
-        json_error_t why;
-        if (length > BR_LONGEST_OBJECT)
-            status = br_fail(err, BR_BAD_INPUT, "%s:%zu: found %zu bytes, expected at most %d",
-                             path, line, length, BR_LONGEST_OBJECT);
-        else if (strspn(at, " \t\r\n") < length) {
-            json_t *object = json_loadb(at, length, JSON_REJECT_DUPLICATES, &why);
-            status = json_is_object(object)
-                         ? take_object(object, line, path, table, err)
-                         : br_fail(err, BR_BAD_INPUT, "%s:%zu: expected a JSON object: %s", path,
-                                   line, object ? "found another value" : why.text);
-            json_decref(object);
-        }
-        at += length + (at[length] == '\n');
-    }
     return status;
 }
 
@@ -246,8 +184,8 @@ static bool is_number(const json_t *field, double *value)
         const char *end = br_read_number(json_string_value(field), value);
         return end && !*end;
     }
-    *value = json_is_number(field) ? json_number_value(field) : NAN;
-    return json_is_number(field) || json_is_null(field);
+    *value = NAN;
+    return json_is_null(field);
 }
 
 /* Whether a column has a number; then all its fields must be numbers. Else it is not studied. */
@@ -267,8 +205,7 @@ static enum br_status number_at(const struct source *s, size_t row, size_t colum
     if (is_number(field, value))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found '%.40s', expected a number", s->path,
-                   line_of(s, row), heading(s, column),
-                   json_is_string(field) ? json_string_value(field) : "(no number)");
+                   line_of(s, row), heading(s, column), json_string_value(field));
 }
 
 /* Takes a column of resolutions. Where its axis has one already, both must agree, but for a
@@ -356,9 +293,14 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     const bool marked = strncmp(q->table, byte_order_mark, strlen(byte_order_mark)) == 0;
     const char *text = q->table + (marked ? strlen(byte_order_mark) : 0);
     struct source s = {.request = q, .path = br_orders_path(q), json_array(), .numbers = numbers};
-    enum br_status status = text[strspn(text, " \t\r\n")] == '{'
-                                ? read_objects(text, s.path, s.table, err)
-                                : br_table_split(text, s.path, false, q->observer, s.table, err);
+    enum br_status status =
+        text[strspn(text, " \t\r\n")] == '{'
+            ? br_fail(
+                  err, BR_BAD_INPUT,
+                  "%s: found JSON, expected columns separated by commas or tabs; jq makes them: "
+                  "jq -r '[.h, .error] | @csv'",
+                  s.path)
+            : br_table_split(text, s.path, false, q->observer, s.table, err);
     s.rows = json_array_size(s.table) ? json_array_size(s.table) - 1 : 0;
     s.columns = json_array_size(json_array_get(s.table, 0)) - 1;
     if (!status)
