@@ -60,6 +60,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
     static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
+    q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
     if (unused)

@@ -41,6 +41,7 @@ struct br_orders_request {
     char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
                               known limit; NULL: see the sources */
     double dimension;      /* of the mesh, for unknowns (dofs) */
+    bool assumed_dimension; /* nobody stated it */
     double formal;         /* the order of theory for values */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
@@ -99,6 +100,12 @@ enum {
 enum br_status br_table_split(const char *text, const char *path, bool only_last,
                               const struct br_observer *observer, json_t *table,
                               struct br_error *err);
+
+/* Whether a field is no number: empty, "-", "nan", "inf", stars. text: NULL, it is empty. */
+bool br_is_missing(const char *text);
+
+/* Reads a number of a table, also with an exponent of Fortran: 1.5D-3, 1.5-103. */
+bool br_table_number(const char *text, double *value);
 
 /* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, and perhaps a unit in
  * brackets: "dt [s]". br_resolution_columns names the columns of resolutions; where an axis has
