@@ -28,7 +28,8 @@ static enum br_status read_table(const char *text, const struct columns *columns
                                         .table = (char *)text,
                                         .errors = (char *)columns->errors,
                                         .values = (char *)columns->values,
-                                        .dimension = columns->dimension};
+                                        .dimension = columns->dimension,
+                                        .assumed_dimension = columns == &plain};
     return br_orders_read(&q, numbers, &err);
 }
 
@@ -99,10 +100,10 @@ TEST(test_resolutions)
     CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.025, 1e-15);
     br_numbers_clear(&n);
     n = read_with("n,h,l2\n1,.3,3\n2,.15,2\n4,.075,1\n", &plain); /* to a constant factor */
-    assert_string_equal(n.column[BR_AXIS_SPACE]->name, "n");
+    assert_string_equal(n.column[BR_AXIS_SPACE]->name, "h");
     br_numbers_clear(&n);
     refuse_with("n,h,l2\n1,1,3\n2,.4,2\n4,.25,1\n", &plain,
-                "t.csv:3: h: found 0.4, which contradicts n");
+                "t.csv:3: n: found 2, which contradicts h");
     n = read_with("n,l2\n1000,3\n1001,2\n1000000,1\n1000001,1\n", &plain); /* two are two */
     assert_true(n.row[0].z[0] > n.row[1].z[0] && n.row[2].z[0] > n.row[3].z[0]);
     br_numbers_clear(&n);
@@ -138,6 +139,93 @@ TEST(test_lists)
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
     assert_false(br_lists(",", ""));
+}
+
+/* Tables as programs write them: the order of one column, and what was taken for what. */
+static const struct {
+    const char *file, *quantity;
+    double order;
+    const char *taken;
+} foreign[] = {
+    {"dealii.txt", "L2", 2,
+     "h = dofs^(-1/d) from column dofs, of a mesh in 2 dimensions (assumed: --dimension 3 makes the "
+     "orders 1.5 times as high, 1 half as high); errors: L2, H1; left aside: cycle, cells"},
+    {"dealii_org.txt", "L2 error", 2,
+     "h = dofs^(-1/d) from column dofs, of a mesh in 2 dimensions (assumed: --dimension 3 makes the "
+     "orders 1.5 times as high, 1 half as high); errors: L2 error; left aside: L2 rate, cells"},
+    {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler"},
+    {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r"},
+    {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error"},
+    {"gnuplot.dat", "H1", 1, "h = 1/n from column N; errors: L2, H1"},
+    {"latex.tex", "$\\|u-u_h\\|$", 2,
+     "h = 1/n from column $N$; errors: $\\|u-u_h\\|$; left aside: rate"},
+    {"markdown.md", "L2 error", 2, "h from column Mesh Size; errors: L2 error; left aside: eoc"},
+    {"mfem.txt", "H1 error", 1,
+     "h = 2^-level from column level; errors: L2 error, H1 error; left aside: time"},
+    {"moose.csv", "l2_error", 2,
+     "h from column h; errors: average, l2_error; left aside: time, number_of_elements"},
+    {"pandas.csv", "L2", 2, "h = 1/n from column N; errors: L2"},
+    {"pandas.txt", "L2", 2, "h = 1/n from column N; errors: L2"},
+    {"steps.csv", "L2", 1, "k from column Dt; errors: L2"},
+    {"trixi.txt", "rho_e error", 4,
+     "no column of the mesh, so h is assumed to halve from row to row (a column h or n states it); "
+     "errors: rho error, rho_v1 error, rho_e error; left aside: rho EOC, rho_v1 EOC, rho_e EOC"},
+};
+
+TEST(test_foreign_tables)
+{
+    for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
+        char path[200];
+        char *text = NULL;
+        struct br_orders o;
+        snprintf(path, sizeof path, "%s/tests/data/tables/%s", getenv("BEAMRATE_DATA"),
+                 foreign[i].file);
+        MUST(br_text_load(path, BR_LONGEST_TABLE, "table", &text, &err));
+        struct br_numbers n = read_with(text, &plain);
+        free(text);
+        assert_string_equal(n.taken, foreign[i].taken);
+        MUST(br_orders_find(&n, 2, &o, &err));
+        const struct br_estimate *order = NULL;
+        for (size_t q = 0; q < o.count; q++)
+            if (strcmp(n.quantity[q].name, foreign[i].quantity) == 0)
+                order = &o.of[q].line[0].observed.order;
+        if (!order || !(fabs(order->value - foreign[i].order) <= 0.02))
+            fail_msg("%s: %s: order %g, expected %g", foreign[i].file, foreign[i].quantity,
+                     order ? order->value : (double)NAN, foreign[i].order);
+        br_orders_clear(&o);
+        br_numbers_clear(&n);
+    }
+}
+
+/* A level halves h; words of time are no errors unless they are asked for; cells stand for n, and
+ * say so. */
+TEST(test_headings)
+{
+    struct br_numbers n = read_with("Refinement,cells,CPU time,L2\n0,8,1,3\n1,32,2,2\n2,128,4,1\n", &plain);
+    assert_int_equal(n.quantities, 1);
+    CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.25, 0);
+    br_numbers_clear(&n);
+    n = read_with("Elements,CPU time\n8,1\n16,2\n32,4\n", &(struct columns){"CPU time", NULL, 2});
+    assert_string_equal(n.quantity[0].name, "CPU time");
+    assert_non_null(strstr(n.taken, "counted along one side (if all cells of a mesh are counted"));
+    br_numbers_clear(&n);
+}
+
+/* Numbers as Fortran and Europe write them; and what is none. */
+TEST(test_numbers)
+{
+    double value;
+    assert_true(br_table_number("-1.5D-3", &value));
+    CLOSE(value, -1.5e-3, 0);
+    assert_true(br_table_number("0.25-103", &value));
+    CLOSE(value, 0.25e-103, 0);
+    assert_true(br_table_number("2.q+2", &value));
+    CLOSE(value, 200, 0);
+    assert_false(br_table_number("1-2-3", &value));
+    assert_false(br_table_number("d5", &value));
+    assert_false(br_table_number("", &value));
+    assert_true(br_is_missing("-") && br_is_missing("NaN") && br_is_missing("****"));
+    assert_false(br_is_missing("0") || br_is_missing("-1") || br_is_missing("name"));
 }
 
 static void refuse_table(char *row)

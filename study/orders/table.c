@@ -168,17 +168,13 @@ static bool is_number(const json_t *field, double *value)
     return br_is_missing(text) || br_table_number(text, value);
 }
 
-/* Whether a column has two different numbers; then all its fields must be numbers. Else it is no
- * error. */
-static bool has_numbers(const struct source *s, size_t column)
+/* Whether a column has a number; then all its fields must be numbers. Else it is not studied. */
+static bool has_number(const struct source *s, size_t column)
 {
-    double value, first = NAN;
+    double value;
     for (size_t i = 1; i <= s->rows; i++)
-        if (is_number(field_at(s, i, column), &value) && !isnan(value)) {
-            first = isnan(first) ? value : first;
-            if (value != first)
-                return true;
-        }
+        if (is_number(field_at(s, i, column), &value) && !isnan(value))
+            return true;
     return false;
 }
 
@@ -306,7 +302,7 @@ static bool is_studied(const struct source *s, size_t position)
     const char *name = heading(s, position);
     if (q->errors || q->values)
         return br_lists(q->errors, name) || br_lists(q->values, name);
-    return !is_of_run(name, OF_RUNS) && has_numbers(s, position);
+    return !is_of_run(name, OF_RUNS) && has_number(s, position);
 }
 
 /* Takes the unit out of a heading; *unit (out): in `buffer`, or NULL. */

@@ -36,6 +36,7 @@ struct br_case {
     const char *unit;               /* of the errors; "": not known; borrowed */
     struct br_point *point;         /* points, from coarse to fine; owned */
     size_t points, used;
+    bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
     double low99, high99; /* the order's 99 % interval: what lies outside is excluded */
     const char *law;      /* what explains the errors best, beside one power; NULL: one power */
