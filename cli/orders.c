@@ -235,12 +235,15 @@ const struct br_command br_command_orders = {
     .name = "orders",
     .arguments = "FILE",
     .title = "the orders of any program's errors or values",
-    .about = "The orders of convergence of numbers from any program: of a table in a file (CSV, "
-             "TSV; - is standard input), of a program that is run at each resolution "
+    .about = "The orders of convergence of numbers from any program: of a table in a file (- is "
+             "standard input), of a program that is run at each resolution "
              "(--run), or of a study file (.yaml) that says either.",
     .more =
-        "Columns h, n or dofs tell the mesh, k, dt or steps the time step; a unit may follow in "
-        "brackets. Errors get orders with 95 % intervals, along lines and jointly in h and k; "
+        "A table is read as programs write it: CSV, tabs, semicolons with decimal commas, blanks, "
+        "Markdown, LaTeX, lines of 'h = 0.1  e = 0.2', exponents of Fortran. Columns h, n, level "
+        "or dofs, or other usual names like dx, Mesh size, N, cells, ndofs, tell the mesh; k, dt, "
+        "nt or steps the time step; a unit may follow in brackets. A line says what was taken for "
+        "what. Columns of rates, times and iterations are left aside. Errors get orders with 95 % intervals, along lines and jointly in h and k; "
         "values get the limit, and the grid convergence index. Rows at a floor are left out by "
         "name. With --expect or 'verify:' there are verdicts, as 'check' has them.",
     .example = {"beamrate orders errors.csv --error l2,h1 --expect 'l2: h 2 +- 0.1'",

@@ -251,6 +251,7 @@ static enum br_status compare_sizes(struct source *s, enum br_axis axis, size_t 
 static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_error *err)
 {
     struct br_numbers *numbers = s->numbers;
+    char name[80];
     int rank = 0;
     const size_t best = best_of_axis(s, axis, &rank);
     if (!best)
@@ -265,7 +266,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
             return err->status;
     }
     br_append(numbers->taken, sizeof numbers->taken, "%s%s from column %s",
-              numbers->taken[0] ? ", " : "", column->states, heading(s, best));
+              numbers->taken[0] ? ", " : "", column->states,
+              br_quoted(name, sizeof name, &br_for_text, heading(s, best)));
     if (column->is_volume && s->request->assumed_dimension)
         br_append(numbers->taken, sizeof numbers->taken,
                   ", of a mesh in 2 dimensions (assumed: --dimension 3 makes the orders 1.5 times "
