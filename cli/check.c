@@ -19,13 +19,12 @@ struct item {
 
 struct run {
     struct br_session session;
-    bool all, fail_fast;
+    bool all;
     char **listed;     /* with --all: the bundled scenes; owned; NULL: the command line has them */
     struct item *item; /* room for `most` */
     size_t most;
     struct br_check *check; /* of the items that can be checked */
     size_t count;
-    size_t done; /* checks that have been run */
     double wall_seconds;
     struct br_verdicts verdicts;
 };
@@ -68,7 +67,7 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     struct item *item = &r->item[i];
     char *text = NULL;
     const char *dot = strrchr(name, '.');
-    if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0 || strcmp(dot, ".jsonl") == 0))
+    if (dot && (strcmp(dot, ".csv") == 0 || strcmp(dot, ".tsv") == 0))
         return br_fail(err, BR_BAD_INPUT,
                        "found the table %s, expected a scene or a study file (.yaml) that names "
                        "it; orders of a table: beamrate orders %s",
@@ -127,7 +126,7 @@ static enum br_status check_accepted(const struct run *r, struct br_error *err)
 
 static void announce(const struct run *r)
 {
-    struct br_foreseen work = {.together = !r->fail_fast};
+    struct br_foreseen work = {.together = true};
     for (const struct br_check *c = r->check; c < r->check + r->count; c++) {
         for (int kind = 0; kind < BR_VERIFY_KINDS && c->verify; kind++) {
             const size_t cells = c->verify->study[kind].count;
@@ -143,28 +142,12 @@ static void announce(const struct run *r)
 
 /* ---- computing ---- */
 
-static int by_work(const void *a, const void *b)
-{
-    const double x = br_check_work(a), y = br_check_work(b);
-    return (x > y) - (x < y);
-}
-
-static bool failed_so_far(const struct run *r)
-{
-    const struct br_check *first;
-    size_t orders = 0;
-    for (size_t i = 0; i < r->done; i++)
-        orders += r->check[i].count;
-    return br_check_tally(r->check, r->done, BR_PASS) < orders ||
-           br_check_failures(r->check, r->done, &first) > 0;
-}
-
-/* Runs the studies of other programs among `count` checks from `first` on. */
-static enum br_status run_studies(struct run *r, size_t first, size_t count,
-                                  const struct br_observer *observer, struct br_error *err)
+/* Runs the studies of other programs. */
+static enum br_status run_studies(struct run *r, const struct br_observer *observer,
+                                  struct br_error *err)
 {
     for (size_t i = 0; i < r->most; i++)
-        for (size_t c = first; c < first + count; c++) {
+        for (size_t c = 0; c < r->count; c++) {
             struct br_study_file *study = &r->item[i].study;
             if (!study->request.path || r->check[c].path != study->request.path)
                 continue;
@@ -175,21 +158,13 @@ static enum br_status run_studies(struct run *r, size_t first, size_t count,
     return BR_OK;
 }
 
-/* Runs the checks: with --fail-fast one after the other, the cheapest first; else all at once. */
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const size_t at_once = r->fail_fast ? 1 : r->count;
-    if (r->fail_fast)
-        qsort(r->check, r->count, sizeof *r->check, by_work);
     const struct br_observer *observer = br_progress_start("checking", r->session.quiet);
-    enum br_status status = BR_OK;
-    while (r->done < r->count && !status && !(r->fail_fast && failed_so_far(r))) {
-        status = run_studies(r, r->done, at_once, observer, err);
-        if (!status)
-            status = br_check_run(&r->check[r->done], at_once, r->session.threads, observer, err);
-        r->done += status ? 0 : at_once;
-    }
+    enum br_status status = run_studies(r, observer, err);
+    if (!status)
+        status = br_check_run(r->check, r->count, r->session.threads, observer, err);
     br_progress_end();
     r->wall_seconds = br_seconds() - start;
     return br_progress_result(status, err);
@@ -201,14 +176,12 @@ static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_check_findings findings = {
         .checks = r->check,
-        .count = r->done,
-        .stopped = r->done < r->count,
+        .count = r->count,
         .wall_seconds = r->wall_seconds,
     };
     if (br_session_report(&r->session, 1, err))
         return err->status;
-    return br_verdicts_finish(&r->verdicts, &r->session, &findings, r->all && r->done == r->count,
-                              err);
+    return br_verdicts_finish(&r->verdicts, &r->session, &findings, r->all, err);
 }
 
 /* Prepares what the reports need, so that a failure comes before the long computation. */
@@ -244,8 +217,7 @@ static enum br_status run(const struct br_options *options, struct br_error *err
 {
     static struct run r;
     r = (struct run){.session = br_session_begin(options),
-                     .all = br_option_given(options, BR_OPT_ALL),
-                     .fail_fast = br_option_given(options, BR_OPT_FAIL_FAST)};
+                     .all = br_option_given(options, BR_OPT_ALL)};
     if (r.all == (options->words > 0))
         return br_fail(
             err, BR_BAD_INPUT,

@@ -98,7 +98,7 @@ static void print_users(FILE *out, size_t i)
     const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
     const char *between = " ";
-    if (!br_method_field_depends(f))
+    if (!f->help || !br_method_field_depends(f))
         return;
     fprintf(out, "  --%-21s --%s", br_method_fields[i].name, br_method_fields[f->by].name);
     for (size_t row = 0; by->words->name(row); row++) {
@@ -136,19 +136,22 @@ static void print_methods(FILE *out)
 
 /* ---- the command ---- */
 
+/* The topics besides the commands. */
+static const char *const others[] = {"methods", "man", "markdown", NULL};
+
 static enum br_status run(const struct br_options *o, struct br_error *err)
 {
-    const bool man = br_option_given(o, BR_OPT_MAN), markdown = br_option_given(o, BR_OPT_MARKDOWN);
-    if (man + markdown + (o->words > 0) > 1)
-        return br_fail(err, BR_BAD_INPUT, "expected one of: a topic, --man, --markdown");
-    if (man || markdown)
-        br_write_language(stdout, man ? "man" : "markdown", NULL);
-    else if (!o->words)
+    (void)err;
+    const char *topic = o->words ? o->word[0] : "";
+    const struct br_command *command = br_find_command(topic);
+    if (command)
+        br_print_command_help(stdout, command);
+    else if (!*topic)
         print_commands(stdout);
-    else if (strcmp(o->word[0], "methods") == 0)
+    else if (strcmp(topic, others[0]) == 0)
         print_methods(stdout);
     else
-        br_print_command_help(stdout, br_find_command(o->word[0]));
+        br_write_language(stdout, topic, NULL);
     return BR_OK;
 }
 
@@ -157,7 +160,7 @@ static const char *topic(size_t row)
     size_t count = 0;
     while (br_commands[count])
         count++;
-    return row < count ? br_commands[row]->name : row == count ? "methods" : NULL;
+    return row < count ? br_commands[row]->name : others[row - count];
 }
 
 static const struct br_words topics = {topic, NULL, NULL};
@@ -169,7 +172,7 @@ const struct br_command br_command_help = {
     .title = "the commands, one of them, or the methods",
     .about =
         "Without a TOPIC the commands; with one a command's options, or with 'methods' all that "
-        "may be chosen by name.",
+        "may be chosen by name, with 'man' the manual page, with 'markdown' docs/options.md.",
     .example = {"beamrate help", "beamrate help run", "beamrate help methods"},
     .most_words = 1,
     .words = &topics,

@@ -379,7 +379,7 @@ static const struct language languages[] = {
         .name = "man",
         .quoting = &for_roff,
         .head = ".\\\" SPDX-License-Identifier: GPL-3.0-or-later\n"
-                ".\\\" Written by 'beamrate help --man'.\n"
+                ".\\\" Written by 'beamrate help man'.\n"
                 ".TH BEAMRATE 1 2026 \"beamrate %x\" \"User Commands\"\n.SH NAME\n"
                 "beamrate \\- convergence studies of the dynamic frictional contact of a "
                 "viscoelastic beam\n.SH SYNOPSIS\n"
@@ -400,7 +400,7 @@ static const struct language languages[] = {
     {
         .name = "markdown",
         .quoting = &for_page,
-        .head = "# Options\n\nWritten by `beamrate help --markdown`. `T` is the duration of the "
+        .head = "# Options\n\nWritten by `beamrate help markdown`. `T` is the duration of the "
                 "scene: `--k T/100` makes 100 steps.\n",
         .command = "\n## beamrate %c{ %s}\n\n%B{ %M}\n\n",
         .examples = "```sh\n",

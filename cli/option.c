@@ -232,8 +232,7 @@ static enum br_status read_rest(poptContext context, struct br_options *o, struc
     for (; o->words < given; o->words++) {
         size_t row;
         const char *text = word[o->words];
-        if (c->words && !c->or_scenes &&
-            br_words_read(c->words, text, strlen(text), &row, err))
+        if (c->words && !c->or_scenes && br_words_read(c->words, text, strlen(text), &row, err))
             return err->status;
         if (!(o->word[o->words] = strdup(text)))
             return br_no_memory(err, "the options");
@@ -301,7 +300,7 @@ const char *br_first_given(const struct br_options *o, const enum br_option_id *
 {
     while (*list != BR_OPTIONS && !o->given[*list])
         list++;
-    return *list == BR_OPTIONS ? NULL : br_option_of(o->command, *list)->name;
+    return *list == BR_OPTIONS ? NULL : br_option_name(*list);
 }
 
 const char *br_option_text(const struct br_options *o, enum br_option_id id)

@@ -31,26 +31,20 @@ enum br_option_id {
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,
-    BR_OPT_REFERENCE_SOLVER,
     BR_OPT_NORM,
     BR_OPT_METHODS,
     BR_OPT_TOLERANCES,
     BR_OPT_SPLIT,
     BR_OPT_ERROR,
     BR_OPT_SECONDS,
-    BR_OPT_REPEATS,
     BR_OPT_TIME_LIMIT,
     BR_OPT_FIELDS,
     BR_OPT_CHECK,
-    BR_OPT_ENERGIES,
     BR_OPT_AT,
-    BR_OPT_EVERY,
     BR_OPT_ROWS,
-    BR_OPT_RATES,
     BR_OPT_ANIMATE,
     BR_OPT_ALL,
     BR_OPT_COMPARE,
-    BR_OPT_FAIL_FAST,
     BR_OPT_JUNIT,
     BR_OPT_JSON,
     BR_OPT_GITHUB,
@@ -64,12 +58,10 @@ enum br_option_id {
     BR_OPT_READ,
     BR_OPT_EXPECT,
     BR_OPT_TRUST,
-    BR_OPT_KEEP,
     BR_OPT_RESUME,
     BR_OPT_ROUNDING,
     BR_OPT_NEW,
     BR_OPT_SCHEMA,
-    BR_OPT_MAN,
     BR_OPT_OUT,
     BR_OPT_FORMAT,
     BR_OPT_NO_PLOTS,
@@ -95,6 +87,14 @@ enum br_option_kind {
     BR_TAKES_METHOD, /* a field of the method */
 };
 
+/* What a row has of its own for some of the commands that take it. */
+struct br_own {
+    unsigned commands;                             /* 0: the end of the list */
+    const char *standard, *argument, *help, *more; /* NULL: as in the row */
+    enum br_option_kind kind;                      /* BR_TAKES_FLAG: kind and range as in the row */
+    struct br_number_range range;
+};
+
 struct br_option {
     enum br_option_id id;
     const char *name; /* without -- */
@@ -105,9 +105,10 @@ struct br_option {
     enum br_option_kind kind;
     struct br_number_range range;
     const struct br_words *words;
-    unsigned commands; /* that take it */
-    const char *more;  /* sentences for the manual; NULL: none */
-    bool repeats;      /* it may be given several times: its text has a line for each */
+    unsigned commands;        /* that take it */
+    const char *more;         /* sentences for the manual; NULL: none */
+    bool repeats;             /* it may be given several times: its text has a line for each */
+    const struct br_own *own; /* NULL: all commands have the same */
 };
 
 struct br_command;
@@ -115,8 +116,8 @@ struct br_command;
 /* The rows that a command takes, in the help's order (out); returns how many. */
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS]);
 
-/* The row of an option that is no method's; NULL: the command does not take it. */
-const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id);
+/* The name of an option that is no method's. */
+const char *br_option_name(enum br_option_id id);
 
 /* The default as the help shows it, or NULL. text: workspace. */
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE]);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options, a row each. An option that commands take with different defaults or arguments has a
- * row for each of these. */
+/* The options, a row each, and what single commands have of their own: defaults, limits, words. */
 #include <fenv.h>
 #include <math.h>
 
@@ -59,22 +58,19 @@ enum {
         low, high, false   \
     }
 
-static const char meshes[] = "elements of the meshes",
-                  steps[] = "time steps, s, or T/100, T: duration",
-                  counts[] = "numbers of time steps, instead of --k",
-                  folder[] = "folder of the results",
-                  methods[] = "methods, by names like bdf2+implicit ('beamrate help methods')",
-                  repeats[] = "timed marches of a trial after a warm-up, at most",
-                  limit[] = "longest march and set-up, s",
-                  quiet[] = "no progress, no report on the terminal";
-static const char
-    meshes_more[] = "Each must divide a fine reference's.",
-    steps_more[] = "Each must divide the duration, and be a multiple of a fine "
-                   "reference's.",
-    names_more[] = "A name is made of words joined by +, in any order, at most one of a kind: a "
-                   "time scheme, a contact rule, a friction rule, a linear solver, p1 or p2 (the "
-                   "degree of the axial elements), scaled and refined (for a solver that heeds "
-                   "it): euler+lagged, bdf2+uzawa, bdf2+umfpack+scaled.";
+static const char nests[] = "Each must divide a fine reference's.",
+                  divides[] = "Each must divide the duration, and be a multiple of a fine "
+                              "reference's.";
+static const char folder[] = "folder of the results";
+
+#define OWN(...)                   \
+    .own = (const struct br_own[]) \
+    {                              \
+        __VA_ARGS__,               \
+        {                          \
+            0                      \
+        }                          \
+    }
 
 static const struct br_option rows[] = {
     /* orders: the numbers of any program */
@@ -87,95 +83,60 @@ static const struct br_option rows[] = {
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "May be given several times.",
      .repeats = true},
-    {BR_OPT_N, "n", 'n', "LIST", "numbers of elements, for --run", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_ORDERS},
+
+    /* what is marched, or run */
+    {BR_OPT_N, "n", 'n', "LIST", "elements of the mesh", NULL, BR_TAKES_COUNTS,
+     .commands =
+         BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS,
+     OWN({BR_FOR_TABLES, .standard = "100,200,400,800,1600,3200", .more = nests},
+         {BR_FOR_STUDY, .standard = "25,50,100,200", .more = nests},
+         {BR_FOR_RUN, .standard = "100", .argument = "COUNT", .kind = BR_TAKES_NUMBER,
+          .range = WHOLE(1, 1e9)},
+         {BR_FOR_ORDERS, .kind = BR_TAKES_TEXT})},
     {BR_OPT_DOFS, "dofs", 0, "LIST", "numbers of unknowns, instead of --n", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_ORDERS},
-    {BR_OPT_K, "k", 'k', "LIST", "time steps, for --run", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_ORDERS},
-    {BR_OPT_STEPS, "steps", 0, "LIST", counts, NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
-    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all columns of numbers)",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
-    {BR_OPT_VALUE, "value", 0, "LIST", "columns, or readings, whose limit is not known", NULL,
-     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
-    {BR_OPT_DIMENSION, "dimension", 0, "D", "of the mesh, for numbers of unknowns", "2",
-     BR_TAKES_NUMBER, WHOLE(1, 16), .commands = BR_FOR_ORDERS},
-    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", "2", BR_TAKES_NUMBER,
-     BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
-     .more = "For the least squares of Eca and Hoekstra, 1 to 10."},
-    {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
-     .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
-    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run of the program", "600",
-     BR_TAKES_NUMBER, BETWEEN(0, 1e9), .commands = BR_FOR_ORDERS},
-    {BR_OPT_KEEP, "keep", 0, "DIR", "folder in which finished runs are kept, for --resume",
-     "orders-kept", BR_TAKES_DIR, .commands = BR_FOR_ORDERS},
-    {BR_OPT_RESUME, "resume", 0, NULL, "take runs that are kept, instead of running them again",
-     NULL, BR_TAKES_FLAG, .commands = BR_FOR_ORDERS,
-     .more =
-         "After an interruption, or for a larger grid. A run is the same where its words, its "
-         "program and the files that its words name are. What the program reads or starts besides "
-         "is not seen: do not give it when that has changed."},
-    {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
-     .more = "Needed once for each study file with a command, and again when it has changed."},
-    {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
-     BR_TAKES_DIR, .commands = BR_FOR_ORDERS | BR_FOR_CHECK},
-
-    /* what is marched */
-    {BR_OPT_N, "n", 'n', "LIST", meshes, "100,200,400,800,1600,3200", BR_TAKES_COUNTS,
-     .commands = BR_FOR_TABLES, .more = meshes_more},
-    {BR_OPT_N, "n", 'n', "LIST", meshes, "25,50,100,200", BR_TAKES_COUNTS, .commands = BR_FOR_STUDY,
-     .more = meshes_more},
-    {BR_OPT_N, "n", 'n', "COUNT", "elements", "100", BR_TAKES_NUMBER, WHOLE(1, 1e9),
-     .commands = BR_FOR_RUN},
-    {BR_OPT_N, "n", 'n', "LIST", meshes, NULL, BR_TAKES_COUNTS,
-     .commands = BR_FOR_TRADE | BR_FOR_EXTREMES},
-    {BR_OPT_K, "k", 'k', "LIST", steps, "0.01,0.005,0.002,0.001,0.0005,0.0001", BR_TAKES_TIMES,
-     .commands = BR_FOR_TABLES, .more = steps_more},
-    {BR_OPT_K, "k", 'k', "LIST", steps, "T/100,T/200,T/400,T/800", BR_TAKES_TIMES,
-     .commands = BR_FOR_STUDY, .more = steps_more},
-    {BR_OPT_K, "k", 'k', "TIME", "time step, s, or T/100, T: duration", "T/1000", BR_TAKES_TIMES,
-     .commands = BR_FOR_RUN},
-    {BR_OPT_K, "k", 'k', "LIST", steps, NULL, BR_TAKES_TIMES,
-     .commands = BR_FOR_TRADE | BR_FOR_EXTREMES},
-    {BR_OPT_STEPS, "steps", 0, "LIST", counts, NULL, BR_TAKES_COUNTS,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE},
-    {BR_OPT_STEPS, "steps", 0, "COUNT", "number of time steps, instead of --k", NULL,
-     BR_TAKES_NUMBER, WHOLE(1, 1e12), .commands = BR_FOR_RUN},
+    {BR_OPT_K, "k", 'k', "LIST", "time steps, s, or T/100, T: duration", NULL, BR_TAKES_TIMES,
+     .commands =
+         BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS,
+     OWN({BR_FOR_TABLES, .standard = "0.01,0.005,0.002,0.001,0.0005,0.0001", .more = divides},
+         {BR_FOR_STUDY, .standard = "T/100,T/200,T/400,T/800", .more = divides},
+         {BR_FOR_RUN, .standard = "T/1000", .argument = "TIME"},
+         {BR_FOR_ORDERS, .help = "time steps", .kind = BR_TAKES_TEXT})},
+    {BR_OPT_STEPS, "steps", 0, "LIST", "numbers of time steps, instead of --k", NULL,
+     BR_TAKES_COUNTS,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_ORDERS,
+     OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)},
+         {BR_FOR_ORDERS, .kind = BR_TAKES_TEXT})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what the cells are judged by: exact, fine:N,K, mms or none", "fine:12800,1e-5", BR_TAKES_TEXT,
-     .words = &br_judge_words, .commands = BR_FOR_TABLES,
-     .more = "The exact solution stands beside it."},
-    {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what the cells are judged by: exact (default), fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
-     .words = &br_judge_words, .commands = BR_FOR_STUDY,
+     "what errors are measured against: exact, fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
+     .words = &br_judge_words,
+     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more =
+         "exact is the default; mms that of a scene which was manufactured from a solution. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is then "
-         "measured against the exact solution. mms is the default for a scene that was "
-         "manufactured from a solution. With none each cell is compared with the same scheme on "
+         "measured against the exact solution. With none each cell is compared with the same scheme on "
          "the next finer mesh and with the next smaller time step, which makes two reports, "
-         "NAME-meshes and NAME-steps."},
-    {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "judge of the errors: exact (default), mms, or fine:N,K by the scheme of the highest order",
-     NULL, BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_TRADE},
-    {BR_OPT_REFERENCE, "reference", 0, "NAME", "judge of the errors: exact (default) or mms", NULL,
-     BR_TAKES_TEXT, .words = &br_judge_words, .commands = BR_FOR_PLAN},
-    {BR_OPT_REFERENCE_SOLVER, "reference-solver", 0, "NAME",
-     "that of the reference, where it differs", NULL, BR_TAKES_WORD,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY},
-    {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error, one table each", "l2", BR_TAKES_WORD_LIST,
-     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY,
-     .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip."},
-    {BR_OPT_NORM, "norm", 0, "LIST", "norm of the error; with --split a list", "l2",
-     BR_TAKES_WORD_LIST, .words = &br_norm_words, .commands = BR_FOR_TRADE},
-    {BR_OPT_NORM, "norm", 0, "NAME", "norm of the error", "l2", BR_TAKES_WORD,
-     .words = &br_norm_words, .commands = BR_FOR_PLAN},
-    {BR_OPT_METHODS, "methods", 0, "LIST", methods, NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_TRADE | BR_FOR_EXTREMES, .more = names_more},
-    {BR_OPT_METHODS, "methods", 0, "LIST", methods, NULL, BR_TAKES_TEXT, .commands = BR_FOR_PLAN,
-     .more = "By default all time schemes."},
-    {BR_OPT_TOLERANCES, "tolerances", 0, "LIST", "tolerances of schemes that choose their steps",
+         "NAME-meshes and NAME-steps.",
+     OWN({BR_FOR_TABLES, .standard = "fine:12800,1e-5",
+          .more = "The exact solution stands beside it."},
+         {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
+                                "order; none is not taken."},
+         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K and none are not taken."})},
+    {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
+     .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
+     .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",
+     OWN({BR_FOR_TRADE, .more = "One; several with --split."},
+         {BR_FOR_PLAN, .argument = "NAME", .kind = BR_TAKES_WORD})},
+    {BR_OPT_METHODS, "methods", 0, "LIST",
+     "methods, by names like bdf2+implicit ('beamrate help methods')", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .more =
+         "A name is made of words joined by +, in any order, at most one of a kind: a time "
+         "scheme, a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the "
+         "axial elements), scaled and refined (for a solver that heeds it): euler+lagged, "
+         "bdf2+uzawa, bdf2+umfpack+scaled.",
+     OWN({BR_FOR_PLAN, .more = "By default all time schemes."})},
+    {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
     {BR_OPT_SPLIT, "split", 0, NULL,
      "where the error of each run comes from, instead (one run: n = 100, T/1000)", NULL,
@@ -188,28 +149,35 @@ static const struct br_option rows[] = {
          "the tip with their signs as numbers. A part below its floor cannot be told. One "
          "scene; by default the first scheme. With several k or n a plot shows the parts over "
          "them."},
-    {BR_OPT_ERROR, "error", 0, "E", "relative error that is wanted, at most", NULL, BR_TAKES_NUMBER,
-     BETWEEN(0, 1), .commands = BR_FOR_PLAN,
-     .more = "The norm of the error over the norm of the solution."},
-    {BR_OPT_SECONDS, "seconds", 0, "S", "or seconds of a march, set-up included, at most", NULL,
-     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
-    {BR_OPT_SECONDS, "seconds", 0, "S",
-     "what the trials of a scene may take, about; the dearest are left out", "30", BR_TAKES_NUMBER,
-     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
-     .more =
-         "Where -n, -k, --steps or --tolerances say what is tried, nothing is left out unless it "
-         "is given."},
-    {BR_OPT_REPEATS, "repeats", 0, "COUNT", repeats, "3", BR_TAKES_NUMBER, WHOLE(1, 1000),
-     .commands = BR_FOR_TRADE | BR_FOR_PLAN, .more = "Marches of more than 0.1 s are made once."},
-    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "10", BR_TAKES_NUMBER,
-     BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE,
-     .more = "One that will surely take longer is ended early, and is shown as such."},
-    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", limit, "60", BR_TAKES_NUMBER,
-     BETWEEN(0, INFINITY), .commands = BR_FOR_PLAN},
 
-    {BR_OPT_RATES, "rates", 0, NULL, "the slope of every row and column of the table, too", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY,
-     .more = "An order only where one of the errors, in h or in k, is far larger than the other."},
+    /* what is wanted of numbers, what a march may take */
+    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all columns of numbers)",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
+     OWN({BR_FOR_PLAN, .argument = "E", .help = "relative error that is wanted, at most",
+          .more = "The norm of the error over the norm of the solution.", .kind = BR_TAKES_NUMBER,
+          .range = BETWEEN(0, 1)})},
+    {BR_OPT_VALUE, "value", 0, "LIST", "columns, or readings, whose limit is not known", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
+    {BR_OPT_DIMENSION, "dimension", 0, "D", "of the mesh, for numbers of unknowns", "2",
+     BR_TAKES_NUMBER, WHOLE(1, 16), .commands = BR_FOR_ORDERS},
+    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", "2", BR_TAKES_NUMBER,
+     BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
+     .more = "For the least squares of Eca and Hoekstra, 1 to 10."},
+    {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+     .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
+    {BR_OPT_SECONDS, "seconds", 0, "S", "seconds of a march, set-up included, at most", NULL,
+     BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE | BR_FOR_PLAN,
+     OWN({BR_FOR_TRADE, .standard = "30",
+          .help = "seconds that the trials of a scene may take, about",
+          .more = "The dearest are left out. Where -n, -k, --steps or --tolerance say what is "
+                  "tried, nothing is left out unless it is given."})},
+    {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
+     NULL, BR_TAKES_NUMBER, BETWEEN(0, 1e10),
+     .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_ORDERS,
+     OWN({BR_FOR_TRADE, .standard = "10",
+          .more = "One that will surely take longer is ended early, and is shown as such."},
+         {BR_FOR_PLAN, .standard = "60"}, {BR_FOR_ORDERS, .standard = "600"})},
 
     /* what `run` shows */
     {BR_OPT_FIELDS, "fields", 0, "LIST",
@@ -224,35 +192,28 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_FLAG, .commands = BR_FOR_RUN,
      .more = "Recomputes the residuals and laws of every step from nodal values, stage by stage, "
              "with code that the solver does not share."},
-    {BR_OPT_ENERGIES, "energies", 0, NULL, "the energy balance alone", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_RUN},
-    {BR_OPT_OUT, "out", 'o', "DIR", "folder for history.csv, the fields and the summary", NULL,
-     BR_TAKES_DIR, .commands = BR_FOR_RUN,
-     .more =
-         "history.csv has the tip, in SI units; fields.csv and fields.xdmf (for ParaView) have the "
-         "fields; summary.txt, summary.json and report.html what the terminal shows."},
-    {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_RUN},
-    {BR_OPT_EVERY, "every", 0, "TIME", "the same, from 0 on, so far apart (default T/10)", NULL,
-     BR_TAKES_TEXT, .commands = BR_FOR_RUN},
+    {BR_OPT_AT, "at", 0, "LIST", "times of the fields, multiples of k, or 'every:TIME' from 0 on",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},
     {BR_OPT_ANIMATE, "animate", 0, "FILE",
-     "a moving picture: a .gif, .webp or .mp4 (by ffmpeg), or a folder (NAME/) of PNG frames", NULL,
+     "a moving picture, a .gif", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_RUN,
      .more = "Beam, obstacle, contact and friction force with its bound, at most about 120 frames, "
              "with script and data beside it. Where it cannot be drawn, the exit code is 3; the "
              "results are written before."},
-    {BR_OPT_JSON, "json", 0, "FILE", "the summary for programs; - is standard output", NULL,
-     BR_TAKES_FILE, .commands = BR_FOR_RUN},
 
-    /* what `check` writes: the formats but for the text */
+    /* what `check` takes and writes: the formats but for the text */
+    {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,
+     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+     .more = "Needed once for each study file with a command, and again when it has changed."},
     {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
     {BR_OPT_JSON, "json", 0, "FILE", "everything, for programs and for --compare", NULL,
-     BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
+     BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS | BR_FOR_RUN,
+     OWN({BR_FOR_RUN, .help = "everything, for programs; - is standard output"})},
     {BR_OPT_GITHUB, "github", 0, "FILE", "annotations of what did not pass, for GitHub's pages",
      NULL, BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
      .more = "GitHub reads them from a job's output: /dev/stderr leaves the report where it is."},
@@ -266,9 +227,6 @@ static const struct br_option rows[] = {
     {BR_OPT_UPDATE_BASELINE, "update-baseline", 0, NULL,
      "write what was found into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not be there yet."},
-    {BR_OPT_FAIL_FAST, "fail-fast", 0, NULL,
-     "one scene after the other, the cheapest first, until one fails", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_CHECK},
 
     /* extremes */
     {BR_OPT_ROUNDING, "rounding", 0, "MODE",
@@ -276,7 +234,7 @@ static const struct br_option rows[] = {
      .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
      .more = "Not of their judges."},
 
-    /* scenes, help */
+    /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_SCENES,
      .more =
@@ -285,36 +243,39 @@ static const struct br_option rows[] = {
     {BR_OPT_SCHEMA, "schema", 0, NULL,
      "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_SCENES},
-    {BR_OPT_MAN, "man", 0, NULL, "print the manual page", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_HELP},
-    {BR_OPT_MARKDOWN, "markdown", 0, NULL, "print docs/options.md", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_HELP},
 
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
-     NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE,
+     NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_ORDERS,
      .more = "After an interruption, or for a larger grid: finished cells and trials are "
              "kept in DIR/.kept, and only the others are marched. What another version of the "
-             "program or another machine has kept is not taken."},
+             "program or another machine has kept is not taken.",
+     OWN({BR_FOR_ORDERS,
+          .more =
+              "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
+              "or in orders-kept without --out. A run is the same where its words, its program "
+              "and the files that its words name are. What the program reads or starts besides "
+              "is not seen: do not give it when that has changed."})},
 
     /* what varies */
     {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
      "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_STUDY | BR_FOR_RUN,
-     .more = "KEY is a key of the scene whose value is a number, with its section: length, "
-             "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
-             "separated by commas, in the key's unit or in one that stands behind them, 1000 at "
-             "most. Each value is read as if it stood in the scene. Out come a table and a picture over the values."},
+     .more =
+         "KEY is a key of the scene whose value is a number, with its section: length, "
+         "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
+         "separated by commas, in the key's unit or in one that stands behind them, 1000 at "
+         "most. Each value is read as if it stood in the scene. Out come a table and a picture over the values."},
 
     /* for all */
-    {BR_OPT_OUT, "out", 'o', "DIR", folder, "results", BR_TAKES_DIR,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY},
-    {BR_OPT_OUT, "out", 'o', "DIR", folder, "trade", BR_TAKES_DIR, .commands = BR_FOR_TRADE},
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
-     BR_TAKES_DIR, .commands = BR_FOR_PLAN},
-    {BR_OPT_OUT, "out", 'o', "DIR", folder, "extremes", BR_TAKES_DIR, .commands = BR_FOR_EXTREMES},
-    {BR_OPT_OUT, "out", 'o', "DIR", folder, "figures", BR_TAKES_DIR, .commands = BR_FOR_FIGURES},
+     BR_TAKES_DIR,
+     .commands =
+         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
+     OWN({BR_FOR_TABLES | BR_FOR_STUDY, .standard = "results", .help = folder},
+         {BR_FOR_TRADE, .standard = "trade", .help = folder},
+         {BR_FOR_EXTREMES, .standard = "extremes", .help = folder},
+         {BR_FOR_FIGURES, .standard = "figures", .help = folder})},
     {BR_OPT_FORMAT, "format", 0, "LIST", "formats to write (default: all)", NULL,
      BR_TAKES_WORD_LIST, .words = &br_format_words,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES |
@@ -327,25 +288,43 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_PLAN |
                  BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
      .more = "The results have the same bits on any number."},
-    {BR_OPT_QUIET, "quiet", 'q', NULL, quiet, NULL, BR_TAKES_FLAG,
-     .commands = MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES |
-                 BR_FOR_ORDERS},
+    {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
+     BR_TAKES_FLAG,
+     .commands =
+         MARCHES | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS},
     {BR_OPT_HELP, "help", 'h', NULL, "this help", NULL, BR_TAKES_FLAG, .commands = ~0u},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
+
+/* The row as a command takes it. */
+static struct br_option row_of(struct br_option row, const struct br_command *command)
+{
+    const struct br_own *own = row.own;
+    while (own && own->commands && !(own->commands & command->bit))
+        own++;
+    if (!own || !own->commands)
+        return row;
+    row.standard = own->standard ? own->standard : row.standard;
+    row.argument = own->argument ? own->argument : row.argument;
+    row.help = own->help ? own->help : row.help;
+    row.more = own->more ? own->more : row.more;
+    if (own->kind != BR_TAKES_FLAG) {
+        row.kind = own->kind;
+        row.range = own->range;
+    }
+    return row;
+}
 
 size_t br_options_of(const struct br_command *command, struct br_option row[BR_OPTIONS])
 {
     size_t count = 0;
     for (size_t i = 0; i < ROWS; i++)
-        if (rows[i].commands & command->bit) {
-            row[count] = rows[i];
-            if (rows[i].id == BR_OPT_REFERENCE_SOLVER)
-                row[count].words = br_method_fields[BR_METHOD_SOLVER].words;
-            count++;
-        }
+        if (rows[i].commands & command->bit)
+            row[count++] = row_of(rows[i], command);
     for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
+        if (!f->help)
+            continue;
         row[count++] = (struct br_option){.id = (enum br_option_id)(BR_OPT_METHOD + i),
                                           .name = f->name,
                                           .argument = f->argument,
@@ -358,12 +337,12 @@ size_t br_options_of(const struct br_command *command, struct br_option row[BR_O
     return count;
 }
 
-const struct br_option *br_option_of(const struct br_command *command, enum br_option_id id)
+const char *br_option_name(enum br_option_id id)
 {
-    for (size_t i = 0; i < ROWS; i++)
-        if (rows[i].id == id && rows[i].commands & command->bit)
-            return &rows[i];
-    return NULL;
+    size_t i = 0;
+    while (rows[i].id != id)
+        i++;
+    return rows[i].name;
 }
 
 const char *br_option_default(const struct br_option *row, char text[BR_METHOD_VALUE])

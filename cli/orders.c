@@ -15,6 +15,7 @@ struct run {
     struct br_study_file study;
     struct br_check check;
     struct br_verdicts verdicts;
+    char kept[1100]; /* the folder of finished runs */
     double wall_seconds;
 };
 
@@ -54,11 +55,12 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
                                    struct br_error *err)
 {
     static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_DOFS,       BR_OPT_K,
-                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT, BR_OPT_KEEP,
+                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT,
                                                 BR_OPT_RESUME, BR_OPTIONS};
     static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
+    q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
     if (unused)
@@ -149,6 +151,10 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     const bool failed = br_verdicts_open(&r->verdicts, o, &r->check, 1, err) ||
                         br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
                         br_session_open(&r->session, err);
+    const bool open = br_output_is_open(&r->session.output);
+    snprintf(r->kept, sizeof r->kept, open ? "%s/.kept" : "%sorders-kept",
+             open ? r->session.output.folder : "");
+    r->study.request.kept = r->kept;
     return failed ? err->status : BR_OK;
 }
 
@@ -229,12 +235,15 @@ const struct br_command br_command_orders = {
     .name = "orders",
     .arguments = "FILE",
     .title = "the orders of any program's errors or values",
-    .about = "The orders of convergence of numbers from any program: of a table in a file (CSV, "
-             "TSV, JSON lines; - is standard input), of a program that is run at each resolution "
+    .about = "The orders of convergence of numbers from any program: of a table in a file (- is "
+             "standard input), of a program that is run at each resolution "
              "(--run), or of a study file (.yaml) that says either.",
     .more =
-        "Columns h, n or dofs tell the mesh, k, dt or steps the time step; a unit may follow in "
-        "brackets. Errors get orders with 95 % intervals, along lines and jointly in h and k; "
+        "A table is read as programs write it: CSV, tabs, semicolons with decimal commas, blanks, "
+        "Markdown, LaTeX, lines of 'h = 0.1  e = 0.2', exponents of Fortran. Columns h, n, level "
+        "or dofs, or other usual names like dx, Mesh size, N, cells, ndofs, tell the mesh; k, dt, "
+        "nt or steps the time step; a unit may follow in brackets. A line says what was taken for "
+        "what. Columns of rates, times and iterations are left aside. Errors get orders with 95 % intervals, along lines and jointly in h and k; "
         "values get the limit, and the grid convergence index. Rows at a floor are left out by "
         "name. With --expect or 'verify:' there are verdicts, as 'check' has them.",
     .example = {"beamrate orders errors.csv --error l2,h1 --expect 'l2: h 2 +- 0.1'",

@@ -2,7 +2,6 @@
 #include "cli/run.h"
 
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/progress.h"
@@ -14,17 +13,17 @@ enum { FRAMES = 120, MOST_ELEMENTS = 20000, ROWS = 2000 };
 
 /* ---- where the movie goes ---- */
 
-/* Splits dir/name.gif into folder and stem; frames are called frame-0001.png in their folder. */
+static const char extension[] = ".gif";
+
+/* Splits dir/name.gif into folder and stem. */
 static enum br_status split(struct br_pictures *p, char *folder, size_t size, struct br_error *err)
 {
     const char *file = p->animate;
     const char *slash = strrchr(file, '/'), *name = slash ? slash + 1 : file;
-    if (p->format->frames && !p->format->film) {
-        snprintf(folder, size, "%s", file);
-        snprintf(p->stem, sizeof p->stem, "frame");
-        return BR_OK;
-    }
-    const int length = (int)(strlen(name) - strlen(p->format->extension));
+    const int length = (int)strlen(name) - (int)strlen(extension);
+    if (length < 0 || strcmp(name + length, extension) != 0)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--animate: found '%s', expected a name that ends with %s", file, extension);
     snprintf(folder, size, "%.*s", slash ? (int)(slash - file) : 1, slash ? file : ".");
     if (slash == file)
         snprintf(folder, size, "/");
@@ -35,41 +34,6 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
                          "--animate: found '%s', expected a file's name that begins with "
                          "a letter or digit, with no others but blanks and _ . - +",
                          file);
-}
-
-static enum br_status choose_format(struct br_pictures *p, struct br_error *err)
-{
-    const char *file = p->animate;
-    struct stat info;
-    const bool folder = stat(file, &info) == 0 && S_ISDIR(info.st_mode);
-    p->format = br_movie_format_of(folder ? "/" : file);
-    if (p->format)
-        return BR_OK;
-    char known[256] = "";
-    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++)
-        br_append(known, sizeof known, "%s%s (%s)", *known ? ", " : "", f->extension, f->title);
-    return br_fail(err, BR_BAD_INPUT, "--animate: found '%s', expected a name that ends with: %s",
-                   file, known);
-}
-
-static enum br_status check_programs(struct br_pictures *p, struct br_error *err)
-{
-    if (p->format->film && !br_film_can_be_made())
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "--animate: found '%s', which needs ffmpeg, and it is not installed; .gif and "
-            ".webp do not need it",
-            p->animate);
-    const int name = (int)strcspn(p->format->terminal, " ");
-    FILE *question = tmpfile();
-    if (question)
-        fprintf(question, "if (strstrt(GPVAL_TERMINALS, ' %.*s ') == 0) { exit status 1 }\n", name,
-                p->format->terminal);
-    if (!br_gnuplot_run(question, stderr, &p->missing, err) || p->missing)
-        return BR_OK;
-    return br_fail(err, BR_BAD_INPUT,
-                   "--animate: found '%s', but the installed gnuplot has no terminal '%.*s'",
-                   p->animate, name, p->format->terminal);
 }
 
 /* Another program may write there: its lock is waited for. */
@@ -92,8 +56,7 @@ static enum br_status try_movie(struct br_pictures *p, struct br_error *err)
     if (p->n > MOST_ELEMENTS)
         return br_fail(err, BR_BAD_INPUT, "--animate: n is %zu, expected at most %d", p->n,
                        MOST_ELEMENTS);
-    if (choose_format(p, err) || split(p, folder, sizeof folder, err) || check_programs(p, err) ||
-        open_folder(p, folder, err))
+    if (split(p, folder, sizeof folder, err) || open_folder(p, folder, err))
         return err->status;
     br_output_discard(&p->output);
     return BR_OK;
@@ -132,31 +95,24 @@ struct br_history_observer br_pictures_observer(struct br_pictures *p)
 
 /* ---- drawing ---- */
 
-static enum br_status render_movie(struct br_pictures *p, const struct br_movie *movie,
-                                   const char *script, struct br_error *err)
+static enum br_status render_movie(struct br_pictures *p, const char *script, struct br_error *err)
 {
     struct br_gnuplot g;
-    if (br_gnuplot_start(&g, p->output.staging, script, NULL, &p->missing, err))
-        return err->status;
+    char path[2048];
+    struct br_error why = {0};
+    if (br_gnuplot_start(&g, p->output.staging, script, &p->missing, &why))
+        return p->missing ? BR_OK : br_fail(err, why.status, "%s", why.message);
     g.observer = br_progress_start("drawing", p->quiet);
     g.pictures = p->record.samples;
-    enum br_status status = br_gnuplot_end(&g, err);
+    const enum br_status status = br_gnuplot_end(&g, err);
     br_progress_end();
-    for (size_t i = 0; i < (p->format->frames ? p->record.samples : 1) && !status; i++) {
-        char name[512], path[2048];
-        br_movie_file(movie, i, name, sizeof name);
-        snprintf(path, sizeof path, "%s/%s", p->output.staging, name);
-        status = br_picture_check(path, err);
-    }
-    bool no_ffmpeg = false;
-    if (!status && p->format->film)
-        status = br_film_make(p->output.staging, p->stem, &no_ffmpeg, err);
-    return status;
+    snprintf(path, sizeof path, "%s/%s%s", p->output.staging, p->stem, extension);
+    return status ? status : br_picture_check(path, err);
 }
 
 static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
 {
-    const struct br_movie movie = {p->scene, &p->record, p->format, p->stem};
+    const struct br_movie movie = {p->scene, &p->record, p->stem};
     char name[300], folder[sizeof p->output.folder];
     snprintf(folder, sizeof folder, "%s", p->output.folder);
     enum br_status status = open_folder(p, folder, err);
@@ -171,8 +127,7 @@ static enum br_status draw_movie(struct br_pictures *p, struct br_error *err)
         if (br_output_close(file, name, err))
             return err->status;
     }
-    if (!p->missing)
-        status = render_movie(p, &movie, name, err);
+    status = render_movie(p, name, err);
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too */
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     return status ? status : br_output_commit(&p->output, err);

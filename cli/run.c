@@ -315,8 +315,8 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 /* With --vary, options for one march alone are refused. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id single[] = {BR_OPT_AT,      BR_OPT_EVERY, BR_OPT_ROWS,
-                                               BR_OPT_ANIMATE, BR_OPT_JSON,  BR_OPTIONS};
+    static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_ANIMATE, BR_OPT_JSON,
+                                               BR_OPTIONS};
     const char *name = br_first_given(o, single);
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: it is of one march: --vary does not heed it; --out has what is "

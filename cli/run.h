@@ -31,7 +31,6 @@ struct br_pictures {
     const struct br_scene *scene;
     size_t n, steps; /* of the march */
 
-    const struct br_movie_format *format;
     char stem[256];          /* of the movie's files */
     struct br_output output; /* its folder */
     bool missing;            /* gnuplot is not installed */
@@ -41,8 +40,8 @@ struct br_pictures {
 };
 
 /* Opens the movie's files, so call it before a long march. Fails with BR_BAD_INPUT: a file of
- * another kind, a terminal that the installed gnuplot does not have, a folder that cannot be
- * written; discard it even then. Without gnuplot scripts and data are written, with a note. */
+ * another kind, a folder that cannot be written; discard it even then. Without gnuplot scripts and
+ * data are written, with a note. */
 enum br_status br_pictures_open(struct br_pictures *pictures, struct br_error *err);
 
 /* An observer that keeps rows and frames; the pictures must outlive the march. */

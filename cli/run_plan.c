@@ -6,14 +6,13 @@
 
 /* ---- times ---- */
 
-/* The time level (out) at t, s. The option is named in a failure. */
-static enum br_status read_level(const char *option, double t, const struct br_scene *scene,
-                                 size_t steps, size_t *level, struct br_error *err)
+/* The time level (out) at t, s. */
+static enum br_status read_level(double t, const struct br_scene *scene, size_t steps,
+                                 size_t *level, struct br_error *err)
 {
     const double T = scene->duration, position = t / T * (double)steps;
     if (!(t >= 0 && t <= T))
-        return br_fail(err, BR_BAD_INPUT, "%s: found %g s, expected a time of [0, %g] s", option, t,
-                       T);
+        return br_fail(err, BR_BAD_INPUT, "--at: found %g s, expected a time of [0, %g] s", t, T);
     const double nearest = round(position);
     *level = (size_t)nearest;
     if (fabs(position - nearest) <= 1e-6)
@@ -21,26 +20,22 @@ static enum br_status read_level(const char *option, double t, const struct br_s
     const double below = floor(position);
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and "
-        "%.15g s",
-        option, t, T / (double)steps, T * below / (double)steps, T * (below + 1) / (double)steps);
+        "--at: found %.10g s, expected a multiple of k = %g s; the nearest are %.15g s and %.15g s",
+        t, T / (double)steps, T * below / (double)steps, T * (below + 1) / (double)steps);
 }
 
-static enum br_status not_a_time(const char *option, const char *found, const char *example,
-                                 struct br_error *err)
-{
-    return br_fail(err, BR_BAD_INPUT, "%s: found '%s', expected %s", option, found, example);
-}
-
-static enum br_status read_at(const char *text, struct br_run_plan *plan, struct br_error *err)
+static enum br_status read_times(const char *text, struct br_run_plan *plan, struct br_error *err)
 {
     struct br_run_request *q = &plan->request;
     for (const char *rest = text; rest; rest = *rest ? rest + 1 : NULL) {
         double t;
         const char *end = br_read_time(rest, q->scene->duration, &t);
         if (!end)
-            return not_a_time("--at", rest, "times separated by commas, like 0.1,0.5", err);
-        if (read_level("--at", t, q->scene, q->steps, &plan->level[q->levels++], err))
+            return br_fail(err, BR_BAD_INPUT,
+                           "--at: found '%s', expected times separated by commas, like 0.1,0.5, or "
+                           "'every:TIME'",
+                           rest);
+        if (read_level(t, q->scene, q->steps, &plan->level[q->levels++], err))
             return err->status;
         rest = end;
     }
@@ -52,19 +47,21 @@ static enum br_status read_at(const char *text, struct br_run_plan *plan, struct
     return BR_OK;
 }
 
-static enum br_status read_every(const char *text, const struct br_scene *scene, size_t steps,
-                                 size_t *interval, struct br_error *err)
+/* The steps (out) between two times of 'every:TIME'. */
+static enum br_status read_every(const char *text, const struct br_run_request *q, size_t *interval,
+                                 struct br_error *err)
 {
     double t;
-    const char *end = br_read_time(text, scene->duration, &t);
+    const char *end = br_read_time(text, q->scene->duration, &t);
     if (!end || *end || !(t > 0))
-        return not_a_time("--every", text, "a time above 0, like 0.1", err);
-    if (read_level("--every", t, scene, steps, interval, err))
+        return br_fail(err, BR_BAD_INPUT,
+                       "--at: found 'every:%s', expected a time above 0, like every:0.1", text);
+    if (read_level(t, q->scene, q->steps, interval, err))
         return err->status;
-    return *interval
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "--every: found '%s', expected a multiple of k = %g s",
-                         text, scene->duration / (double)steps);
+    return *interval ? BR_OK
+                     : br_fail(err, BR_BAD_INPUT,
+                               "--at: found 'every:%s', expected a multiple of k = %g s", text,
+                               q->scene->duration / (double)q->steps);
 }
 
 /* By default ten intervals of about the same length, whatever the number of steps. */
@@ -72,23 +69,22 @@ static enum br_status make_levels(struct br_run_plan *plan, const struct br_opti
                                   struct br_error *err)
 {
     enum { PARTS = 10 };
+    static const char word[] = "every:";
     struct br_run_request *q = &plan->request;
-    const char *at = br_option_text(o, BR_OPT_AT), *every = br_option_text(o, BR_OPT_EVERY);
-    size_t room = PARTS + 1, interval = 1;
-    if (at && every)
-        return br_fail(err, BR_BAD_INPUT, "--at and --every are given, expected one of the two");
-    if ((at || every) && !br_option_given(o, BR_OPT_OUT))
-        return br_fail(err, BR_BAD_INPUT, "%s needs --out, the folder for the fields",
-                       at ? "--at" : "--every");
-    if (every && read_every(every, q->scene, q->steps, &interval, err))
+    const char *at = br_option_text(o, BR_OPT_AT);
+    const bool every = at && strncmp(at, word, strlen(word)) == 0;
+    size_t room = at ? strlen(at) + 1 : PARTS + 1, interval = 1;
+    if (at && !br_option_given(o, BR_OPT_OUT))
+        return br_fail(err, BR_BAD_INPUT, "--at needs --out, the folder for the fields");
+    if (every && read_every(at + strlen(word), q, &interval, err))
         return err->status;
-    if (at || every)
-        room = at ? strlen(at) + 1 : q->steps / interval + 1;
+    if (every)
+        room = q->steps / interval + 1;
     q->level = plan->level = br_allocate(room, sizeof *plan->level);
     if (!plan->level)
         return br_no_memory(err, "the output times");
-    if (at)
-        return read_at(at, plan, err);
+    if (at && !every)
+        return read_times(at, plan, err);
     for (size_t i = 0; i < room && br_option_given(o, BR_OPT_OUT); i++) {
         const size_t level =
             every ? i * interval
@@ -132,7 +128,6 @@ enum br_status br_run_plan_make(struct br_run_plan *plan, const struct br_option
         .n = (size_t)br_option_number(o, BR_OPT_N, 0),
         .steps = (size_t)br_option_number(o, BR_OPT_STEPS, 0),
         .check = br_option_given(o, BR_OPT_CHECK),
-        .energies = br_option_given(o, BR_OPT_ENERGIES),
     };
     if (br_method_read(given, BR_METHOD_OPTION, &q->method, err) ||
         br_method_check_used(given, BR_METHOD_OPTION, methods, 1, err) ||

@@ -161,7 +161,7 @@ static enum br_status render(struct br_session *s, const char *script, struct br
         return BR_OK;
     if (s->drawn == sizeof s->at_work / sizeof *s->at_work && end_oldest(s, err))
         return err->status;
-    if (br_gnuplot_start(&s->at_work[s->drawn], s->output.staging, script, NULL, &s->missing, &why))
+    if (br_gnuplot_start(&s->at_work[s->drawn], s->output.staging, script, &s->missing, &why))
         return s->missing ? BR_OK : br_picture_failed(&why, script, err);
     s->drawn++;
     return BR_OK;

@@ -80,7 +80,7 @@ static enum br_status make_grid(struct run *r, size_t i, struct br_error *err)
         .scene = scene,
         .norm = q->norm[0],
         .method = q->method,
-        .reference_method = q->reference_method,
+        .reference_method = q->method,
         .judge = q->judge ? q->judge : br_judge_best(scene),
         .n = o->whole[BR_OPT_N],
         .n_count = o->count[BR_OPT_N],
@@ -167,7 +167,6 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &w->tips : NULL,
         .meshes = over_k ? NULL : &w->apart[m].over_h,
-        .rates = br_option_given(r->session->options, BR_OPT_RATES),
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;

@@ -44,17 +44,12 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     const char *const *given = &o->given[BR_OPT_METHOD];
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);
     const char *methods = br_option_text(o, BR_OPT_METHODS);
-    const double solver = br_option_number(o, BR_OPT_REFERENCE_SOLVER, NAN);
     *r = (struct br_study_request){.norms = o->count[BR_OPT_NORM], .method = br_method_default()};
     for (size_t i = 0; i < r->norms; i++)
         r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
-    if (br_method_read(given, BR_METHOD_OPTION, &r->method, err))
-        return err->status;
-    r->reference_method = r->method;
-    if (isfinite(solver))
-        r->reference_method.solver = br_linear_solvers[(size_t)solver];
-    const struct br_method *const both[] = {&r->method, &r->reference_method};
-    if (br_method_check_used(given, BR_METHOD_OPTION, both, isfinite(solver) ? 2 : 1, err) ||
+    const struct br_method *const method = &r->method;
+    if (br_method_read(given, BR_METHOD_OPTION, &r->method, err) ||
+        br_method_check_used(given, BR_METHOD_OPTION, &method, 1, err) ||
         (reference && read_reference(reference, r, err)))
         return err->status;
     return methods ? br_named_methods_read("--methods", methods, &r->methods, err) : BR_OK;

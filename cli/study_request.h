@@ -13,7 +13,7 @@ struct br_study_request {
     const char *reference_k; /* as br_read_step takes it; borrowed from the options */
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
-    struct br_method method, reference_method;
+    struct br_method method;
     struct br_named_methods methods; /* of --methods; count 0: not given */
 };
 

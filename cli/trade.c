@@ -44,7 +44,6 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     *q = br_trial_request_default(scene);
     q->judge = r->study.judge;
     q->threads = r->session.threads;
-    q->repeats = (size_t)br_option_number(o, BR_OPT_REPEATS, 0);
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
         q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
@@ -110,7 +109,7 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
         adaptive |= methods->list[i].method.scheme->adaptive;
     }
     static const enum br_option_id of_fixed[] = {BR_OPT_K, BR_OPT_STEPS, BR_OPTIONS};
-    const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerances"
+    const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
     return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it", dropped)
@@ -236,8 +235,8 @@ static enum br_status check(const struct run *r, struct br_error *err)
 /* Refuses options that --split does not use. */
 static enum br_status check_split(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id others[] = {BR_OPT_REPEATS,   BR_OPT_TIME_LIMIT, BR_OPT_SECONDS,
-                                               BR_OPT_REFERENCE, BR_OPT_RESUME,     BR_OPTIONS};
+    static const enum br_option_id others[] = {BR_OPT_TIME_LIMIT, BR_OPT_SECONDS, BR_OPT_REFERENCE,
+                                               BR_OPT_RESUME, BR_OPTIONS};
     const char *other = br_first_given(o, others);
     if (other)
         return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);

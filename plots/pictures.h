@@ -242,38 +242,21 @@ struct br_figure br_history_draw(const struct br_scene *scene,
 
 /* ---- run.c, too: beam, obstacle, and the forces at the tip, moving ---- */
 
-/* A row of the registry. */
-struct br_movie_format {
-    const char *extension; /* of the file; "/": a folder of frames */
-    const char *terminal;  /* gnuplot's, with its options */
-    const char *title;     /* one line for a person */
-    bool frames;           /* one file each, ... */
-    bool film;             /* ... which ffmpeg joins */
-};
-extern const struct br_movie_format br_movie_formats[]; /* ends with zeros */
-
-/* The format of a file by its ending; NULL: none. */
-const struct br_movie_format *br_movie_format_of(const char *file);
-
 /* A movie shows all samples of the record. Borrowed. */
 struct br_movie {
     const struct br_scene *scene;
     const struct br_history_record *record;
-    const struct br_movie_format *format;
-    const char *stem; /* of the files, without a quote; frames are stem-0001.png and so on */
+    const char *stem; /* of the files, without a quote */
 };
 
 /* Write the data, that is, the tip in all frames, then each frame's fields; and the script that
- * draws the file from stem.dat. */
+ * draws stem.gif from stem.dat. */
 void br_movie_write_data(FILE *out, const struct br_movie *movie);
 void br_movie_write_script(FILE *out, const struct br_movie *movie);
 
-/* The name of a movie's picture: of frame i for a set of frames. */
-void br_movie_file(const struct br_movie *movie, size_t frame, char *file, size_t size);
-
 /* ---- render.c ---- */
 
-/* Running gnuplot, and ffmpeg. All fail with BR_IO if gnuplot fails (the message is its line about
+/* Running gnuplot. All fail with BR_IO if gnuplot fails (the message is its line about
  * the error), or takes longer than a minute (or BEAMRATE_GNUPLOT_SECONDS); with BR_INTERRUPTED when
  * the work must stop. A gnuplot that has not ended is killed. */
 
@@ -283,7 +266,6 @@ void br_gnuplot_stop_when(bool (*stop)(void));
 /* A gnuplot that works on a script; several may run side by side. */
 enum { BR_SCRIPT_NAME = 512 };
 struct br_gnuplot {
-    const char *program; /* its name */
     char folder[4096], script[BR_SCRIPT_NAME];
     pid_t child;
     FILE *said;     /* its messages */
@@ -293,10 +275,10 @@ struct br_gnuplot {
     size_t pictures;
 };
 
-/* Starts gnuplot on a script in its folder, or on a file of commands (script NULL). *missing (out):
- * gnuplot is not installed, and the call fails. After a success, call br_gnuplot_end. */
+/* Starts gnuplot on a script in its folder. *missing (out): gnuplot is not installed, and the call
+ * fails. After a success, call br_gnuplot_end. */
 enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
-                                FILE *commands, bool *missing, struct br_error *err);
+                                bool *missing, struct br_error *err);
 
 /* Waits for the end. */
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
@@ -304,18 +286,6 @@ enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
 /* The same for the script of a figure. Fails, too, if a picture is incomplete (a full disk). After
  * any failure it removes all pictures of the figure. */
 enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err);
-
-/* Runs the commands in a temporary file, which is closed (NULL: it could not be made); gnuplot's
- * output goes to `out`. */
-enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err);
-
-/* Makes a film, folder/stem.mp4, of the frames folder/stem-0001.png and so on, with ffmpeg, and
- * removes them. *missing (out): ffmpeg is not installed, and the call fails. */
-enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
-                            struct br_error *err);
-
-/* Whether ffmpeg is installed. */
-bool br_film_can_be_made(void);
 
 /* Checks that gnuplot has written a whole picture, which gnuplot itself does not check. Fails with
  * BR_IO if the file is missing, or does not end as its kind does. */

@@ -37,18 +37,16 @@ static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, 
     return failure;
 }
 
-/* Starts a program without a shell. It reads `commands` (NULL: nothing), and its output goes to
- * g->said. Returns an errno. */
-static int spawn(struct br_gnuplot *g, char *const words[], FILE *commands)
+/* Starts gnuplot without a shell. It reads nothing, and its output goes to g->said. Returns an
+ * errno. */
+static int spawn(struct br_gnuplot *g, char *const words[])
 {
     posix_spawn_file_actions_t actions;
     int failure = posix_spawn_file_actions_init(&actions);
     if (failure)
         return failure;
     failure = posix_spawn_file_actions_addchdir_np(&actions, g->folder);
-    if (!failure && commands)
-        failure = posix_spawn_file_actions_adddup2(&actions, fileno(commands), 0);
-    else if (!failure)
+    if (!failure)
         failure = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
     for (int end = 1; end <= 2 && !failure; end++)
         failure = posix_spawn_file_actions_adddup2(&actions, fileno(g->said), end);
@@ -72,13 +70,11 @@ static const char *reason(char *text)
     return why ? why : "it does not say why";
 }
 
-/* The last bytes of whole pictures, without white space. WebP and MP4 store their lengths instead.
- */
+/* The last bytes of whole pictures, without white space. */
 static const struct {
     const char *extension, *ending;
-} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"},
-               {".pdf", "%%EOF"},  {".gif", ";"},
-               {".mp4", ""},       {".webp", ""}};
+} endings[] = {
+    {".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".pdf", "%%EOF"}, {".gif", ";"}};
 
 static bool ends_with(const char *path, const char *ending)
 {
@@ -120,40 +116,31 @@ static double time_limit(void)
     return seconds > 0 ? seconds : 60;
 }
 
-/* Starts a program in g->folder. */
-static enum br_status start(struct br_gnuplot *g, char *const words[], FILE *commands,
-                            bool *missing, struct br_error *err)
+enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
+                                bool *missing, struct br_error *err)
 {
+    static char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
+    *g = (struct br_gnuplot){.pictures = 0};
+    char *const words[] = {gnuplot, defaults, g->script, NULL};
+    const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
+    const int script_length = snprintf(g->script, sizeof g->script, "%s", script);
     struct stat there;
     *missing = false;
-    g->program = words[0];
+    if ((size_t)folder_length >= sizeof g->folder || (size_t)script_length >= sizeof g->script)
+        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
     if (stat(g->folder, &there) != 0) /* else a missing folder seems a missing program */
         return br_fail(err, BR_IO, "%s: %s", g->folder, strerror(errno));
     g->said = tmpfile();
     if (!g->said)
-        return br_fail(err, BR_IO, "no file for what %s says: %s", g->program, strerror(errno));
-    const int failure = spawn(g, words, commands);
+        return br_fail(err, BR_IO, "no file for what gnuplot says: %s", strerror(errno));
+    const int failure = spawn(g, words);
     g->started = now();
     if (!failure)
         return BR_OK;
     fclose(g->said);
     *missing = failure == ENOENT || failure == ENOTDIR; /* PATH may name a file as a folder */
-    return br_fail(err, BR_IO, "%s cannot be run: %s", g->program,
+    return br_fail(err, BR_IO, "gnuplot cannot be run: %s",
                    *missing ? "it is not installed" : strerror(failure));
-}
-
-enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
-                                FILE *commands, bool *missing, struct br_error *err)
-{
-    static char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
-    *g = (struct br_gnuplot){.program = gnuplot};
-    char *const words[] = {gnuplot, defaults, commands ? NULL : g->script, NULL};
-    const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
-    const int script_length = snprintf(g->script, sizeof g->script, "%s", script ? script : "");
-    *missing = false;
-    if ((size_t)folder_length >= sizeof g->folder || (size_t)script_length >= sizeof g->script)
-        return br_fail(err, BR_IO, "gnuplot cannot be run: %s", strerror(ENAMETOOLONG));
-    return start(g, words, commands, missing, err);
 }
 
 /* Reports progress: gnuplot prints a dot and a line end for each picture. */
@@ -167,12 +154,11 @@ static enum br_status check_time(const struct br_gnuplot *g, struct br_error *er
                               fmin(1, (double)said.st_size / 2 / (double)g->pictures));
     if (now() - g->started < time_limit())
         return BR_OK;
-    return br_fail(err, BR_IO, "%s did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
-                   g->program, g->script, time_limit());
+    return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
+                   g->script, time_limit());
 }
 
-/* Waits for the end. g->said stays open, at its beginning. */
-static enum br_status wait_for(struct br_gnuplot *g, struct br_error *err)
+enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
 {
     static const struct timespec soon = {.tv_nsec = 5000000};
     enum br_status status = BR_OK;
@@ -186,53 +172,11 @@ static enum br_status wait_for(struct br_gnuplot *g, struct br_error *err)
             nanosleep(&soon, NULL);
     }
     rewind(g->said);
+    text[fread(text, 1, sizeof text - 1, g->said)] = '\0';
+    fclose(g->said);
     if (status || (WIFEXITED(ending) && WEXITSTATUS(ending) == 0))
         return status;
-    text[fread(text, 1, sizeof text - 1, g->said)] = '\0';
-    return br_fail(err, BR_IO, "%s failed on %s: %s", g->program, g->script, reason(text));
-}
-
-enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
-{
-    const enum br_status status = wait_for(g, err);
-    fclose(g->said);
-    return status;
-}
-
-bool br_film_can_be_made(void)
-{
-    static char ffmpeg[] = "ffmpeg", version[] = "-version";
-    char *const words[] = {ffmpeg, version, NULL};
-    struct br_gnuplot g = {.folder = "."};
-    struct br_error why;
-    bool missing;
-    return !start(&g, words, NULL, &missing, &why) && !br_gnuplot_end(&g, &why);
-}
-
-/* The film has as many frames a second as a GIF. Players need colours at half resolution, and the
- * length of a file at its start. */
-enum br_status br_film_make(const char *folder, const char *stem, bool *missing,
-                            struct br_error *err)
-{
-    struct br_gnuplot g = {0};
-    char frames[BR_SCRIPT_NAME + 16], film[BR_SCRIPT_NAME + 16], frame[4096 + BR_SCRIPT_NAME + 32];
-    snprintf(g.folder, sizeof g.folder, "%s", folder);
-    snprintf(g.script, sizeof g.script, "%s", stem);
-    snprintf(frames, sizeof frames, "file:%.*s-%%04d.png", BR_SCRIPT_NAME, stem);
-    snprintf(film, sizeof film, "file:%.*s.mp4", BR_SCRIPT_NAME, stem);
-    static char option[][16] = {"ffmpeg", "-loglevel", "error",   "-framerate", "12.5",
-                                "-i",     "-pix_fmt",  "yuv420p", "-movflags",  "+faststart"};
-    char *const words[] = {option[0], option[1], option[2], option[3], option[4], option[5], frames,
-                           option[6], option[7], option[8], option[9], film,      NULL};
-    enum br_status status = start(&g, words, NULL, missing, err);
-    if (!status)
-        status = br_gnuplot_end(&g, err);
-    for (int i = 1; !status; i++) {
-        snprintf(frame, sizeof frame, "%s/%s-%04d.png", folder, stem, i);
-        if (unlink(frame) != 0)
-            break;
-    }
-    return status;
+    return br_fail(err, BR_IO, "gnuplot failed on %s: %s", g->script, reason(text));
 }
 
 /* The PDF may be missing: without a terminal for PDF gnuplot draws none; with one, it fails if it
@@ -250,24 +194,5 @@ enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err)
     }
     for (size_t i = 0; i < 3 && status; i++)
         unlink(path[i]);
-    return status;
-}
-
-enum br_status br_gnuplot_run(FILE *commands, FILE *out, bool *missing, struct br_error *err)
-{
-    struct br_gnuplot g;
-    *missing = false;
-    if (!commands)
-        return br_fail(err, BR_IO, "no file for gnuplot's commands: %s", strerror(errno));
-    rewind(commands);
-    enum br_status status = br_gnuplot_start(&g, ".", NULL, commands, missing, err);
-    fclose(commands);
-    if (status)
-        return status;
-    status = wait_for(&g, err);
-    for (int c; !status && (c = getc(g.said)) != EOF;)
-        if (c != '\f') /* the terminal for letters begins a page with it */
-            putc(c, out);
-    fclose(g.said);
     return status;
 }

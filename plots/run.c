@@ -44,33 +44,6 @@ struct br_figure br_history_draw(const struct br_scene *scene, const struct br_h
 
 /* ---- a movie: its script computes nothing but scales ---- */
 
-const struct br_movie_format br_movie_formats[] = {
-    {".gif", "gif animate delay 8 loop 0", "animated GIF", false, false},
-    {".webp", "webp animate delay 80 loop 0", "animated WebP", false, false},
-    {".mp4", "pngcairo", "MP4, by ffmpeg", true, true},
-    {"/", "pngcairo", "a folder of PNG frames", true, false},
-    {0},
-};
-
-const struct br_movie_format *br_movie_format_of(const char *file)
-{
-    const size_t length = strlen(file);
-    for (const struct br_movie_format *f = br_movie_formats; f->extension; f++) {
-        const size_t ending = strlen(f->extension);
-        if (length >= ending && strcmp(file + length - ending, f->extension) == 0)
-            return f;
-    }
-    return NULL;
-}
-
-void br_movie_file(const struct br_movie *m, size_t frame, char *file, size_t size)
-{
-    if (m->format->frames)
-        snprintf(file, size, "%s-%04zu.png", m->stem, frame + 1);
-    else
-        snprintf(file, size, "%s%s", m->stem, m->format->extension);
-}
-
 void br_movie_write_data(FILE *out, const struct br_movie *m)
 {
     enum { POINTS = 200 };
@@ -204,23 +177,20 @@ static const char forces[] =
 void br_movie_write_script(FILE *out, const struct br_movie *m)
 {
     const struct br_scene *s = m->scene;
-    char name[512], file[512], pictures[600];
-    br_movie_file(m, 0, name, sizeof name);
+    char name[512], file[512];
+    snprintf(name, sizeof name, "%s.gif", m->stem);
     br_quoted(file, sizeof file, &br_for_text, name);
-    BR_SAY(pictures, "%s%s", file, m->format->frames ? " and so on" : "");
-    br_script_head(out, s->title, m->stem, pictures);
-    fprintf(out,
-            "frames = %zu\nlength = %.9g; gap = %.9g # m\n"
-            "touches = %d; rubs = %d # whether there is an obstacle, friction\n%s"
-            "set terminal %s size 900,520 rounded font 'DejaVu Sans,13'\nset label 1 ",
-            m->record->samples, s->length, s->contact.modelled ? s->contact.gap : 0,
-            s->contact.modelled, s->friction.law != BR_FRICTIONLESS, scales, m->format->terminal);
+    br_script_head(out, s->title, m->stem, file);
+    fprintf(
+        out,
+        "frames = %zu\nlength = %.9g; gap = %.9g # m\n"
+        "touches = %d; rubs = %d # whether there is an obstacle, friction\n%s"
+        "set terminal gif animate delay 8 loop 0 size 900,520 rounded font 'DejaVu Sans,13'\nset label 1 ",
+        m->record->samples, s->length, s->contact.modelled ? s->contact.gap : 0,
+        s->contact.modelled, s->friction.law != BR_FRICTIONLESS, scales);
     br_quote(out, &br_for_gnuplot, s->title);
     fprintf(out, " noenhanced at screen 0.03,0.95 left font ',17'\n%s%s", stage, bars);
-    if (!m->format->frames)
-        fprintf(out, "set output stem.'%s'\n", m->format->extension);
-    fputs("do for [i=1:frames] {\n", out);
-    if (m->format->frames)
-        fputs("    set output stem.sprintf('-%04d.png', i)\n", out);
-    fprintf(out, "%s    print '.'\n}\nunset output\n", forces);
+    fprintf(out,
+            "set output stem.'.gif'\ndo for [i=1:frames] {\n%s    print '.'\n}\nunset output\n",
+            forces);
 }

@@ -366,13 +366,6 @@ void br_put_row(struct br_document *d)
     d->blank = false;
 }
 
-void br_put_rule(struct br_document *d)
-{
-    struct br_document_table *t = open_table(d);
-    if (t && t->rows)
-        t->row[t->rows - 1].rule = true;
-}
-
 /* The index of the column of a key. The first row makes the column if the table began without
  * columns. t->columns: there is none. */
 static size_t column_of(struct br_document *d, struct br_document_table *t,

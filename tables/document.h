@@ -111,7 +111,6 @@ struct br_document_cell {
 
 struct br_document_row {
     struct br_document_cell *cell; /* by columns */
-    bool rule;                     /* a line above it */
 };
 
 struct br_document_table {
@@ -260,9 +259,8 @@ void br_put_columns(struct br_document *d, const struct br_column *columns, size
     (br_put_table((d), (key), (title), (flags)), \
      br_put_columns((d), (columns), sizeof(columns) / sizeof *(columns)))
 
-/* Begins a row of cells that are nothing; gives it a line above it, in formats for people. */
+/* Begins a row of cells that are nothing. */
 void br_put_row(struct br_document *d);
-void br_put_rule(struct br_document *d);
 
 /* Puts a value into the row, under the column of that key (or heading, where there is no key). The
  * first row of a table without columns makes them. */

@@ -32,7 +32,6 @@ static const char style[] =
     "th, td { overflow-wrap: normal; padding: 0.15rem 0.6rem; text-align: right;\n"
     "  vertical-align: top; white-space: nowrap; }\n"
     "th { border-bottom: 2px solid var(--line); vertical-align: bottom; white-space: normal; }\n"
-    ".rule td { border-top: 2px solid var(--line); }\n"
     ".text { text-align: left; }\n"
     ".detail { color: var(--quiet); list-style: none; margin-left: 1.5rem; }\n"
     ".wrap { min-width: 18rem; white-space: normal; }\n"
@@ -197,7 +196,6 @@ static const struct br_markup html = {
     .mark = {" <sup>", "</sup>"},
     .row = {"<tr>", "</tr>\n"},
     .rows = {"</tr></thead>\n<tbody>\n", "</tbody></table></div>\n"},
-    .rule = "<tr class=\"rule\">",
     .word = "<strong class=\"%s\">%s</strong>",
     .open_table = open_table,
     .close_table = close_table,

@@ -97,7 +97,6 @@ static const struct br_markup latex = {
     .mark = {"$^{\\mathrm{", "}}$"},
     .row = {"", " \\\\\n"},
     .rows = {" \\\\\n\\midrule\n\\endhead\n", "\\bottomrule\n\\end{longtable}\n"},
-    .rule = "\\midrule\n",
     .word = "\\textbf{%s}",
     .between = " & ",
     .open_table = open_table,

@@ -64,7 +64,6 @@ static const struct br_markup markdown = {
     .cell = {" ", " |"},
     .mark = {" (", ")"},
     .row = {"|", "\n"},
-    .rule = "|",
     .word = "**%s**",
     .gap = "\n",
     .open_table = open_table,

@@ -143,7 +143,7 @@ static void print_row(const struct br_markup_page *p, const struct br_document_t
 {
     const struct br_markup *m = p->markup;
     const struct br_around *cell = row ? &m->cell : &m->head;
-    const char *between = !row ? "" : row->rule ? m->rule : m->row.before;
+    const char *between = row ? m->row.before : "";
     for (size_t c = 0; c < t->columns; c++) {
         if (!br_document_is_seen(t, c))
             continue;

@@ -33,7 +33,6 @@ struct br_markup {
     /* NULL: nothing. */
     const char *gap;     /* before a block of another kind than the last */
     const char *between; /* two cells */
-    const char *rule;    /* before a row that has a line above it */
     /* A table up to its first heading; text between its head and `rows`; text behind its rows (the
      * last two may be NULL: nothing). Or `table` prints all of it. */
     void (*open_table)(const struct br_markup_page *p, const struct br_document_table *t,

@@ -150,13 +150,10 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
                   of[BR_PASS], of[BR_FAIL], of[BR_INCONCLUSIVE]);
     if (refused)
         br_put_more(d, ", %zu cannot be verified", refused);
-    if (f->stopped)
-        br_put_more(d, "; stopped at the first %s that failed", source_of(f));
     br_put_more(d, "; %.1f s", f->wall_seconds);
     for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
         br_hide_fact(d, br_count(of[v]), NULL, "tally.%s", br_verdict_names[v]);
     br_hide_fact(d, br_number(f->wall_seconds), NULL, "wall_seconds");
-    br_hide_fact(d, br_truth(f->stopped), NULL, "stopped");
 
     /* The first checks that fail and orders that do not pass. */
     char name[NAME], where[1100];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of a study: its grids, for people, with a row for each mesh and a column for each time
- * step; the slopes of the grids; and the contradictions in the printed table. */
+ * step; and the contradictions in the printed table. */
 #include <math.h>
 
 #include "study/fit/report.h"
@@ -16,17 +16,10 @@ struct grid {
     const char *key;
     const struct br_study *study;
     enum br_part part;
-    const struct br_fits *fits; /* whose slopes are put with the errors; NULL: none */
     double (*value)(const struct br_report *r, size_t cell); /* NULL: the study's errors */
     const char *format;
     unsigned flags;
 };
-
-/* The text of a slope; one that is not above zero is no order. */
-static const char *slope_text(const struct br_estimate *slope, char text[64])
-{
-    return slope->value <= 0 || slope->low <= 0 ? "no order" : br_order_text(slope, text, 64);
-}
 
 static void put_grid(struct br_document *d, const struct br_report *r, const struct grid *g,
                      const char *title)
@@ -47,22 +40,6 @@ static void put_grid(struct br_document *d, const struct br_report *r, const str
             BR_PUT(d, br_number(value), .key = key, .heading = buffer, .format = g->format);
             br_put_mark(d, g->value ? NULL : marks[c->flag[g->part]]);
         }
-        if (g->fits)
-            BR_PUT(d, br_text(slope_text(&g->fits->slope[BR_AXIS_TIME][i].order, buffer)),
-                   .key = "slope", .heading = "slope in k [95 %]");
-    }
-    if (!g->fits)
-        return;
-    BR_PUT_ROW(d, br_nothing());
-    br_put_shown(d, "slope in h");
-    br_put_rule(d);
-    for (size_t j = 0; j < s->k_count; j++) {
-        const struct br_estimate *slope = &g->fits->slope[BR_AXIS_SPACE][j].order;
-        BR_PUT_CELLS(d, br_number(slope->value));
-        if (slope->value <= 0 || slope->low <= 0)
-            br_put_shown(d, "%s", slope_text(slope, buffer));
-        else if (isfinite(slope->value))
-            br_put_shown(d, "%.2f", slope->value);
     }
 }
 
@@ -81,7 +58,6 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
         .key = fitted ? br_part_names[part] : s->judge->name,
         .study = s,
         .part = part,
-        .fits = fitted && r->rates ? &r->fits[part] : NULL,
         .format = "%.3e",
         .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
     };
@@ -136,28 +112,4 @@ void br_put_triangles(struct br_document *d, const struct br_report *r)
     br_put_note(d, "Whatever the reference, two printed errors need solutions that are at least "
                    "their difference and at most their sum apart. The scheme's own solutions are "
                    "as far apart as the column before the last one says.");
-}
-
-void br_put_slopes(struct br_document *d, const struct br_report *r)
-{
-    const struct br_study *s = r->study;
-    char text[64];
-    br_put_table(d, "slopes", "Slopes of the grids' rows (over k) and columns (over h)",
-                 r->rates ? BR_LONG : BR_FILES_ONLY);
-    for (enum br_part part = 0; part < BR_PARTS; part++)
-        for (size_t i = 0; br_part_is_shown(r, part) && i < s->n_count + s->k_count; i++) {
-            const bool row = i < s->n_count;
-            const size_t j = row ? i : i - s->n_count;
-            const struct br_slope *slope =
-                &r->fits[part].slope[row ? BR_AXIS_TIME : BR_AXIS_SPACE][j];
-            br_put_row(d);
-            BR_PUT(d, br_text(br_part_names[part]), .key = "part");
-            BR_PUT(d, br_text(row ? "k" : "h"), .key = "over");
-            BR_PUT(d, row ? br_count(s->n[j]) : br_nothing(), .key = "n");
-            BR_PUT(d, row ? br_nothing() : br_number(br_time_step(s->scene, s->steps[j])),
-                   .key = "k", .unit = "s");
-            BR_PUT_ESTIMATE(d, &slope->order, slope_text(&slope->order, text), .key = "order",
-                            .heading = "slope [95 %]");
-            BR_PUT(d, br_count(slope->points), .key = "points", .heading = "cells");
-        }
 }

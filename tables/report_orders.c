@@ -16,7 +16,7 @@ static const char *const limit_methods[] = {
     [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
 };
 
-enum { MOST_NAMED = BR_MOST_ANSWERS - 5 }; /* quantities with an answer; the tables have all */
+enum { MOST_NAMED = BR_MOST_ANSWERS - 6 }; /* quantities with an answer; the tables have all */
 
 /* What is put before an item of a sentence; the first item follows a colon. */
 static const char *separator(bool *first)
@@ -205,6 +205,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         br_put_more(d, ".");
         say_left_out(d, of);
     }
+    if (o->numbers->taken[0])
+        br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
         br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)

@@ -34,7 +34,6 @@ void br_put_estimate(struct br_document *d, const struct br_column *column,
 /* Whether a component is shown: a scene of one field has the total alone. */
 bool br_part_is_shown(const struct br_report *report, enum br_part part);
 void br_put_grids(struct br_document *d, const struct br_report *report);
-void br_put_slopes(struct br_document *d, const struct br_report *report);
 /* Puts nothing where no errors are printed in the paper. */
 void br_put_triangles(struct br_document *d, const struct br_report *report);
 

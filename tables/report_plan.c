@@ -54,7 +54,7 @@ static void put_commands(struct br_document *d, const struct br_plan *p, const c
              br_method_options(p->request.scene, &method, options));
     br_put_command(d, "run", "To march it", line);
     if (t->named->method.scheme->adaptive)
-        snprintf(step, sizeof step, "--tolerances %.15g", t->tolerance);
+        snprintf(step, sizeof step, "--tolerance %.15g", t->tolerance);
     else
         snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
     snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,

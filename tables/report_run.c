@@ -378,7 +378,7 @@ static void put_energies(struct br_document *d, const struct br_run_report *r)
             .heading = "lost to friction", .unit = "J");
     BR_FACT(d, br_truth(r->summed), .key = "energies.summed",
             .heading = r->summed ? NULL : "works, losses, balance");
-    br_put_shown(d, "not summed, they need the fields of every step: --energies or --check");
+    br_put_shown(d, "not summed, they need the fields of every step: --check");
     if (r->summed)
         put_works(d, r);
 }
@@ -515,9 +515,8 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     const double march = r->end.march_seconds;
     const double a_step = march / (double)r->end.last.step; /* NAN: none */
     const bool iterates = r->method.friction->iterates && has_friction(r);
-    const char *of_march = r->checked  ? "  of the march, the check included"
-                           : r->summed ? "  of the march, the energies included"
-                                       : "  of the march";
+    const char *of_march =
+        r->checked ? "  of the march, the check included" : "  of the march";
     br_put_section(d, "Time and work");
     br_put_fact_as(d, br_number(f->wall_seconds), "time", "s", "seconds.wall");
     br_put_fact_as(d, br_number(r->end.set_up_seconds), "  of setting up", "s", "seconds.set_up");

@@ -250,7 +250,7 @@ static void put_cells(struct br_document *d, const struct br_report *r)
                 put_cell(d, r, studies[i], part, c);
 }
 
-/* ---- slopes, fits and tips ---- */
+/* ---- fits and tips ---- */
 
 /* People do not see the numbers of a fit that does not describe the errors. */
 static void put_fits(struct br_document *d, const struct br_report *r)
@@ -258,7 +258,7 @@ static void put_fits(struct br_document *d, const struct br_report *r)
     static const char *const kinds[] = {"space and time", "time", "space"};
     static const char *const orders[] = {"p", "q"}, *const headings[] = {"p [95 %]", "q [95 %]"},
                              *const constants[] = {"C_h", "C_k"};
-    bool shown = r->rates;
+    bool shown = false;
     for (enum br_part part = 0; part < BR_PARTS; part++)
         shown |=
             br_part_is_shown(r, part) && br_joint_describes(&r->fits[part].joint) && !r->printed;
@@ -480,7 +480,6 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     }
 
     br_put_triangles(d, r);
-    br_put_slopes(d, r);
 
     put_cells(d, r);
     put_notes(d, r);

@@ -65,7 +65,6 @@ void br_report_orders(const struct br_orders *orders, const struct br_estimate *
 struct br_check_findings {
     const struct br_check *checks;
     size_t count;
-    bool stopped; /* after the first scene that failed; the rest was not checked */
     double wall_seconds;
     const struct br_comparison *comparison; /* NULL: none was asked for */
     const struct br_provenance *provenance; /* without a scene */

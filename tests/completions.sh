@@ -65,7 +65,7 @@ for scene in $("$BEAMRATE" scenes | sed 's/ .*//'); do
     offers "$scene" beamrate check example1 ''
 done
 offers_only riccati beamrate tables --solver r
-offers_only umfpack beamrate tables --reference-solver = u
+offers_only umfpack beamrate tables --solver = u
 offers_only riccati beamrate tables --solver = ri
 offers 'fine:' beamrate study example1 --reference f
 offers 'l2,tip' beamrate study example1 --norm l2,
@@ -114,7 +114,7 @@ END
     done <<'END'
 beamrate st|LINE<beamrate study >
 beamrate study --nor|LINE<beamrate study --norm=>
-beamrate study --s|umfpack's row scaling: none, sum or max
+beamrate study --s|linear solver
 beamrate check --solver um|LINE<beamrate check --solver umfpack >
 beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
 beamrate study --reference=fi|LINE<beamrate study --reference=fine: >

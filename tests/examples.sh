@@ -80,8 +80,8 @@ shorten() {
     unless 'beamrate tables' ' --n ' ' -n ' '--n 5,10 --k 0.1,0.05 --reference fine:20,0.05'
     unless ' --split --methods' ' --help' ' -h ' --help
     unless ' --split' ' --n ' ' -n ' '--n 10'
-    unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2 --repeats 1'
-    unless 'beamrate plan' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2 --repeats 1'
+    unless 'beamrate trade' ' --n ' ' -n ' '--n 10 --k 0.1,0.05 --methods euler,bdf2'
+    unless 'beamrate plan' ' --methods' ' --help' '--methods euler+implicit,adaptive+p2'
     unless 'beamrate extremes' ' --help' ' -h ' --help
     unless 'beamrate figures' ' --help' ' -h ' --help
     unless ' 1e-4 --check' ' --help' ' -h ' --help

@@ -95,7 +95,7 @@ def main():
                 ("example2 --n 6 --k 0.05 --at 0,0.1,1", 0, 3, linear),
                 ("initial_data --n 4 --k 0.05 --axial-degree 2", 0, 11,
                  linear + ",u_middle,u_t_middle"),
-                ("rod.yaml --n 4 --k 0.05 --every 0.5", 0, 3, linear),
+                ("rod.yaml --n 4 --k 0.05 --at every:0.5", 0, 3, linear),
                 ("rod.yaml --n 150001 --k 0.5 --at 1", 0, 1, linear),
                 ("blow\t\"&<.yaml --n 10", 3, 1, linear)]:  # stops after its start
             words = [word.replace("\t", " ") for word in scene.split(" ")]

@@ -139,7 +139,8 @@ k=0.02,0.01,0.005,0.0025,0.00125
 run='beamrate run example2 --n 10 --k {k} --quiet --json -'
 read=/tip/displacement/axial
 expect 0 "" beamrate study example2 --n 10 --k $k --norm tip --no-plots --quiet --out study
-slope=$(field study/example2-tip-slopes.csv '^axial,k' order)
+slope=$(awk -F, '/^exact,axial,/ { x = log($6); y = log($7); n++; sx += x; sy += y; xx += x * x; xy += x * y }
+    END { printf "%.9g", (n * xy - sx * sy) / (n * xx - sx * sx) }' study/example2-tip.csv)
 
 # Of the study's own cells, line by line.
 sed -n '1p; /^exact,axial,/p' study/example2-tip.csv >cells.csv

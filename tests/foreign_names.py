@@ -185,8 +185,7 @@ def check_refusals():
             ("scene.yaml", scene, ["run"]), ("scene.yaml", scene, ["scenes"]),
             ("study.yaml", study, ["check"]), ("study.yaml", study, ["orders"]),
             ("t.csv", b"h [mm],e\n1,2\n2,3\n3,5 \xb0C\n", ["orders"]),
-            ("t.csv", b"h,n\n# \n\n1 [\xe2\x82],2\n", ["orders"]),
-            ("t.jsonl", b"{}\n\n\n{\"h\": 1, \"e\xb0\": 1}\n", ["orders"])]:
+            ("t.csv", b"h,n\n# \n\n1 [\xe2\x82],2\n", ["orders"])]:
         write(name, text)
         byte = 0xe2 if b"\xe2" in text else 0xb0
         line = 3 if text is study else 4

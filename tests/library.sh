@@ -198,7 +198,6 @@ refused("expectations: found none", lambda: orders.check())
 refused("differ in length", lambda: br.Orders([1, 2, 3], h=[1, 2]))
 refused("numbers:2", lambda: br.Orders([3, -2, 1], h=[3, 2, 1]))
 study = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2)
-refused("range", lambda: study.slope(br.SPACE, 1))
 cell = study.cell[2][0]
 del study
 assert cell.flag == ["", "", ""] or all(isinstance(f, str) for f in cell.flag)

@@ -60,16 +60,6 @@ static struct br_estimate interval(double value, double half)
 
 static void fill_fits(struct br_fits *f, int part)
 {
-    f->slope[1] = br_allocate(BR_MADE_N, sizeof *f->slope[1]);
-    f->slope[0] = br_allocate(BR_MADE_K, sizeof *f->slope[0]);
-    assert_true(f->slope[1] && f->slope[0]);
-    for (int i = 0; i < BR_MADE_N; i++)
-        f->slope[1][i] = (struct br_slope){interval(1 + 0.1 * i + part, 0.05 + 0.01 * i), 4};
-    for (int j = 0; j < BR_MADE_K; j++)
-        f->slope[0][j] = (struct br_slope){interval(2.05 + 0.1 * j + part, 0.15 + 0.01 * j), 3};
-    f->slope[1][1] = (struct br_slope){{1.44, NAN, NAN}, 2}; /* no interval */
-    f->slope[0][2] = (struct br_slope){{NAN, NAN, NAN}, 1};  /* nothing */
-    f->slope[0][3].order = interval(2.3456 + part, 0.0001);  /* a narrow one */
     f->joint = (struct br_joint_fit){
         .kind = (enum br_joint_kind)part,
         .c = {interval(0.0716, 0.001), interval(0.0845, 0.001)},

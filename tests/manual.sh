@@ -8,11 +8,11 @@ command -v groff >/dev/null || echo "skipped: groff is not installed"
 failures=0
 for file in options.md beamrate.1; do
     case $file in
-    *.md) option=--markdown ;;
-    *) option=--man ;;
+    *.md) topic=markdown ;;
+    *) topic=man ;;
     esac
-    "$BEAMRATE" help "$option" | diff - "$BEAMRATE_DATA/docs/$file" && continue
-    echo "docs/$file differs: beamrate help $option >docs/$file"
+    "$BEAMRATE" help "$topic" | diff - "$BEAMRATE_DATA/docs/$file" && continue
+    echo "docs/$file differs: beamrate help $topic >docs/$file"
     failures=$((failures + 1))
 done
 if grep -nE '.\.(SH|SS|TP|PP|B|nf|fi)( |$)' "$BEAMRATE_DATA/docs/beamrate.1"; then

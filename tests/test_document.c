@@ -74,7 +74,6 @@ static void put_all_kinds(struct br_document *d)
                  i);
         BR_PUT(d, br_text(text), .key = "long");
     }
-    br_put_rule(d);
 }
 
 /* Begins a table with one column. */

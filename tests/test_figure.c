@@ -127,7 +127,7 @@ static bool draw(const struct br_figure *f)
     assert_non_null(mkdtemp(folder));
     write_file(folder, names[0], f, br_figure_write_data);
     write_file(folder, names[1], f, br_figure_write_script);
-    enum br_status status = br_gnuplot_start(&gnuplot, folder, names[1], NULL, &missing, &err);
+    enum br_status status = br_gnuplot_start(&gnuplot, folder, names[1], &missing, &err);
     if (!status)
         status = br_gnuplot_end_figure(&gnuplot, &err);
     if (status && !missing)

@@ -366,7 +366,7 @@ static size_t taken_of(enum work work, struct br_kept *kept, const struct br_tri
         assert_true(trial.end == BR_TRIAL_DONE || trial.end == BR_TRIAL_OVER ||
                     trial.end == BR_TRIAL_DOUBTFUL);
     } else {
-        static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
+        static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
         static const struct br_reading reading = {"err", "(.*)", BR_READING_REGEX};
         static const double one = 4;
         struct br_numbers numbers = {.rows = 0};

@@ -278,7 +278,6 @@ static void same_study(const struct beamrate_study *study, struct br_study *expe
     for (int part = 0; part < BR_PARTS; part++) {
         struct br_fits fits;
         struct beamrate_fit fit;
-        struct beamrate_estimate slope;
         MUST(br_fit(expected, (enum br_part)part, &fits, &err));
         beamrate_study_fit(study, (enum beamrate_part)part, &fit);
         assert_int_equal(fit.describes, br_joint_describes(&fits.joint));
@@ -289,19 +288,12 @@ static void same_study(const struct beamrate_study *study, struct br_study *expe
         same_estimate(fit.c_k, fits.joint.c[1]);
         same_estimate(fit.r, fits.joint.r);
         close_to(fit.misfit, fits.joint.misfit);
-        for (size_t i = 0; i < 3; i++) {
-            beamrate_study_slope(study, (enum beamrate_part)part, BEAMRATE_SPACE, i, &slope);
-            same_estimate(slope, fits.slope[0][i].order);
-            beamrate_study_slope(study, (enum beamrate_part)part, BEAMRATE_TIME, i, &slope);
-            same_estimate(slope, fits.slope[1][i].order);
-        }
         for (size_t c = 0; c < 9; c++) {
             beamrate_study_cell(study, c / 3, c % 3, &cell);
             close_to(cell.error[part], br_study_cell(expected, c / 3, c % 3)->error[part]);
             assert_string_equal(cell.flag[part],
                                 br_flag_name(br_study_cell(expected, c / 3, c % 3)->flag[part]));
         }
-        br_fits_clear(&fits);
     }
 }
 
@@ -621,7 +613,6 @@ TEST(wrong_handles_are_refused)
     struct beamrate_march_report report;
     struct beamrate_cell cell;
     struct beamrate_reference reference;
-    struct beamrate_estimate estimate;
     struct beamrate_fit fit;
     struct beamrate_order order;
     struct beamrate_case c;
@@ -656,7 +647,6 @@ TEST(wrong_handles_are_refused)
         assert_int_equal(beamrate_march_columns(no_march, BEAMRATE_AXIAL), 0);
         REFUSES(beamrate_study_cell(other, 0, 0, &cell));
         assert_true(isnan(cell.error[0]) && *cell.flag[2] == 0);
-        REFUSES(beamrate_study_slope(other, BEAMRATE_TOTAL, BEAMRATE_SPACE, 0, &estimate));
         REFUSES(beamrate_study_fit(other, BEAMRATE_TOTAL, &fit));
         REFUSES(beamrate_study_reference(other, &reference));
         REFUSES(beamrate_check_case(other, 0, &c));
@@ -687,9 +677,6 @@ TEST(wrong_handles_are_refused)
     /* indices and enums */
     REFUSES(beamrate_study_cell(study, 1, 0, &cell));
     REFUSES(beamrate_study_cell(study, 0, SIZE_MAX, &cell));
-    REFUSES(beamrate_study_slope(study, (enum beamrate_part)3, BEAMRATE_SPACE, 0, &estimate));
-    REFUSES(beamrate_study_slope(study, BEAMRATE_TOTAL, (enum beamrate_axis) - 1, 0, &estimate));
-    REFUSES(beamrate_study_slope(study, BEAMRATE_TOTAL, BEAMRATE_TIME, 1, &estimate));
     REFUSES(beamrate_study_fit(study, (enum beamrate_part) - 1, &fit));
     REFUSES(beamrate_march_get(march, (enum beamrate_field)2, room, room));
     assert_int_equal(beamrate_orders_line(orders, (enum beamrate_axis)2, &order), 0);

@@ -18,9 +18,10 @@
 #include "study/orders/process.h"
 #include "study/orders/request.h"
 
-static const struct br_resolution_column cells = {"n", BR_AXIS_SPACE, false, false};
-static const struct br_resolution_column unknowns = {"dofs", BR_AXIS_SPACE, false, true};
-static const struct br_resolution_column step = {"k", BR_AXIS_TIME, true, false};
+static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
+static const struct br_resolution_column unknowns = {
+    .name = "dofs", .axis = BR_AXIS_SPACE, .is_volume = true};
+static const struct br_resolution_column step = {.name = "k", .axis = BR_AXIS_TIME, .is_size = true};
 
 static char folder[] = "/tmp/beamrate-test-XXXXXX";
 static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};

@@ -40,7 +40,7 @@ static void check_missing(const char *folder)
     bool missing = false;
     char *path = strdup(getenv("PATH"));
     setenv("PATH", "/dev/null", 1);
-    REFUSED(br_gnuplot_start(&g, folder, "s0.gp", NULL, &missing, &err), BR_IO, "gnuplot");
+    REFUSED(br_gnuplot_start(&g, folder, "s0.gp", &missing, &err), BR_IO, "gnuplot");
     setenv("PATH", path, 1);
     free(path);
     assert_true(missing);
@@ -64,7 +64,7 @@ TEST(test_side_by_side)
                                 "set terminal pngcairo\nset output stem.'.png'\nplot x\n"
                                 "unset output\n");
         const enum br_status status =
-            br_gnuplot_start(&at_work[i], folder, script, NULL, &missing, &err);
+            br_gnuplot_start(&at_work[i], folder, script, &missing, &err);
         if (!missing)
             MUST(status);
     }

@@ -49,7 +49,6 @@ static void make(struct made *m, double a, double p, double b, double q)
 static void see(struct made *m)
 {
     for (int part = 0; part < BR_PARTS; part++) {
-        br_fits_clear(&m->report.fits[part]);
         MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
     }
     MUST(br_report_see_orders(&m->report, &err));

@@ -137,13 +137,13 @@ static const struct {
     {"run SCENE --n 2 --k 0.5 --out run --json run.json", 0},
     {"study SCENE --n 2,4 --k 0.5,0.25 --reference mms --out study", 0},
     {"check SCENE --junit c.xml --json c.json --markdown c.md", 1},
-    {"trade SCENE --methods euler --n 2 --k 0.5,0.25 --reference mms --repeats 1 --out trade", 0},
+    {"trade SCENE --methods euler --n 2 --k 0.5,0.25 --reference mms --out trade", 0},
     {"trade SCENE --split --methods euler --n 2 --k 0.5,0.25 --out split", 0},
     {"scenes SCENE", 0},
     {"run SCENE --n 2 --k 3", 2},
     {"study SCENE.no", 2},
     /* takes long */
-    {"plan SCENE --error 0.3 --methods euler --reference mms --repeats 1 --out plan", 0},
+    {"plan SCENE --error 0.3 --methods euler --reference mms --out plan", 0},
 };
 
 #define COMMANDS (sizeof commands / sizeof *commands)

@@ -5,7 +5,7 @@
 usage: build.py PROJECT PROGRAM FOLDER [SCENE...]
 
 The pages and what they link to keep their places, so that their links hold; a link that does not is
-an error. The gallery shows a frame of the animation of each bundled scene, or of the SCENEs.
+an error. The gallery shows the animation of each bundled scene, or of the SCENEs.
 """
 import os
 import pathlib
@@ -56,22 +56,19 @@ def copy_page(project, source, page):
 
 
 def draw(program, scene, folder):
-    """A frame of a scene's animation, from the middle; None where there is no gnuplot."""
-    frames = folder / f"{scene}-frames"
-    command = [program, "run", scene, "--quiet", "--animate", f"{frames}/"]
+    """A scene's animation; None where there is no gnuplot."""
+    picture = folder / f"{scene}.gif"
+    command = [program, "run", scene, "--quiet", "--animate", picture]
     subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
-    pictures = sorted(frames.glob("*.png"))
-    picture = pictures[len(pictures) * 3 // 5] if pictures else None
-    if picture:
-        picture.rename(folder / f"{scene}.png")
-    shutil.rmtree(frames)
-    return picture and f"{scene}.png"
+    for other in (".gp", ".dat"):
+        picture.with_suffix(other).unlink()
+    return picture.name if picture.exists() else None
 
 
 def make_gallery(program, scenes, folder):
-    """A page with each scene's frame and what its file says of it."""
+    """A page with each scene's animation and what its file says of it."""
     folder.mkdir()
-    page = ["# Gallery", "", "A moment of each bundled scene, as `beamrate run SCENE --animate` draws it."]
+    page = ["# Gallery", "", "Each bundled scene, as `beamrate run SCENE --animate` draws it."]
     for scene in scenes:
         text = subprocess.run([program, "scenes", scene], check=True, capture_output=True, text=True)
         title = re.search(r"^title: *(.*)$", text.stdout, re.M)

@@ -3,7 +3,6 @@
 
 #include <float.h>
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_fit.h>
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
@@ -98,41 +97,6 @@ bool br_joint_describes(const struct br_joint_fit *fit)
 static bool usable(const struct br_cell *c, enum br_part part)
 {
     return c->flag[part] == BR_FLAG_NONE && c->error[part] > 0 && isfinite(c->error[part]);
-}
-
-/* Slope of y over x with its interval. */
-static struct br_slope slope_of(const double *x, const double *y, size_t count)
-{
-    struct br_slope slope = {.order = {NAN, NAN, NAN}, .points = count};
-    if (count < 2)
-        return slope;
-    double c0, c1, cov00, cov01, cov11, sum;
-    gsl_fit_linear(x, 1, y, 1, count, &c0, &c1, &cov00, &cov01, &cov11, &sum);
-    slope.order = br_estimate_of(c1, sqrt(fmax(0, cov11)), count - 2);
-    return slope;
-}
-
-/* Slopes along one axis of the grid: over h at each k, or over k at each n. */
-static enum br_status fit_lines(const struct br_study *s, enum br_part part, int axis,
-                                struct br_slope **slopes, struct br_error *err)
-{
-    const size_t lines = br_axis_count(s, 1 - axis), most = br_axis_count(s, axis);
-    double *x = br_allocate(2 * most, sizeof *x), *y = x + most;
-    *slopes = br_allocate(lines, sizeof **slopes);
-    for (size_t i = 0; i < lines && x && *slopes; i++) {
-        size_t count = 0;
-        for (size_t j = 0; j < most; j++) {
-            const struct br_cell *c = &s->cell[br_axis_cell(s, axis, j, i)];
-            if (!usable(c, part))
-                continue;
-            x[count] = log(br_axis_size(s->scene, axis, c->at));
-            y[count++] = log(c->error[part]);
-        }
-        (*slopes)[i] = slope_of(x, y, count);
-    }
-    const bool known = x && *slopes;
-    free(x);
-    return known ? BR_OK : br_no_memory(err, "the fits");
 }
 
 static enum br_status fit_joint(const struct br_study *s, enum br_part part,
@@ -234,8 +198,6 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
         if (!(own <= fits->reference_error) && isfinite(own))
             fits->reference_error = own;
     } while (!status && set_flags(s, part, fits->reference_error) != 0);
-    for (int axis = 0; axis < BR_AXES && !status; axis++)
-        status = fit_lines(s, part, axis, &fits->slope[axis], err);
     return status;
 }
 
@@ -244,13 +206,6 @@ void br_flag_beside(struct br_study *s)
     static const struct br_joint_fit none;
     for (int part = 0; part < BR_PARTS; part++)
         set_flags(s, (enum br_part)part, reference_error(s, (enum br_part)part, &none));
-}
-
-void br_fits_clear(struct br_fits *fits)
-{
-    for (int axis = 0; axis < BR_AXES; axis++)
-        free(fits->slope[axis]);
-    *fits = (struct br_fits){0};
 }
 
 /* ---- linear least squares ---- */

@@ -34,13 +34,6 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
 const char *br_uncertain_text(double value, double half, char *buffer, size_t size);
 const char *br_digits_text(double value, int digits, char *buffer, size_t size);
 
-/* Slope of log(error) against log(h) or log(k), as a reader would draw it. It is an order only
- * where one of the two errors dominates. */
-struct br_slope {
-    struct br_estimate order;
-    size_t points; /* an interval needs 3 */
-};
-
 /* The joint model of a grid. The errors of space and of time are fields with
  * signs, so their norms do not add. The reference has a resolution, too:
  *     e^2 = a^2 + 2 r a b + b^2,   -1 <= r <= 1,
@@ -63,7 +56,6 @@ struct br_joint_fit {
 };
 
 struct br_fits {
-    struct br_slope *slope[BR_AXES]; /* over h at each k, k_count; over k at each n, n_count */
     struct br_joint_fit joint;
     double reference_error; /* the reference's own error, m^(3/2); NaN: not known */
 };
@@ -81,7 +73,6 @@ enum br_status br_fit(struct br_study *study, enum br_part part, struct br_fits 
  * fit is not known, and flags nothing. */
 void br_flag_beside(struct br_study *study);
 
-void br_fits_clear(struct br_fits *fits);
 
 /* The margin: a cell is flagged when its error is below this many times the
  * reference's own error or the predicted round-off. */

@@ -298,8 +298,6 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
 
 void br_report_clear(struct br_report *r)
 {
-    for (int part = 0; part < BR_PARTS; part++)
-        br_fits_clear(&r->fits[part]);
     free(r->printed);
     r->printed = NULL;
 }

@@ -31,7 +31,6 @@ struct br_report {
                                       differences; NULL: none. Flagged; borrowed */
     const char
         *no_meshes; /* why `meshes` is NULL; NULL: it is not, or none are asked for. Borrowed */
-    bool rates;     /* whether people see the slope of every row and column of the grid */
     struct br_fits fits[BR_PARTS];
     struct br_seen_order seen[BR_PARTS][BR_AXES];
     struct br_estimate tip[2]; /* by br_field_kind: the tip at t = T for h, k -> 0, by

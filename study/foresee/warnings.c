@@ -194,15 +194,9 @@ static void round_off_remedy(const struct br_planned_march *o, double floor, cha
     alternative.method = &other;
     other.solver = br_linear_solvers[0];
     const double least = br_predict_round_off(&alternative);
-    other = *o->method;
-    other.linear.refinement = 2;
     int used = 0;
     if (least < floor / 2)
         used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
-    if (br_linear_solver_accepts(other.solver, "--refinement") &&
-        o->method->linear.refinement < 2 && br_predict_round_off(&alternative) < floor / 2)
-        used += snprintf(remedy + used, 400 - (size_t)used, "--refinement 2  # %.1e\n",
-                         br_predict_round_off(&alternative));
     snprintf(remedy + used, 400 - (size_t)used, "fewer elements, which round-off grows with");
 }
 

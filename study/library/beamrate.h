@@ -79,8 +79,8 @@ struct beamrate_observer {
 /* A method is a list of keys and values, which ends with NULL:
  *     const char *const method[] = {"scheme", "bdf2", "axial_degree", "2", NULL};
  * Keys and values are those of a scene's `verify` part: scheme, tolerance, axial_degree, solver,
- * kernel, scaling, refinement, contact, friction, friction_parameter, friction_tolerance,
- * friction_iterations. The default of all keys, and of a list that is NULL, is the paper's scheme:
+ * kernel, scaling, refinement, contact, friction, friction_parameter, friction_tolerance.
+ * The default of all keys, and of a list that is NULL, is the paper's scheme:
  * implicit Euler with lagged contact, (16) and (17). Unknown keys and keys that the method does not
  * use are refused (BEAMRATE_BAD_INPUT). */
 
@@ -281,12 +281,6 @@ void beamrate_study_free(struct beamrate_study *study); /* accepts NULL */
 /* Cell (out) of n[i], i < n_count, and steps[j], j < steps_count. */
 enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, size_t i, size_t j,
                                          struct beamrate_cell *cell);
-
-/* The slope (out) of log(error) over log(h) at steps[at], or, for time, of log(error) over log(k)
- * at n[at]. NaN with fewer than two cells; its interval is NaN with fewer than three. */
-enum beamrate_status beamrate_study_slope(const struct beamrate_study *study,
-                                          enum beamrate_part part, enum beamrate_axis axis,
-                                          size_t at, struct beamrate_estimate *order);
 
 /* The joint fit of an error component (out). */
 enum beamrate_status beamrate_study_fit(const struct beamrate_study *study, enum beamrate_part part,

@@ -308,13 +308,6 @@ class Study(_Handle):
         """Both orders together, from all cells."""
         return self._get("study_fit", _Fit, _choice("part", part, 3))
 
-    def slope(self, axis, at, part=TOTAL):
-        """The order in h at steps[at], or in k at n[at]."""
-        axis = _choice("axis", axis, 2)
-        along = (self.steps, self.n)[axis.value]
-        return self._get("study_slope", _Estimate, _choice("part", part, 3), axis,
-                         c_size_t(range(len(along))[at]))
-
 
 class Check(_Handle):
     """Verdicts on a scene's orders; on those of numbers: Orders.check. cases: a list; passed: all."""

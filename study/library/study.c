@@ -156,8 +156,6 @@ void beamrate_study_free(struct beamrate_study *study)
 {
     if (!br_handle_is(study, BR_HANDLE_STUDY))
         return;
-    for (int part = 0; part < BR_PARTS; part++)
-        br_fits_clear(&study->fits[part]);
     br_study_clear(&study->study);
     free(study->n);
     free(study->steps);
@@ -191,21 +189,6 @@ enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, siz
         cell->error[part] = c->error[part];
         cell->flag[part] = br_flag_name(c->flag[part]);
     }
-    return BEAMRATE_OK;
-}
-
-enum beamrate_status beamrate_study_slope(const struct beamrate_study *study,
-                                          enum beamrate_part part, enum beamrate_axis axis,
-                                          size_t at, struct beamrate_estimate *order)
-{
-    if (order)
-        *order = (struct beamrate_estimate){NAN, NAN, NAN};
-    if (!order || !is_part_of(study, part) || !is_axis(axis) ||
-        at >= (axis == BEAMRATE_SPACE ? study->study.k_count : study->study.n_count))
-        return BEAMRATE_BAD_INPUT;
-    const struct br_fits *fits = &study->fits[part];
-    const struct br_slope *slope = fits->slope[axis];
-    *order = br_library_estimate(slope[at].order);
     return BEAMRATE_OK;
 }
 

@@ -6,12 +6,13 @@
 #include <string.h>
 
 const struct br_resolution_column br_resolution_columns[] = {
-    {"h", BR_AXIS_SPACE, .is_size = true},
-    {"n", BR_AXIS_SPACE, .is_size = false},
-    {"dofs", BR_AXIS_SPACE, .is_volume = true},
-    {"k", BR_AXIS_TIME, .is_size = true},
-    {"dt", BR_AXIS_TIME, .is_size = true},
-    {"steps", BR_AXIS_TIME, .is_size = false},
+    {"h", "h", BR_AXIS_SPACE, .is_size = true},
+    {"n", "h = 1/n", BR_AXIS_SPACE, .is_size = false},
+    {"dofs", "h = dofs^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
+    {"level", "h = 2^-level", BR_AXIS_SPACE, .is_power = true},
+    {"k", "k", BR_AXIS_TIME, .is_size = true},
+    {"dt", "k", BR_AXIS_TIME, .is_size = true},
+    {"steps", "k = 1/steps", BR_AXIS_TIME, .is_size = false},
     {0},
 };
 
@@ -25,7 +26,11 @@ const struct br_resolution_column *br_resolution_column_find(const char *name)
 
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension)
 {
-    return column->is_size ? given : column->is_volume ? pow(given, -1 / dimension) : 1 / given;
+    if (column->is_size)
+        return given;
+    if (column->is_power)
+        return exp2(-given);
+    return column->is_volume ? pow(given, -1 / dimension) : 1 / given;
 }
 
 const char *br_list_next(const char *list, const char **name, size_t *length)
@@ -140,7 +145,7 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_resolution_column *column = numbers->column[axis];
         const double given = row->given[axis], z = row->z[axis];
-        if (column && !(given > 0 && isfinite(given)))
+        if (column && !((given > 0 || (column->is_power && given >= 0)) && isfinite(given)))
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
                            column->name, given);
         if (column && !(z >= DBL_MIN && isfinite(z)))

@@ -107,6 +107,7 @@ static enum br_status make_points(const struct br_orders *o, size_t quantity,
         .part = "",
         .unit = q->unit ? q->unit : "",
         .points = rows - q->is_value,
+        .may_miss = true,
     };
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)

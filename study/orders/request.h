@@ -41,6 +41,7 @@ struct br_orders_request {
     char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
                               known limit; NULL: see the sources */
     double dimension;      /* of the mesh, for unknowns (dofs) */
+    bool assumed_dimension; /* nobody stated it */
     double formal;         /* the order of theory for values */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
@@ -87,24 +88,34 @@ enum br_status br_orders_check_lists(const struct br_orders_request *request,
 /* In a table; a row without its heading. A report takes 20 microseconds for each field. */
 enum {
     BR_LONGEST_TABLE = 64 << 20, /* bytes */
-    BR_LONGEST_OBJECT = 1 << 20, /* bytes of a line of JSON */
     BR_MOST_COLUMNS = 1000,
     BR_MOST_FIELDS = 40000
 };
 
-/* Splits a text, CSV (comma) or TSV (tab), into an array of rows, the heading first. A row is an
- * array of its line and its fields; an empty field is null. Empty lines and lines that begin with #
- * are left out. only_last: of the rows only the last one stays. Fails with BR_BAD_INPUT, naming
- * path and line, also beyond the limits above and BR_MOST_ROWS; with BR_INTERRUPTED by the
- * observer, which may be NULL; or with BR_NO_MEMORY. */
+/* Splits a text into an array of rows, the heading first. A row is an array of its line and its
+ * fields, texts; an empty field is null, and so is the heading of a column without a name. What
+ * separates fields is found out: tabs, '|', '&' of LaTeX, ';', ',' or else blanks; with all but the
+ * comma numbers may have decimal commas. Left out are empty lines, comments (#, %, !), rules, and a
+ * last row of means. The heading may be the comment above the first row, two lines, or names in
+ * the rows ("h = 0.1  e = 0.2"). only_last: of the rows only the last one stays. Fails with
+ * BR_BAD_INPUT, naming path and line, also beyond the limits above and BR_MOST_ROWS; with
+ * BR_INTERRUPTED by the observer, which may be NULL; or with BR_NO_MEMORY. */
 enum br_status br_table_split(const char *text, const char *path, bool only_last,
                               const struct br_observer *observer, json_t *table,
                               struct br_error *err);
 
-/* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, and perhaps a unit in
- * brackets: "dt [s]". br_resolution_columns names the columns of resolutions; where an axis has
- * several, they must agree. Without errors and values in the request, every other column of numbers
- * is an error; columns of words are ignored. An empty field is a run without a number. */
+/* Whether a field is no number: empty, "-", "nan", "inf", stars. text: NULL, it is empty. */
+bool br_is_missing(const char *text);
+
+/* Reads a number of a table, also with an exponent of Fortran: 1.5D-3, 1.5-103. */
+bool br_table_number(const char *text, double *value);
+
+/* The source: a table. A heading is a name, and perhaps a unit in brackets: "dt [s]". Usual names
+ * tell the columns of resolutions (table.c); where an axis has several, sizes, counts along a side
+ * and levels must agree, and the first of h, n, dofs, cells is taken. Without errors and values in
+ * the request, every other column of numbers is an error, but rates, times and iterations. A field
+ * that is empty, "-", "nan" or "***" is a run without a number. numbers->taken (out) says what was
+ * taken for what. */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
                              struct br_error *err);
 

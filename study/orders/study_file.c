@@ -74,6 +74,12 @@ static enum br_status take_formal(const struct entry *e)
                          e->text);
 }
 
+static enum br_status take_dimension(const struct entry *e)
+{
+    e->request->assumed_dimension = false;
+    return take_number(e);
+}
+
 static enum br_status take_reading(const struct entry *e)
 {
     return br_orders_request_reading(e->request, e->name, e->text, e->err);
@@ -103,7 +109,7 @@ static const struct key keys[] = {
     {"read", take_reading, .of_runs = true, .pairs = true},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
-    {"dimension", take_number, .at = offsetof(struct br_orders_request, dimension)},
+    {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},

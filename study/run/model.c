@@ -170,7 +170,7 @@ void br_run_fill_model(struct br_run_report *r)
     add_initial(r);
     if (r->summed)
         add(r, "nodal_fields", "nodal fields", true,
-            "rebuilt every step, for the certificate or the energies");
+            "rebuilt every step, for the certificate and the energies");
     else
         add(r, "nodal_fields", "nodal fields", true,
             "rebuilt at t = 0, at %zu output time%s and at the end, not in the steps", r->levels,

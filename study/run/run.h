@@ -45,7 +45,7 @@ struct br_run_request {
     const size_t *level; /* levels, ascending: output times of the fields */
     size_t levels;
     bool check;    /* the certificate and the energy balance of every step */
-    bool energies; /* the energy balance */
+    bool energies; /* the energy balance alone, for programs */
     const struct br_history_observer *output; /* outputs: who writes rows and fields */
     size_t outputs;                           /* at most BR_MOST_OUTPUTS */
     const struct br_observer *progress;       /* may be NULL */

@@ -39,7 +39,6 @@ NUMBER(tolerance, tolerance, double)
 NUMBER(refinement, linear.refinement, int)
 NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
-NUMBER(friction_iterations, iteration.most, size_t)
 
 /* Words that are not rows of a registry: their index in the list is the value. */
 #define LIST(list, ...)                                           \
@@ -157,16 +156,11 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                           .more = "The results record it; those of two kernels agree to round-off.",
                           .standard = "the best", .words = &kernels, .by = BR_METHOD_SOLVER,
                           .before = " on ", .unsaid = true},
-    [BR_METHOD_SCALING] = {"scaling", "scaling", "NAME", "umfpack's row scaling: none, sum or max",
-                           VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
+    [BR_METHOD_SCALING] = {"scaling", "scaling", NULL, NULL, VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
                            .before = ", scaling ", .quiet = true, .word = scaling_names,
                            .words_title = "rows scaled by their sums"},
     [BR_METHOD_REFINEMENT] =
-        {"refinement", "refinement", "COUNT",
-         "refinement steps a solve of assembled solvers, at most", VALUE(refinement),
-         .more =
-             "That of umfpack is its own and repairs residuals; that of the other two repairs the error itself.",
-         .range = {0, 100, true}, .by = BR_METHOD_SOLVER, .before = ", refinement steps ",
+        {"refinement", "refinement", NULL, NULL, VALUE(refinement), .range = {0, 100, true}, .by = BR_METHOD_SOLVER, .before = ", refinement steps ",
          .quiet = true, .word = refinement_names, .words_title = "two refinement steps a solve"},
     [BR_METHOD_CONTACT] = {"contact", "contact", "NAME", "where contact takes its force",
                            VALUE(contact),
@@ -189,16 +183,8 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                                       "of such a rule, relative to the friction bound",
                                       VALUE(friction_tolerance), .key = "friction_tolerance",
                                       .range = {1e-14, 1, false}, .by = BR_METHOD_FRICTION,
-                                      .in = has_friction, .before = ", to ", .group = "iteration",
-                                      .member = "tolerance"},
-    [BR_METHOD_FRICTION_ITERATIONS] = {"friction-iterations", "friction iterations", "COUNT",
-                                       "of such a rule, a step at most", VALUE(friction_iterations),
-                                       .key = "friction_iterations",
-                                       .more = "A march that needs more fails.",
-                                       .range = {1, 1e9, true}, .by = BR_METHOD_FRICTION,
-                                       .in = has_friction, .before = ", at most ",
-                                       .after = " iterations)", .group = "iteration",
-                                       .member = "most"},
+                                      .in = has_friction, .before = ", to ", .after = ")",
+                                      .group = "iteration", .member = "tolerance"},
 };
 
 /* ---- one field ---- */
@@ -419,6 +405,15 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
     return text;
 }
 
+bool br_method_has_options(const struct br_method *m)
+{
+    for (const struct br_method_field *f = br_method_fields;
+         f < br_method_fields + BR_METHOD_FIELDS; f++)
+        if (!f->help && br_method_field_used(f, m) && !is_default(f, m))
+            return false;
+    return true;
+}
+
 const char *br_method_options(const struct br_scene *scene, const struct br_method *m,
                               char text[BR_METHOD_TEXT])
 {
@@ -428,7 +423,7 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
         const struct br_method_field *f = &br_method_fields[i];
         const bool always = i == BR_METHOD_TOLERANCE; /* a plan's choice must be visible */
         if ((f->in && !f->in(scene)) || !br_method_field_used(f, m) || f->unsaid ||
-            (is_default(f, m) && !always))
+            !f->help || (is_default(f, m) && !always))
             continue;
         br_append(text, BR_METHOD_TEXT, " --%s %s", f->name, br_method_field_text(f, m, value));
     }

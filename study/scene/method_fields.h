@@ -19,7 +19,6 @@ enum br_method_key {
     BR_METHOD_FRICTION,
     BR_METHOD_FRICTION_PARAMETER,
     BR_METHOD_FRICTION_TOLERANCE,
-    BR_METHOD_FRICTION_ITERATIONS,
     BR_METHOD_FIELDS
 };
 
@@ -32,7 +31,7 @@ struct br_method_word {
 struct br_method_field {
     const char *name;                         /* of the option */
     const char *title;                        /* in a sentence: "time scheme" */
-    const char *argument, *help;              /* of the option, for the help */
+    const char *argument, *help;              /* of the option, for the help; NULL: none */
     double (*get)(const struct br_method *m); /* a number, or a row of the words */
     void (*set)(struct br_method *m, double value);
     const char *key;              /* of scenes and JSON; NULL: the name */
@@ -113,7 +112,9 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
                            char text[BR_METHOD_TEXT]);
 
 /* Writes " --scheme bdf2 --tolerance 1e-06": the options that are not the default and have an
- * effect in the scene, each after a blank. Returns text (out). */
+ * effect in the scene, each after a blank. Returns text (out). br_method_has_options: whether the
+ * options say all of the method. */
+bool br_method_has_options(const struct br_method *m);
 const char *br_method_options(const struct br_scene *scene, const struct br_method *m,
                               char text[BR_METHOD_TEXT]);
 

@@ -286,20 +286,6 @@ void br_check_clear(struct br_check *check)
     check->count = 0;
 }
 
-double br_check_work(const struct br_check *check)
-{
-    if (!check->scene)
-        return 0; /* not known */
-    const double fields = check->scene->axial.modelled + check->scene->bending.modelled;
-    double work = 0;
-    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
-        const struct br_verify_study *v = &check->verify->study[kind];
-        for (size_t i = 0; i < v->count; i++)
-            work += fields * (double)v->n[i] * (double)v->steps[i];
-    }
-    return work;
-}
-
 size_t br_check_failures(const struct br_check *checks, size_t count, const struct br_check **first)
 {
     size_t failures = 0;

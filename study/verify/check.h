@@ -36,6 +36,7 @@ struct br_case {
     const char *unit;               /* of the errors; "": not known; borrowed */
     struct br_point *point;         /* points, from coarse to fine; owned */
     size_t points, used;
+    bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
     double low99, high99; /* the order's 99 % interval: what lies outside is excluded */
     const char *law;      /* what explains the errors best, beside one power; NULL: one power */
@@ -94,9 +95,6 @@ void br_check_clear(struct br_check *check);
 /* The study that is marched for pair h of neighbours, or for the joint path (h = 0), but for its
  * norm. */
 struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h);
-
-/* What a check will cost: element-steps of all its marches, a field. */
-double br_check_work(const struct br_check *check);
 
 /* How many checks have a failure, and which is the first; NULL: none. */
 size_t br_check_failures(const struct br_check *checks, size_t count,

@@ -33,10 +33,10 @@ static void choose_points(struct br_case *c)
     }
 }
 
-/* A point that is not a number must fail, whatever its flag. */
+/* A point that is not a number must fail, whatever its flag, unless points may miss. */
 static const struct br_point *first_failed(const struct br_case *c)
 {
-    for (size_t i = 0; i < c->points; i++) {
+    for (size_t i = 0; i < c->points && !c->may_miss; i++) {
         const struct br_point *p = &c->point[i];
         if (p->failure[0] || p->flag == BR_FLAG_FAILED || !(p->error >= 0 && isfinite(p->error)))
             return p;

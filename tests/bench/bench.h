@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shared by the sections of the benchmark: times, rows for a file, and the machine's limits. */
+/* Shared by the sections of the benchmark: times, and rows for a file. */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -58,20 +58,9 @@ double bench_march_cost(const struct bench_march *march, double set_up);
 enum br_status bench_march(const struct bench_march *march, struct bench_march_time *time,
                            struct br_error *err);
 
-/* ---- the machine ---- */
-
-/* Least time of an element-step by the fast solver's kernel, ns: the limit of the instructions, and
- * that of reading and writing the state in the level of memory where it fits. Negative: unknown. */
-struct bench_least {
-    double instructions, memory;
-    const char *level;
-};
-struct bench_least bench_least_time(const char *kernel, enum bench_fields fields, size_t n);
-
 /* ---- sections: cmocka tests ---- */
 
 void bench_accuracy(void **state);
-void bench_machine(void **state);
 void bench_speed(void **state);
 void bench_loads(void **state);
 void bench_errors(void **state);

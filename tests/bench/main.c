@@ -101,8 +101,9 @@ int main(int argc, const char **argv)
     if (check_path(path, &err) || br_remember_command_line(argc, argv, &err))
         return report(err.status, &err);
     const struct CMUnitTest sections[] = {
-        cmocka_unit_test(bench_accuracy), cmocka_unit_test(bench_machine),
-        cmocka_unit_test(bench_speed),    cmocka_unit_test(bench_loads),
+        cmocka_unit_test(bench_accuracy),
+        cmocka_unit_test(bench_speed),
+        cmocka_unit_test(bench_loads),
         cmocka_unit_test(bench_errors),
     };
     const int failed = cmocka_run_group_tests(sections, set_up, NULL);

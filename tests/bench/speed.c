@@ -52,17 +52,9 @@ static double check_tip(const struct series *s, size_t n)
 
 static void print_row(const struct series *s, size_t n, const struct bench_time *t)
 {
-    const struct bench_least least = bench_least_time(s->kernel, s->fields, n);
     printf(" %9.2f %9.2f %9.2f", t->median, t->least, t->most);
     if (s->fields == BENCH_BOTH && n <= FINEST)
         printf(" %10.1e", check_tip(s, n));
-    else
-        printf(" %10s", "");
-    if (*s->kernel != '-' && least.instructions > 0)
-        printf(" %10.0f %% %10.0f %% %s", 100 * least.instructions / t->least,
-               100 * least.memory / t->least, least.level);
-    else if (*s->kernel != '-')
-        printf("   no limit was measured for this kernel");
     printf("\n");
     fflush(stdout);
 }
@@ -124,12 +116,10 @@ void bench_speed(void **state)
 {
     (void)state;
     printf("\nTime of an element-step, ns (median, least, most of the repeats); how far the tip is "
-           "from the fast solver's\nafter %d steps; the least against what the multiply-adds and "
-           "reading and writing the state would take\nat this machine's limits. Element-steps "
-           "count once for both fields.\n",
+           "from the fast solver's\nafter %d steps. Element-steps count once for both fields.\n",
            STEPS);
-    printf("%-8s %-9s %-8s %8s %9s %9s %9s %10s %12s %12s\n", "solver", "kernel", "fields", "n",
-           "median", "least", "most", "tip off by", "of arithm.", "of memory");
+    printf("%-8s %-9s %-8s %8s %9s %9s %9s %10s\n", "solver", "kernel", "fields", "n", "median",
+           "least", "most", "tip off by");
     for (int fields = 0; fields < BENCH_FIELDS; fields++)
         for (const struct br_linear_solver *const *solver = br_linear_solvers; *solver; solver++) {
             struct series s = {.method = br_method_default(),

@@ -462,11 +462,15 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
                         char text[BR_EXTREME_COMMAND])
 {
     char options[BR_METHOD_TEXT];
-    const struct br_scene scene = {.axial.modelled = c->field[BR_AXIAL].modelled,
+    const bool axial = c->field[BR_AXIAL].modelled && (c->wanted || c->law != BR_TRESCA);
+    const struct br_scene scene = {.axial.modelled = axial, /* else `run` leaves it out */
                                    .contact.modelled = c->contact,
                                    .friction.law = c->law};
     snprintf(text, BR_EXTREME_COMMAND, "beamrate run %s --check --n %zu --steps %zu%s", name, c->n,
              c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
         br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");
+    if (!br_method_has_options(&c->method))
+        br_append(text, BR_EXTREME_COMMAND, " # and, in a verify part, scaling: %s, refinement: %d",
+                  c->method.linear.scaling, c->method.linear.refinement);
 }

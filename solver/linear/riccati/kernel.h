@@ -120,23 +120,4 @@ const struct br_kernel *br_kernel_best(void);
 /* The kernel of that name, available or not; NULL: there is none. */
 const struct br_kernel *br_kernel_find(const char *name);
 
-/* ---- cost ---- */
-
-/* What the element loops of sweep.c do for one element in each lane of a vector, for the benchmark,
- * which compares their time with the machine's limits. Count again when the loops change:
- * element_left, element_right, element_state, strain, pass_on and the weights. Instructions that
- * only move values are not counted, nor are the joins. */
-
-struct br_sweep_cost {
-    int fma, multiply, add; /* instructions on vectors of BR_LANES */
-    int state; /* doubles that persist from step to step; each is read and written once a step, in
-                  the cache or memory where all pieces fit */
-};
-
-/* By br_field_kind. To the left, then to the right. */
-static const struct br_sweep_cost br_sweep_costs[2] = {
-    {.fma = 3 + 6, .multiply = 0, .add = 1 + 4, .state = 2},
-    {.fma = 12 + 24, .multiply = 0, .add = 1 + 6, .state = 4},
-};
-
 #endif
