@@ -199,13 +199,16 @@ static void advise(struct br_case *c)
 
 static void judge_too_few(struct br_case *c)
 {
-    bool unstable = false;
-    for (size_t i = 0; i < c->points; i++)
+    bool unstable = false, missing = false;
+    for (size_t i = 0; i < c->points; i++) {
         unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
+        missing |= c->point[i].flag == BR_FLAG_FAILED;
+    }
     conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors are left, an order needs %d: %s", c->used,
              c->points, BR_VERIFY_LEAST_POINTS,
-             unstable ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
-                      : "coarser grids have errors that are not lost in what limits them");
+             unstable  ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
+             : missing ? "the rows without a number are needed, or more rows"
+                       : "coarser grids have errors that are not lost in what limits them");
 }
 
 /* An error that does not fall shows another solution, or the error of a reference or tolerance. */
