@@ -412,7 +412,7 @@ static const struct planted_bug planted_bugs[] = {
      "check fine_meshes", "solve_once(s, s->residual, s->correction, err);",
      "solve_once(s, s->residual - s->unknowns, s->correction, err);"},
     {"refinement_of_the_last_node_lost", "lost", "solver/linear/assembled/assembled.c",
-     "tests/test_linear",
+     "tests/test_run test_refined",
      "for (size_t i = 0; i < s->nodal; i++)\n            x[i] +=",
      "for (size_t i = 0; i < s->nodal - 1; i++)\n            x[i] +="},
     {"scaled_factors_half_solved", "order", "solver/linear/assembled/umfpack.c",
