@@ -681,8 +681,6 @@ static const struct planted_bug planted_bugs[] = {
     {"flags_of_half_the_margin", "tolerance", "study/fit/fit.c", "tests/test_fit",
      "c->error[part] >= br_flag_margin * reference",
      "c->error[part] >= br_flag_margin / 2 * reference"},
-    {"slope_interval_of_all_points", "interval", "study/fit/fit.c", "tests/test_fit test_slope",
-     "sqrt(fmax(0, cov11)), count - 2);", "sqrt(fmax(0, cov11)), count - 1);"},
     {"akaike_without_its_correction", "interval", "study/fit/joint_fit.c",
      "tests/test_fit test_few_points", "+ 2 * u * (u + 1) / (n - u - 1);", ";"},
     {"joint_interval_without_jackknife", "interval", "study/fit/joint_fit.c", "tests/test_fit",

@@ -100,8 +100,8 @@ enum br_status br_table_split(const char *text, const char *path, bool only_last
                               const struct br_observer *observer, json_t *table,
                               struct br_error *err);
 
-/* The source: CSV, TSV or JSON lines (an object a line). A heading is a name, and perhaps a unit in
- * brackets: "dt [s]". br_resolution_columns names the columns of resolutions; where an axis has
+/* The source: CSV or TSV. A heading is a name, and perhaps a unit in brackets: "dt [s]".
+ * br_resolution_columns names the columns of resolutions; where an axis has
  * several, they must agree. Without errors and values in the request, every other column of numbers
  * is an error; columns of words are ignored. An empty field is a run without a number. */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
