@@ -166,7 +166,7 @@ const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_sol
 const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
                                                    const struct br_field *field);
 
-/* Whether the solver accepts an option, "--scaling" for example. */
+/* Whether the solver heeds a field of struct br_linear_options, "--scaling" for example. */
 bool br_linear_solver_accepts(const struct br_linear_solver *solver, const char *option);
 
 #endif
