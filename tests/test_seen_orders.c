@@ -43,7 +43,7 @@ static void make(struct made *m, double a, double p, double b, double q)
     m->study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = DBL_MIN;
     m->meshes = br_test_study(&m->scene, &br_judge_none, ROWS - 1, n, 1, steps);
     m->meshes.cell = m->difference;
-    m->report = (struct br_report){.study = &m->study, .meshes = &m->meshes};
+    m->report = (struct br_report){.study = &m->study, .apart = {&m->meshes}};
 }
 
 static void see(struct made *m)
@@ -52,7 +52,8 @@ static void see(struct made *m)
         br_fits_clear(&m->report.fits[part]);
         MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
     }
-    MUST(br_report_see_orders(&m->report, &err));
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_report_see_orders(&m->report, axis, &err));
     br_report_clear(&m->report);
 }
 
@@ -77,7 +78,7 @@ TEST(test_hidden_in_h)
     assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "each mesh against the next at k = 0.01 s"));
     expect(&seen[BR_AXIS_TIME], 1, "as in theory");
     assert_false(m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE].asked);
-    m.report.meshes = NULL;
+    m.report.apart[BR_AXIS_SPACE] = NULL;
     m.report.no_meshes = "the march failed";
     see(&m);
     expect(&seen[BR_AXIS_SPACE], 2, "as in theory"); /* these have no other errors */
@@ -147,7 +148,8 @@ TEST(test_no_order_of_zero)
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
     struct br_report r = m->report;
-    MUST(br_report_see_orders(&r, &err));
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_report_see_orders(&r, axis, &err));
     assert_true(r.seen[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.seen[part][BR_AXIS_TIME].theory.order == in_k);
 }
@@ -170,7 +172,7 @@ TEST(test_theory)
     m.study.norm = &br_norm_tip;
     expect_theory(&m, BR_PART_AXIAL, 4, 1);
     m.study.method.scheme = br_time_scheme_find("adaptive");
-    MUST(br_report_see_orders(&m.report, &err));
+    MUST(br_report_see_orders(&m.report, BR_AXIS_TIME, &err));
     assert_false(m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME].asked); /* it has steps of its own */
 }
 

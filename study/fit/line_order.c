@@ -500,3 +500,20 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     free(room);
     return status;
 }
+
+double br_line_at(const struct br_order_point *point, double order, double constant)
+{
+    return constant * (pow(point->z, order) - pow(point->z_against, order));
+}
+
+double br_line_constant(const struct br_order_point *point, size_t count, double order)
+{
+    double sum = 0;
+    size_t counts = 0;
+    for (size_t i = 0; i < count; i++)
+        if (point[i].error > 0 && isfinite(point[i].error)) {
+            sum += log(point[i].error / br_line_at(&point[i], order, 1));
+            counts++;
+        }
+    return counts ? exp(sum / (double)counts) : (double)NAN;
+}

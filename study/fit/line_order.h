@@ -55,4 +55,11 @@ struct br_line_order {
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
 
+/* The constant C of the line C (z^p - z_against^p) of order p through the middle of the errors, that
+ * is, the mean of its logarithms; errors that are not above 0, or not finite, are left aside. */
+double br_line_constant(const struct br_order_point *point, size_t count, double order);
+
+/* The line of order p and constant C at a point. */
+double br_line_at(const struct br_order_point *point, double order, double constant);
+
 #endif
