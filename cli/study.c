@@ -437,6 +437,7 @@ static enum br_status run_steps(struct run *r, size_t job, const struct br_obser
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
+    const bool varies = br_option_given(r->session->options, BR_OPT_VARY);
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
@@ -451,7 +452,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
         }
         status = br_report_finish(&page->report, r->session->threads, err);
     }
-    for (size_t i = 0; i < r->jobs && !status && !r->differences; i++)
+    for (size_t i = 0; i < r->jobs && !status && !r->differences && !varies; i++)
         status = run_steps(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)

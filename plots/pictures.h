@@ -42,9 +42,11 @@ enum {
     BR_HUES = 6 /* that people can distinguish; each has a dash and a mark of its own */
 };
 
-/* How a series is drawn. The first two have a hue; without a free hue they become BR_PEN_OTHERS. */
+/* How a series is drawn. The first four have a hue; without a free hue they become BR_PEN_OTHERS. */
 enum br_pen {
     BR_PEN_CURVE, /* a line with marks */
+    BR_PEN_MARKS, /* marks alone */
+    BR_PEN_AREA,  /* pale, behind the others: what the points go around */
     BR_PEN_LINE,  /* a line, for many points */
     BR_PEN_OTHERS,
     BR_PEN_GUIDE, /* a prediction, or a line to compare with: thin, dark, dashed */

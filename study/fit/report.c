@@ -288,8 +288,7 @@ static enum br_status see_apart(const struct br_study *s, enum br_part part, int
         snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
                  br_time_step(s->scene, s->steps[l.at]));
     else
-        snprintf(o->by, sizeof o->by, "each step against the next at n = %zu, from k = %.3g s on",
-                 s->n[l.at], br_time_step(s->scene, s->steps[0]));
+        snprintf(o->by, sizeof o->by, "each step against the next at n = %zu", s->n[l.at]);
     return judge_line(o, &l, part, err);
 }
 
@@ -364,6 +363,7 @@ static bool settles(const struct br_seen_order *o)
 static enum br_status see_in_k(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
 {
+    const struct br_study *s = br_report_fitted(r);
     struct br_seen_order apart = *o;
     enum br_status status = see_in_grid(r, part, o, err);
     if (status || !r->apart[BR_AXIS_TIME] || settles(o))
@@ -372,6 +372,11 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     if (isnan(o->order.value) || settles(&apart) ||
         width_of(&apart.order) < width_of(&o->order))
         *o = apart;
+    if (!settles(o)) {
+        const size_t finest = 8 * s->steps[s->k_count - 1];
+        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu,T/%zu", finest,
+               2 * finest, 4 * finest, 8 * finest);
+    }
     return status;
 }
 
