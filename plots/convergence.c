@@ -184,24 +184,15 @@ static void say_orders(const struct br_report *r, enum br_part part, char text[2
     }
 }
 
-/* The errors, the fitted line, and its band: along its lower end and back along its upper one. */
+/* The errors, the fitted line, and its band. */
 static void add_order(const struct br_seen_order *o, const char *name, struct br_figure *f)
 {
-    struct br_series *area = br_series_add(f, BR_PEN_AREA, "%s", name),
-                     *line = br_series_add(f, BR_PEN_LINE, "%s", name),
-                     *marks = br_series_add(f, BR_PEN_MARKS, "%s", name);
-    for (size_t i = 0; i < o->points; i++) {
-        const struct br_seen_point *p = &o->point[i];
-        br_point_add(marks, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
-                     p->flag ? br_flag_name(p->flag) : NULL);
-        if (isfinite(p->fit)) {
-            br_point_add(line, p->z, p->fit, NULL);
-            br_point_add(area, p->z, p->low, NULL);
-        }
-    }
+    const struct br_fitted_series s = br_fitted_series_add(f, name);
+    for (const struct br_seen_point *p = o->point; p < o->point + o->points; p++)
+        br_fitted_point_add(&s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
+                            p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
     for (size_t i = o->points; i-- > 0;)
-        if (isfinite(o->point[i].fit))
-            br_point_add(area, o->point[i].z, o->point[i].high, NULL);
+        br_point_add(s.area, o->point[i].z, o->point[i].fit.high, NULL);
 }
 
 /* Each part with what its order was found from, and the slopes of theory. */

@@ -116,6 +116,15 @@ __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_
                                                                       const char *title, ...);
 void br_point_add(struct br_series *series, double x, double y, const char *flag);
 
+/* Marks, a line that was fitted to them, and its band, to the last panel. Add each point, and then
+ * the upper end of the band, from the last point to the first. Numbers may be NaN. */
+struct br_fitted_series {
+    struct br_series *area, *line, *marks;
+};
+struct br_fitted_series br_fitted_series_add(struct br_figure *figure, const char *title);
+void br_fitted_point_add(const struct br_fitted_series *series, double x, double y,
+                         const char *flag, double fit, double low);
+
 /* Sorts the points by x, then by y. */
 void br_series_sort(struct br_series *series);
 

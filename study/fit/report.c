@@ -140,7 +140,7 @@ static struct br_seen_point point_of(const struct line *l, const struct br_line_
                                      const struct br_cell *c, enum br_part part)
 {
     struct br_seen_point p = {br_axis_size(l->study->scene, l->axis, c->at), c->error[part],
-                              c->flag[part], NAN, NAN, NAN};
+                              c->flag[part], {NAN, NAN, NAN}};
     size_t i = 0;
     while (i < l->count && l->point[i].z != p.z)
         i++;
@@ -166,27 +166,23 @@ static void keep_points(struct br_seen_order *o, const struct line *l, enum br_p
             l, found, &l->study->cell[br_axis_cell(l->study, l->axis, i, l->at)], part);
 }
 
+/* The cell of a kept point. */
+static const struct br_cell *cell_of(const struct line *l, const struct br_seen_order *o, size_t i)
+{
+    const size_t along = br_axis_count(l->study, l->axis) - o->points + i;
+    return &l->study->cell[br_axis_cell(l->study, l->axis, along, l->at)];
+}
+
 /* Draws the line of the order and its band through the errors that count. */
 static void fit_line(struct br_seen_order *o, const struct line *l)
 {
-    const double order[] = {o->order.value, o->order.low, o->order.high};
     struct br_order_point counts[BR_MOST_SEEN];
-    for (size_t i = 0; i < o->points; i++) {
-        const struct br_cell *c =
-            &l->study->cell[br_axis_cell(l->study, l->axis,
-                                         br_axis_count(l->study, l->axis) - o->points + i, l->at)];
-        counts[i] = (struct br_order_point){o->point[i].z,
-                                            br_axis_size(l->study->scene, l->axis, c->against),
-                                            o->point[i].flag ? (double)NAN : o->point[i].error};
-    }
-    for (size_t i = 0; i < o->points && isfinite(o->order.value); i++) {
-        double at[3];
-        for (size_t j = 0; j < 3; j++)
-            at[j] = br_line_at(&counts[i], order[j], br_line_constant(counts, o->points, order[j]));
-        o->point[i].fit = at[0];
-        o->point[i].low = fmin(at[1], at[2]);
-        o->point[i].high = fmax(at[1], at[2]);
-    }
+    for (size_t i = 0; i < o->points; i++)
+        counts[i] = (struct br_order_point){
+            o->point[i].z, br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
+            o->point[i].flag ? (double)NAN : o->point[i].error};
+    for (size_t i = 0; i < o->points; i++)
+        o->point[i].fit = br_line_fit(counts, o->points, i, &o->order);
 }
 
 /* Sets the order from the errors of a line. */
@@ -243,9 +239,7 @@ static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit,
     const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
     for (size_t i = 0; i < o->points; i++) {
         double at[3], size[BR_AXES], against[BR_AXES];
-        const struct br_cell *c =
-            &l->study->cell[br_axis_cell(l->study, l->axis,
-                                         br_axis_count(l->study, l->axis) - o->points + i, l->at)];
+        const struct br_cell *c = cell_of(l, o, i);
         for (int axis = 0; axis < BR_AXES; axis++) {
             size[axis] = br_axis_size(l->study->scene, axis, c->at);
             against[axis] = br_axis_size(l->study->scene, axis, c->against);
@@ -256,9 +250,7 @@ static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit,
             other.c[l->axis].value *= pow(middle, order[0] - order[j]);
             at[j] = br_joint_model(&other, size, against);
         }
-        o->point[i].fit = at[0];
-        o->point[i].low = fmin(at[1], at[2]);
-        o->point[i].high = fmax(at[1], at[2]);
+        o->point[i].fit = (struct br_estimate){at[0], fmin(at[1], at[2]), fmax(at[1], at[2])};
     }
 }
 
@@ -270,7 +262,7 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
              100 * fit->misfit);
     *o->remark = '\0';
     claim(o, fit->order[axis], NULL);
-    keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL);
+    keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL); /* all count */
     fit_model(o, fit, &l);
 }
 

@@ -10,10 +10,10 @@ enum { BR_MOST_TRIANGLES = 4, BR_MOST_SEEN = 12 };
 
 /* An error, or a difference, that an order was sought in. */
 struct br_seen_point {
-    double z, error;       /* h or k, m or s; in the norm's unit */
-    enum br_flag flag;     /* why it does not count; BR_FLAG_NONE: it does */
-    double fit, low, high; /* the fitted line there, and its band, which the ends of the order's
-                              interval make; NaN: there is no order */
+    double z, error;        /* h or k, m or s; in the norm's unit */
+    enum br_flag flag;      /* why it does not count; BR_FLAG_NONE: it does */
+    struct br_estimate fit; /* the fitted line there, and its band, which the ends of the order's
+                               interval make; NaN: there is no order */
 };
 
 /* The order of one component of the errors in h or in k, as far as it can be believed. */
