@@ -33,10 +33,16 @@ enum {
     MESHES = 4, /* an order needs three differences */
     STEPS = 8,  /* at most, each half of the one before; differences in k: */
     PAIRS = 4,  /* ... so many, and more until they settle the order */
-    CHEAP = 10  /* elements of their mesh, at most */
+    CHEAP = 10, /* elements of their mesh, at most */
+    BESIDE = 60 /* elements' worth of what a step takes beside its elements */
 };
-/* Element-steps for the order in k that are no matter beside a grid that takes fewer. */
-static const double no_matter = 4e6;
+/* Element-steps for the order in k that nobody waits for: about half a second. */
+static const double no_matter = 28e6;
+
+static double work_of(size_t n, size_t steps)
+{
+    return (double)steps * (double)(n + BESIDE);
+}
 
 /* The data of a job while it is computed. Each mesh is compared with the next at one time step, and
  * where the grid does not settle the order in k, each step with the next on one mesh; without a
@@ -323,8 +329,8 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
 /* ---- the order in k ---- */
 
 /* Sets the mesh and the steps: from the grid's smallest on, and below the relaxation time if that
- * is within reach, since above it errors have another order. Returns the element-steps of the
- * grid's cells. */
+ * is within reach, since above it errors have another order. Returns the work of the grid's
+ * cells. */
 static double choose_steps(struct work *w, const struct br_study *s)
 {
     const struct br_axial *u = &s->scene->axial;
@@ -340,7 +346,7 @@ static double choose_steps(struct work *w, const struct br_study *s)
         w->step[i] = steps << i;
     double work = 0;
     for (size_t c = 0; c < br_study_cells(s); c++)
-        work += (double)s->cell[c].at.n * (double)s->cell[c].at.steps;
+        work += work_of(s->cell[c].at.n, s->cell[c].at.steps);
     return work;
 }
 
@@ -424,7 +430,7 @@ static enum br_status run_steps(struct run *r, size_t job, const struct br_obser
     enum br_status status = see_job(r, job, &settled, err);
     double left = fmax(choose_steps(w, study_of(r, job, 0)), no_matter);
     for (size_t i = 0; i + 1 < STEPS && !status && !settled && !failed; i++) {
-        left -= (double)(w->step[i] + w->step[i + 1]) * (double)w->cheap;
+        left -= work_of(w->cheap, w->step[i] + w->step[i + 1]);
         if (left < 0)
             break;
         status = run_pair(r, job, i, observer, &failed, err);
