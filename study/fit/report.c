@@ -102,6 +102,14 @@ static double comes_closer(const struct br_seen_order *o, const struct line *l)
     return (fabs(first - nearest(o, first)) - fabs(last - nearest(o, last))) / formal;
 }
 
+/* Whether the order is that of theory. */
+static bool agrees(const struct br_seen_order *o)
+{
+    const double theory = nearest(o, o->order.value);
+    const double off = fabs(o->order.value - theory) / theory;
+    return off <= near / 2 || (off <= near && o->order.low <= theory && theory <= o->order.high);
+}
+
 /* Sets order and remark. l: its rates follow where the order is not as in theory; NULL: none. */
 static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
 {
@@ -112,7 +120,7 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
         REMARK(o, "theory states none: %s", o->theory.reason);
         return;
     }
-    if (off <= near && (fits || off <= near / 2))
+    if (agrees(o))
         REMARK(o, "as in theory");
     else if (off <= near)
         REMARK(o, "near theory");
@@ -343,11 +351,8 @@ static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
  * steps that can be had: errors may fall evenly for a while by an order that is not theirs. */
 static bool settles(const struct br_seen_order *o)
 {
-    const struct br_estimate *order = &o->order;
-    const double theory = nearest(o, order->value);
-    return br_order_determined(order) && width_of(order) <= 2 * near * order->value &&
-           ((order->low <= theory && theory <= order->high) ||
-            fabs(order->value - theory) <= near / 2 * theory);
+    return br_order_determined(&o->order) && width_of(&o->order) <= 2 * near * o->order.value &&
+           agrees(o);
 }
 
 /* From the grid, and where that does not settle it, from the differences of time steps, if these
@@ -364,7 +369,7 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     if (isnan(o->order.value) || settles(&apart) ||
         width_of(&apart.order) < width_of(&o->order))
         *o = apart;
-    if (!settles(o) && !r->printed) { /* a printed grid is as it is */
+    if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 8 * s->steps[s->k_count - 1];
         REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu,T/%zu", finest,
                2 * finest, 4 * finest, 8 * finest);
