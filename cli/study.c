@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate study SCENE: a grid of cells against one reference; and beamrate tables: the paper's
  * Tables 1 and 2 on their printed grids, two studies at once. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,15 +29,30 @@ struct job {
     size_t value;
 };
 
-enum { MESHES = 4 }; /* an order needs three differences */
+enum {
+    MESHES = 4, /* an order needs three differences */
+    STEPS = 8,  /* at most, each half of the one before; differences in k: */
+    PAIRS = 4,  /* ... so many, and more until they settle the order */
+    CHEAP = 10, /* elements of their mesh, at most */
+    BESIDE = 60 /* elements' worth of what a step takes beside its elements */
+};
+/* Element-steps for the order in k that nobody waits for: about half a second. */
+static const double no_matter = 28e6;
 
-/* The data of a job while it is computed. Each mesh is compared with the next at one time step;
- * without a reference, each cell of the grid is compared with its neighbours. */
+static double work_of(size_t n, size_t steps)
+{
+    return (double)steps * (double)(n + BESIDE);
+}
+
+/* The data of a job while it is computed. Each mesh is compared with the next at one time step, and
+ * where the grid does not settle the order in k, each step with the next on one mesh; without a
+ * reference, each cell of the grid is compared with its neighbours. */
 struct work {
     struct br_opened_scene opened;
     size_t *steps;             /* numbers of steps of the grid, ascending; owned */
     struct br_tips tips;       /* only without a reference */
     size_t mesh[MESHES];       /* for differences, if those of the grid do not suffice */
+    size_t cheap, step[STEPS]; /* a mesh, and numbers of steps, for differences in k */
     struct br_error no_meshes; /* why there are no differences */
     struct br_kept kept;
     struct br_differences apart[BR_MOST_NORMS];
@@ -162,11 +178,10 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
         .name = page->name,
         .caption = page->caption,
         .study = !r->differences ? study_of(r, i, m)
-                 : over_k        ? &w->apart[m].over_k
-                                 : &w->apart[m].over_h,
+                                 : &w->apart[m].over[over_k ? BR_AXIS_TIME : BR_AXIS_SPACE],
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .tips = r->differences ? &w->tips : NULL,
-        .meshes = over_k ? NULL : &w->apart[m].over_h,
+        .apart = {over_k ? NULL : &w->apart[m].over[BR_AXIS_SPACE]},
     };
     const bool printed = job->printed && norm->printed && !r->differences;
     return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
@@ -222,8 +237,8 @@ static void clear(void *self)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
         for (size_t m = 0; m < r->request.norms; m++) {
-            br_study_clear(&r->work[i].apart[m].over_h);
-            br_study_clear(&r->work[i].apart[m].over_k);
+            br_study_clear(&r->work[i].apart[m].over[BR_AXIS_SPACE]);
+            br_study_clear(&r->work[i].apart[m].over[BR_AXIS_TIME]);
         }
         br_opened_scene_clear(&r->work[i].opened);
         br_tips_clear(&r->work[i].tips);
@@ -306,32 +321,149 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || (status && r->differences))
         return br_fail(err, status, "%s", w->no_meshes.message);
     for (size_t m = 0; m < norms && !status && !r->differences; m++)
-        br_flag_beside(&w->apart[m].over_h);
+        br_flag_beside(&w->apart[m].over[BR_AXIS_SPACE]);
     return BR_OK;
+}
+
+/* ---- the order in k ---- */
+
+/* Sets the mesh and the steps: from the grid's smallest on, and below the relaxation time if that
+ * is within reach, since above it errors have another order. Returns the work of the grid's
+ * cells. */
+static double choose_steps(struct work *w, const struct br_study *s)
+{
+    const struct br_axial *u = &s->scene->axial;
+    const struct br_bending *b = &s->scene->bending;
+    const double time =
+        fmin(u->modelled && u->viscosity > 0 ? u->viscosity / u->stiffness : INFINITY,
+             b->modelled && b->viscosity > 0 ? b->viscosity / b->stiffness : INFINITY);
+    size_t steps = s->steps[s->k_count - 1];
+    for (int i = 0; i < 2 && br_time_step(s->scene, steps) > time; i++)
+        steps *= 2;
+    w->cheap = s->n[0] < CHEAP ? s->n[0] : CHEAP;
+    for (size_t i = 0; i < STEPS; i++)
+        w->step[i] = steps << i;
+    double work = 0;
+    for (size_t c = 0; c < br_study_cells(s); c++)
+        work += work_of(s->cell[c].at.n, s->cell[c].at.steps);
+    return work;
+}
+
+/* Appends the difference of a pair of time steps to those before it. */
+static enum br_status append(struct br_study *to, const struct br_study *pair,
+                             const struct work *w, struct br_error *err)
+{
+    struct br_cell *cell = br_allocate(to->k_count + 1, sizeof *cell);
+    if (!cell)
+        return br_no_memory(err, "the differences");
+    if (to->k_count)
+        memcpy(cell, to->cell, to->k_count * sizeof *cell);
+    cell[to->k_count] = pair->cell[0];
+    free(to->cell);
+    const size_t count = to->k_count + 1;
+    *to = *pair;
+    to->cell = cell;
+    to->steps = w->step;
+    to->k_count = count;
+    br_flag_beside(to);
+    return BR_OK;
+}
+
+/* Marches pair i of time steps in all norms. A march that fails ends what there is to see. */
+static enum br_status run_pair(struct run *r, size_t job, size_t i,
+                               const struct br_observer *observer, bool *failed,
+                               struct br_error *err)
+{
+    struct work *w = &r->work[job];
+    struct br_study grid[BR_MOST_NORMS] = {0};
+    struct br_differences pair[BR_MOST_NORMS] = {0};
+    struct br_error why = {0};
+    const size_t norms = r->request.norms;
+    for (size_t m = 0; m < norms; m++) {
+        grid[m] = (struct br_study){.scene = &w->opened.scene,
+                                    .method = r->request.method,
+                                    .judge = &br_judge_none,
+                                    .norm = r->request.norm[m],
+                                    .n = &w->cheap,
+                                    .n_count = 1,
+                                    .steps = &w->step[i],
+                                    .k_count = 2,
+                                    .next_norm = m + 1 < norms ? &grid[m + 1] : NULL};
+    }
+    enum br_status status =
+        br_differences_run(grid, pair, NULL, r->session->threads, observer, &why);
+    *failed = status != BR_OK;
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
+        return br_fail(err, status, "%s", why.message);
+    status = BR_OK;
+    for (size_t m = 0; m < norms && !*failed; m++) {
+        if (!status)
+            status = append(&w->apart[m].over[BR_AXIS_TIME], &pair[m].over[BR_AXIS_TIME], w, err);
+        br_study_clear(&pair[m].over[BR_AXIS_TIME]);
+    }
+    return status;
+}
+
+/* The pages of a job stand together, one for each norm. settled: out. */
+static enum br_status see_job(struct run *r, size_t job, bool *settled, struct br_error *err)
+{
+    *settled = true;
+    for (size_t m = 0; m < r->request.norms; m++) {
+        struct br_report *report = &r->page[job * r->request.norms + m].report;
+        const struct br_study *apart = &r->work[job].apart[m].over[BR_AXIS_TIME];
+        report->apart[BR_AXIS_TIME] = apart->k_count ? apart : NULL;
+        if (apart->k_count && br_report_see_orders(report, BR_AXIS_TIME, err))
+            return err->status;
+        *settled = *settled && br_report_settles(report, BR_AXIS_TIME);
+    }
+    return BR_OK;
+}
+
+/* Where the grid does not settle the order in k, differences of ever smaller steps on a cheap mesh
+ * do: until they settle it, or cost more than the grid. */
+static enum br_status run_steps(struct run *r, size_t job, const struct br_observer *observer,
+                                struct br_error *err)
+{
+    struct work *w = &r->work[job];
+    bool settled, failed = false;
+    enum br_status status = see_job(r, job, &settled, err);
+    double left = fmax(choose_steps(w, study_of(r, job, 0)), no_matter);
+    for (size_t i = 0; i + 1 < STEPS && !status && !settled && !failed; i++) {
+        left -= work_of(w->cheap, w->step[i] + w->step[i + 1]);
+        if (left < 0)
+            break;
+        status = run_pair(r, job, i, observer, &failed, err);
+        if (!status && i + 1 >= PAIRS)
+            status = see_job(r, job, &settled, err);
+    }
+    return status;
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
+    const bool varies = br_option_given(r->session->options, BR_OPT_VARY);
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = BR_OK;
     if (!r->differences)
         status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
     for (size_t i = 0; i < r->jobs && !status; i++)
         status = run_differences(r, i, observer, err);
-    br_progress_end();
-    for (size_t i = 0; i < r->jobs; i++)
-        br_session_report_kept(r->session, &r->work[i].kept);
-    const double wall = br_seconds() - start;
     for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
         const struct br_error *no_meshes = &page->work->no_meshes;
-        page->report.wall_seconds = wall;
         if (no_meshes->status) {
-            page->report.meshes = NULL;
+            page->report.apart[BR_AXIS_SPACE] = NULL;
             page->report.no_meshes = no_meshes->message;
         }
         status = br_report_finish(&page->report, r->session->threads, err);
     }
+    for (size_t i = 0; i < r->jobs && !status && !r->differences && !varies; i++)
+        status = run_steps(r, i, observer, err);
+    br_progress_end();
+    for (size_t i = 0; i < r->jobs; i++)
+        br_session_report_kept(r->session, &r->work[i].kept);
+    for (size_t i = 0; i < r->pages; i++)
+        r->page[i].report.wall_seconds = br_seconds() - start;
     return br_progress_result(status, err);
 }
 

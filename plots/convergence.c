@@ -28,40 +28,39 @@ static double size_of(const struct br_report *r, int axis, size_t i)
 }
 
 /* The number that is drawn for a cell; NaN: a gap. */
-typedef double of_cell(const struct br_report *r, size_t cell, enum br_part part);
+typedef double of_cell(const struct br_report *r, size_t cell);
 
-static double error_of(const struct br_report *r, size_t cell, enum br_part part)
+static double error_of(const struct br_report *r, size_t cell)
 {
     const struct br_cell *c = &br_report_fitted(r)->cell[cell];
-    return c->flag[part] == BR_FLAG_FAILED ? (double)NAN : c->error[part];
+    return c->flag[BR_PART_TOTAL] == BR_FLAG_FAILED ? (double)NAN : c->error[BR_PART_TOTAL];
 }
 
-static double printed_of(const struct br_report *r, size_t cell, enum br_part part)
+static double printed_of(const struct br_report *r, size_t cell)
 {
-    (void)part;
     return r->printed[cell];
 }
 
 /* The relative difference of the error and the joint fit. */
-static double misfit_of(const struct br_report *r, size_t cell, enum br_part part)
+static double misfit_of(const struct br_report *r, size_t cell)
 {
     const struct br_study *s = br_report_fitted(r);
     const struct br_resolution at = s->cell[cell].at;
     const double size[] = {br_mesh_size(s->scene, at.n), br_time_step(s->scene, at.steps)};
     const double ref[] = {br_reference_mesh(s), br_reference_step(s)};
-    return -1 + error_of(r, cell, part) / br_joint_model(&r->fits[part].joint, size, ref);
+    return -1 + error_of(r, cell) / br_joint_model(&r->fits[BR_PART_TOTAL].joint, size, ref);
 }
 
 /* Adds the points of a series along an axis, at index `at` of the other axis. */
 static void add_points(const struct br_report *r, int axis, size_t at, of_cell *value,
-                       enum br_part part, struct br_series *series)
+                       struct br_series *series)
 {
     const struct br_study *study = br_report_fitted(r);
     for (size_t i = 0; i < count_of(r, axis); i++) {
         const size_t cell = br_axis_cell(study, axis, i, at);
-        const enum br_flag flag = study->cell[cell].flag[part];
+        const enum br_flag flag = study->cell[cell].flag[BR_PART_TOTAL];
         const bool flagged = flag != BR_FLAG_NONE && value != printed_of;
-        br_point_add(series, size_of(r, axis, i), value(r, cell, part),
+        br_point_add(series, size_of(r, axis, i), value(r, cell),
                      flagged ? br_flag_name(flag) : NULL);
     }
 }
@@ -93,7 +92,7 @@ static void add_curves(const struct br_report *r, int axis, of_cell *value, stru
     const size_t count = count_of(r, 1 - axis);
     char name[40];
     for (size_t i = 0; i < count; i++)
-        add_points(r, axis, i, value, BR_PART_TOTAL,
+        add_points(r, axis, i, value,
                    br_series_add(f, hue_of(i, count) ? BR_PEN_CURVE : BR_PEN_OTHERS, "%s",
                                  name_curve(r, axis, i, name)));
 }
@@ -136,26 +135,12 @@ static bool always(const struct br_report *r)
     return br_report_fitted(r)->n_count > 0 && br_report_fitted(r)->k_count > 0;
 }
 
-/* The slopes: bounds of the theory, and orders of the elements for smooth solutions. */
 static void fill_h(const struct br_report *r, struct br_figure *f)
 {
-    const struct br_study *study = br_report_fitted(r);
-    const bool energy = study->norm->energy, axial = study->scene->axial.modelled && !energy;
-    const bool bending = study->scene->bending.modelled;
-    double order[4] = {0.5, 1};
-    size_t orders = 2;
-    if (axial)
-        order[orders++] = 2;
-    if (bending)
-        order[orders++] = energy ? 2 : 4;
     say_fit(r, BR_PART_TOTAL, f->note[0]);
-    BR_SAY(f->note[1], "Slopes: 0.5 bound (26), 1 Remark 2.5%s%s", axial ? ", 2 axial, P1" : "",
-           !bending ? ""
-           : energy ? ", 2 bending, Hermite"
-                    : ", 4 bending, Hermite");
+    BR_SAY(f->note[1], "A curve is flat where the error of the time step is the larger one.");
     add_panel(r, BR_AXIS_SPACE, f);
     add_curves(r, BR_AXIS_SPACE, error_of, f);
-    br_slopes_add(f, orders, order);
 }
 
 /* The second panel has the residuals of the fit, since the curves over k may coincide. */
@@ -165,7 +150,6 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
     say_fit(r, BR_PART_TOTAL, f->note[0]);
     add_panel(r, BR_AXIS_TIME, f);
     add_curves(r, BR_AXIS_TIME, error_of, f);
-    br_slopes_add(f, 1, (const double[]){1});
     if (!fit->converged || !br_joint_describes(fit))
         return;
     struct br_panel *p = add_panel(r, BR_AXIS_TIME, f);
@@ -174,32 +158,82 @@ static void fill_k(const struct br_report *r, struct br_figure *f)
     add_curves(r, BR_AXIS_TIME, misfit_of, f);
 }
 
-static bool has_components(const struct br_report *r)
+/* ---- the orders ---- */
+
+static bool has_orders(const struct br_report *r)
+{
+    return r->seen[BR_PART_TOTAL][BR_AXIS_SPACE].points > 0 ||
+           r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
+}
+
+/* "total: order in h 2.00 [1.99, 2.01], in k not seen", and by what where it is not the total's. */
+static void say_orders(const struct br_report *r, enum br_part part, char text[256])
+{
+    char number[64];
+    br_append(strcpy(text, ""), 256, "%s: order", br_part_names[part]);
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_seen_order *o = &r->seen[part][axis];
+        if (!o->points)
+            continue;
+        const bool seen = isfinite(o->order.value);
+        const bool other = seen && strcmp(o->by, r->seen[BR_PART_TOTAL][axis].by) != 0;
+        br_append(text, 256, "%s in %s %s%s%s", text[strlen(text) - 1] == 'r' ? "" : ",",
+                  br_axis_letters[axis],
+                  seen ? br_order_text(&o->order, number, sizeof number) : "not seen",
+                  other ? " by " : "", other ? o->by : "");
+    }
+}
+
+/* The errors, the fitted line, and its band. */
+static void add_order(const struct br_seen_order *o, const char *name, struct br_figure *f)
+{
+    const struct br_fitted_series s = br_fitted_series_add(f, name);
+    for (const struct br_seen_point *p = o->point; p < o->point + o->points; p++)
+        br_fitted_point_add(&s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
+                            p->flag ? br_flag_name(p->flag) : NULL, p->fit.value, p->fit.low);
+    for (size_t i = o->points; i-- > 0;)
+        br_point_add(s.area, o->point[i].z, o->point[i].fit.high, NULL);
+}
+
+/* Each part with what its order was found from, and the slopes of theory. */
+static void add_orders(const struct br_report *r, enum br_axis axis, struct br_figure *f)
+{
+    const struct br_study *s = br_report_fitted(r);
+    const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
+    const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
+    const struct br_seen_order *total = &r->seen[BR_PART_TOTAL][axis];
+    struct br_panel *p = add_panel(r, axis, f);
+    double slope[BR_PARTS];
+    size_t slopes = 0;
+    BR_SAY(p->y_label, "%s, or difference (%s)", s->norm->symbol, s->norm->unit_markup);
+    BR_SAY(p->title, "%s", total->by);
+    p->top.count = 0; /* the sizes of the order, not of the grid */
+    for (size_t i = 0; i < total->points; i++)
+        br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
+    for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++) {
+        const struct br_seen_order *o = &r->seen[part][axis];
+        size_t at = 0;
+        add_order(o, br_part_names[part], f);
+        while (at < slopes && slope[at] < o->theory.formal)
+            at++;
+        if (at < slopes && slope[at] == o->theory.formal)
+            continue;
+        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
+        slope[at] = o->theory.formal;
+    }
+    br_slopes_add(f, slopes, slope);
+}
+
+static void fill_orders(const struct br_report *r, struct br_figure *f)
 {
     const struct br_scene *scene = br_report_fitted(r)->scene;
-    return always(r) && scene->axial.modelled && scene->bending.modelled;
-}
-
-/* Adds the components along an axis, at the finest entry of the other axis. */
-static void add_components(const struct br_report *r, int axis, struct br_figure *f)
-{
-    for (enum br_part part = BR_PART_TOTAL; part < BR_PARTS; part++)
-        add_points(r, axis, count_of(r, 1 - axis) - 1, error_of, part,
-                   br_series_add(f, BR_PEN_CURVE, "%s", br_part_names[part]));
-}
-
-static void fill_components(const struct br_report *r, struct br_figure *f)
-{
-    say_fit(r, BR_PART_AXIAL, f->note[0]);
-    say_fit(r, BR_PART_BENDING, f->note[1]);
-    BR_SAY(add_panel(r, BR_AXIS_SPACE, f)->x_label, "mesh size h (m), at k = %.4g s",
-           size_of(r, BR_AXIS_TIME, count_of(r, BR_AXIS_TIME) - 1));
-    add_components(r, BR_AXIS_SPACE, f);
-    br_slopes_add(f, 3, (const double[]){1, 2, 4});
-    BR_SAY(add_panel(r, BR_AXIS_TIME, f)->x_label, "time step k (s), at n = %zu",
-           entry_of(r, BR_AXIS_SPACE, count_of(r, BR_AXIS_SPACE) - 1));
-    add_components(r, BR_AXIS_TIME, f);
-    br_slopes_add(f, 1, (const double[]){1});
+    const bool both = scene->axial.modelled && scene->bending.modelled;
+    BR_SAY(f->hollow, "not in the order");
+    for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++)
+        say_orders(r, part, f->note[part]);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        if (r->seen[BR_PART_TOTAL][axis].points)
+            add_orders(r, axis, f);
 }
 
 static bool has_printed(const struct br_report *r)
@@ -217,7 +251,7 @@ static void add_both(const struct br_report *r, int axis, struct br_figure *f)
         struct br_series *s =
             br_series_add(f, hue ? BR_PEN_CURVE : BR_PEN_OTHERS, i % 2 ? "printed" : "computed");
         s->mark = hue;
-        add_points(r, axis, i / 2, i % 2 ? printed_of : error_of, BR_PART_TOTAL, s);
+        add_points(r, axis, i / 2, i % 2 ? printed_of : error_of, s);
     }
 }
 
@@ -253,15 +287,15 @@ static const struct br_convergence_picture
     over_h = {"h", "The error against the mesh size h, one curve per time step k.", always, fill_h},
     over_k = {"k", "The error against the time step k, one curve per number of elements n.", always,
               fill_k},
-    components = {"parts",
-                  "The error's axial and bending parts against h and k, the other one finest.",
-                  has_components, fill_components},
+    orders = {"orders",
+              "What the orders in h and k were found from, the fitted line and its 95 % band.",
+              has_orders, fill_orders},
     printed = {"printed",
                "The computed and the printed errors against the time step k and the mesh size h.",
                has_printed, fill_printed};
 
 const struct br_convergence_picture *const br_convergence_pictures[] = {
-    &over_h, &over_k, &components, &printed, NULL};
+    &orders, &over_h, &over_k, &printed, NULL};
 
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)

@@ -8,19 +8,31 @@
 #include "study/orders/orders.h"
 #include "study/scene/quote.h"
 
+/* The errors, with the line of their order and its band; those of a joint fit, which is no line, are
+ * joined. */
 static void add_line(struct br_figure *f, const struct br_orders *o,
                      const struct br_quantity_orders *of, const struct br_orders_line *line)
 {
-    char quoted[sizeof((struct br_series *)0)->title];
-    struct br_series *s = br_series_add(
-        f, BR_PEN_CURVE, "%s",
-        br_quoted(quoted, sizeof quoted, &br_for_markup, o->numbers->quantity[of->quantity].name));
-    for (size_t i = 0; i < line->observed.points; i++) {
-        const struct br_point *p = &line->observed.point[i];
-        br_point_add(s, p->z, p->flag == BR_FLAG_FAILED ? (double)NAN : p->error,
-                     p->flag ? br_flag_name(p->flag) : NULL);
+    char name[sizeof((struct br_series *)0)->title];
+    const struct br_case *c = &line->observed;
+    const bool fitted = c->points && isfinite(c->point[0].fit.value);
+    br_quoted(name, sizeof name, &br_for_markup, o->numbers->quantity[of->quantity].name);
+    struct br_fitted_series s = {0};
+    if (fitted)
+        s = br_fitted_series_add(f, name);
+    else
+        s.marks = br_series_add(f, BR_PEN_CURVE, "%s", name);
+    for (const struct br_point *p = c->point; p < c->point + c->points; p++) {
+        const double error = p->flag == BR_FLAG_FAILED ? (double)NAN : p->error;
+        const char *flag = p->flag ? br_flag_name(p->flag) : NULL;
+        if (fitted)
+            br_fitted_point_add(&s, p->z, error, flag, p->fit.value, p->fit.low);
+        else
+            br_point_add(s.marks, p->z, error, flag);
     }
-    br_series_sort(s);
+    for (size_t i = c->points; i-- > 0 && fitted;)
+        br_point_add(s.area, c->point[i].z, c->point[i].fit.high, NULL);
+    br_series_sort(s.marks);
 }
 
 /* A size has the unit of the source; one over a count has none. */

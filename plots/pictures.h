@@ -42,9 +42,11 @@ enum {
     BR_HUES = 6 /* that people can distinguish; each has a dash and a mark of its own */
 };
 
-/* How a series is drawn. The first two have a hue; without a free hue they become BR_PEN_OTHERS. */
+/* How a series is drawn. The first four have a hue; without a free hue they become BR_PEN_OTHERS. */
 enum br_pen {
     BR_PEN_CURVE, /* a line with marks */
+    BR_PEN_MARKS, /* marks alone */
+    BR_PEN_AREA,  /* pale, behind the others: what the points go around */
     BR_PEN_LINE,  /* a line, for many points */
     BR_PEN_OTHERS,
     BR_PEN_GUIDE, /* a prediction, or a line to compare with: thin, dark, dashed */
@@ -113,6 +115,15 @@ __attribute__((format(printf, 3, 4))) struct br_series *br_series_add(struct br_
                                                                       enum br_pen pen,
                                                                       const char *title, ...);
 void br_point_add(struct br_series *series, double x, double y, const char *flag);
+
+/* Marks, a line that was fitted to them, and its band, to the last panel. Add each point, and then
+ * the upper end of the band, from the last point to the first. Numbers may be NaN. */
+struct br_fitted_series {
+    struct br_series *area, *line, *marks;
+};
+struct br_fitted_series br_fitted_series_add(struct br_figure *figure, const char *title);
+void br_fitted_point_add(const struct br_fitted_series *series, double x, double y,
+                         const char *flag, double fit, double low);
 
 /* Sorts the points by x, then by y. */
 void br_series_sort(struct br_series *series);

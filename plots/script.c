@@ -47,7 +47,7 @@ static int mark_of(const struct br_series *s)
 /* Writes the pen of a series, as gnuplot reads it after "with". */
 static void write_pen(FILE *out, const struct br_series *s)
 {
-    if (s->pen == BR_PEN_CURVE)
+    if (s->pen < BR_PEN_LINE)
         fprintf(out, "linespoints ls %zu pt %d", s->style, mark_of(s));
     else if (s->pen == BR_PEN_LINE)
         fprintf(out, "lines ls %zu", s->style);
@@ -282,11 +282,16 @@ static void write_text(FILE *out, const char *what, const char *text)
 
 static void write_curve(FILE *out, const struct br_series *s, size_t index)
 {
-    if (s->pen == BR_PEN_CURVE)
+    if (s->pen == BR_PEN_CURVE || s->pen == BR_PEN_MARKS)
         fprintf(out,
-                ", \\\n     data index %zu using 1:2:(mark(%d, strcol(3))) with linespoints ls %zu "
+                ", \\\n     data index %zu using 1:2:(mark(%d, strcol(3))) with %spoints ls %zu "
                 "pt variable",
-                index, mark_of(s), s->style);
+                index, mark_of(s), s->pen == BR_PEN_CURVE ? "lines" : "", s->style);
+    else if (s->pen == BR_PEN_AREA)
+        fprintf(out,
+                ", \\\n     data index %zu using 1:2 with filledcurves closed ls %zu fs transparent "
+                "solid 0.25 noborder",
+                index, s->style);
     else {
         fprintf(out, ", \\\n     data index %zu using 1:2 with ", index);
         write_pen(out, s);
@@ -300,7 +305,8 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
     for (int behind = 1; behind >= 0; behind--)
         for (size_t j = 0, at = index; j < p->count; j++) {
             const struct br_series *s = p->series[j];
-            const bool is_behind = s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND;
+            const bool is_behind = s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND ||
+                                   s->pen == BR_PEN_AREA;
             if (is_behind == behind && count_drawn(p, s, false))
                 write_curve(out, s, at);
             at += s->count > 0;

@@ -63,17 +63,17 @@ TEST(test_differences)
     struct br_tips tips = {0};
     MUST(br_differences_run(grid, out, &tips, 2, NULL, &err));
     for (size_t m = 0; m < NORMS; m++) {
-        assert_true(out[m].over_h.norm == br_norms[m] && out[m].over_k.norm == br_norms[m]);
-        assert_true(out[m].over_h.n_count == ROWS - 1 && out[m].over_h.k_count == COLUMNS);
-        assert_true(out[m].over_k.n_count == ROWS && out[m].over_k.k_count == COLUMNS - 1);
+        assert_true(out[m].over[BR_AXIS_SPACE].norm == br_norms[m] && out[m].over[BR_AXIS_TIME].norm == br_norms[m]);
+        assert_true(out[m].over[BR_AXIS_SPACE].n_count == ROWS - 1 && out[m].over[BR_AXIS_SPACE].k_count == COLUMNS);
+        assert_true(out[m].over[BR_AXIS_TIME].n_count == ROWS && out[m].over[BR_AXIS_TIME].k_count == COLUMNS - 1);
         for (size_t i = 0; i < ROWS - 1; i++)
             for (size_t j = 0; j < COLUMNS; j++)
-                check_cell(&out[m].over_h, i, j, (struct br_resolution){meshes[i + 1], steps[j]});
+                check_cell(&out[m].over[BR_AXIS_SPACE], i, j, (struct br_resolution){meshes[i + 1], steps[j]});
         for (size_t i = 0; i < ROWS; i++)
             for (size_t j = 0; j < COLUMNS - 1; j++)
-                check_cell(&out[m].over_k, i, j, (struct br_resolution){meshes[i], steps[j + 1]});
-        br_study_clear(&out[m].over_h);
-        br_study_clear(&out[m].over_k);
+                check_cell(&out[m].over[BR_AXIS_TIME], i, j, (struct br_resolution){meshes[i], steps[j + 1]});
+        br_study_clear(&out[m].over[BR_AXIS_SPACE]);
+        br_study_clear(&out[m].over[BR_AXIS_TIME]);
     }
     check_tips(&scene, &tips);
     br_tips_clear(&tips);

@@ -189,12 +189,30 @@ TEST(test_names)
 }
 
 /* All pictures of a study in the norm of energy, whose joint fit describes it: slopes, residuals,
- * components, printed errors. */
+ * orders, printed errors. */
 static void print_study(FILE *out)
 {
     struct br_made_report m;
     br_made_report(&m, false);
     m.study.norm = &br_norm_energy;
+    for (int part = 0; part < BR_PARTS; part++)
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            struct br_seen_order *o = &m.report.seen[part][axis];
+            const double one = 1 + part + 3 * axis;
+            *o = (struct br_seen_order){.asked = true, .points = 4, .theory.formal = part ? 2 : 1};
+            o->order = part == 2 ? (struct br_estimate){NAN, NAN, NAN}
+                                 : (struct br_estimate){one, one - 0.1, one + 0.2};
+            snprintf(o->by, sizeof o->by, "errors of %d", part == 1 ? 0 : part);
+            for (int i = 0; i < 4; i++) {
+                o->point[i] = (struct br_seen_point){0.1 / (1 << i), one / (1 << i), BR_FLAG_NONE,
+                                                     {1.01 * one / (1 << i), one / (1 << i) - 0.01,
+                                                      one / (1 << i) + 0.02}};
+                if (part == 2)
+                    o->point[i].fit = o->order;
+            }
+            o->point[0].flag = BR_FLAG_COARSE;
+            o->point[3].flag = part ? BR_FLAG_FAILED : BR_FLAG_OUTLIER;
+        }
     for (size_t i = 0; br_convergence_pictures[i]; i++)
         (i == 0 ? print : print_data)(out,
                                       br_convergence_draw(br_convergence_pictures[i], &m.report));

@@ -7,7 +7,9 @@
 
 #include "support.h"
 
-enum { ROWS = 8, MOST = 12 };
+enum { ROWS = 8, MOST = 12, SOME = 7 };
+
+static struct br_error err;
 
 /* Errors at z = 1, 1/2, 1/4, ... The finest is at z = 1/128. */
 static double power(double z)
@@ -79,7 +81,6 @@ static const struct {
 
 static void find(const struct br_order_point *point, size_t count, struct br_line_order *found)
 {
-    struct br_error err = {0};
     MUST(br_line_order_find(point, count, found, &err));
 }
 
@@ -132,24 +133,6 @@ TEST(test_what_is_stated)
               f.order.value < f.order.high && f.order.high < f.high99))
             fail_msg("%s: %g %g %g %g %g", br_law_text(law), f.low99, f.order.low, f.order.value,
                      f.order.high, f.high99);
-    }
-}
-
-/* An error's unit is no part of the order. */
-TEST(test_any_unit)
-{
-    for (enum br_law law = 0; law < BR_LAWS; law++) {
-        struct br_order_point point[ROWS];
-        struct br_line_order here, there;
-        make(lines[law].error, 1, point);
-        find(point, ROWS, &here);
-        make(lines[law].error, 1e-9, point);
-        find(point, ROWS, &there);
-        CLOSE(there.order.low, here.order.low, 1e-5);
-        CLOSE(there.order.high, here.order.high, 1e-5);
-        CLOSE(there.floor, 1e-9 * here.floor, 1e-12 * here.floor);
-        assert_int_equal(there.first, here.first);
-        assert_int_equal(there.last, here.last);
     }
 }
 
@@ -227,4 +210,70 @@ TEST(test_median)
         point[i].error *= i == 0 || i == 3 || i == 5 || i == 6 ? 1.05 : 0.95;
     find(point, ROWS, &found);
     CLOSE((found.order.value - found.order.low) / (found.order.high - found.order.low), 0.5, 0.04);
+}
+
+/* Errors h^p with a floor of this size, and scatter. */
+static void draw(struct br_test_random *random, double p, double floor, double scatter,
+                 struct br_order_point point[SOME])
+{
+    for (size_t i = 0; i < SOME; i++) {
+        const double z = pow(0.5, (double)i);
+        const double noise = exp(scatter * br_test_uniform(random, -1, 1));
+        point[i] = (struct br_order_point){z, 0, (pow(z, p) + floor) * noise};
+    }
+}
+
+/* Other units of error and of length: the same order, rows, and law; the floor has the unit. */
+TEST(test_units)
+{
+    struct br_test_random random = {6};
+    for (size_t set = 0; set < 40; set++) {
+        struct br_order_point point[SOME], other[SOME];
+        struct br_line_order a, b;
+        draw(&random, 1 + (double)(set % 3), set % 2 ? 1e-3 : 0, set % 5 ? 0.02 : 0, point);
+        if (set % 4 == 3)
+            point[3].error *= 3; /* an outlier */
+        for (size_t i = 0; i < SOME; i++)
+            other[i] = (struct br_order_point){1e3 * point[i].z, 0, 1e-9 * point[i].error};
+        MUST(br_line_order_find(point, SOME, &a, &err));
+        MUST(br_line_order_find(other, SOME, &b, &err));
+        const double little = 3e-3 * (a.high99 - a.low99) + 1e-7; /* quantiles are searched */
+        CLOSE(b.order.value, a.order.value, little);
+        CLOSE(b.order.low, a.order.low, little);
+        CLOSE(b.order.high, a.order.high, little);
+        CLOSE(b.low99, a.low99, 3 * little);
+        CLOSE(b.high99, a.high99, 3 * little);
+        assert_true(a.first == b.first && a.last == b.last && a.outlier == b.outlier);
+        CLOSE(b.floor, 1e-9 * a.floor, 1e-9 * a.floor * 1e-6);
+        for (int law = 0; law < BR_LAWS; law++)
+            CLOSE(b.law[law], a.law[law], 1e-3);
+    }
+}
+
+/* The line goes through exact errors, also of differences; its band is wider away from them, and
+ * what is left aside has no part in it. */
+TEST(test_fit)
+{
+    struct br_order_point point[SOME];
+    const struct br_estimate order = {2, 1.5, 3};
+    for (size_t i = 0; i < SOME; i++) {
+        point[i] = (struct br_order_point){pow(0.5, (double)i), pow(0.5, (double)i + 1), 0};
+        point[i].error = 7 * (point[i].z * point[i].z - point[i].z_against * point[i].z_against);
+    }
+    point[0].error = NAN;
+    point[SOME - 1].error = 0;
+    for (size_t i = 0; i < SOME; i++) {
+        const double exact = 7 * 0.75 * point[i].z * point[i].z;
+        const struct br_estimate fit = br_line_fit(point, SOME, i, &order);
+        CLOSE(fit.value, exact, 1e-12 * exact);
+        /* h^1.5 and h^3 through the middle, i = 3 */
+        const double away = pow(2, fabs((double)i - 3));
+        CLOSE(fit.low, exact * pow(away, i > 3 ? -1.0 : -0.5), 1e-12 * exact);
+        CLOSE(fit.high, exact * pow(away, i < 3 ? 1.0 : 0.5), 1e-12 * exact);
+    }
+    const struct br_estimate none = {NAN, NAN, NAN};
+    assert_true(isnan(br_line_fit(point, SOME, 2, &none).value));
+    for (size_t i = 0; i < SOME; i++)
+        point[i].error = NAN;
+    assert_true(isnan(br_line_fit(point, SOME, 2, &order).value));
 }

@@ -244,15 +244,15 @@ static void compare_differences(const struct br_scene *now, const struct factors
     struct br_tips x, y;
     differences_of(&before, &a, &x);
     differences_of(now, &b, &y);
-    compare_cells(&a.over_h, &b.over_h, f);
-    compare_cells(&a.over_k, &b.over_k, f);
+    compare_cells(&a.over[BR_AXIS_SPACE], &b.over[BR_AXIS_SPACE], f);
+    compare_cells(&a.over[BR_AXIS_TIME], &b.over[BR_AXIS_TIME], f);
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_estimate earlier = br_extrapolate(&x, (enum br_field_kind)kind);
         const struct br_estimate after = br_extrapolate(&y, (enum br_field_kind)kind);
         expect_estimate(&after, &earlier, f->metre * (kind == BR_BENDING ? f->sign : 1),
                         1e4 * f->tolerance);
     }
-    struct br_study *const all[] = {&a.over_h, &a.over_k, &b.over_h, &b.over_k};
+    struct br_study *const all[] = {&a.over[BR_AXIS_SPACE], &a.over[BR_AXIS_TIME], &b.over[BR_AXIS_SPACE], &b.over[BR_AXIS_TIME]};
     for (size_t i = 0; i < 4; i++)
         br_study_clear(all[i]);
     br_tips_clear(&x);

@@ -43,7 +43,7 @@ static void make(struct made *m, double a, double p, double b, double q)
     m->study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = DBL_MIN;
     m->meshes = br_test_study(&m->scene, &br_judge_none, ROWS - 1, n, 1, steps);
     m->meshes.cell = m->difference;
-    m->report = (struct br_report){.study = &m->study, .meshes = &m->meshes};
+    m->report = (struct br_report){.study = &m->study, .apart = {&m->meshes}};
 }
 
 static void see(struct made *m)
@@ -51,7 +51,8 @@ static void see(struct made *m)
     for (int part = 0; part < BR_PARTS; part++) {
         MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
     }
-    MUST(br_report_see_orders(&m->report, &err));
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_report_see_orders(&m->report, axis, &err));
     br_report_clear(&m->report);
 }
 
@@ -76,7 +77,7 @@ TEST(test_hidden_in_h)
     assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "each mesh against the next at k = 0.01 s"));
     expect(&seen[BR_AXIS_TIME], 1, "as in theory");
     assert_false(m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE].asked);
-    m.report.meshes = NULL;
+    m.report.apart[BR_AXIS_SPACE] = NULL;
     m.report.no_meshes = "the march failed";
     see(&m);
     expect(&seen[BR_AXIS_SPACE], 2, "as in theory"); /* these have no other errors */
@@ -146,7 +147,8 @@ TEST(test_no_order_of_zero)
 static void expect_theory(const struct made *m, enum br_part part, double in_h, double in_k)
 {
     struct br_report r = m->report;
-    MUST(br_report_see_orders(&r, &err));
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_report_see_orders(&r, axis, &err));
     assert_true(r.seen[part][BR_AXIS_SPACE].theory.order == in_h);
     assert_true(r.seen[part][BR_AXIS_TIME].theory.order == in_k);
 }
@@ -169,7 +171,7 @@ TEST(test_theory)
     m.study.norm = &br_norm_tip;
     expect_theory(&m, BR_PART_AXIAL, 4, 1);
     m.study.method.scheme = br_time_scheme_find("adaptive");
-    MUST(br_report_see_orders(&m.report, &err));
+    MUST(br_report_see_orders(&m.report, BR_AXIS_TIME, &err));
     assert_false(m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME].asked); /* it has steps of its own */
 }
 
@@ -187,6 +189,137 @@ TEST(test_bending_by_friction)
     m.scene.friction.law = BR_TRESCA;
     see(&m);
     expect(seen, 2, "below theory: 2.00, 2.00 from size to size");
+}
+
+/* ---- the order in k from differences of time steps on one mesh ---- */
+
+enum { PAIRS = 6 };
+static const size_t halved[PAIRS] = {1600, 3200, 6400, 12800, 25600, 51200};
+
+/* Differences of successive steps with these errors. */
+static struct br_study pairs_of(struct made *m, struct br_cell cell[PAIRS], const double error[PAIRS])
+{
+    static const size_t mesh = 10;
+    for (size_t i = 0; i < PAIRS; i++) {
+        cell[i] = (struct br_cell){.at = {mesh, halved[i]}, .against = {mesh, 2 * halved[i]}};
+        for (int part = 0; part < BR_PARTS; part++)
+            cell[i].error[part] = error[i];
+    }
+    struct br_study s = br_test_study(&m->scene, &br_judge_none, 1, &mesh, PAIRS, halved);
+    s.cell = cell;
+    return s;
+}
+
+/* Errors on the grid that show no order in k. */
+static void make_hidden(struct made *m)
+{
+    make(m, 10, 2, 1e-6, 1);
+    for (size_t i = 0; i < CELLS; i++)
+        m->cell[i].error[BR_PART_TOTAL] *= 1 + 0.1 * (double)(i % 3);
+}
+
+TEST(test_steps_apart)
+{
+    struct made m;
+    struct br_cell cell[PAIRS];
+    make_hidden(&m);
+    see(&m);
+    const struct br_seen_order *seen = &m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME];
+    assert_false(br_report_settles(&m.report, BR_AXIS_TIME));
+    expect(seen, NAN, "hidden by the error in h");
+    const struct br_study exact = pairs_of(&m, cell, (double[]){9, 16, 8, 4, 2, 1});
+    m.report.apart[BR_AXIS_TIME] = &exact;
+    see(&m);
+    expect(seen, 1, "as in theory");
+    assert_null(strstr(seen->remark, "may settle it"));
+    assert_string_equal(seen->by, "each step against the next at n = 10");
+    assert_true(br_report_settles(&m.report, BR_AXIS_TIME));
+    assert_int_equal(seen->points, PAIRS);
+    for (size_t i = 0; i < PAIRS; i++) { /* the first does not count, and the line ignores it */
+        const double line = 16 * pow(2, 1 - (double)i);
+        assert_int_equal(seen->point[i].flag, i == 0 ? BR_FLAG_COARSE : BR_FLAG_NONE);
+        CLOSE(seen->point[i].fit.value, line, 1e-3 * line);
+        assert_true(seen->point[i].fit.low <= line && line <= seen->point[i].fit.high * (1 + 1e-6));
+        CLOSE(seen->point[i].z, 1 / (double)halved[i], 1e-15);
+    }
+    /* errors that do not fall tell nothing, and it is said what might */
+    const struct br_study flat = pairs_of(&m, cell, (double[]){3, 1, 2, 1, 2, 1});
+    m.report.apart[BR_AXIS_TIME] = &flat;
+    see(&m);
+    expect(seen, NAN, "not seen: the errors do not fall");
+    assert_non_null(strstr(seen->remark, "a grid of smaller steps may settle it: -k "
+                                          "T/6400,T/12800,T/25600,T/51200"));
+    assert_true(isnan(seen->point[0].fit.value));
+    assert_false(br_report_settles(&m.report, BR_AXIS_TIME));
+    double printed[CELLS]; /* a printed grid cannot be refined */
+    m.report.printed = printed;
+    MUST(br_report_see_orders(&m.report, BR_AXIS_TIME, &err));
+    assert_null(strstr(seen->remark, "may settle it"));
+    m.report.printed = NULL;
+    /* an order that is not that of theory settles nothing */
+    const struct br_study other = pairs_of(&m, cell, (double[]){32, 22.6, 16, 11.3, 8, 5.66});
+    m.report.apart[BR_AXIS_TIME] = &other;
+    see(&m);
+    expect(seen, 0.5, "below theory");
+    assert_false(br_report_settles(&m.report, BR_AXIS_TIME));
+    /* what the grid settles stays */
+    make(&m, 1e-3, 2, 10, 1);
+    m.report.apart[BR_AXIS_TIME] = &other;
+    see(&m);
+    expect(seen, 1, "as in theory");
+    assert_non_null(strstr(seen->by, "joint fit of 16 cells"));
+    assert_true(br_report_settles(&m.report, BR_AXIS_TIME));
+    /* its picture: the errors on the finest mesh, and the model */
+    assert_int_equal(seen->points, COLUMNS);
+    for (size_t i = 0; i < COLUMNS; i++)
+        CLOSE(seen->point[i].fit.value, seen->point[i].error, 1e-3 * seen->point[i].error);
+}
+
+/* Without numbers: 1.0e+00 and 1.0e-09 have the same words around them. */
+static const char *words_of(const char *text, char *words)
+{
+    char *end = words;
+    for (; *text; text++)
+        if (!strchr("0123456789.+-", *text) && !(*text == 'e' && strchr("+-", text[1]) && text[1]))
+            *end++ = *text;
+    *end = '\0';
+    return words;
+}
+
+/* Errors of a millionth of a millionth have the words of large ones. */
+TEST(test_words_in_any_unit)
+{
+    static const double errors[][COLUMNS] = {
+        {1, 2, 3, 2.5}, {8, 7, 6, 5.2}, {8, 6, 3.6, 2}, {8, 4.9, 3, 1.83}, {8, 2, 0.5, 0.125},
+        {8, 4, 2, 1.9}, {8, 4, 2, 1}, {8, 4, NAN, NAN}};
+    for (size_t i = 0; i < sizeof errors / sizeof *errors; i++) {
+        struct br_seen_order before[BR_AXES];
+        for (int small = 0; small < 2; small++) {
+            struct made m;
+            make(&m, 1e-12, 2, 1, 1);
+            for (size_t c = 0; c < CELLS; c++)
+                m.cell[c].error[BR_PART_TOTAL] = errors[i][c % COLUMNS];
+            for (size_t c = 0; c < CELLS && small; c++)
+                for (int part = 0; part < BR_PARTS; part++)
+                    m.cell[c].error[part] *= 1e-12;
+            for (size_t c = 0; c < ROWS - 1 && small; c++)
+                for (int part = 0; part < BR_PARTS; part++)
+                    m.difference[c].error[part] *= 1e-12;
+            see(&m);
+            for (int axis = 0; axis < BR_AXES; axis++) {
+                char a[512], b[512];
+                const struct br_seen_order *o = &m.report.seen[BR_PART_TOTAL][axis];
+                if (!small)
+                    before[axis] = *o;
+                assert_string_equal(words_of(o->remark, a), words_of(before[axis].remark, b));
+                assert_string_equal(o->by, before[axis].by);
+                if (isfinite(before[axis].order.value))
+                    CLOSE(o->order.value, before[axis].order.value, 1e-4);
+                else
+                    assert_true(isnan(o->order.value));
+            }
+        }
+    }
 }
 
 /* Digits stand as far as the width allows, and nothing is minus zero. */

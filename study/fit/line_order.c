@@ -506,3 +506,30 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     free(room);
     return status;
 }
+
+/* ---- the line of an order ---- */
+
+/* A point's share of an error of order p. */
+static double power_at(const struct br_order_point *point, double p)
+{
+    return pow(point->z, p) - pow(point->z_against, p);
+}
+
+static double line_at(const struct br_order_point *point, size_t count, size_t i, double p)
+{
+    double sum = 0, counts = 0;
+    for (size_t j = 0; j < count; j++)
+        if (usable(&point[j])) {
+            sum += log(point[j].error / power_at(&point[j], p));
+            counts++;
+        }
+    return power_at(&point[i], p) * exp(sum / counts);
+}
+
+struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
+                               const struct br_estimate *order)
+{
+    const double a = line_at(point, count, i, order->low),
+                 b = line_at(point, count, i, order->high);
+    return (struct br_estimate){line_at(point, count, i, order->value), fmin(a, b), fmax(a, b)};
+}

@@ -56,4 +56,10 @@ struct br_line_order {
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
 
+/* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
+ * their logarithms, at point[i]; and its band, by the lines of the order's low and high end. Errors
+ * that are not above 0, or not finite, are left aside; NaN: there are no others, or no order. */
+struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
+                               const struct br_estimate *order);
+
 #endif

@@ -3,8 +3,9 @@
  * and the larger one hides the order of the other. The order in h comes from the differences of
  * successive meshes at one time step, which have no error of time, or from the joint fit of the
  * grid, if its interval is narrower. The order in k comes from the joint fit, or from the errors on
- * the finest mesh where the error of space is small there. Errors that do not fall, or fall slowly
- * and unevenly, give no order: the sizes are too coarse. */
+ * the finest mesh where the error of space is small there; where these do not settle it, from the
+ * differences of successive time steps on one mesh, which have no error of space. Errors that do
+ * not fall, or fall slowly and unevenly, give no order: the sizes are too coarse. */
 #include "study/fit/report.h"
 
 #include <math.h>
@@ -21,6 +22,9 @@ static const double near = 0.1, clear = 0.02; /* of an order */
 
 /* Errors along a line of the grid, from coarse to fine. */
 struct line {
+    const struct br_study *study;
+    int axis;
+    size_t at;                         /* index of the other axis */
     struct br_order_point point[MOST]; /* the finest that are not flagged; z in m or s */
     size_t count, left_out;
     enum br_flag flag; /* of the first that is left out */
@@ -38,7 +42,7 @@ struct br_study *br_report_fitted(const struct br_report *r)
 /* The errors along an axis, at index `at` of the other axis. */
 static struct line line_of(const struct br_study *s, enum br_part part, int axis, size_t at)
 {
-    struct line l = {0};
+    struct line l = {.study = s, .axis = axis, .at = at};
     for (size_t i = 0; i < br_axis_count(s, axis); i++) {
         const struct br_cell *c = &s->cell[br_axis_cell(s, axis, i, at)];
         if (c->flag[part] != BR_FLAG_NONE || !(c->error[part] > 0)) {
@@ -54,15 +58,15 @@ static struct line line_of(const struct br_study *s, enum br_part part, int axis
     return l;
 }
 
-/* The errors over h at the coarsest time step that has enough of them. *column: out. */
-static struct line meshes_of(const struct br_study *s, enum br_part part, size_t *column)
+/* The differences along an axis at the coarsest entry of the other one that has enough of them. */
+static struct line differences_of(const struct br_study *s, enum br_part part, int axis)
 {
-    for (*column = 0; *column < s->k_count; ++*column) {
-        const struct line l = line_of(s, part, BR_AXIS_SPACE, *column);
+    for (size_t at = 0; at < br_axis_count(s, 1 - axis); at++) {
+        const struct line l = line_of(s, part, axis, at);
         if (l.count >= LEAST)
             return l;
     }
-    return line_of(s, part, BR_AXIS_SPACE, *column = 0);
+    return line_of(s, part, axis, 0);
 }
 
 /* The order from point i to the next; the loss by finite references is that of theory. */
@@ -98,6 +102,14 @@ static double comes_closer(const struct br_seen_order *o, const struct line *l)
     return (fabs(first - nearest(o, first)) - fabs(last - nearest(o, last))) / formal;
 }
 
+/* Whether the order is that of theory. */
+static bool agrees(const struct br_seen_order *o)
+{
+    const double theory = nearest(o, o->order.value);
+    const double off = fabs(o->order.value - theory) / theory;
+    return off <= near / 2 || (off <= near && o->order.low <= theory && theory <= o->order.high);
+}
+
 /* Sets order and remark. l: its rates follow where the order is not as in theory; NULL: none. */
 static void claim(struct br_seen_order *o, struct br_estimate order, const struct line *l)
 {
@@ -108,7 +120,7 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
         REMARK(o, "theory states none: %s", o->theory.reason);
         return;
     }
-    if (off <= near && (fits || off <= near / 2))
+    if (agrees(o))
         REMARK(o, "as in theory");
     else if (off <= near)
         REMARK(o, "near theory");
@@ -129,12 +141,65 @@ static void say_too_few(struct br_seen_order *o, const struct line *l)
                l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
 }
 
+/* ---- what a picture shows ---- */
+
+/* The point of the order that a cell is; its flag says why the order does not rest on it. */
+static struct br_seen_point point_of(const struct line *l, const struct br_line_order *found,
+                                     const struct br_cell *c, enum br_part part)
+{
+    struct br_seen_point p = {br_axis_size(l->study->scene, l->axis, c->at), c->error[part],
+                              c->flag[part], {NAN, NAN, NAN}};
+    size_t i = 0;
+    while (i < l->count && l->point[i].z != p.z)
+        i++;
+    if (p.flag == BR_FLAG_NONE && (l->count > 0 && p.z > l->point[0].z * (1 + 1e-9)))
+        p.flag = BR_FLAG_COARSE; /* finer ones suffice */
+    if (!found || i == l->count || isnan(found->order.value))
+        return p;
+    p.flag = i < found->first       ? BR_FLAG_COARSE
+             : i == found->outlier ? BR_FLAG_OUTLIER
+             : i > found->last     ? BR_FLAG_STALLED
+                                   : BR_FLAG_NONE;
+    return p;
+}
+
+/* Keeps the errors of a line, and which of them count. found: NULL for a joint fit. */
+static void keep_points(struct br_seen_order *o, const struct line *l, enum br_part part,
+                        const struct br_line_order *found)
+{
+    const size_t count = br_axis_count(l->study, l->axis);
+    o->points = 0;
+    for (size_t i = count > BR_MOST_SEEN ? count - BR_MOST_SEEN : 0; i < count; i++)
+        o->point[o->points++] = point_of(
+            l, found, &l->study->cell[br_axis_cell(l->study, l->axis, i, l->at)], part);
+}
+
+/* The cell of a kept point. */
+static const struct br_cell *cell_of(const struct line *l, const struct br_seen_order *o, size_t i)
+{
+    const size_t along = br_axis_count(l->study, l->axis) - o->points + i;
+    return &l->study->cell[br_axis_cell(l->study, l->axis, along, l->at)];
+}
+
+/* Draws the line of the order and its band through the errors that count. */
+static void fit_line(struct br_seen_order *o, const struct line *l)
+{
+    struct br_order_point counts[BR_MOST_SEEN];
+    for (size_t i = 0; i < o->points; i++)
+        counts[i] = (struct br_order_point){
+            o->point[i].z, br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
+            o->point[i].flag ? (double)NAN : o->point[i].error};
+    for (size_t i = 0; i < o->points; i++)
+        o->point[i].fit = br_line_fit(counts, o->points, i, &o->order);
+}
+
 /* Sets the order from the errors of a line. */
-static enum br_status judge_line(struct br_seen_order *o, const struct line *l, int axis,
+static enum br_status judge_line(struct br_seen_order *o, const struct line *l, enum br_part part,
                                  struct br_error *err)
 {
-    struct br_line_order found;
+    struct br_line_order found = {.order = {NAN, NAN, NAN}};
     bool falls = true;
+    keep_points(o, l, part, NULL);
     if (l->count < LEAST) {
         say_too_few(o, l);
         return BR_OK;
@@ -148,6 +213,8 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
     const bool settled = order.high - order.low <= near * order.value;
     if (falls && br_order_determined(&order) && (settled || order.value > o->theory.formal / 2)) {
         claim(o, order, l);
+        keep_points(o, l, part, &found);
+        fit_line(o, l);
         return BR_OK;
     }
     if (falls) {
@@ -161,7 +228,7 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
     const double closer = falls ? comes_closer(o, l) : 1;
     if (fabs(closer) > clear)
         REMARK(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger",
-               br_axis_letters[axis]);
+               br_axis_letters[l->axis]);
     return BR_OK;
 }
 
@@ -172,32 +239,71 @@ static bool determines(const struct br_joint_fit *fit, int axis, double theory)
            fit->order[axis].value > theory / 2;
 }
 
-static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit, int axis)
+/* Draws the model and its band along the line: the errors of the other axis bend it. */
+static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit,
+                      const struct line *l)
 {
+    const double order[] = {o->order.value, o->order.low, o->order.high};
+    const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
+    for (size_t i = 0; i < o->points; i++) {
+        double at[3], size[BR_AXES], against[BR_AXES];
+        const struct br_cell *c = cell_of(l, o, i);
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            size[axis] = br_axis_size(l->study->scene, axis, c->at);
+            against[axis] = br_axis_size(l->study->scene, axis, c->against);
+        }
+        for (size_t j = 0; j < 3; j++) {
+            struct br_joint_fit other = *fit;
+            other.order[l->axis].value = order[j];
+            other.c[l->axis].value *= pow(middle, order[0] - order[j]);
+            at[j] = br_joint_model(&other, size, against);
+        }
+        o->point[i].fit = (struct br_estimate){at[0], fmin(at[1], at[2]), fmax(at[1], at[2])};
+    }
+}
+
+static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
+                        const struct br_study *s, enum br_part part, int axis)
+{
+    const struct line l = line_of(s, part, axis, br_axis_count(s, 1 - axis) - 1);
     snprintf(o->by, sizeof o->by, "joint fit of %zu cells, misfit %.2g %%", fit->points,
              100 * fit->misfit);
     *o->remark = '\0';
     claim(o, fit->order[axis], NULL);
+    keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL); /* all count */
+    fit_model(o, fit, &l);
+}
+
+static double width_of(const struct br_estimate *order)
+{
+    return order->high - order->low;
+}
+
+/* Sets the order from the differences along an axis. */
+static enum br_status see_apart(const struct br_study *s, enum br_part part, int axis,
+                                struct br_seen_order *o, struct br_error *err)
+{
+    const struct line l = differences_of(s, part, axis);
+    if (axis == BR_AXIS_SPACE)
+        snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
+                 br_time_step(s->scene, s->steps[l.at]));
+    else
+        snprintf(o->by, sizeof o->by, "each step against the next at n = %zu", s->n[l.at]);
+    return judge_line(o, &l, part, err);
 }
 
 static enum br_status see_in_h(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
 {
     const struct br_joint_fit *fit = &r->fits[part].joint;
-    if (r->meshes) {
-        size_t column;
-        const struct line l = meshes_of(r->meshes, part, &column);
-        snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
-                 br_time_step(r->meshes->scene, r->meshes->steps[column]));
-        const enum br_status status = judge_line(o, &l, BR_AXIS_SPACE, err);
-        if (status)
-            return status;
-    }
-    const struct br_estimate *p = &fit->order[BR_AXIS_SPACE];
-    const double width = o->order.high - o->order.low;
-    if (determines(fit, BR_AXIS_SPACE, o->theory.formal) && !(width <= p->high - p->low))
-        claim_joint(o, fit, BR_AXIS_SPACE);
-    else if (!r->meshes)
+    const struct br_study *apart = r->apart[BR_AXIS_SPACE];
+    const enum br_status status = apart ? see_apart(apart, part, BR_AXIS_SPACE, o, err) : BR_OK;
+    if (status)
+        return status;
+    if (determines(fit, BR_AXIS_SPACE, o->theory.formal) &&
+        !(width_of(&o->order) <= width_of(&fit->order[BR_AXIS_SPACE])))
+        claim_joint(o, fit, br_report_fitted(r), part, BR_AXIS_SPACE);
+    else if (!apart)
         REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     return BR_OK;
 }
@@ -205,12 +311,11 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
 /* The error of space on the finest mesh, from the finest difference of meshes; 0: not known. */
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = br_report_fitted(r), *meshes = r->apart[BR_AXIS_SPACE];
     const double order = br_theory_of(s, part, BR_AXIS_SPACE).formal;
-    size_t column;
-    if (!r->meshes)
+    if (!meshes)
         return 0; /* not known */
-    const struct line l = meshes_of(r->meshes, part, &column);
+    const struct line l = differences_of(meshes, part, BR_AXIS_SPACE);
     if (!l.count)
         return 0;
     const struct br_order_point *p = &l.point[l.count - 1];
@@ -218,14 +323,15 @@ static double error_of_space(const struct br_report *r, enum br_part part)
     return p->error * pow(h, order) / (pow(p->z, order) - pow(p->z_against, order));
 }
 
-static enum br_status see_in_k(const struct br_report *r, enum br_part part,
-                               struct br_seen_order *o, struct br_error *err)
+/* From the cells of the grid. */
+static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
+                                  struct br_seen_order *o, struct br_error *err)
 {
     const struct br_study *s = br_report_fitted(r);
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const struct line l = line_of(s, part, BR_AXIS_TIME, s->n_count - 1); /* the finest mesh */
     if (determines(fit, BR_AXIS_TIME, o->theory.formal)) {
-        claim_joint(o, fit, BR_AXIS_TIME);
+        claim_joint(o, fit, s, part, BR_AXIS_TIME);
         return BR_OK;
     }
     const double space = error_of_space(r, part);
@@ -233,11 +339,50 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
              s->judge == &br_judge_none ? "each step against the next" : "errors",
              s->n[s->n_count - 1]);
     if (l.count && space > hidden * l.point[l.count - 1].error) {
+        keep_points(o, &l, part, NULL);
         REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
                l.point[l.count - 1].error);
         return BR_OK;
     }
-    return judge_line(o, &l, BR_AXIS_TIME, err);
+    return judge_line(o, &l, part, err);
+}
+
+/* Whether an order is known to a tenth either way, and is the one of theory. Another one needs all
+ * steps that can be had: errors may fall evenly for a while by an order that is not theirs. */
+static bool settles(const struct br_seen_order *o)
+{
+    return br_order_determined(&o->order) && width_of(&o->order) <= 2 * near * o->order.value &&
+           agrees(o);
+}
+
+/* From the grid, and where that does not settle it, from the differences of time steps, if these
+ * tell more. */
+static enum br_status see_in_k(const struct br_report *r, enum br_part part,
+                               struct br_seen_order *o, struct br_error *err)
+{
+    const struct br_study *s = br_report_fitted(r);
+    struct br_seen_order apart = *o;
+    enum br_status status = see_in_grid(r, part, o, err);
+    if (status || !r->apart[BR_AXIS_TIME] || settles(o))
+        return status;
+    status = see_apart(r->apart[BR_AXIS_TIME], part, BR_AXIS_TIME, &apart, err);
+    if (isnan(o->order.value) || settles(&apart) ||
+        width_of(&apart.order) < width_of(&o->order))
+        *o = apart;
+    if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
+        const size_t finest = 8 * s->steps[s->k_count - 1];
+        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu,T/%zu", finest,
+               2 * finest, 4 * finest, 8 * finest);
+    }
+    return status;
+}
+
+bool br_report_settles(const struct br_report *r, enum br_axis axis)
+{
+    bool all = true;
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        all = all && (!r->seen[part][axis].asked || settles(&r->seen[part][axis]));
+    return all;
 }
 
 static bool is_modelled(const struct br_scene *scene, enum br_part part)
@@ -246,23 +391,24 @@ static bool is_modelled(const struct br_scene *scene, enum br_part part)
            (part != BR_PART_BENDING || scene->bending.modelled);
 }
 
-enum br_status br_report_see_orders(struct br_report *r, struct br_error *err)
+enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, struct br_error *err)
 {
     const struct br_study *s = br_report_fitted(r);
-    const bool none = s->judge == &br_judge_none;
+    const bool over_h = axis == BR_AXIS_SPACE, none = s->judge == &br_judge_none;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
-        const bool has = is_modelled(s->scene, part) && br_study_cells(s) > 0;
-        const bool asked[BR_AXES] = {has && (!none || r->meshes),
-                                     has && (!none || !r->meshes) && !s->method.scheme->adaptive};
-        for (int axis = 0; axis < BR_AXES && !status; axis++) {
-            struct br_seen_order *o = &r->seen[part][axis];
-            *o = (struct br_seen_order){.asked = asked[axis],
-                                        .order = {NAN, NAN, NAN},
-                                        .theory = br_theory_of(s, part, (enum br_axis)axis)};
-            if (asked[axis])
-                status = (axis == BR_AXIS_SPACE ? see_in_h : see_in_k)(r, part, o, err);
-        }
+        struct br_seen_order *o = &r->seen[part][axis];
+        *o = (struct br_seen_order){
+            .asked = is_modelled(s->scene, part) && br_study_cells(s) > 0 &&
+                     (!none || over_h == (r->apart[BR_AXIS_SPACE] != NULL)) &&
+                     (over_h || !s->method.scheme->adaptive),
+            .order = {NAN, NAN, NAN},
+            .theory = br_theory_of(s, part, axis),
+        };
+        if (o->asked && part != BR_PART_TOTAL && s->scene->axial.modelled != s->scene->bending.modelled)
+            *o = r->seen[BR_PART_TOTAL][axis]; /* it is the total */
+        else if (o->asked)
+            status = (over_h ? see_in_h : see_in_k)(r, part, o, err);
     }
     return status;
 }
@@ -284,8 +430,8 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
     enum br_status status = BR_OK;
     for (int part = 0; part < BR_PARTS && !status; part++)
         status = br_fit(br_report_fitted(r), (enum br_part)part, &r->fits[part], err);
-    if (!status)
-        status = br_report_see_orders(r, err);
+    for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
+        status = br_report_see_orders(r, axis, err);
     if (!status)
         status = extrapolate_tips(r, err);
     if (!status && r->exact)

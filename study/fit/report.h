@@ -6,7 +6,15 @@
 #include "study/fit/theory.h"
 #include "study/grid/sweep.h"
 
-enum { BR_MOST_TRIANGLES = 4 };
+enum { BR_MOST_TRIANGLES = 4, BR_MOST_SEEN = 12 };
+
+/* An error, or a difference, that an order was sought in. */
+struct br_seen_point {
+    double z, error;        /* h or k, m or s; in the norm's unit */
+    enum br_flag flag;      /* why it does not count; BR_FLAG_NONE: it does */
+    struct br_estimate fit; /* the fitted line there, and its band, which the ends of the order's
+                               interval make; NaN: there is no order */
+};
 
 /* The order of one component of the errors in h or in k, as far as it can be believed. */
 struct br_seen_order {
@@ -16,6 +24,8 @@ struct br_seen_order {
     struct br_theory theory;
     char by[80];      /* the errors that it comes from */
     char remark[400]; /* how it compares to theory, or why none is claimed */
+    struct br_seen_point point[BR_MOST_SEEN]; /* from coarse to fine: the finest ones */
+    size_t points;
 };
 
 struct br_report {
@@ -27,10 +37,12 @@ struct br_report {
     double *printed;            /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
                                    none; NULL: there is no printed table. Owned */
     const struct br_tips *tips; /* of the cells; NULL: those of the study. Borrowed */
-    const struct br_study *meshes; /* each mesh against the next; the study itself where it has such
-                                      differences; NULL: none. Flagged; borrowed */
-    const char
-        *no_meshes; /* why `meshes` is NULL; NULL: it is not, or none are asked for. Borrowed */
+    const struct br_study *apart[BR_AXES]; /* each mesh against the next; the study itself where it
+                                              has such differences. Each time step against the next
+                                              smaller one on one mesh. NULL: none. Flagged;
+                                              borrowed */
+    const char *no_meshes; /* why the former is NULL; NULL: it is not, or none are asked for.
+                              Borrowed */
     struct br_fits fits[BR_PARTS];
     struct br_seen_order seen[BR_PARTS][BR_AXES];
     struct br_estimate tip[2]; /* by br_field_kind: the tip at t = T for h, k -> 0, by
@@ -44,9 +56,14 @@ struct br_report {
  * one, since there the reference limits no cell. */
 struct br_study *br_report_fitted(const struct br_report *report);
 
-/* Sets the orders in h and k from those errors and from the differences of meshes; after the fits.
- * Fails with BR_NO_MEMORY. */
-enum br_status br_report_see_orders(struct br_report *report, struct br_error *err);
+/* Sets the orders in h, or in k, from those errors and from the differences; after the fits. Fails
+ * with BR_NO_MEMORY. */
+enum br_status br_report_see_orders(struct br_report *report, enum br_axis axis,
+                                    struct br_error *err);
+
+/* Whether all orders in h, or in k, that are asked for are known to a tenth either way, the usual
+ * tolerance of a check, and are as in theory. */
+bool br_report_settles(const struct br_report *report, enum br_axis axis);
 
 /* Fits all components of those errors, sets their orders, extrapolates the tips, and checks the
  * printed values, where there are some, by the triangle inequality. The borrowed members and

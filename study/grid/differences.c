@@ -39,9 +39,10 @@ static void set_pair(const struct pairs *p, bool over_h, size_t i, size_t j)
         };
 }
 
-static enum br_status check_grid(const struct br_study *grid, bool over_k, struct br_error *err)
+static enum br_status check_grid(const struct br_study *grid, bool both, struct br_error *err)
 {
-    if (grid->n_count < 2 || grid->k_count < (over_k ? 2 : 1))
+    const size_t least = both ? 2 : 1;
+    if (grid->n_count < least || grid->k_count < least || grid->n_count + grid->k_count < 3)
         return br_fail(
             err, BR_BAD_INPUT,
             "found %zu meshes and %zu time steps, expected at least two of each: without "
@@ -144,9 +145,9 @@ enum br_status br_differences_run(const struct br_study *grid, struct br_differe
     if (!status)
         status = br_study_run(p.study, p.count, threads, observer, err);
     for (size_t m = 0; m < p.norms && !status; m++) {
-        status = gather(&p, true, m, &out[m].over_h, err);
-        if (!status && tips)
-            status = gather(&p, false, m, &out[m].over_k, err);
+        for (int axis = 0; axis < BR_AXES && !status; axis++)
+            if (br_axis_count(grid, axis) > 1)
+                status = gather(&p, axis == BR_AXIS_SPACE, m, &out[m].over[axis], err);
     }
     if (!status && tips)
         status = br_tips_create(tips, grid, err);

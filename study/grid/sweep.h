@@ -36,15 +36,14 @@ enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
 /* The differences of one grid in one norm: studies whose cells are compared with their
  * next finer neighbours, `against`. */
 struct br_differences {
-    struct br_study over_h; /* n_count - 1 by k_count cells */
-    struct br_study over_k; /* n_count by k_count - 1 cells */
+    struct br_study over[BR_AXES]; /* n_count - 1 by k_count cells, n_count by k_count - 1 */
 };
 
 /* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,
  * ascending) and measures its differences into out[0 .. norms); `tips` gets the tips of
- * all its cells; NULL: the grid may have one time step, and there is no over_k. Fails with
- * BR_BAD_INPUT where there are less than two meshes or two time steps, or one does not nest in the
- * next, or as br_study_run does. */
+ * all its cells; NULL: the grid may have one mesh or one time step, and there is nothing over that
+ * axis. Fails with BR_BAD_INPUT where there are less than two meshes or two time steps, or one does
+ * not nest in the next, or as br_study_run does. */
 enum br_status br_differences_run(const struct br_study *grid, struct br_differences *out,
                                   struct br_tips *tips, int threads,
                                   const struct br_observer *observer, struct br_error *err);

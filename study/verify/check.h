@@ -26,6 +26,8 @@ struct br_point {
     enum br_flag flag;                /* why it is left out */
     bool used;                        /* for the order: it is not left out */
     char failure[256];                /* of the march; "": it went well */
+    struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
+                               the order is that of a joint fit, which is no line */
 };
 
 /* An expectation and what was observed. */

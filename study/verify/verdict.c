@@ -109,6 +109,10 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
         if (c->point[i].used)
             c->point[i].flag = left_out(c, &found, i);
+    for (size_t i = 0; i < c->points; i++)
+        all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
+    for (size_t i = 0; i < c->points; i++)
+        c->point[i].fit = br_line_fit(all, c->points, i, &c->order);
     free(all);
     return status;
 }
@@ -309,6 +313,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     c->reason[0] = c->note[0] = '\0';
     c->low99 = c->high99 = NAN;
     c->law = NULL;
+    for (size_t i = 0; i < c->points; i++)
+        c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
     choose_points(c);
     find_constants(c);
     const bool known = !first_failed(c) && c->used >= least;
@@ -329,9 +335,11 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
     c->high99 = order.high;
     c->constant = constant;
     c->law = NULL;
-    for (size_t i = 0; i < c->points; i++)
+    for (size_t i = 0; i < c->points; i++) {
+        c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
         if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = BR_FLAG_NONE;
+    }
     c->note[0] = '\0';
     choose_points(c);
 }
