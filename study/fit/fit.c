@@ -92,7 +92,8 @@ const char *br_uncertain_text(double value, double half, char *buffer, size_t si
 
 bool br_joint_describes(const struct br_joint_fit *fit)
 {
-    return fit->converged && fit->misfit <= 0.02;
+    static const double small = 0.02, most = 0.3, waves = 1;
+    return fit->converged && (fit->misfit <= small || (fit->misfit <= most && fit->structure <= waves));
 }
 
 static bool usable(const struct br_cell *c, enum br_part part)
@@ -340,7 +341,7 @@ enum br_status br_order_fit(const struct br_order_point *point, size_t count,
 double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
                               double *covariance)
 {
-    enum { MOST = 5 };
+    enum { MOST = 7 };
     double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
     size_t column[MOST], rank = 0;
     gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);

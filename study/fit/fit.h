@@ -46,7 +46,9 @@ struct br_slope {
  *     e^2 = a^2 + 2 r a b + b^2,   -1 <= r <= 1,
  *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q).
  * Where the cells do not show one of the two errors, the model without it is chosen (by the
- * corrected Akaike criterion); the numbers of that error are NaN. The residuals of the model are
+ * corrected Akaike criterion); the numbers of that error are NaN. Likewise a constant floor or next
+ * terms are added where the cells show them, and an interval reaches over those of all models that
+ * the cells do not rule out. The residuals of the model are
  * deterministic, not noise: so the intervals come from leaving out whole rows and columns of the
  * grid (joint_fit.c). */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
@@ -55,6 +57,10 @@ bool br_joint_has(enum br_joint_kind kind, int axis); /* whether it has an error
 struct br_joint_fit {
     enum br_joint_kind kind;
     struct br_estimate c[BR_AXES], order[BR_AXES], r; /* C_h, C_k; p, q; r */
+    double drift[BR_AXES]; /* next terms: a factor exp(drift h) of a, 1/m and 1/s; 0: none */
+    double floor;          /* m^(3/2); NaN: none */
+    bool floor_adds;       /* e + floor; else by squares */
+    double structure;      /* of the residuals: sum of products of neighbours, in its deviations */
     double misfit;                                    /* root mean square of log(model/error) */
     double worst;                                     /* its largest magnitude */
     double r_squared;                                 /* of the logarithms */
@@ -68,7 +74,8 @@ struct br_fits {
     double reference_error; /* the reference's own error, m^(3/2); NaN: not known */
 };
 
-/* Whether the joint model describes the errors: a misfit of at most 2 %. */
+/* Whether the joint model describes the errors: by a misfit of at most 2 %, or by residuals that
+ * scatter without structure, of at most 30 %. */
 bool br_joint_describes(const struct br_joint_fit *fit);
 
 /* Fits one component of a study's errors without the flagged cells, and sets the flags of this
@@ -167,7 +174,7 @@ void br_tips_clear(struct br_tips *tips);
  */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
-/* Least squares |b - A c| with A of m rows of n columns, n <= 5, m >= n, by Q R with pivoting; c
+/* Least squares |b - A c| with A of m rows of n columns, n <= 7, m >= n, by Q R with pivoting; c
  * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
  * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL
  * together. Unlike GSL's own functions, which do not look whether their allocations fail, it

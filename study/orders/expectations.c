@@ -114,7 +114,7 @@ enum br_status br_expectations_read(const char *text, size_t line,
 /* ---- verdicts ---- */
 
 /* Makes the case of an expectation on a line, with a copy of its points; its order is that of the
- * joint fit where that is determined. */
+ * joint fit where that describes the errors. */
 static enum br_status observe(const struct br_quantity_orders *of,
                               const struct br_orders_line *line,
                               const struct br_order_expectation *e, struct br_case *c,
@@ -135,11 +135,30 @@ static enum br_status observe(const struct br_quantity_orders *of,
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
     const struct br_estimate *joint = &of->joint.order[line->axis];
-    if (br_joint_describes(&of->joint) && br_order_determined(joint)) {
+    if (*of->answer[line->axis].why)
+        c->order = of->answer[line->axis].order;
+    else if (br_joint_describes(&of->joint)) {
         c->order = *joint;
         c->constant = fabs(of->joint.c[line->axis].value);
     }
     return BR_OK;
+}
+
+/* What a grid of errors does not show is no failure: takes the verdict back where no run failed. */
+static void take_back(const struct br_quantity_orders *of, enum br_axis axis, struct br_case *c)
+{
+    const char *why = of->answer[axis].why;
+    bool failed = false;
+    for (size_t i = 0; i < c->points; i++)
+        failed |= c->point[i].flag == BR_FLAG_FAILED;
+    if (!*why && of->joint.converged && c->points < BR_VERIFY_LEAST_POINTS)
+        why = "a verdict needs four sizes of a line: a finer one would do";
+    if (!*why && of->joint.converged && !isfinite(c->order.high - c->order.low))
+        why = "the joint fit does not determine this order: more sizes would show it";
+    if (!*why || failed)
+        return;
+    c->verdict = BR_INCONCLUSIVE;
+    snprintf(c->reason, sizeof c->reason, "%s", why);
 }
 
 static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
@@ -163,6 +182,7 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
     if (observe(of, line, e, c, err))
         return err->status;
     br_case_judge(c);
+    take_back(of, e->axis, c);
     return BR_OK;
 }
 

@@ -312,6 +312,45 @@ static enum br_status leave_out(const struct br_orders *o, struct br_quantity_or
     return fit_both(o, of, err);
 }
 
+static bool holds(const struct br_estimate *interval, const struct br_estimate *order)
+{
+    return interval->low <= order->value && order->value <= interval->high;
+}
+
+/* The answer of a grid of errors whose joint fit is refused. */
+static struct br_orders_answer answer_of_lines(const struct br_quantity_orders *of,
+                                               const struct br_orders_line *finest)
+{
+    static const char *const disturbed[BR_AXES] = {
+        "the order in h is not the same at the two finest k, and no joint fit describes the "
+        "errors: a finer k, or more sizes of both, would show it",
+        "the order in k is not the same at the two finest h, and no joint fit describes the "
+        "errors: a finer h, or more sizes of both, would show it"};
+    const struct br_orders_line *next = finest > of->line ? finest - 1 : NULL;
+    const struct br_estimate *a = &finest->observed.order;
+    if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&
+        holds(&next->observed.order, a))
+        return (struct br_orders_answer){*a, ""};
+    return (struct br_orders_answer){{NAN, NAN, NAN}, disturbed[finest->axis]};
+}
+
+static struct br_orders_answer find_answer(const struct br_orders *o,
+                                           const struct br_quantity_orders *of, enum br_axis axis)
+{
+    static const char *const hidden[BR_AXES] = {
+        "the error in h is below that in k everywhere: a finer k, or a coarser h, would show it",
+        "the error in k is below that in h everywhere: a finer h, or a coarser k, would show it"};
+    const struct br_orders_line *finest = br_orders_finest(of, axis);
+    if (br_joint_describes(&of->joint))
+        return (struct br_orders_answer){of->joint.order[axis],
+                                         br_joint_has(of->joint.kind, axis) ? "" : hidden[axis]};
+    if (!finest)
+        return (struct br_orders_answer){{NAN, NAN, NAN}, ""};
+    return is_grid(o) && !o->numbers->quantity[of->quantity].is_value
+               ? answer_of_lines(of, finest)
+               : (struct br_orders_answer){finest->observed.order, ""};
+}
+
 static enum br_status find_quantity(const struct br_orders *o, struct br_quantity_orders *of,
                                     struct br_error *err)
 {
@@ -328,6 +367,8 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
     for (size_t l = 0; l < of->lines && !status; l++)
         status = stopped(numbers, err) ? err->status
                                        : br_case_observe(&of->line[l].observed, LEAST_POINTS, err);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        of->answer[axis] = find_answer(o, of, (enum br_axis)axis);
     return status;
 }
 
