@@ -85,11 +85,7 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         add_line(f, o, &o->of[i], finest);
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
-        /* The order of the joint fit where that describes the errors: the error of the other axis
-         * bends a line. */
-        const struct br_joint_fit *joint = &o->of[i].joint;
-        const double order = round(br_joint_describes(joint) ? joint->order[axis].value
-                                                             : finest->observed.order.value);
+        const double order = round(o->of[i].answer[axis].order.value);
         size_t at = 0; /* ascending */
         while (at < slopes && slope[at] < order)
             at++;

@@ -42,16 +42,17 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
-        if (joint && !br_joint_has(of->joint.kind, axis))
-            br_put_more(d, "%sno error in %s is seen", separator(first), br_axis_letters[axis]);
-        else if (joint)
-            say_order(d, &of->joint.order[axis], (enum br_axis)axis, "", first);
-        else if (line)
-            say_order(d, &line->observed.order, (enum br_axis)axis, line->at, first);
+        const struct br_orders_answer *answer = &of->answer[axis];
+        if (answer->open && isnan(answer->order.value))
+            br_put_more(d, "%s%s", separator(first), answer->open);
+        else if (line || joint)
+            say_order(d, &answer->order, (enum br_axis)axis, joint ? "" : line->at, first);
     }
     if (joint)
         br_put_more(d, "%sby the joint fit of %zu rows, misfit %.2g %%", separator(first),
                     of->joint.points, 100 * of->joint.misfit);
+    if (joint && isfinite(of->joint.floor))
+        br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
 }
 
 /* Puts the number of rows that are left out, the first reason and where it begins. */
@@ -255,6 +256,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "c_k", .heading = "C_k", .format = "%.3e"},
         {.key = "rows"},
         {.key = "misfit", .format = "%.2e"},
+        {.key = "floor", .format = "%.1e", .flags = BR_FILES_ONLY},
     };
     BR_TABLE(d, "joint", "Joint fit of the signed errors C_h h^p and C_k k^q", 0, joint_columns);
     for (size_t i = 0; i < o->count; i++) {
@@ -265,7 +267,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         for (int axis = 0; axis < BR_AXES; axis++)
             put_order(d, &f->order[axis]);
         BR_PUT_CELLS(d, br_number(f->c[BR_AXIS_SPACE].value), br_number(f->c[BR_AXIS_TIME].value),
-                     br_count(f->points), br_number(f->misfit));
+                     br_count(f->points), br_number(f->misfit), br_number(f->floor));
     }
 
     /* The limits of values. The grid convergence index is that of the three finest rows, relative

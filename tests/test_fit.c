@@ -310,7 +310,7 @@ TEST(test_units)
                                                     base[j].error * e};
             struct br_error err = {0};
             struct br_joint_fit fit;
-            MUST(br_joint_fit_solve(scaled, rows * COLUMNS, NULL, &fit, &err));
+            MUST(br_joint_fit_solve(scaled, rows * COLUMNS, false, NULL, &fit, &err));
             if (u == 0)
                 first = fit;
             same_orders(&fit, &first);

@@ -415,7 +415,7 @@ TEST(test_stopped_fits)
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
     struct br_joint_fit fit;
-    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, &stops, &fit, &err),
+    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, true, &stops, &fit, &err),
             BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);

@@ -91,7 +91,7 @@ const char *br_uncertain_text(double value, double half, char *buffer, size_t si
 
 bool br_joint_describes(const struct br_joint_fit *fit)
 {
-    return fit->converged && fit->misfit <= 0.02;
+    return fit->converged && (fit->misfit <= 0.02 || fit->scatters);
 }
 
 static bool usable(const struct br_cell *c, enum br_part part)
@@ -116,7 +116,7 @@ static enum br_status fit_joint(const struct br_study *s, enum br_part part,
         }
         o[count++].error = c->error[part];
     }
-    const enum br_status status = br_joint_fit_solve(o, count, NULL, fit, err);
+    const enum br_status status = br_joint_fit_solve(o, count, false, NULL, fit, err);
     free(o);
     return status;
 }
@@ -213,7 +213,7 @@ void br_flag_beside(struct br_study *s)
 double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
                               double *covariance)
 {
-    enum { MOST = 5 };
+    enum { MOST = 7 };
     double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
     size_t column[MOST], rank = 0;
     gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);

@@ -39,15 +39,18 @@ const char *br_digits_text(double value, int digits, char *buffer, size_t size);
  *     e^2 = a^2 + 2 r a b + b^2,   -1 <= r <= 1,
  *     a = C_h (h^p - h_ref^p),     b = C_k (k^q - k_ref^q).
  * Where the cells do not show one of the two errors, the model without it is chosen (by the
- * corrected Akaike criterion); the numbers of that error are NaN. The residuals of the model are
- * deterministic, not noise: so the intervals come from leaving out whole rows and columns of the
- * grid (joint_fit.c). */
+ * corrected Akaike criterion); the numbers of that error are NaN. The residuals of the model are deterministic, not
+ * noise: so the intervals come from leaving out whole rows and columns of the grid (joint_fit.c).
+ * The numbers of a stranger may also have a constant floor or next terms where the cells show them;
+ * an interval then reaches over those of all models that the cells do not rule out. */
 enum br_joint_kind { BR_JOINT_BOTH, BR_JOINT_TIME, BR_JOINT_SPACE };
 bool br_joint_has(enum br_joint_kind kind, int axis); /* whether it has an error of this axis */
 
 struct br_joint_fit {
     enum br_joint_kind kind;
     struct br_estimate c[BR_AXES], order[BR_AXES], r; /* C_h, C_k; p, q; r */
+    double floor;  /* m^(3/2); NaN: none */
+    bool scatters; /* residuals of at most 30 %, and neighbours do not have the same sign */
     double misfit;                                    /* root mean square of log(model/error) */
     double worst;                                     /* its largest magnitude */
     double r_squared;                                 /* of the logarithms */
@@ -60,7 +63,7 @@ struct br_fits {
     double reference_error; /* the reference's own error, m^(3/2); NaN: not known */
 };
 
-/* Whether the joint model describes the errors: a misfit of at most 2 %. */
+/* Whether the joint model describes the errors: a misfit of at most 2 %, or scatter without waves. */
 bool br_joint_describes(const struct br_joint_fit *fit);
 
 /* Fits one component of a study's errors without the flagged cells, and sets the flags of this
@@ -93,10 +96,11 @@ struct br_observation {
 
 /* Fits the model that the observations determine; without a fit, converged is false. Where all
  * observations have h = h_ref, the model has no error of space; where all have k = k_ref, it has
- * none of time. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
+ * none of time. any_model: also with floors and next terms, and of errors that scatter, else powers
+ * alone. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
 enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
-                                  const struct br_observer *observer, struct br_joint_fit *fit,
-                                  struct br_error *err);
+                                  bool any_model, const struct br_observer *observer,
+                                  struct br_joint_fit *fit, struct br_error *err);
 
 /* value -+ half width of the 95 % interval: t quantile times the deviation. */
 struct br_estimate br_estimate_of(double value, double deviation, size_t freedom);
@@ -133,7 +137,7 @@ void br_tips_clear(struct br_tips *tips);
  */
 struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
 
-/* Least squares |b - A c| with A of m rows of n columns, n <= 5, m >= n, by Q R with pivoting; c
+/* Least squares |b - A c| with A of m rows of n columns, n <= 7, m >= n, by Q R with pivoting; c
  * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
  * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL
  * together. Unlike GSL's own functions, which do not look whether their allocations fail, it

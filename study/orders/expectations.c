@@ -113,8 +113,8 @@ enum br_status br_expectations_read(const char *text, size_t line,
 
 /* ---- verdicts ---- */
 
-/* Makes the case of an expectation on a line, with a copy of its points; its order is that of the
- * joint fit where that is determined. */
+/* Makes the case of an expectation on a line, with a copy of its points; on a grid its order is the
+ * answer for the axis. */
 static enum br_status observe(const struct br_quantity_orders *of,
                               const struct br_orders_line *line,
                               const struct br_order_expectation *e, struct br_case *c,
@@ -134,9 +134,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
             c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
     if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
         return err->status;
-    const struct br_estimate *joint = &of->joint.order[line->axis];
-    if (br_joint_describes(&of->joint) && br_order_determined(joint))
-        br_case_take_order(c, *joint, fabs(of->joint.c[line->axis].value));
+    const struct br_orders_answer *answer = &of->answer[line->axis];
+    if (answer->open || br_joint_describes(&of->joint))
+        br_case_take_order(c, answer->order, fabs(of->joint.c[line->axis].value));
+    c->open = answer->open;
     return BR_OK;
 }
 

@@ -284,7 +284,8 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     /* Rows are only left out, so the same number means the same rows. */
     const bool same = count > 0 && count == of->joint.points;
     const enum br_status status =
-        same ? BR_OK : br_joint_fit_solve(observation, count, numbers->observer, &of->joint, err);
+        same ? BR_OK : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint,
+                                            err);
     free(observation);
     return status;
 }
@@ -326,6 +327,53 @@ static enum br_status observe_all(const struct br_orders *o, struct br_quantity_
     return fit_both(o, of, err);
 }
 
+static bool holds(const struct br_estimate *interval, const struct br_estimate *order)
+{
+    return interval->low <= order->value && order->value <= interval->high;
+}
+
+/* The answer of a grid of errors without a joint fit: the order of a line only if the line at the
+ * next size shows the same one, else the error of the other axis bends it. */
+static struct br_orders_answer answer_of_lines(const struct br_quantity_orders *of,
+                                               const struct br_orders_line *finest)
+{
+    static const char *const bent[BR_AXES] = {
+        "the order in h is not the same at the two finest k, and no joint fit describes the "
+        "errors: a finer k, or more sizes of both, would show it",
+        "the order in k is not the same at the two finest h, and no joint fit describes the "
+        "errors: a finer h, or more sizes of both, would show it"};
+    const struct br_orders_line *next = finest > of->line ? finest - 1 : NULL;
+    const struct br_estimate *a = &finest->observed.order;
+    if (next && next->axis == finest->axis && holds(a, &next->observed.order) &&
+        holds(&next->observed.order, a))
+        return (struct br_orders_answer){*a, NULL};
+    return (struct br_orders_answer){{NAN, NAN, NAN}, bent[finest->axis]};
+}
+
+static struct br_orders_answer find_answer(const struct br_orders *o,
+                                           const struct br_quantity_orders *of, enum br_axis axis)
+{
+    static const char *const hidden[BR_AXES] = {
+        "no error in h is seen, that in k is larger everywhere: a finer k, or a coarser h, would "
+        "show it",
+        "no error in k is seen, that in h is larger everywhere: a finer h, or a coarser k, would "
+        "show it"};
+    static const char *const open[BR_AXES] = {
+        "the joint fit does not determine the order in h: more sizes of both would",
+        "the joint fit does not determine the order in k: more sizes of both would"};
+    const struct br_orders_line *finest = br_orders_finest(of, axis);
+    const struct br_estimate *joint = &of->joint.order[axis];
+    if (br_joint_describes(&of->joint))
+        return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, axis) ? hidden[axis]
+                                                 : br_order_determined(joint) ? NULL
+                                                                              : open[axis]};
+    if (!finest)
+        return (struct br_orders_answer){{NAN, NAN, NAN}, NULL};
+    return is_grid(o) && !o->numbers->quantity[of->quantity].is_value
+               ? answer_of_lines(of, finest)
+               : (struct br_orders_answer){finest->observed.order, NULL};
+}
+
 static enum br_status find_quantity(const struct br_orders *o, struct br_quantity_orders *of,
                                     struct br_error *err)
 {
@@ -339,6 +387,8 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
             status = add_lines(o, of, (enum br_axis)axis, err);
     if (!status)
         status = observe_all(o, of, err);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        of->answer[axis] = find_answer(o, of, (enum br_axis)axis);
     return status;
 }
 

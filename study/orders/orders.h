@@ -106,6 +106,12 @@ struct br_row_point {
     size_t index; /* of the point */
 };
 
+/* What the numbers show of the order along an axis. */
+struct br_orders_answer {
+    struct br_estimate order;
+    const char *open; /* why it is not settled, and what would settle it; NULL: it is known */
+};
+
 struct br_quantity_orders {
     size_t quantity;             /* of the numbers */
     struct br_orders_line *line; /* lines over space, then over time, each from the coarsest size of
@@ -113,6 +119,10 @@ struct br_quantity_orders {
     size_t lines;
     struct br_row_point *point[BR_AXES]; /* by row; NULL: no lines; owned */
     struct br_joint_fit joint;           /* for an error on a grid; not converged: there is none */
+    struct br_orders_answer answer[BR_AXES]; /* by the joint fit where that describes the errors,
+                    else by the line at the finest size of the other axis; on a grid of errors only
+                    if the line at the next size shows the same order, so that the error of the
+                    other axis does not disturb it */
 };
 
 struct br_orders {
@@ -167,9 +177,9 @@ enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err);
 
-/* Judges each expectation: by the joint fit where it describes the errors, else on the line at the
- * finest size of the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a
- * quantity or an axis is missing, or with BR_NO_MEMORY. */
+/* Judges each expectation: on a grid of errors by the answer, else on the line at the finest size of
+ * the other axis. check->cases (out, owned). Fails with BR_BAD_INPUT where a quantity or an axis is
+ * missing, or with BR_NO_MEMORY. */
 enum br_status br_orders_check(const struct br_orders *orders,
                                const struct br_order_expectation *expectations, size_t count,
                                struct br_check *check, struct br_error *err);

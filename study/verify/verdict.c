@@ -353,6 +353,8 @@ void br_case_judge(struct br_case *c)
     else if (c->points < BR_VERIFY_LEAST_POINTS)
         conclude(c, BR_INCONCLUSIVE, "the study has %zu errors, expected at least %d", c->points,
                  BR_VERIFY_LEAST_POINTS);
+    else if (c->open)
+        conclude(c, BR_INCONCLUSIVE, "%s", c->open);
     else if (stalled) {
         judge_stalled(c, stalled);
         judge_constant(c);

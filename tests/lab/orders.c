@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How often is an observed order right? Random lines of errors of each class (errors.c), their
- * orders and verdicts. As a test, 20 lines a class of seed 1 (--long: 300), with bounds; it prints
+/* How often is an observed order right? Random lines of errors of each class (errors.c), and grids
+ * of them (grids.h), their orders and verdicts. As a test, 20 lines a class of seed 1 (--long: 300), with bounds; it prints
  *   claims   an interval above 0 and at most 1 wide
  *   covers   of the claims: the interval holds the truth
  *   silent   of all: claims, misses the truth by more than 0.005, and says nothing of the rows
@@ -13,8 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/verify/check.h"
-#include "tests/lab/errors.h"
+#include "study/orders/orders.h"
+#include "tests/lab/grids.h"
 #include "tests/support.h"
 
 enum { SAMPLE = 20, MANY = 300, MOST_LINES = 100000 };
@@ -22,7 +22,8 @@ enum { SAMPLE = 20, MANY = 300, MOST_LINES = 100000 };
 static const double near = 0.005, tolerance = 0.1;
 
 struct tally {
-    size_t lines, claims, covers, silent, pass, fail, inconclusive, wrong_pass;
+    size_t lines, claims, covers, silent, pass, fail, wrong_pass;
+    size_t contradicts; /* FAIL beside no order, or another order in the verdict */
     double *width;
     size_t widths;
 };
@@ -68,29 +69,96 @@ static double regression(const struct br_error_line *line)
     return gsl_cdf_tdist_Pinv(0.975, (double)line->rows - 2) * sqrt(c11);
 }
 
-static void try_line(const struct br_error_class *class, struct br_random *random, bool high,
-                     struct tally *t)
+/* Counts a verdict on the true order, and the order. said: whether a remark names what is wrong. */
+static void count(struct tally *t, const struct br_case *c, const struct br_estimate *order,
+                  double truth, bool said)
 {
-    struct br_error_line line = {.truth = NAN};
-    struct br_point point[BR_MOST_ERRORS];
-    struct br_case c;
-    class->draw(random, &line);
-    const double expected = isnan(line.truth) ? 2 : line.truth;
-    judge(&line, high ? expected + 0.5 : expected - 0.4, point, &c);
-    t->wrong_pass += c.verdict == BR_PASS;
-    judge(&line, expected, point, &c);
-    const struct br_estimate *order = &c.order;
     const bool claims = br_order_determined(order);
-    const bool covers = order->low <= line.truth + near && order->high >= line.truth - near;
+    const bool covers = order->low <= truth + near && order->high >= truth - near;
     t->lines++;
     t->claims += claims;
     t->covers += claims && covers;
-    t->silent += claims && !covers && !c.note[0];
-    t->pass += c.verdict == BR_PASS;
-    t->fail += c.verdict == BR_FAIL;
-    t->inconclusive += c.verdict == BR_INCONCLUSIVE;
-    if (claims && !line.values)
-        t->width[t->widths++] = (order->high - order->low) / 2 / regression(&line);
+    t->silent += claims && !covers && !said;
+    t->pass += c->verdict == BR_PASS;
+    t->fail += c->verdict == BR_FAIL;
+}
+
+static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    struct br_error_line line = {.truth = NAN};
+    struct br_random random = br_random_of(seed * 1000 + class, index);
+    struct br_point point[BR_MOST_ERRORS];
+    struct br_case c;
+    br_error_classes[class].draw(&random, &line);
+    const double expected = isnan(line.truth) ? 2 : line.truth;
+    judge(&line, index % 2 == 0 ? expected + 0.5 : expected - 0.4, point, &c);
+    t->wrong_pass += c.verdict == BR_PASS;
+    judge(&line, expected, point, &c);
+    count(t, &c, &c.order, line.truth, c.note[0]);
+    if (br_order_determined(&c.order) && !line.values)
+        t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
+}
+
+/* The numbers of a grid, of one column, with their orders. */
+static void find_grid(const struct br_grid *g, bool values, struct br_numbers *n,
+                      struct br_orders *o)
+{
+    struct br_error err = {0};
+    *n = (struct br_numbers){0};
+    n->column[0] = br_resolution_column_find("h");
+    n->column[1] = br_resolution_column_find("k");
+    enum br_status status = br_numbers_make_room(n, g->rows, 1, &err);
+    if (!status)
+        status = br_numbers_add_quantity(n, "e", NULL, values, &err);
+    for (size_t i = 0; i < g->rows && !status; i++) {
+        n->row[i].given[0] = n->row[i].z[0] = g->h[i];
+        n->row[i].given[1] = n->row[i].z[1] = g->k[i];
+        n->row[i].number[0] = g->e[i];
+    }
+    if (!status)
+        status = br_numbers_check(n, "made", &err);
+    if (!status)
+        status = br_orders_find(n, 2, o, &err);
+    if (status) {
+        printf("Bail out! %s\n", err.message);
+        exit(99);
+    }
+}
+
+static enum br_verdict verdict_of(const struct br_orders *o, int axis, double expected,
+                                  struct br_case *c)
+{
+    struct br_error err = {0};
+    struct br_check check = {.path = "made"};
+    const struct br_order_expectation e = {
+        .quantity = "e", .axis = (enum br_axis)axis, .order = expected, .tolerance = tolerance};
+    *c = (struct br_case){.verdict = BR_INCONCLUSIVE, .order = {NAN, NAN, NAN}};
+    if (!br_orders_check(o, &e, 1, &check, &err)) /* else there is no line of three sizes */
+        *c = check.cases[0];
+    br_check_clear(&check);
+    return c->verdict;
+}
+
+/* The orders in h and in k of one grid; the answer and the verdict have to state the same. */
+static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_grid g = br_grid_of(class, seed, index);
+    struct br_numbers n;
+    struct br_orders o;
+    find_grid(&g, false, &n, &o);
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        struct br_case c;
+        const struct br_estimate *order = &o.of[0].answer[axis].order;
+        const double truth = g.order[axis], expected = isnan(truth) ? 2 : truth;
+        t->wrong_pass +=
+            verdict_of(&o, axis, index % 2 == 0 ? expected + 0.5 : expected - 0.4, &c) == BR_PASS;
+        t->contradicts += verdict_of(&o, axis, expected, &c) == BR_FAIL && !isfinite(order->value);
+        t->contradicts += c.points >= BR_VERIFY_LEAST_POINTS && isfinite(order->value) &&
+                          fabs(order->value - c.order.value) > 0;
+        count(t, &c, order, truth, c.note[0]);
+    }
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
 }
 
 static int by_size(const void *a, const void *b)
@@ -106,24 +174,39 @@ static bool at_most(size_t found, double share, size_t n)
     return (double)found <= mean + 2 * sqrt(mean) + 1;
 }
 
-static bool is_good(const struct br_error_class *class, const struct tally *t)
+static bool is_good(enum br_error_group group, const struct tally *t)
 {
-    const bool hard = class->group > BR_NOISY_ERRORS, none = class->group == BR_NO_ORDER;
+    const bool hard = group > BR_NOISY_ERRORS, none = group == BR_NO_ORDER;
     const double silent = hard ? 0.03 : 0.02;
-    return at_most(t->silent, silent, t->lines) &&
+    return t->contradicts == 0 && at_most(t->silent, silent, t->lines) &&
            (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
            at_most(t->wrong_pass, 0.002, t->lines) &&
            (hard || at_most(t->claims - t->covers, 0.05, t->claims));
 }
 
-static void print(const struct br_error_class *class, struct tally *t)
+static void print(const char *name, struct tally *t)
 {
     const double all = (double)t->lines / 100;
     qsort(t->width, t->widths, sizeof *t->width, by_size);
-    printf("%-26s %6.1f %6.1f %6.1f %6.1f %6.1f %6.1f %8.2f\n", class->name,
+    printf("%-26s %6.1f %6.1f %6.1f %6.1f %6.1f %6.1f %8.2f\n", name,
            (double)t->claims / all, 100 * (double)t->covers / (double)t->claims,
            (double)t->silent / all, (double)t->pass / all, (double)t->fail / all,
            (double)t->wrong_pass / all, t->widths ? t->width[t->widths / 2] : (double)NAN);
+}
+
+/* Tries so many lines, or grids, of a class; returns whether their orders are good. */
+static bool try_class(size_t number, const char *name, enum br_error_group group, size_t class,
+                      void (*try)(size_t, uint64_t, size_t, struct tally *), uint64_t seed,
+                      size_t lines, double *width)
+{
+    struct tally t = {.width = width};
+    for (size_t i = 0; i < lines; i++)
+        try(class, seed, i, &t);
+    const bool good = is_good(group, &t);
+    printf("# ");
+    print(name, &t);
+    printf("%sok %zu - %s\n", good ? "" : "not ", number, name);
+    return good;
 }
 
 int main(int arguments, char **argument)
@@ -140,22 +223,17 @@ int main(int arguments, char **argument)
         fputs("usage: orders [SEED LINES]\n", stderr);
         return 2;
     }
-    printf("TAP version 13\n1..%zu\n", classes);
+    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES);
     printf("# %% of %zu lines, seed %llu\n# %-24s %6s %6s %6s %6s %6s %6s %8s\n", lines,
            (unsigned long long)seed, "class", "claims", "covers", "silent", "PASS", "FAIL", "false",
            "width");
-    for (size_t i = 0; i < classes; i++) {
-        struct tally t = {.width = width};
-        for (size_t j = 0; j < lines; j++) {
-            struct br_random random = br_random_of(seed * 1000 + i, j);
-            try_line(&br_error_classes[i], &random, j % 2 == 0, &t);
-        }
-        const bool good = is_good(&br_error_classes[i], &t);
-        bad += !good;
-        printf("# ");
-        print(&br_error_classes[i], &t);
-        printf("%sok %zu - %s\n", good ? "" : "not ", i + 1, br_error_classes[i].name);
-    }
+    for (size_t i = 0; i < classes; i++)
+        bad += !try_class(i + 1, br_error_classes[i].name, br_error_classes[i].group, i, try_line,
+                          seed, lines, width);
+    printf("# grids\n");
+    for (size_t i = 0; i < BR_GRID_CLASSES; i++)
+        bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
+                          try_grid, seed, lines, width);
     free(width);
     return bad > 0;
 }

@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Classes of random grids of errors in h and k with known orders, drawn from a seed:
+ *     e^2 = a^2 + 2 r a b + b^2,   a = C_h h^p,   b = C_k k^q,
+ * with what programs add to it: noise, floors, next terms, missing cells. */
+#ifndef BR_TESTS_LAB_GRIDS_H
+#define BR_TESTS_LAB_GRIDS_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "tests/lab/errors.h"
+
+enum { BR_GRID_MOST = 36 };
+
+struct br_grid {
+    size_t meshes, steps, rows;
+    double h[BR_GRID_MOST], k[BR_GRID_MOST], e[BR_GRID_MOST]; /* rows */
+    double order[2];                                          /* in h and k; NaN: there is none */
+};
+
+/* What a class adds to two powers. */
+struct br_grid_law {
+    double least_r, most_r; /* correlation of the two errors */
+    double noise;           /* of each cell, relative, normal */
+    double floor;           /* constant, at most so much of the finest cell; < 0: by squares */
+    double balance;         /* decades by which b exceeds a in all cells; 0: they meet within */
+    double next;            /* terms h^(p+1) and k^(q+1), at the coarsest at most so much */
+    size_t least, most;     /* meshes and steps */
+    enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED } cells;
+    enum { BR_GRID_FALLS, BR_GRID_STAYS, BR_GRID_GROWS, BR_GRID_SCATTERS } kind;
+};
+
+static inline double br_grid_normal(struct br_random *r)
+{
+    return sqrt(-2 * log(1 - br_random_uniform(r, 0, 1))) *
+           cos(2 * acos(-1) * br_random_uniform(r, 0, 1));
+}
+
+/* As a table prints it, with six digits. */
+static inline double br_grid_printed(double value)
+{
+    const double unit = pow(10, floor(log10(value)) - 5);
+    return value > 0 ? round(value / unit) * unit : value;
+}
+
+/* Whether a class has the cell of mesh i and step j; of cells that go along, those near the
+ * diagonal. */
+static inline bool br_grid_has(struct br_random *r, const struct br_grid_law *law, size_t i,
+                               size_t j)
+{
+    const bool near = i <= j + 1 && j <= i + 1;
+    return law->cells == BR_GRID_FULL || (law->cells == BR_GRID_TIED && near) ||
+           (law->cells == BR_GRID_MISSING && !br_random_once_in(r, 6));
+}
+
+/* The constants of both errors: they meet in a cell within the grid, or one exceeds the other in
+ * all of them. */
+static inline void br_grid_balance(struct br_random *r, const struct br_grid *g, double balance,
+                                   double ratio, double c[2])
+{
+    const double p = g->order[0], q = g->order[1];
+    const double i = br_random_uniform(r, 0.3, 0.7) * (double)(g->meshes - 1);
+    const double j = br_random_uniform(r, 0.3, 0.7) * (double)(g->steps - 1);
+    double decades = p * i * log10(ratio) - q * j * log10(ratio); /* of a = b there */
+    if (balance > 0)
+        decades = balance + q * (double)(g->steps - 1) * log10(ratio);
+    if (balance < 0)
+        decades = balance - p * (double)(g->meshes - 1) * log10(ratio);
+    c[0] = br_random_decades(r, -3, 3);
+    c[1] = c[0] * pow(10, balance == 0 ? -decades : decades);
+}
+
+/* An error of both at sizes x, y relative to the coarsest. */
+static inline double br_grid_error(const struct br_grid *g, const double c[2],
+                                   const double next[2], double r, double x, double y)
+{
+    const double a = c[0] * pow(x, g->order[0]) * (1 + next[0] * x);
+    const double b = c[1] * pow(y, g->order[1]) * (1 + next[1] * y);
+    return sqrt(fmax(0, a * a + 2 * r * a * b + b * b));
+}
+
+static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *law,
+                                struct br_grid *g)
+{
+    static const double orders[] = {1, 1.5, 2, 3, 4};
+    *g = (struct br_grid){
+        .meshes = law->least + br_random_index(r, law->most - law->least + 1),
+        .steps = law->least + br_random_index(r, law->most - law->least + 1),
+        .order = {orders[br_random_index(r, 5)], orders[br_random_index(r, 5)]},
+    };
+    const double ratio = 2, correlation = br_random_uniform(r, law->least_r, law->most_r);
+    const double next[] = {br_random_uniform(r, -law->next, law->next),
+                           br_random_uniform(r, -law->next, law->next)};
+    const double h0 = 1 / floor(br_random_uniform(r, 4, 20)), k0 = br_random_decades(r, -3, 0);
+    double c[2];
+    br_grid_balance(r, g, law->balance, ratio, c);
+    const double finest = br_grid_error(g, c, next, fmax(0, correlation),
+                                        pow(ratio, 1 - (double)g->meshes),
+                                        pow(ratio, 1 - (double)g->steps));
+    const double level = fabs(law->floor) * br_random_uniform(r, 0.3, 1) * finest;
+    const double growth = br_random_uniform(r, 0.5, 3);
+    for (size_t i = 0; i < g->meshes; i++)
+        for (size_t j = 0; j < g->steps; j++) {
+            const double x = pow(ratio, -(double)i), y = pow(ratio, -(double)j);
+            double e = br_grid_error(g, c, next, correlation, x, y);
+            e = law->floor < 0 ? hypot(e, level) : e + level;
+            if (law->kind == BR_GRID_STAYS)
+                e = c[0];
+            if (law->kind == BR_GRID_GROWS)
+                e = c[0] * pow(x * y, -growth);
+            if (law->kind == BR_GRID_SCATTERS)
+                e = c[0] * exp(br_grid_normal(r));
+            if (!br_grid_has(r, law, i, j))
+                continue;
+            g->h[g->rows] = h0 * x;
+            g->k[g->rows] = k0 * y;
+            g->e[g->rows++] = br_grid_printed(e * exp(law->noise * br_grid_normal(r)));
+        }
+    if (law->kind)
+        g->order[0] = g->order[1] = NAN;
+}
+
+static const struct br_grid_class {
+    const char *name;
+    enum br_error_group group;
+    struct br_grid_law law;
+} br_grid_classes[] = {
+    {"errors add", BR_SMOOTH_ERRORS, {.least_r = 1, .most_r = 1, .least = 3, .most = 6}},
+    {"errors subtract", BR_SMOOTH_ERRORS, {.least_r = -1, .most_r = -1, .least = 4, .most = 6}},
+    {"norms", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 4, .most = 6}},
+    {"norms, 3 x 3", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 3, .most = 3}},
+    {"1 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .01, .least = 4, .most = 6}},
+    {"3 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .03, .least = 4, .most = 6}},
+    {"5 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .05, .least = 4, .most = 6}},
+    {"10 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .1, .least = 4, .most = 6}},
+    {"5 % noise, 3 x 3", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .05, .least = 3, .most = 3}},
+    {"floor, added", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .floor = 1, .least = 4, .most = 6}},
+    {"floor, by squares", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .floor = -1, .least = 4, .most = 6}},
+    {"floor, 3 % noise", BR_HARD_ERRORS,
+     {.least_r = -.9, .most_r = .9, .floor = 1, .noise = .03, .least = 4, .most = 6}},
+    {"time dominates", BR_SMOOTH_ERRORS, {.most_r = .5, .balance = 4, .least = 4, .most = 6}},
+    {"time dominates, 1 % noise", BR_NOISY_ERRORS,
+     {.most_r = .5, .balance = 4, .noise = .01, .least = 4, .most = 6}},
+    {"space dominates, 1 % noise", BR_NOISY_ERRORS,
+     {.most_r = .5, .balance = -4, .noise = .01, .least = 4, .most = 6}},
+    {"next terms of 5 %", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .next = .05, .least = 4, .most = 6}},
+    {"next terms of 30 %", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .next = .3, .least = 4, .most = 6}},
+    {"next terms, 2 % noise", BR_HARD_ERRORS,
+     {.least_r = -.9, .most_r = .9, .next = .3, .noise = .02, .least = 4, .most = 6}},
+    {"missing cells, 1 % noise", BR_NOISY_ERRORS,
+     {.least_r = -.9, .most_r = .9, .noise = .01, .least = 4, .most = 6, .cells = BR_GRID_MISSING}},
+    {"tied in part", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
+    {"tied in part, 2 % noise", BR_NOISY_ERRORS,
+     {.least_r = -.9, .most_r = .9, .noise = .02, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
+    {"constant, 2 % noise", BR_NO_ORDER, {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
+    {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
+    {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
+};
+enum { BR_GRID_CLASSES = sizeof br_grid_classes / sizeof *br_grid_classes };
+
+/* Grid `index` of a class and a seed. */
+static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t index)
+{
+    struct br_grid g;
+    struct br_random r = br_random_of(seed * 1000 + class, index);
+    br_grid_draw(&r, &br_grid_classes[class].law, &g);
+    return g;
+}
+
+#endif
