@@ -98,7 +98,7 @@ static void print_users(FILE *out, size_t i)
     const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
     struct br_method m = br_method_default();
     const char *between = " ";
-    if (!f->help || !br_method_field_depends(f))
+    if (!f->argument || !br_method_field_depends(f))
         return;
     fprintf(out, "  --%-21s --%s", br_method_fields[i].name, br_method_fields[f->by].name);
     for (size_t row = 0; by->words->name(row); row++) {

@@ -196,9 +196,8 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},
-    {BR_OPT_ANIMATE, "animate", 0, "FILE",
-     "a moving picture, a .gif", NULL,
-     BR_TAKES_FILE, .commands = BR_FOR_RUN,
+    {BR_OPT_ANIMATE, "animate", 0, "FILE", "a moving picture, a .gif", NULL, BR_TAKES_FILE,
+     .commands = BR_FOR_RUN,
      .more = "Beam, obstacle, contact and friction force with its bound, at most about 120 frames, "
              "with script and data beside it. Where it cannot be drawn, the exit code is 3; the "
              "results are written before."},
@@ -323,7 +322,7 @@ size_t br_options_of(const struct br_command *command, struct br_option row[BR_O
             row[count++] = row_of(rows[i], command);
     for (size_t i = 0; i < BR_METHOD_FIELDS && MARCHES & command->bit; i++) {
         const struct br_method_field *f = &br_method_fields[i];
-        if (!f->help)
+        if (!f->argument)
             continue;
         row[count++] = (struct br_option){.id = (enum br_option_id)(BR_OPT_METHOD + i),
                                           .name = f->name,

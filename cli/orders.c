@@ -54,9 +54,9 @@ static enum br_status read_readings(const char *text, struct br_orders_request *
 static enum br_status read_options(const struct br_options *o, struct br_orders_request *q,
                                    struct br_error *err)
 {
-    static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_DOFS,       BR_OPT_K,
-                                                BR_OPT_STEPS,  BR_OPT_TIME_LIMIT,
-                                                BR_OPT_RESUME, BR_OPTIONS};
+    static const enum br_option_id of_runs[] = {BR_OPT_N,     BR_OPT_DOFS,       BR_OPT_K,
+                                                BR_OPT_STEPS, BR_OPT_TIME_LIMIT, BR_OPT_RESUME,
+                                                BR_OPTIONS};
     static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);

@@ -515,8 +515,7 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     const double march = r->end.march_seconds;
     const double a_step = march / (double)r->end.last.step; /* NAN: none */
     const bool iterates = r->method.friction->iterates && has_friction(r);
-    const char *of_march =
-        r->checked ? "  of the march, the check included" : "  of the march";
+    const char *of_march = r->checked ? "  of the march, the check included" : "  of the march";
     br_put_section(d, "Time and work");
     br_put_fact_as(d, br_number(f->wall_seconds), "time", "s", "seconds.wall");
     br_put_fact_as(d, br_number(r->end.set_up_seconds), "  of setting up", "s", "seconds.set_up");

@@ -156,12 +156,16 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                           .more = "The results record it; those of two kernels agree to round-off.",
                           .standard = "the best", .words = &kernels, .by = BR_METHOD_SOLVER,
                           .before = " on ", .unsaid = true},
-    [BR_METHOD_SCALING] = {"scaling", "scaling", NULL, NULL, VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
+    [BR_METHOD_SCALING] = {"scaling", "scaling", NULL, "umfpack's row scaling: none, sum or max",
+                           VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
                            .before = ", scaling ", .quiet = true, .word = scaling_names,
                            .words_title = "rows scaled by their sums"},
-    [BR_METHOD_REFINEMENT] =
-        {"refinement", "refinement", NULL, NULL, VALUE(refinement), .range = {0, 100, true}, .by = BR_METHOD_SOLVER, .before = ", refinement steps ",
-         .quiet = true, .word = refinement_names, .words_title = "two refinement steps a solve"},
+    [BR_METHOD_REFINEMENT] = {"refinement", "refinement", NULL,
+                              "refinement steps a solve of assembled solvers, at most",
+                              VALUE(refinement), .range = {0, 100, true}, .by = BR_METHOD_SOLVER,
+                              .before = ", refinement steps ", .quiet = true,
+                              .word = refinement_names,
+                              .words_title = "two refinement steps a solve"},
     [BR_METHOD_CONTACT] = {"contact", "contact", "NAME", "where contact takes its force",
                            VALUE(contact),
                            .more = "lagged, the paper's, is for the scheme euler alone.",
@@ -409,7 +413,7 @@ bool br_method_has_options(const struct br_method *m)
 {
     for (const struct br_method_field *f = br_method_fields;
          f < br_method_fields + BR_METHOD_FIELDS; f++)
-        if (!f->help && br_method_field_used(f, m) && !is_default(f, m))
+        if (!f->argument && br_method_field_used(f, m) && !is_default(f, m))
             return false;
     return true;
 }
@@ -422,8 +426,8 @@ const char *br_method_options(const struct br_scene *scene, const struct br_meth
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++) {
         const struct br_method_field *f = &br_method_fields[i];
         const bool always = i == BR_METHOD_TOLERANCE; /* a plan's choice must be visible */
-        if ((f->in && !f->in(scene)) || !br_method_field_used(f, m) || f->unsaid ||
-            !f->help || (is_default(f, m) && !always))
+        if ((f->in && !f->in(scene)) || !br_method_field_used(f, m) || f->unsaid || !f->argument ||
+            (is_default(f, m) && !always))
             continue;
         br_append(text, BR_METHOD_TEXT, " --%s %s", f->name, br_method_field_text(f, m, value));
     }

@@ -29,9 +29,9 @@ struct br_method_word {
 };
 
 struct br_method_field {
-    const char *name;                         /* of the option */
-    const char *title;                        /* in a sentence: "time scheme" */
-    const char *argument, *help;              /* of the option, for the help; NULL: none */
+    const char *name;            /* of the option */
+    const char *title;           /* in a sentence: "time scheme" */
+    const char *argument, *help; /* of the option, for the help; argument NULL: no option */
     double (*get)(const struct br_method *m); /* a number, or a row of the words */
     void (*set)(struct br_method *m, double value);
     const char *key;              /* of scenes and JSON; NULL: the name */
