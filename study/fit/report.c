@@ -370,9 +370,9 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
         width_of(&apart.order) < width_of(&o->order))
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
-        const size_t finest = 8 * s->steps[s->k_count - 1];
-        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu,T/%zu", finest,
-               2 * finest, 4 * finest, 8 * finest);
+        const size_t finest = 16 * s->steps[s->k_count - 1];
+        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu", finest,
+               2 * finest, 4 * finest);
     }
     return status;
 }
