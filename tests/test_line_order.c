@@ -37,7 +37,7 @@ TEST(test_median)
         assert_true(found.order.value <= found.order.high && found.order.high <= found.high99);
         assert_true(found.order.low < found.order.high);
     }
-    if (above < SETS * 2 / 5 || above > SETS * 3 / 5)
+    if (above < SETS * 42 / 100 || above > SETS * 58 / 100)
         fail_msg("%zu of %d orders are above the truth", above, SETS);
 }
 
