@@ -198,7 +198,8 @@ enum { PAIRS = 6 };
 static const size_t halved[PAIRS] = {1600, 3200, 6400, 12800, 25600, 51200};
 
 /* Differences of successive steps with these errors. */
-static struct br_study pairs_of(struct made *m, struct br_cell cell[PAIRS], const double error[PAIRS])
+static struct br_study pairs_of(struct made *m, struct br_cell cell[PAIRS],
+                                const double error[PAIRS])
 {
     static const size_t mesh = 10;
     for (size_t i = 0; i < PAIRS; i++) {
@@ -265,7 +266,8 @@ TEST(test_steps_apart)
     assert_null(strstr(seen->remark, "may settle it"));
     m.report.printed = NULL;
     /* an order that is not that of theory settles nothing */
-    const struct br_study other = pairs_of(&m, cell, (double[]){32, 22.627417, 16, 11.3137085, 8, 5.65685425});
+    const struct br_study other =
+        pairs_of(&m, cell, (double[]){32, 22.627417, 16, 11.3137085, 8, 5.65685425});
     m.report.apart[BR_AXIS_TIME] = &other;
     see(&m);
     expect(seen, 0.5, "below theory");
