@@ -202,7 +202,7 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
     const struct br_seen_order *total = &r->seen[BR_PART_TOTAL][axis];
-    struct br_panel *p = add_panel(r, axis, f);
+    struct br_panel *p = add_panel(r, (int)axis, f);
     double slope[BR_PARTS];
     size_t slopes = 0;
     BR_SAY(p->y_label, "%s, or difference (%s)", s->norm->symbol, s->norm->unit_markup);

@@ -8,8 +8,8 @@
 #include "study/orders/orders.h"
 #include "study/scene/quote.h"
 
-/* The errors, with the line of their order and its band; those of a joint fit, which is no line, are
- * joined. */
+/* The errors, with the line of their order and its band; those of a joint fit, which is no line,
+ * are joined. */
 static void add_line(struct br_figure *f, const struct br_orders *o,
                      const struct br_quantity_orders *of, const struct br_orders_line *line)
 {

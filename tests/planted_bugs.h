@@ -832,7 +832,7 @@ static const struct planted_bug planted_bugs[] = {
     {"band_upside_down", "interval", "study/fit/line_order.c", "tests/test_line_order test_fit",
      "fmin(a, b), fmax(a, b)};", "fmax(a, b), fmin(a, b)};"},
     {"median_off", "interval", "study/fit/line_order.c", "tests/test_line_order test_median",
-     "{quantile(all, 0.5), quantile", "{quantile(all, 0.4), quantile"},
+     "{quantile(all, 0.5), quantile", "{quantile(all, 0.25), quantile"},
     {"interval_upside_down", "interval", "study/fit/line_order.c",
      "tests/test_line_order test_median", "found->low99 = quantile(all, 0.005);",
      "found->low99 = quantile(all, 0.995);"},

@@ -252,7 +252,7 @@ static void compare_differences(const struct br_scene *now, const struct factors
         expect_estimate(&after, &earlier, f->metre * (kind == BR_BENDING ? f->sign : 1),
                         1e4 * f->tolerance);
     }
-    struct br_study *const all[] = {&a.over[BR_AXIS_SPACE], &a.over[BR_AXIS_TIME], &b.over[BR_AXIS_SPACE], &b.over[BR_AXIS_TIME]};
+    struct br_study *const all[] = {&a.over[0], &a.over[1], &b.over[0], &b.over[1]};
     for (size_t i = 0; i < 4; i++)
         br_study_clear(all[i]);
     br_tips_clear(&x);

@@ -270,7 +270,8 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
              100 * fit->misfit);
     *o->remark = '\0';
     claim(o, fit->order[axis], NULL);
-    keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL); /* all count */
+    /* all count */
+    keep_points(o, &(struct line){.study = s, .axis = axis, .at = l.at}, part, NULL);
     fit_model(o, fit, &l);
 }
 
@@ -405,7 +406,8 @@ enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, stru
             .order = {NAN, NAN, NAN},
             .theory = br_theory_of(s, part, axis),
         };
-        if (o->asked && part != BR_PART_TOTAL && s->scene->axial.modelled != s->scene->bending.modelled)
+        if (o->asked && part != BR_PART_TOTAL &&
+            s->scene->axial.modelled != s->scene->bending.modelled)
             *o = r->seen[BR_PART_TOTAL][axis]; /* it is the total */
         else if (o->asked)
             status = (over_h ? see_in_h : see_in_k)(r, part, o, err);
