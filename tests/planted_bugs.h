@@ -1088,7 +1088,7 @@ static const struct planted_bug planted_bugs[] = {
      "    h += count - 3;\n    value += count - 3;\n", ""},
     {"rows_without_a_limit", "lost", "study/orders/numbers.c", "tests/test_orders test_large_tables",
      "if (rows > BR_MOST_ROWS)", "if (rows > 1000 * BR_MOST_ROWS)"},
-    {"columns_without_a_limit", "lost", "study/orders/table.c", "tests/test_orders test_large_tables",
+    {"columns_without_a_limit", "lost", "study/orders/split.c", "tests/test_orders test_large_tables",
      "json_array_size(row) > BR_MOST_COLUMNS", "json_array_size(row) > 100 * BR_MOST_COLUMNS"},
     {"fits_do_not_stop", "lost", "study/fit/joint_fit.c", "tests/test_orders test_stopped_fits",
      "if (br_observer_stops(observer))\n        return br_fail(err, BR_INTERRUPTED", "if (false)\n        return br_fail(err, BR_INTERRUPTED"},
