@@ -315,6 +315,14 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_number(g->coarse.index), br_number(g->asymptotic),
                        br_text(br_sequence_text(g->sequence)));
         }
+    for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
+        if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
+            const struct br_grid_limit *limit = &o->of[i].limit;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_text("h and k"), br_text(""),
+                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
+                       br_number(limit->value.low), br_number(limit->value.high),
+                       br_text(limit_methods[limit->method]));
+        }
 
     for (size_t i = 0; i < o->numbers->rows; i++)
         timed |= isfinite(o->numbers->row[i].seconds);
