@@ -283,8 +283,8 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     /* Rows are only left out, so the same number means the same rows. */
     const bool same = count > 0 && count == of->joint.points;
     const enum br_status status =
-        same ? BR_OK : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint,
-                                            err);
+        same ? BR_OK
+             : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
     free(observation);
     return status;
 }
@@ -364,8 +364,8 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     const struct br_estimate *joint = &of->joint.order[axis];
     if (br_joint_describes(&of->joint))
         return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, axis) ? hidden[axis]
-                                                 : br_order_determined(joint) ? NULL
-                                                                              : open[axis]};
+                                                 : br_order_determined(joint)        ? NULL
+                                                                                     : open[axis]};
     if (!finest)
         return (struct br_orders_answer){{NAN, NAN, NAN}, NULL};
     return is_grid(o) && !o->numbers->quantity[of->quantity].is_value
@@ -396,8 +396,8 @@ static void find_limit_of_grid(const struct br_orders *o, struct br_quantity_ord
         const double rest = e->value - finest;
         left += rest;
         half += constant ? 0 : fmax(e->high - finest, finest - e->low);
-        products = fmax(products,
-                        fabs(next->limit.value.value - before->number[of->quantity] - rest));
+        products =
+            fmax(products, fabs(next->limit.value.value - before->number[of->quantity] - rest));
         if (axis == 0 || line->limit.sequence == of->limit.sequence || constant)
             of->limit.sequence = axis == 0 ? line->limit.sequence : of->limit.sequence;
         else
@@ -407,8 +407,7 @@ static void find_limit_of_grid(const struct br_orders *o, struct br_quantity_ord
     }
     half += products;
     if (row[0] == row[1] && isfinite(left) && half > 0 && isfinite(half))
-        of->limit.value =
-            (struct br_estimate){finest + left, finest - half, finest + half};
+        of->limit.value = (struct br_estimate){finest + left, finest - half, finest + half};
 }
 
 static void take_limit(const struct br_orders *o, struct br_quantity_orders *of)
