@@ -88,6 +88,16 @@ static void say_limit(struct br_document *d, const struct br_grid_limit *limit, 
         br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
 }
 
+/* An exponent of about 0, or none, is not said. */
+static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis)
+{
+    const struct br_estimate falls = {-growth->value, -growth->high, -growth->low};
+    if (fabs(growth->value) >= 0.1)
+        br_put_answer(d, "Processor time %s like %s^%s%s.", growth->value > 0 ? "grows" : "falls",
+                      br_axis_letters[axis], growth->value > 0 ? "-" : "",
+                      br_order_text(growth->value > 0 ? growth : &falls, (char[64]){0}, 64));
+}
+
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
 {
     for (int axis = 0; axis < BR_AXES; axis++)
@@ -201,7 +211,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (!line)
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
-            say_limit(d, &line->limit, &first);
+            say_limit(d, &of->limit, &first);
         say_orders(d, of, &first);
         br_put_more(d, ".");
         say_left_out(d, of);
@@ -211,9 +221,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->count > MOST_NAMED)
         br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
-        if (isfinite(growth[axis].value))
-            br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
-                          br_order_text(&growth[axis], (char[64]){0}, 64));
+        say_growth(d, &growth[axis], (enum br_axis)axis);
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
     for (size_t i = 0; i < o->numbers->rows; i++)
@@ -308,6 +316,14 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
                        br_number(g->coarse.index), br_number(g->asymptotic),
                        br_text(br_sequence_text(g->sequence)));
+        }
+    for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
+        if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
+            const struct br_grid_limit *limit = &o->of[i].limit;
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_text("h and k"), br_text(""),
+                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
+                       br_number(limit->value.low), br_number(limit->value.high),
+                       br_text(limit_methods[limit->method]));
         }
 
     for (size_t i = 0; i < o->numbers->rows; i++)

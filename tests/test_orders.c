@@ -662,6 +662,77 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     return verdict;
 }
 
+/* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
+static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
+{
+    static char text[MOST_TEXT];
+    size_t used = (size_t)snprintf(text, sizeof text, "h,k,l2\n");
+    for (int i = 0; i < meshes; i++)
+        for (int j = 0; j < steps; j++)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g,%.17g\n",
+                                     pow(2, -i), pow(2, -j), f(pow(2, -i), pow(2, -j)));
+    return text;
+}
+
+static double of_time_alone(double h, double k)
+{
+    return k + 1e-12 * h * h;
+}
+
+/* No joint model has another order in h at each k. */
+static double bent(double h, double k)
+{
+    return pow(h, k < 0.1 ? 2 : k < 0.2 ? 1 : 3);
+}
+
+static double value_of_both(double h, double k)
+{
+    return 5 + h * h - k;
+}
+
+static double logarithm(double h, double k)
+{
+    return log(h) + 0 * k;
+}
+
+/* Where a grid does not show an order, the answer says so and the verdict is no other one. */
+TEST(test_orders_that_a_grid_hides)
+{
+    char why[768];
+    char *table = grid_of(5, 5, of_time_alone);
+    find(table, NULL);
+    const struct br_orders_answer *answer = found.orders.of[0].answer;
+    assert_true(isnan(answer[BR_AXIS_SPACE].order.value));
+    assert_string_equal(answer[BR_AXIS_SPACE].open,
+                        "no error in h is seen, that in k is larger everywhere: a finer k, or a "
+                        "coarser h, would show it");
+    CLOSE(answer[BR_AXIS_TIME].order.value, 1, 1e-6);
+    const char *open = answer[BR_AXIS_SPACE].open; /* a new find clears the answer, not its text */
+    assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1", why), BR_INCONCLUSIVE);
+    assert_string_equal(why, open);
+    assert_int_equal(verdict_of(table, NULL, "l2: k 1 +- 0.1", why), BR_PASS);
+    table = grid_of(5, 5, bent);
+    find(table, NULL);
+    assert_false(br_joint_describes(&found.orders.of[0].joint));
+    assert_true(isnan(found.orders.of[0].answer[BR_AXIS_SPACE].order.value));
+    assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1", why), BR_INCONCLUSIVE);
+    assert_string_equal(why, found.orders.of[0].answer[BR_AXIS_SPACE].open);
+}
+
+/* The limit of a value of h and k is that of both; one direction alone ends beside it. */
+TEST(test_limit_of_a_grid)
+{
+    find(grid_of(5, 6, value_of_both), "l2");
+    const struct br_quantity_orders *of = &found.orders.of[0];
+    CLOSE(of->limit.value.value, 5, 1e-9);
+    assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
+    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
+    find("h,l2\n1,0\n.5,1\n.25,2\n.125,3.000000001\n.0625,4\n", "l2");
+    assert_true(isnan(found.orders.of[0].limit.value.value));
+    find(grid_of(5, 5, logarithm), "l2");
+    assert_true(isnan(found.orders.of[0].limit.value.value));
+}
+
 TEST(test_verdicts)
 {
     enum { REFUSED_ONE = -1 };

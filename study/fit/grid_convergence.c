@@ -447,6 +447,9 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
 
 /* ---- either ---- */
 
+/* Values that grow like log n have the order zero, and no limit: round-off makes it +1e-9. */
+static const double least_order = 0.05;
+
 enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
                                   struct br_grid_limit *limit, struct br_error *err)
 {
@@ -473,10 +476,13 @@ enum br_status br_limit_of_values(const double *h, const double *value, size_t c
         limit->value.value = gci.fine.limit;
         uncertainty = gci.fine.uncertainty;
     }
+    if (limit->sequence == BR_MONOTONE_CONVERGENCE && !(limit->order >= least_order))
+        limit->sequence = BR_SEQUENCE_UNKNOWN;
     const double finest = value[count - 1];
     limit->value.low = finest - uncertainty;
     limit->value.high = finest + uncertainty;
-    if (limit->sequence == BR_MONOTONE_DIVERGENCE || limit->sequence == BR_OSCILLATORY_DIVERGENCE)
+    if (limit->sequence == BR_MONOTONE_DIVERGENCE ||
+        limit->sequence == BR_OSCILLATORY_DIVERGENCE || limit->sequence == BR_SEQUENCE_UNKNOWN)
         limit->value = (struct br_estimate){NAN, NAN, NAN};
     if (limit->sequence == BR_SEQUENCE_CONSTANT)
         limit->value = (struct br_estimate){finest, NAN, NAN};

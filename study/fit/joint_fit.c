@@ -191,8 +191,8 @@ static double log_unit(const struct problem *problem, int unknown)
     return unknown >= THETA || unknown % 2 ? 0 : problem->log_unit[unknown / 2];
 }
 
-/* What is added to an unknown in m and s to get it in scaled units. It is 0 but for constants, whose
- * order is the next unknown, and a floor; a drift is that of the coarsest size. */
+/* What is added to an unknown in m and s to get it in scaled units. It is 0 but for constants,
+ * whose order is the next unknown, and a floor; a drift is that of the coarsest size. */
 static double shift(const struct problem *problem, int unknown, const double full[UNKNOWNS])
 {
     if (unknown == LOG_F)
@@ -613,9 +613,8 @@ static void widen_by_others(struct problem *problem, const struct candidate *can
         const struct attempt *a = &candidate[i].attempt;
         for (int axis = 0; axis < BR_AXES && candidate[i].criterion <= least + not_ruled_out;
              axis++) {
-            const struct br_estimate other =
-                br_estimate_of(a->value[ORDER(axis)], a->deviation[ORDER(axis)],
-                               problem->count - models[i].count);
+            const struct br_estimate other = br_estimate_of(
+                a->value[ORDER(axis)], a->deviation[ORDER(axis)], problem->count - models[i].count);
             if (!br_joint_has(fit->kind, axis) || !br_joint_has(models[i].kind, axis))
                 continue;
             fit->order[axis].low = fmin(fit->order[axis].low, other.low);

@@ -284,8 +284,8 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
     /* Rows are only left out, so the same number means the same rows. */
     const bool same = count > 0 && count == of->joint.points;
     const enum br_status status =
-        same ? BR_OK : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint,
-                                            err);
+        same ? BR_OK
+             : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
     free(observation);
     return status;
 }
@@ -365,13 +365,58 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     const struct br_estimate *joint = &of->joint.order[axis];
     if (br_joint_describes(&of->joint))
         return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, axis) ? hidden[axis]
-                                                 : br_order_determined(joint) ? NULL
-                                                                              : open[axis]};
+                                                 : br_order_determined(joint)        ? NULL
+                                                                                     : open[axis]};
     if (!finest)
         return (struct br_orders_answer){{NAN, NAN, NAN}, NULL};
     return is_grid(o) && !o->numbers->quantity[of->quantity].is_value
                ? answer_of_lines(of, finest)
                : (struct br_orders_answer){finest->observed.order, NULL};
+}
+
+/* A value of a grid is L + f(h) + g(k), and small products of both: what is left over h at the
+ * finest k and over k at the finest h adds up, each with its interval. By as much as one of the two
+ * changes to the next size of the other axis, the products may change it again. */
+static void find_limit_of_grid(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    const struct br_grid_limit none = {.value = {NAN, NAN, NAN}, .order = NAN};
+    double finest = NAN, left = 0, half = 0, products = 0;
+    size_t row[BR_AXES] = {0};
+    of->limit = none;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        const struct br_orders_line *line = br_orders_finest(of, (enum br_axis)axis);
+        const struct br_orders_line *next = line > of->line ? line - 1 : NULL;
+        if (!next || next->axis != line->axis)
+            return;
+        row[axis] = line->row[line->observed.points];
+        const struct br_numbers_row *fine = &o->numbers->row[row[axis]],
+                                    *before = &o->numbers->row[next->row[next->observed.points]];
+        const struct br_estimate *e = &line->limit.value;
+        const bool constant = line->limit.sequence == BR_SEQUENCE_CONSTANT;
+        finest = fine->number[of->quantity];
+        const double rest = e->value - finest;
+        left += rest;
+        half += constant ? 0 : fmax(e->high - finest, finest - e->low);
+        products =
+            fmax(products, fabs(next->limit.value.value - before->number[of->quantity] - rest));
+        if (axis == 0 || line->limit.sequence == of->limit.sequence || constant)
+            of->limit.sequence = axis == 0 ? line->limit.sequence : of->limit.sequence;
+        else
+            of->limit.sequence = of->limit.sequence == BR_SEQUENCE_CONSTANT ? line->limit.sequence
+                                                                            : BR_SEQUENCE_UNKNOWN;
+        of->limit.method = line->limit.method;
+    }
+    half += products;
+    if (row[0] == row[1] && isfinite(left) && half > 0 && isfinite(half))
+        of->limit.value = (struct br_estimate){finest + left, finest - half, finest + half};
+}
+
+static void take_limit(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    if (is_grid(o))
+        find_limit_of_grid(o, of);
+    else if (of->lines)
+        of->limit = of->line[of->lines - 1].limit;
 }
 
 static enum br_status find_quantity(const struct br_orders *o, struct br_quantity_orders *of,
@@ -389,6 +434,8 @@ static enum br_status find_quantity(const struct br_orders *o, struct br_quantit
         status = observe_all(o, of, err);
     for (int axis = 0; axis < BR_AXES; axis++)
         of->answer[axis] = find_answer(o, of, (enum br_axis)axis);
+    if (!status && numbers->quantity[of->quantity].is_value)
+        take_limit(o, of);
     return status;
 }
 

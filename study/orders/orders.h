@@ -118,6 +118,7 @@ struct br_quantity_orders {
                                     the other axis to the finest; owned */
     size_t lines;
     struct br_row_point *point[BR_AXES]; /* by row; NULL: no lines; owned */
+    struct br_grid_limit limit;          /* for a value: that of its line; on a grid over h and k */
     struct br_joint_fit joint;           /* for an error on a grid; not converged: there is none */
     struct br_orders_answer answer[BR_AXES]; /* by the joint fit where that describes the errors,
                     else by the line at the finest size of the other axis; on a grid of errors only

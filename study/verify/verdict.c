@@ -227,11 +227,12 @@ static const struct br_point *first_stalled(const struct br_case *c)
 static void judge_stalled(struct br_case *c, const struct br_point *stalled)
 {
     char text[64];
+    const bool falls = stalled > c->point && stalled->error < stalled[-1].error;
     br_order_text(&c->order, text, sizeof text);
     conclude(c, BR_INCONCLUSIVE,
-             "the order is %s, but from %s on the errors do not fall, %.2e: if that is the "
+             "the order is %s, but from %s on the errors %s, %.2e: if that is the "
              "reference's own error, expect the order 'down to %.0e'",
-             text, stalled->label, stalled->error, 4 * stalled->error);
+             text, stalled->label, falls ? "fall more slowly" : "do not fall", stalled->error, 4 * stalled->error);
 }
 
 static void straddle(struct br_case *c, const char *order, double low, double high)

@@ -168,4 +168,52 @@ static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t inde
     return g;
 }
 
+/* ---- values ---- */
+
+/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes. */
+static const struct br_value_class {
+    const char *name;
+    double next, product, noise; /* relative: at the coarsest, to both errors, to the finest step */
+    bool one;                    /* all but one direction is far smaller */
+} br_value_classes[] = {
+    {"limits, two powers", 0, 0, 0, false},
+    {"limits, next terms", 0.3, 0, 0, false},
+    {"limits, products", 0, 1, 0, false},
+    {"limits, all of that", 0.3, 0.5, 0, false},
+    {"limits, one dominates", 0.1, 0.1, 0, true},
+    {"limits, noise", 0, 0, 0.05, false},
+};
+enum { BR_VALUE_CLASSES = sizeof br_value_classes / sizeof *br_value_classes };
+
+static inline struct br_grid br_value_grid_of(size_t class, uint64_t seed, size_t index,
+                                              double *limit)
+{
+    const struct br_value_class *law = &br_value_classes[class];
+    struct br_random random = br_random_of(seed * 1000 + 500 + class, index), *r = &random;
+    static const double orders[] = {1, 1.5, 2};
+    struct br_grid g = {
+        .meshes = 4 + br_random_index(r, 3),
+        .steps = 4 + br_random_index(r, 3),
+        .order = {orders[br_random_index(r, 3)], orders[br_random_index(r, 3)]},
+    };
+    *limit = br_random_uniform(r, -2, 2);
+    const double sign = br_random_once_in(r, 2) ? -1 : 1;
+    const double a = br_random_decades(r, -2, -0.5);
+    const double b = sign * a * br_random_decades(r, law->one ? -4 : -0.7, law->one ? -3 : 0.7);
+    const double c = br_random_uniform(r, -law->next, law->next);
+    const double d = br_random_uniform(r, -law->next, law->next);
+    for (size_t i = 0; i < g.meshes; i++)
+        for (size_t j = 0; j < g.steps; j++, g.rows++) {
+            const double x = pow(2, -(double)i), y = pow(2, -(double)j);
+            const double f = a * pow(x, g.order[0]) * (1 + c * x);
+            const double e = b * pow(y, g.order[1]) * (1 + d * y);
+            const double step = a * pow(2, -g.order[0] * ((double)g.meshes - 1));
+            g.h[g.rows] = x;
+            g.k[g.rows] = y;
+            g.e[g.rows] = *limit + f + e + law->product * f * e / fmax(fabs(a), fabs(b)) +
+                          law->noise * step * br_grid_normal(r);
+        }
+    return g;
+}
+
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How often is an observed order right? Random lines of errors of each class (errors.c), and grids
- * of them (grids.h), their orders and verdicts. As a test, 20 lines a class of seed 1 (--long: 300), with bounds; it prints
+ * of them (grids.h), their orders and verdicts. As a test, 20 lines a class of seed 1 (--long: 300), and a
+ * quarter of that of grids, with bounds; it prints
  *   claims   an interval above 0 and at most 1 wide
  *   covers   of the claims: the interval holds the truth
  *   silent   of all: claims, misses the truth by more than 0.005, and says nothing of the rows
@@ -161,6 +162,27 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
     br_numbers_clear(&n);
 }
 
+/* The limit of the values of a grid; width: half of its interval, over the distance from it. */
+static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    double truth;
+    const struct br_grid g = br_value_grid_of(class, seed, index, &truth);
+    struct br_numbers n;
+    struct br_orders o;
+    find_grid(&g, true, &n, &o);
+    const struct br_estimate *limit = &o.of[0].limit.value;
+    const bool claims = isfinite(limit->high - limit->low);
+    const bool covers = limit->low <= truth && truth <= limit->high;
+    t->lines++;
+    t->claims += claims;
+    t->covers += claims && covers;
+    t->silent += claims && !covers;
+    if (claims)
+        t->width[t->widths++] = (limit->high - limit->low) / 2 / fabs(g.e[g.rows - 1] - truth);
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+}
+
 static int by_size(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -215,6 +237,7 @@ int main(int arguments, char **argument)
     const size_t lines = arguments == 3    ? strtoul(argument[2], NULL, 10)
                          : br_test_long() ? MANY
                                           : SAMPLE;
+    const size_t grids = (lines + 3) / 4; /* of two orders and some ten lines each */
     size_t classes = 0, bad = 0;
     double *width = br_allocate(lines + 1, sizeof *width);
     while (br_error_classes[classes].name)
@@ -223,17 +246,21 @@ int main(int arguments, char **argument)
         fputs("usage: orders [SEED LINES]\n", stderr);
         return 2;
     }
-    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES);
+    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES + BR_VALUE_CLASSES);
     printf("# %% of %zu lines, seed %llu\n# %-24s %6s %6s %6s %6s %6s %6s %8s\n", lines,
            (unsigned long long)seed, "class", "claims", "covers", "silent", "PASS", "FAIL", "false",
            "width");
     for (size_t i = 0; i < classes; i++)
         bad += !try_class(i + 1, br_error_classes[i].name, br_error_classes[i].group, i, try_line,
                           seed, lines, width);
-    printf("# grids\n");
+    printf("# %zu grids, of two orders each\n", grids);
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
         bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
-                          try_grid, seed, lines, width);
+                          try_grid, seed, grids, width);
+    printf("# limits of values on grids\n");
+    for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
+        bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
+                          BR_NOISY_ERRORS, i, try_limit, seed, grids, width);
     free(width);
     return bad > 0;
 }
