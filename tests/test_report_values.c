@@ -85,13 +85,17 @@ static void make(struct br_made_report *m, bool with_exact)
         }
     }
     m->report.seen[BR_PART_TOTAL][BR_AXIS_SPACE] =
-        (struct br_seen_order){true,
-                               {2.03, 2.01, 2.05},
-                               {2, 4, 4, "it is so"},
-                               "each mesh against the next",
-                               "as in theory"};
+        (struct br_seen_order){.asked = true,
+                               .order = {2.03, 2.01, 2.05},
+                               .theory = {2, 4, 4, "it is so"},
+                               .by = "each mesh against the next",
+                               .remark = "as in theory"};
     m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] = (struct br_seen_order){
-        true, {NAN, NAN, NAN}, {1, 1, 1, ""}, "errors", "not seen: for a reason"};
+        .asked = true,
+        .order = {NAN, NAN, NAN},
+        .theory = {1, 1, 1, ""},
+        .by = "errors",
+        .remark = "not seen: for a reason"};
     m->report.tip[BR_AXIAL] = (struct br_estimate){0.1715, 0.1705, 0.1725};
     m->report.tip[BR_BENDING] = (struct br_estimate){-0.0725, -0.0735, -0.0715};
 }
@@ -223,10 +227,13 @@ static struct br_case made_case(enum br_verify_kind kind, enum br_verdict verdic
 static void print_check(FILE *out)
 {
     struct br_point point[] = {
-        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, ""},
-        {{8, 16}, {0, 0}, 0.125, 0, 0.25, 1.25, "n = 8", BR_FLAG_ROUND_OFF, false, ""},
-        {{0, 0}, {0, 0}, 0.5, 0.25, 0.125, 1.125, "h = 1", BR_FLAG_NONE, true, ""},
-        {{16, 32}, {0, 0}, 0.5, 0, NAN, NAN, "n = 16", BR_FLAG_FAILED, false, "it blew up"},
+        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, "", {NAN, NAN, NAN}},
+        {{8, 16}, {0, 0}, 0.125, 0, 0.25, 1.25, "n = 8", BR_FLAG_ROUND_OFF, false, "",
+         {NAN, NAN, NAN}},
+        {{0, 0}, {0, 0}, 0.5, 0.25, 0.125, 1.125, "h = 1", BR_FLAG_NONE, true, "",
+         {NAN, NAN, NAN}},
+        {{16, 32}, {0, 0}, 0.5, 0, NAN, NAN, "n = 16", BR_FLAG_FAILED, false, "it blew up",
+         {NAN, NAN, NAN}},
     };
     struct br_case cases[2][5], other[2], *now = cases[0], *was = cases[1];
     const enum br_verdict verdict[] = {BR_PASS, BR_FAIL, BR_INCONCLUSIVE, BR_FAIL, BR_PASS};
