@@ -77,7 +77,7 @@ sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
 grep -v '^#' poisson.yaml | diff printed - >output || complain "$page has another poisson.yaml"
 expect 0 "limit 24.9371129, between 24.9215676 and 24.9394632 (least squares" \
     beamrate orders drag.csv --value drag
-expect 0 "l2: order in h 2.00 [1.99, 2.01]." beamrate orders errors.csv
+expect 0 "l2: order in h 2.00 [2.00, 2.01]." beamrate orders errors.csv
 printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
 expect 0 "order in h not seen." beamrate orders units.tsv --value drag --out units
 cp units/orders.gp whole
@@ -107,8 +107,10 @@ chmod +x bad.sh
 fails() { # HOW MESSAGE
     local words=(orders --run "./bad.sh $1 {n}" --n 4,8,16,32,64 --read 'err=err=(.+)' --time-limit 1)
     expect 3 "1 of 5 runs failed; the first: $2" beamrate "${words[@]}"
-    says "order in h not seen. 1 of 5 left out, the first at n = 8 (failed)" "orders, bad.sh $1"
-    expect 1 "at n = 8 $2" beamrate "${words[@]}" --expect 'err: h 2 +- 0.1'
+    says "err: order in h 2.0" "orders, bad.sh $1"
+    says "1 of 5 left out, the first at n = 8 (failed)" "orders, bad.sh $1"
+    expect 3 "1 of 5 runs failed; the first: $2" beamrate "${words[@]}" --expect 'err: h 2 +- 0.1'
+    says "PASS" "orders, bad.sh $1, with an expectation"
 }
 
 expect 0 "err: order in h 2.00" \

@@ -277,9 +277,13 @@ static enum br_status check_rows(json_t *table, const char *path, struct br_erro
 static enum br_status name_pairs(json_t *table, const char *path, struct br_error *err)
 {
     const size_t columns = fields(table, 0);
-    for (size_t i = 1; i <= columns; i++)
-        if (!field(table, 0, i) || !strchr(field(table, 0, i), '='))
+    double value;
+    for (size_t i = 1; i <= columns; i++) {
+        const char *text = field(table, 0, i), *equals = text ? strchr(text, '=') : NULL;
+        const char *first = equals ? equals + 1 + strspn(equals + 1, " \t") : NULL;
+        if (!first || !(br_is_missing(first) || br_table_number(first, &value)))
             return BR_OK;
+    }
     if (json_array_insert_new(table, 0, json_deep_copy(json_array_get(table, 0))))
         return br_no_memory(err, "the table");
     for (size_t row = json_array_size(table); row-- > 0;)
@@ -324,16 +328,28 @@ static enum br_status settle_heading(json_t *table, const char *path, struct br_
 
 /* ---- the text ---- */
 
+/* Whether a letter stands in the first line: outside of quotes, which may hold lines, or anywhere. */
+static bool stands_in_line(const char *line, char letter, bool quotes)
+{
+    bool quoted = false;
+    for (const char *at = line; *at && (*at != '\n' || quoted); at++) {
+        quoted ^= quotes && *at == '"';
+        if (*at == letter && !quoted)
+            return true;
+    }
+    return false;
+}
+
 /* What separates the fields of a line. Bars stand in names, too, and LaTeX's lines end with \\. */
 static char find_separator(const char *line)
 {
     static const char separators[] = "\t|&;,";
-    const size_t length = strcspn(line, "\n");
-    const char *end = memchr(line, '\\', length);
-    for (const char *s = separators; *s; s++)
-        if (memchr(line, *s, length) && (*s != '|' || line[strspn(line, " ")] == '|') &&
-            (*s != '&' || end))
-            return *s;
+    for (int quotes = 1; quotes >= 0; quotes--)
+        for (const char *s = separators; *s; s++)
+            if (stands_in_line(line, *s, quotes) &&
+                (*s != '|' || line[strspn(line, " ")] == '|') &&
+                (*s != '&' || stands_in_line(line, '\\', quotes)))
+                return *s;
     return ' ';
 }
 
