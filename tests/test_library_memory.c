@@ -48,7 +48,9 @@ static enum beamrate_status foresee(const void *method, double *number)
 {
     struct beamrate_forecast f;
     const enum beamrate_status status = beamrate_foresee(scene, 8, 16, method, &f, &failure);
-    *number = f.error[BEAMRATE_BENDING].high + (double)f.warnings;
+    *number = f.error[BEAMRATE_BENDING].high;
+    for (size_t i = 0; i < f.warnings; i++) /* a failure must not shorten what is said */
+        *number += (double)(strlen(f.warning[i].text) + 1000 * strlen(f.warning[i].remedy));
     return status;
 }
 
@@ -207,7 +209,7 @@ TEST(any_allocation_may_fail)
         const long usual = 5 * c->every < all / 4 ? 5 * c->every : all / 4 + 1;
         const long every = br_test_long() ? 1 : usual, first = every / 2 + 1;
         long failures = 0, wrong = 0;
-        for (long n = first; n <= all; n += every) {
+        for (long n = first; n <= all; n = n < all && n + every > all ? all : n + every) {
             const int ended = outcome(c, n, expected);
             failures += ended == 3;
             if (ended && ended != 3 && ++wrong < 10)

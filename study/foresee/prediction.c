@@ -428,21 +428,23 @@ double br_predict_round_off(const struct br_planned_march *o)
     return largest;
 }
 
-/* Names loads or initial data that are too short even for the references; NULL: none. */
-static const char *too_short(const struct br_planned_march *o)
+/* Names loads or initial data that are too short even for the references; *name (out): NULL: none.
+ * Fails with BR_NO_MEMORY. */
+static enum br_status find_too_short(const struct br_planned_march *o, const char **name,
+                                     struct br_error *err)
 {
     struct br_planned_march finer = *o;
     struct br_warnings unseen = {0};
-    struct br_error err;
     finer.steps *= FINER_LEVELS;
     finer.n *= FINER_ELEMENTS;
-    if (br_check_loads(&finer, &unseen, &err))
-        return "a load is";
-    if (unseen.unseen[BR_WARN_INITIAL] > least_share)
-        return "the initial data are";
-    return fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]) > least_share
-               ? "a load is"
-               : NULL;
+    *name = NULL;
+    if (br_check_loads(&finer, &unseen, err))
+        return err->status;
+    const double of_load = fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]);
+    *name = unseen.unseen[BR_WARN_INITIAL] > least_share ? "the initial data are"
+            : of_load > least_share                      ? "a load is"
+                                                         : NULL;
+    return BR_OK;
 }
 
 enum br_status br_predict(const struct br_planned_march *planned, struct br_prediction *p,
@@ -451,10 +453,12 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
     const double begun = br_seconds();
     struct br_probe_set set;
     *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
-    const enum br_status status = br_probes_march(&set, planned, err);
+    enum br_status status = br_probes_march(&set, planned, err);
     if (!status)
         judge(p, &set);
-    const char *unseen = !status && p->known ? too_short(planned) : NULL;
+    const char *unseen = NULL;
+    if (!status && p->known)
+        status = find_too_short(planned, &unseen, err);
     if (unseen) {
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);

@@ -120,18 +120,19 @@ enum { MOST_ELEMENTS = 4, MOST_STEPS = 4000 };
 
 static const double little = 0.01; /* share of the energy that was put in */
 
-/* The largest ratio, over all steps, of the energy that the scheme has added to the axial field to
- * the energy that was put into it; NaN: not known. */
-static double gain(const struct br_planned_march *o)
+/* *share (out): the largest ratio, over all steps, of the energy that the scheme has added to the
+ * axial field to the energy that was put into it; NaN: not known. Fails with BR_NO_MEMORY. */
+static enum br_status measure_gain(const struct br_planned_march *o, double *share,
+                                   struct br_error *err)
 {
     struct br_scene axial;
     struct br_march *march = NULL;
     struct br_energy_meter *meter = NULL;
     struct br_error failure = {0};
     const size_t n = o->n < MOST_ELEMENTS ? o->n : MOST_ELEMENTS;
-    double share = 0;
+    *share = o->steps > MOST_STEPS ? (double)NAN : 0;
     if (o->steps > MOST_STEPS)
-        return NAN;
+        return BR_OK;
     bool failed = br_model_select(o->scene, BR_WANT_AXIAL, &axial, &failure) ||
                   br_march_create(&march, &axial, n, o->steps, o->method, &failure) ||
                   br_energy_meter_create(&meter, march, &axial, o->method, &failure);
@@ -145,14 +146,19 @@ static double gain(const struct br_planned_march *o)
         br_energy_meter_read(meter, &start, &now, &work);
         const double put_in = br_energy_put_in(&start, &work, BR_AXIAL);
         if (put_in > 0)
-            share = fmax(share, br_energy_added(&work, BR_AXIAL) / put_in);
+            *share = fmax(*share, br_energy_added(&work, BR_AXIAL) / put_in);
     }
     br_energy_meter_free(meter);
     br_march_free(march);
-    return failed ? (double)NAN : share;
+    if (failed)
+        *share = NAN;
+    return failed && failure.status == BR_NO_MEMORY
+               ? br_fail(err, BR_NO_MEMORY, "%s", failure.message)
+               : BR_OK;
 }
 
-static void check_bounces(const struct br_planned_march *o, struct br_warnings *w)
+static enum br_status check_bounces(const struct br_planned_march *o, struct br_warnings *w,
+                                    struct br_error *err)
 {
     const struct br_scene *s = o->scene;
     struct br_field field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
@@ -160,11 +166,13 @@ static void check_bounces(const struct br_planned_march *o, struct br_warnings *
     if (!s->contact.modelled || o->method->contact->at_new_step ||
         !(s->contact.stiffness > br_contact_limit_bouncing(&field)) ||
         br_contact_grows(&field, s->contact.stiffness))
-        return;
-    const double share = gain(o);
+        return BR_OK;
+    double share;
     char found[120] = "";
+    if (measure_gain(o, &share, err))
+        return err->status;
     if (share <= little)
-        return;
+        return BR_OK;
     if (share > little)
         snprintf(found, sizeof found,
                  "; on a coarse mesh it gains %.2g %% of what is put into the axial field",
@@ -173,6 +181,7 @@ static void check_bounces(const struct br_planned_march *o, struct br_warnings *
             "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
             "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
             field.k, br_contact_limit_bouncing(&field), s->contact.stiffness, found);
+    return BR_OK;
 }
 
 /* ---- predicted errors ---- */
@@ -240,18 +249,22 @@ static double elements_needed(const struct br_planned_march *o, const struct br_
     return round_up((double)o->n * sqrt(p->space.error / aim));
 }
 
-/* Whether implicit contact would make the error small. */
-static bool lag_is_to_blame(const struct br_planned_march *o)
+/* *blamed (out): whether implicit contact would make the error small. Fails with BR_NO_MEMORY. */
+static enum br_status blame_lag(const struct br_planned_march *o, bool *blamed,
+                                struct br_error *err)
 {
     struct br_method method = *o->method;
     struct br_planned_march other = *o;
-    struct br_prediction p;
-    struct br_error err;
+    struct br_prediction p = {0};
+    *blamed = false;
     if (method.contact->at_new_step || !o->scene->contact.modelled)
-        return false;
+        return BR_OK;
     method.contact = br_contact_rule_find("implicit");
     other.method = &method;
-    return br_predict(&other, &p, &err) == BR_OK && p.known && p.whole.error <= large_error;
+    if (br_predict(&other, &p, err))
+        return err->status;
+    *blamed = p.known && p.whole.error <= large_error;
+    return BR_OK;
 }
 
 static void accuracy_remedy(const struct br_planned_march *o, const struct br_prediction *p,
@@ -259,10 +272,6 @@ static void accuracy_remedy(const struct br_planned_march *o, const struct br_pr
 {
     int used = 0;
     remedy[0] = '\0';
-    if (lag_is_to_blame(o)) {
-        snprintf(remedy, 400, "--contact implicit");
-        return;
-    }
     if (o->method->scheme->adaptive && p->time.error > aim)
         used =
             snprintf(remedy, 400, "--tolerance %.1g", o->method->tolerance * aim / p->time.error);
@@ -273,19 +282,25 @@ static void accuracy_remedy(const struct br_planned_march *o, const struct br_pr
                  elements_needed(o, p));
 }
 
-static void warn_of_inaccuracy(const struct br_planned_march *o, const struct br_prediction *p,
-                               struct br_warnings *w)
+static enum br_status warn_of_inaccuracy(const struct br_planned_march *o,
+                                         const struct br_prediction *p, struct br_warnings *w,
+                                         struct br_error *err)
 {
-    char remedy[400], interval[BR_PREDICTED_TEXT];
+    bool lagged;
+    char remedy[400] = "--contact implicit", interval[BR_PREDICTED_TEXT];
     const bool likely = p->whole.error > large_error || p->whole.high > doubtful;
     if (!p->bounded || !(p->known ? likely : p->whole.low > large_error))
-        return;
-    accuracy_remedy(o, p, remedy);
+        return BR_OK;
+    if (blame_lag(o, &lagged, err))
+        return err->status;
+    if (!lagged)
+        accuracy_remedy(o, p, remedy);
     br_warn(w, BR_WARN_INACCURATE, remedy,
             "the predicted discretisation error at n = %zu, k = %.4g s, relative to the "
             "solution, is %s (of time %.2g, of space %.2g)",
             o->n, br_time_step(o->scene, o->steps), br_predicted_interval(&p->whole, interval),
             p->time.error, p->space.error);
+    return BR_OK;
 }
 
 static void warn_of_ignorance(const struct br_planned_march *o, const struct br_prediction *p,
@@ -305,11 +320,11 @@ static enum br_status check_prediction(const struct br_planned_march *o, struct 
                                        struct br_error *err)
 {
     struct br_prediction p;
-    const enum br_status status = br_predict(o, &p, err);
-    if (status)
-        return status;
+    if (br_predict(o, &p, err))
+        return err->status;
     warn_of_round_off(o, &p, w);
-    warn_of_inaccuracy(o, &p, w);
+    if (warn_of_inaccuracy(o, &p, w, err))
+        return err->status;
     warn_of_ignorance(o, &p, w);
     if (o->prediction)
         *o->prediction = p;
@@ -325,8 +340,7 @@ enum br_status br_check_ahead_cheaply(const struct br_planned_march *o, struct b
     if (status)
         return status;
     br_check_contact(o, w);
-    check_bounces(o, w);
-    return BR_OK;
+    return check_bounces(o, w, err);
 }
 
 enum br_status br_check_ahead(const struct br_planned_march *o, struct br_warnings *w,
