@@ -15,7 +15,7 @@ struct recorded {
     struct br_scene scene;
     struct br_method method;
     double axial[5][SIZE], bending[5][SIZE]; /* displacements and velocities, twice each; loads */
-    struct br_step step;
+    struct br_checked_step step;
 };
 
 static void record(struct recorded *r, const char *contact, const char *friction, double mu,
@@ -27,7 +27,7 @@ static void record(struct recorded *r, const char *contact, const char *friction
     r->method.axial_degree = degree;
     struct br_march *march = br_test_march(&r->scene, N, 100, &r->method);
     double(*const nodal[2])[SIZE] = {r->axial, r->bending};
-    r->step = (struct br_step){.scene = &r->scene, .method = &r->method, .n = N, .k = 0.01};
+    r->step = (struct br_checked_step){.scene = &r->scene, .method = &r->method, .n = N, .k = 0.01};
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double(*x)[SIZE] = nodal[kind];
         r->step.field[kind] = (struct br_step_field){x[0], x[1], x[2], x[3], x[4]};
@@ -43,7 +43,7 @@ static void record(struct recorded *r, const char *contact, const char *friction
     br_march_free(march);
 }
 
-static struct br_certificate certify(const struct br_step *step)
+static struct br_certificate certify(const struct br_checked_step *step)
 {
     struct br_certificate both = br_certify_field(step, BR_AXIAL);
     const struct br_certificate bending = br_certify_field(step, BR_BENDING);
@@ -181,7 +181,7 @@ TEST(test_friction_graph)
     const struct br_method method = br_method_default();
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
         const double zero[4] = {0}, velocity[4] = {0, 0, points[i].v, 1};
-        const struct br_step step = {
+        const struct br_checked_step step = {
             .scene = &scene,
             .method = &method,
             .n = 1,
@@ -208,13 +208,14 @@ TEST(test_last_bit_of_before)
     double largest[2][BR_SCALES];
     for (int i = 0; i < 2 * BR_SCALES; i++)
         largest[i / BR_SCALES][i % BR_SCALES] = 1;
-    const struct br_step step = {.scene = &scene,
-                                 .method = &method,
-                                 .n = 1,
-                                 .k = 1,
-                                 .largest = largest,
-                                 .field[BR_BENDING] = {zero, velocity, zero, velocity, zero},
-                                 .tip = {.velocity[BR_BENDING] = 1e-12, .friction_bound = 3}};
+    const struct br_checked_step step = {
+        .scene = &scene,
+        .method = &method,
+        .n = 1,
+        .k = 1,
+        .largest = largest,
+        .field[BR_BENDING] = {zero, velocity, zero, velocity, zero},
+        .tip = {.velocity[BR_BENDING] = 1e-12, .friction_bound = 3}};
     assert_true(certify(&step).friction >= 1e-4);
 }
 
@@ -229,7 +230,7 @@ TEST(test_residual_norm)
     const double zero[2 * 4] = {0};
     double load[2 * 4] = {0};
     load[2 * 3 + 1] = 2; /* a moment of 2 h = 2 N m at the tip: |m| = 2 L^1/2 */
-    const struct br_step step = {
+    const struct br_checked_step step = {
         .scene = &scene,
         .method = &method,
         .n = 3,
@@ -264,12 +265,12 @@ TEST(test_size_of_residual)
     scene.bending.modelled = false;
     struct br_method method = br_method_default();
     method.axial_degree = 2;
-    const struct br_step step = {.scene = &scene,
-                                 .method = &method,
-                                 .n = 4,
-                                 .k = 0.1,
-                                 .field = {{rest, rest, rest, rest, load}},
-                                 .tip = {.contact_force = 2}};
+    const struct br_checked_step step = {.scene = &scene,
+                                         .method = &method,
+                                         .n = 4,
+                                         .k = 0.1,
+                                         .field = {{rest, rest, rest, rest, load}},
+                                         .tip = {.contact_force = 2}};
     const double tip = 2 * sqrt(1.5), bubble = 0.5 * sqrt(3 * 1.5 / 4);
     CLOSE(certify(&step).axial_residual, hypot(tip, bubble) / (tip + bubble), 1e-14);
 }

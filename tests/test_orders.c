@@ -201,9 +201,13 @@ TEST(test_foreign_tables)
  * say so. */
 TEST(test_headings)
 {
-    struct br_numbers n = read_with("Refinement,cells,CPU time,L2\n0,8,1,3\n1,32,2,2\n2,128,4,1\n", &plain);
+    struct br_numbers n =
+        read_with("Refinement,cells,CPU time,L2\n0,8,1,3\n1,32,2,2\n2,128,4,1\n", &plain);
     assert_int_equal(n.quantities, 1);
     CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.25, 0);
+    br_numbers_clear(&n);
+    n = read_with("\"h\",\"a;b\n| c = 2x\"\n1,3\n.5,2\n.25,1\n", &plain); /* a comma separates */
+    assert_string_equal(n.quantity[0].name, "a;b\n| c = 2x");
     br_numbers_clear(&n);
     n = read_with("Elements,CPU time\n8,1\n16,2\n32,4\n", &(struct columns){"CPU time", NULL, 2});
     assert_string_equal(n.quantity[0].name, "CPU time");
@@ -415,7 +419,8 @@ TEST(test_stopped_fits)
     int asked = 0;
     const struct br_observer stops = {.stop = stops_at_once, .self = &asked};
     struct br_joint_fit fit;
-    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, true, &stops, &fit, &err),
+    REFUSED(br_joint_fit_solve(&(struct br_observation){{1, 1}, {0, 0}, 1}, 1, true, &stops, &fit,
+                               &err),
             BR_INTERRUPTED, "interrupted");
     for (int steps = 0; steps < 5; steps += 4) {
         struct br_numbers n = read_with(table_of(5, steps, 2, 1), &plain);

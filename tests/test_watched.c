@@ -12,6 +12,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "reference/textbook.h"
+#include "solver/march_state.h"
 #include "study/scene/file.h"
 #include "support.h"
 
@@ -415,6 +416,80 @@ TEST(test_other_scheme)
             if (!same_tables(br_time_schemes[i], br_time_schemes[j])) {
                 check_other_scheme("chatter", br_time_schemes[i], br_time_schemes[j]);
             }
+}
+
+/* ---- stages that the checker is shown, a little off ---- */
+
+/* Stands between a march and its checker. */
+struct spoiler {
+    struct br_march *march;
+    struct br_march_watcher checker;
+    void (*spoil)(struct spoiler *s, struct br_march_stage *stage);
+};
+
+static void later(struct spoiler *s, struct br_march_stage *stage)
+{
+    (void)s;
+    stage->time += 1e-8 * stage->k;
+}
+
+static void begun_later(struct spoiler *s, struct br_march_stage *stage)
+{
+    (void)s;
+    stage->from += 1e-8 * stage->k;
+    stage->time += 1e-8 * stage->k;
+}
+
+static void longer(struct spoiler *s, struct br_march_stage *stage)
+{
+    (void)s;
+    stage->tau *= 1 + 1e-8;
+}
+
+/* Only a stage within the step. */
+static void pushes_more(struct spoiler *s, struct br_march_stage *stage)
+{
+    if (stage->index == 1 && stage->count > 2)
+        s->march->tip.contact_force *= 1 + 1e-6;
+}
+
+static void show(void *self, const struct br_march_stage *stage)
+{
+    struct spoiler *s = self;
+    struct br_march_stage shown = *stage;
+    const struct br_tip tip = s->march->tip;
+    s->spoil(s, &shown);
+    s->checker.stage(s->checker.self, &shown);
+    s->march->tip = tip;
+}
+
+static void accept(void *self, enum br_field_kind kind, bool switched)
+{
+    const struct spoiler *s = self;
+    s->checker.step(s->checker.self, kind, switched);
+}
+
+TEST(test_spoilt_stages)
+{
+    static const struct {
+        void (*spoil)(struct spoiler *s, struct br_march_stage *stage);
+        int stages; /* that the scheme needs */
+    } cases[] = {{later, 1}, {begun_later, 1}, {longer, 1}, {pushes_more, 3}};
+    for (size_t i = 0; br_time_schemes[i]; i++)
+        for (size_t j = 0; j < sizeof cases / sizeof *cases; j++) {
+            struct watched w = {.scene = br_test_bundled("chatter")};
+            w.method = method_of(br_time_schemes[i], NULL, &w.scene);
+            assert_true(start(&w, 10, 200, NULL));
+            struct spoiler s = {w.march, w.march->watcher[0], cases[j].spoil};
+            assert_ptr_equal(s.checker.self, w.checker);
+            w.march->watcher[0] = (struct br_march_watcher){&s, show, accept};
+            advance(&w, 200);
+            const bool can = br_time_schemes[i]->adaptive ||
+                             br_time_scheme_stages(br_time_schemes[i]) >= cases[j].stages;
+            if (!w.certified.status == can)
+                fail_msg("%s: case %zu: '%s'", br_time_schemes[i]->name, j, w.certified.message);
+            finish(&w);
+        }
 }
 
 TEST(test_refusals)

@@ -34,8 +34,8 @@ static double ratio(double a, double size)
     return a == 0 ? 0 : a / size;
 }
 
-static double with_last_bit(const struct br_step *s, enum br_field_kind kind, enum br_scale scale,
-                            double size)
+static double with_last_bit(const struct br_checked_step *s, enum br_field_kind kind,
+                            enum br_scale scale, double size)
 {
     if (!s->largest)
         return size;
@@ -46,8 +46,8 @@ static double with_last_bit(const struct br_step *s, enum br_field_kind kind, en
 
 /* a over a size, or over the last bit of the largest such size so far (in/out: in the step) if that
  * is larger; 0 for 0. */
-static double over_scale(const struct br_step *s, enum br_field_kind kind, enum br_scale scale,
-                         double a, double size)
+static double over_scale(const struct br_checked_step *s, enum br_field_kind kind,
+                         enum br_scale scale, double a, double size)
 {
     return ratio(a, with_last_bit(s, kind, scale, size));
 }
@@ -61,24 +61,24 @@ static double magnitude(const double *x, size_t count)
     return most;
 }
 
-static bool modelled(const struct br_step *s, enum br_field_kind kind)
+static bool modelled(const struct br_checked_step *s, enum br_field_kind kind)
 {
     return kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
 }
 
-static size_t size_of(const struct br_step *s, enum br_field_kind kind)
+static size_t size_of(const struct br_checked_step *s, enum br_field_kind kind)
 {
     return br_step_unknowns(s->method, kind) * (s->n + 1);
 }
 
-static double at_tip(const struct br_step *s, enum br_field_kind kind, const double *nodal)
+static double at_tip(const struct br_checked_step *s, enum br_field_kind kind, const double *nodal)
 {
     return nodal[s->n * br_step_unknowns(s->method, kind)];
 }
 
 /* The size to which displacements are rounded; over k, that of velocities, which a solver finds
  * from differences of displacements. */
-static double field_scale(const struct br_step *s, enum br_field_kind kind)
+static double field_scale(const struct br_checked_step *s, enum br_field_kind kind)
 {
     const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
@@ -87,7 +87,8 @@ static double field_scale(const struct br_step *s, enum br_field_kind kind)
 }
 
 /* The distance that a force moves the tip in the step, m, at most: that without mass. */
-static double static_distance(const struct br_step *s, enum br_field_kind kind, double force)
+static double static_distance(const struct br_checked_step *s, enum br_field_kind kind,
+                              double force)
 {
     const struct br_scene *c = s->scene;
     const double length = c->length;
@@ -99,7 +100,7 @@ static double static_distance(const struct br_step *s, enum br_field_kind kind, 
 }
 
 /* Error of u_n = u_{n-1} + k v_n, and of the stated velocity of the tip. */
-static double update_error(const struct br_step *s, enum br_field_kind kind)
+static double update_error(const struct br_checked_step *s, enum br_field_kind kind)
 {
     if (!modelled(s, kind))
         return 0;
@@ -116,7 +117,7 @@ static double update_error(const struct br_step *s, enum br_field_kind kind)
                       field_scale(s, kind));
 }
 
-static double tip_displacement_error(const struct br_step *s)
+static double tip_displacement_error(const struct br_checked_step *s)
 {
     if (!s->scene->axial.modelled)
         return s->tip.displacement == 0 ? 0 : NAN;
@@ -128,7 +129,7 @@ static double tip_displacement_error(const struct br_step *s)
 
 /* Velocities are sums of increments: the rounding errors of the velocities that a step starts from
  * stay in its own velocity, m/s. */
-static double velocity_round_off(const struct br_step *s, enum br_field_kind kind)
+static double velocity_round_off(const struct br_checked_step *s, enum br_field_kind kind)
 {
     const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
@@ -138,14 +139,14 @@ static double velocity_round_off(const struct br_step *s, enum br_field_kind kin
 }
 
 /* Error of the force c_H (u - g), for any sign of the depth, less the round-off of velocities. */
-static double force_error(const struct br_step *s, double force, double wanted)
+static double force_error(const struct br_checked_step *s, double force, double wanted)
 {
     const double way = s->k * velocity_round_off(s, BR_AXIAL);
     return positive(fabs(force - wanted) - s->scene->contact.stiffness * way);
 }
 
 /* The scale of a contact force, N. */
-static double contact_scale(const struct br_step *s, double force)
+static double contact_scale(const struct br_checked_step *s, double force)
 {
     const struct br_contact *c = &s->scene->contact;
     const double ways = field_scale(s, BR_AXIAL) + static_distance(s, BR_AXIAL, force);
@@ -153,7 +154,7 @@ static double contact_scale(const struct br_step *s, double force)
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
-static double contact_error(const struct br_step *s)
+static double contact_error(const struct br_checked_step *s)
 {
     const struct br_contact *c = &s->scene->contact;
     const double force = s->tip.contact_force;
@@ -173,7 +174,7 @@ static double contact_error(const struct br_step *s)
 }
 
 /* u(L) - g at the time of a stage of the bending field. */
-static double depth_of(const struct br_step *s)
+static double depth_of(const struct br_checked_step *s)
 {
     const double u =
         s->axial_tip ? *s->axial_tip : at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement);
@@ -181,7 +182,7 @@ static double depth_of(const struct br_step *s)
 }
 
 /* h(t_n), from the nodal u_n. */
-static double bound_of(const struct br_step *s)
+static double bound_of(const struct br_checked_step *s)
 {
     const struct br_scene *scene = s->scene;
     if (scene->friction.law == BR_TRESCA)
@@ -193,7 +194,7 @@ static double bound_of(const struct br_step *s)
 
 /* Distance of the bound from `wanted`, N, less the round-off of the axial velocities: the march has
  * the depth from its contact force, the certificate from the nodes. */
-static double bound_error(const struct br_step *s, double wanted)
+static double bound_error(const struct br_checked_step *s, double wanted)
 {
     const double way = s->scene->friction.law == BR_COULOMB && s->scene->axial.modelled
                            ? s->k * velocity_round_off(s, BR_AXIAL)
@@ -202,7 +203,7 @@ static double bound_error(const struct br_step *s, double wanted)
 }
 
 /* The size to which the bound is rounded where it is found from u_n - g. */
-static double bound_scale(const struct br_step *s)
+static double bound_scale(const struct br_checked_step *s)
 {
     if (s->scene->friction.law != BR_COULOMB)
         return 0;
@@ -240,7 +241,7 @@ static double regularised_law(double v, double lambda, double bound, double mu, 
 }
 
 /* Checks the march's own bound against that of the nodes, and the law with this bound. */
-static double friction_error(const struct br_step *s)
+static double friction_error(const struct br_checked_step *s)
 {
     const double lambda = s->tip.friction_force;
     if (s->scene->friction.law == BR_FRICTIONLESS)
@@ -268,7 +269,7 @@ static double friction_error(const struct br_step *s)
 
 /* ---- branches ---- */
 
-static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
+static int contact_branches(const struct br_checked_step *s, double distance[BR_MOST_BRANCHES])
 {
     const struct br_contact *c = &s->scene->contact;
     if (!c->modelled || !(c->stiffness > 0))
@@ -282,14 +283,14 @@ static int contact_branches(const struct br_step *s, double distance[BR_MOST_BRA
 }
 
 /* The bound of a contact whose phase is prolonged beyond its end: 0 for an open one. */
-static double prolonged_bound(const struct br_step *s)
+static double prolonged_bound(const struct br_checked_step *s)
 {
     const bool open = s->scene->contact.stiffness > 0 && s->tip.contact_force == 0;
     return open ? 0 : s->scene->friction.coefficient * depth_of(s);
 }
 
 /* The bound may also be that of a prolonged contact. */
-static int friction_branches(const struct br_step *s, double distance[BR_MOST_BRANCHES])
+static int friction_branches(const struct br_checked_step *s, double distance[BR_MOST_BRANCHES])
 {
     const struct br_scene *scene = s->scene;
     if (scene->friction.law == BR_FRICTIONLESS || s->method->friction->needs_regularisation)
@@ -311,7 +312,7 @@ static int friction_branches(const struct br_step *s, double distance[BR_MOST_BR
     return 3;
 }
 
-int br_branch_distances(const struct br_step *s, enum br_field_kind kind,
+int br_branch_distances(const struct br_checked_step *s, enum br_field_kind kind,
                         double distance[BR_MOST_BRANCHES])
 {
     return kind == BR_AXIAL ? contact_branches(s, distance) : friction_branches(s, distance);
@@ -343,7 +344,7 @@ struct resultant {
 };
 
 struct balance {
-    const struct br_step *step;
+    const struct br_checked_step *step;
     const struct br_step_field *field;
     const struct br_element *element;
     enum br_field_kind kind;
@@ -481,7 +482,7 @@ static double relative_residual(struct balance *b, double tip_force)
 }
 
 /* The residual of (27) or (28), relative; 0 where the field is not modelled. */
-static double residual_of(const struct br_step *s, enum br_field_kind kind)
+static double residual_of(const struct br_checked_step *s, enum br_field_kind kind)
 {
     const bool axial = kind == BR_AXIAL;
     if (!modelled(s, kind))
@@ -503,7 +504,7 @@ static double residual_of(const struct br_step *s, enum br_field_kind kind)
 
 /* ---- a step ---- */
 
-static bool finite_field(const struct br_step *s, enum br_field_kind kind)
+static bool finite_field(const struct br_checked_step *s, enum br_field_kind kind)
 {
     const double *tip[] = {&s->tip.displacement, &s->tip.contact_force, &s->tip.friction_force,
                            &s->tip.friction_bound};
@@ -520,7 +521,7 @@ static bool finite_field(const struct br_step *s, enum br_field_kind kind)
     return good;
 }
 
-struct br_certificate br_certify_field(const struct br_step *s, enum br_field_kind kind)
+struct br_certificate br_certify_field(const struct br_checked_step *s, enum br_field_kind kind)
 {
     if (!finite_field(s, kind))
         return (struct br_certificate){NAN, NAN, NAN, NAN, NAN};

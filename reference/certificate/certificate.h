@@ -61,7 +61,7 @@ enum br_scale {
 };
 
 /* All that is known of one step or stage. */
-struct br_step {
+struct br_checked_step {
     const struct br_scene *scene;
     const struct br_method *method; /* which laws were to be used */
     size_t n;                       /* elements */
@@ -127,12 +127,12 @@ static inline size_t br_step_unknowns(const struct br_method *method, enum br_fi
 double br_worse_of(double a, double b);
 
 /* The certificate of one field: the entries of the other are 0. */
-struct br_certificate br_certify_field(const struct br_step *step, enum br_field_kind kind);
+struct br_certificate br_certify_field(const struct br_checked_step *step, enum br_field_kind kind);
 
 /* Distances (out) from each branch of a field's law prolonged beyond its end: a closed contact that
  * pulls, an open one that is penetrated, |lambda| beyond the bound. Returns the number of branches;
  * 0: the law has none that can be kept active. */
-int br_branch_distances(const struct br_step *step, enum br_field_kind kind,
+int br_branch_distances(const struct br_checked_step *step, enum br_field_kind kind,
                         double distance[BR_MOST_BRANCHES]);
 
 #endif

@@ -165,7 +165,7 @@ static struct br_certificate certify(struct br_step_checker *w, const struct br_
 {
     const struct br_watched *seen = &w->seen;
     double size_now[2] = {0, 0};
-    struct br_step step = {
+    struct br_checked_step step = {
         .scene = seen->scene,
         .method = seen->method,
         .n = seen->n,

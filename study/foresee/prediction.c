@@ -440,7 +440,8 @@ static enum br_status find_too_short(const struct br_planned_march *o, const cha
     *name = NULL;
     if (br_check_loads(&finer, &unseen, err))
         return err->status;
-    const double of_load = fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]);
+    const double of_load =
+        fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]);
     *name = unseen.unseen[BR_WARN_INITIAL] > least_share ? "the initial data are"
             : of_load > least_share                      ? "a load is"
                                                          : NULL;

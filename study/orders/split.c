@@ -177,7 +177,8 @@ static size_t fields(const json_t *table, size_t row)
 
 bool br_is_missing(const char *text)
 {
-    static const char *const words[] = {"-", "--", "---", "nan", "-nan", "na", "n/a", "inf", "-inf"};
+    static const char *const words[] = {"-",  "--",  "---", "nan", "-nan",
+                                        "na", "n/a", "inf", "-inf"};
     if (!text || strspn(text, "*") == strlen(text))
         return true;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -264,11 +265,10 @@ static enum br_status check_rows(json_t *table, const char *path, struct br_erro
         else if (fields(table, i) == fields(table, 0))
             continue;
         else
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%lld: found %s than %zu fields, as the heading has", path,
-                           json_integer_value(json_array_get(json_array_get(table, i), 0)),
-                           fields(table, i) > fields(table, 0) ? "more" : "fewer",
-                           fields(table, 0));
+            return br_fail(
+                err, BR_BAD_INPUT, "%s:%lld: found %s than %zu fields, as the heading has", path,
+                json_integer_value(json_array_get(json_array_get(table, i), 0)),
+                fields(table, i) > fields(table, 0) ? "more" : "fewer", fields(table, 0));
     }
     return BR_OK;
 }
@@ -277,11 +277,11 @@ static enum br_status check_rows(json_t *table, const char *path, struct br_erro
 static enum br_status name_pairs(json_t *table, const char *path, struct br_error *err)
 {
     const size_t columns = fields(table, 0);
-    double value;
+    double number;
     for (size_t i = 1; i <= columns; i++) {
         const char *text = field(table, 0, i), *equals = text ? strchr(text, '=') : NULL;
         const char *first = equals ? equals + 1 + strspn(equals + 1, " \t") : NULL;
-        if (!first || !(br_is_missing(first) || br_table_number(first, &value)))
+        if (!first || !(br_is_missing(first) || br_table_number(first, &number)))
             return BR_OK;
     }
     if (json_array_insert_new(table, 0, json_deep_copy(json_array_get(table, 0))))
@@ -293,7 +293,8 @@ static enum br_status name_pairs(json_t *table, const char *path, struct br_erro
             const char *equals = text ? strchr(text, '=') : NULL;
             if (!equals || strncmp(text, name, length) != 0 || !strchr(" =", text[length]))
                 return br_fail(err, BR_BAD_INPUT, "%s:%lld: found '%.40s', expected '%.*s = ...'",
-                               path, json_integer_value(json_array_get(json_array_get(table, row), 0)),
+                               path,
+                               json_integer_value(json_array_get(json_array_get(table, row), 0)),
                                text ? text : "", (int)length, name);
             const char *value = equals + 1 + strspn(equals + 1, " \t");
             json_t *new = row ? json_string_nocheck(value) : json_stringn_nocheck(name, length);
@@ -328,7 +329,8 @@ static enum br_status settle_heading(json_t *table, const char *path, struct br_
 
 /* ---- the text ---- */
 
-/* Whether a letter stands in the first line: outside of quotes, which may hold lines, or anywhere. */
+/* Whether a letter stands in the first line: outside of quotes, which may hold lines, or anywhere.
+ */
 static bool stands_in_line(const char *line, char letter, bool quotes)
 {
     bool quoted = false;
@@ -346,8 +348,7 @@ static char find_separator(const char *line)
     static const char separators[] = "\t|&;,";
     for (int quotes = 1; quotes >= 0; quotes--)
         for (const char *s = separators; *s; s++)
-            if (stands_in_line(line, *s, quotes) &&
-                (*s != '|' || line[strspn(line, " ")] == '|') &&
+            if (stands_in_line(line, *s, quotes) && (*s != '|' || line[strspn(line, " ")] == '|') &&
                 (*s != '&' || stands_in_line(line, '\\', quotes)))
                 return *s;
     return ' ';
@@ -408,7 +409,8 @@ enum br_status br_table_split(const char *text, const char *path, bool only_last
     enum br_status status = c.field ? take_heading(&c, table, err) : br_no_memory(err, "the table");
     if (!status && comment && has_data(table, 0)) {
         struct cursor above = c;
-        json_t *heading = json_pack("[I]", json_integer_value(json_array_get(json_array_get(table, 0), 0)));
+        json_t *heading =
+            json_pack("[I]", json_integer_value(json_array_get(json_array_get(table, 0), 0)));
         above.at = comment;
         if (!heading || take_fields(&above, heading, err))
             status = heading ? err->status : br_no_memory(err, "the table");
