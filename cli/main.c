@@ -142,6 +142,7 @@ static int run_all(int argc, const char **argv)
 
 int main(int argc, const char **argv)
 {
+    setvbuf(stderr, NULL, _IOLBF, BUFSIZ); /* lines of several programs do not mix */
     on_exit(name_the_end, NULL);
     gsl_set_error_handler_off(); /* its default ends the program; all its results are checked */
     br_json_lacked_memory(); /* installs its allocator */

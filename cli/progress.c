@@ -109,6 +109,7 @@ static void show(void *self, double fraction)
         draw_bar();
         print_left(elapsed, fraction);
         fprintf(stderr, " \033[K");
+        fflush(stderr);
     }
     const int tenths = (int)(10 * fraction);
     if (!progress.terminal && tenths > progress.tenths && t - progress.last >= 1) {
@@ -142,6 +143,7 @@ static void show_waiting(void *self, double share)
         if (progress.terminal)
             draw_bar();
         print_wait(share);
+        fflush(stderr);
     }
     pthread_mutex_unlock(&lock);
 }
@@ -178,6 +180,7 @@ void br_progress_end(void)
 {
     if (progress.terminal && !progress.quiet)
         fprintf(stderr, "\r\033[K");
+    fflush(stderr);
 }
 
 enum br_status br_progress_result(enum br_status status, struct br_error *err)

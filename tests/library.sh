@@ -151,6 +151,8 @@ import copy, ctypes, os, pickle, signal, time
 import numpy as np
 import beamrate as br
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background ignores it
+
 def refused(text, call):
     try:
         call()
