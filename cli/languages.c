@@ -299,7 +299,7 @@ static const struct {
       "folder are results, a line each: the number of the set, the size in bytes, the time of "
       "writing in ns since 1970, and the name. New files are written in the hidden folder "
       ".beamrate-new, under the lock of .beamrate-lock: a second program that would write "
-      "there is refused, and a movie waits. Then the new list is put into the hidden folder, "
+      "there is refused. Then the new list is put into the hidden folder, "
       "which decides; the files are renamed into place, old ones removed, and the new list "
       "replaces the old one last. A program that is killed before it has decided for the new "
       "set leaves the old one; after that, the next command with the same folder finishes "
@@ -319,8 +319,7 @@ static const struct {
       "60 by default.",
       "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by "
       "default; then it is killed, as it is by an interrupt.",
-      "TMPDIR: the folder for what run --animate needs for a moment, /tmp by "
-      "default."}},
+      "TMPDIR: the folder for the runs of orders --run, /tmp by default."}},
     {"EXIT STATUS",
      {"0 done; 1 a verdict failed; 2 bad input; 3 the "
       "computation failed (a failed cell, too, after the results have been written; a march "

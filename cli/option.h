@@ -42,7 +42,6 @@ enum br_option_id {
     BR_OPT_CHECK,
     BR_OPT_AT,
     BR_OPT_ROWS,
-    BR_OPT_ANIMATE,
     BR_OPT_ALL,
     BR_OPT_COMPARE,
     BR_OPT_JUNIT,

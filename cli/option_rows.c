@@ -196,11 +196,6 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},
-    {BR_OPT_ANIMATE, "animate", 0, "FILE", "a moving picture, a .gif", NULL, BR_TAKES_FILE,
-     .commands = BR_FOR_RUN,
-     .more = "Beam, obstacle, contact and friction force with its bound, at most about 120 frames, "
-             "with script and data beside it. Where it cannot be drawn, the exit code is 3; the "
-             "results are written before."},
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,

@@ -970,8 +970,6 @@ static const struct planted_bug planted_bugs[] = {
      "(double)trial->cost.counts.steps"},
     {"slope_lines_of_one_part", "drawn", "plots/convergence.c", "golden study",
      "while (at < slopes && slope[at] < o->theory.formal)", "while (at < slopes)"},
-    {"movie_of_slopes", "drawn", "plots/run.c", "golden run_animate",
-     "u[i * r->unknowns[BR_AXIAL]], w[2 * i]", "u[i * r->unknowns[BR_AXIAL]], w[2 * i + 1]"},
     {"split_over_n", "drawn", "plots/split.c", "golden split_meshes",
      "br_mesh_size(s->scene, s->at.n)", "(double)s->at.n"},
     {"goal_of_seconds_is_the_error", "printed", "tables/report_plan.c", "golden plan_seconds",
