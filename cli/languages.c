@@ -285,9 +285,7 @@ static const struct {
      {"A scene is a YAML file; every number carries its unit, loads and initial data are "
       "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
       "--new' explains every key. It is read once, from a file, a pipe, or standard input "
-      "(-), and is refused beyond 1 MiB. An editor with a YAML language server completes "
-      "and checks a scene that begins with the line '# yaml-language-server: "
-      "$schema=PATH' of scene.schema.json."}},
+      "(-), and is refused beyond 1 MiB."}},
     {"FILES",
      {"For every table NAME, the files NAME.txt, .csv, .md, .tex and .json, and for every "
       "plot a gnuplot script NAME-*.gp, its data NAME-*.dat, and, where gnuplot is "
@@ -310,8 +308,7 @@ static const struct {
       "and the exit code is 3. An edit that keeps size and time is not seen; a copy of a "
       "folder that has not kept the times counts as edited.",
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
-      "share/beamrate/scene.schema.json (their schema), and the completions of bash, zsh "
-      "and fish."}},
+      "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",
      {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
       "of the one the program was built or installed with.",

@@ -60,7 +60,6 @@ enum br_option_id {
     BR_OPT_RESUME,
     BR_OPT_ROUNDING,
     BR_OPT_NEW,
-    BR_OPT_SCHEMA,
     BR_OPT_OUT,
     BR_OPT_FORMAT,
     BR_OPT_NO_PLOTS,

@@ -234,9 +234,6 @@ static const struct br_option rows[] = {
      .more =
          "A valid scene, with the meaning, unit and default of each key. A file that is there is "
          "not replaced."},
-    {BR_OPT_SCHEMA, "schema", 0, NULL,
-     "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_SCENES},
 
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
