@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options, a row each, and what single commands have of their own: defaults, limits, words. */
-#include <fenv.h>
 #include <math.h>
 
 #include "cli/command.h"
@@ -19,29 +18,9 @@ static const char *judge_syntax(size_t row)
     return judge_name(row) ? br_judges[row]->syntax : NULL;
 }
 
-static const struct {
-    const char *name;
-    int mode;
-} roundings[] = {{"nearest", FE_TONEAREST},
-                 {"up", FE_UPWARD},
-                 {"down", FE_DOWNWARD},
-                 {"zero", FE_TOWARDZERO},
-                 {NULL, 0}};
-
-static const char *rounding_name(size_t row)
-{
-    return roundings[row].name;
-}
-
-int br_rounding_mode(size_t row)
-{
-    return roundings[row].mode;
-}
-
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
 const struct br_words br_format_words = {format_name, format_title, NULL};
 const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
-const struct br_words br_rounding_words = {rounding_name, NULL, NULL};
 
 /* ---- options ---- */
 
@@ -133,8 +112,7 @@ static const struct br_option rows[] = {
      .more =
          "A name is made of words joined by +, in any order, at most one of a kind: a time "
          "scheme, a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the "
-         "axial elements), scaled and refined (for a solver that heeds it): euler+lagged, "
-         "bdf2+uzawa, bdf2+umfpack+scaled.",
+         "axial elements): euler+lagged, bdf2+uzawa, bdf2+umfpack.",
      OWN({BR_FOR_PLAN, .more = "By default all time schemes."})},
     {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
@@ -221,12 +199,6 @@ static const struct br_option rows[] = {
     {BR_OPT_UPDATE_BASELINE, "update-baseline", 0, NULL,
      "write what was found into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not be there yet."},
-
-    /* extremes */
-    {BR_OPT_ROUNDING, "rounding", 0, "MODE",
-     "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
-     .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
-     .more = "Not of their judges."},
 
     /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,

@@ -42,12 +42,6 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.judge = judge;
     p->request.threads = r->session.threads;
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    for (size_t i = 0; i < r->study.methods.count; i++)
-        if (!br_method_has_options(&r->study.methods.list[i].method))
-            return br_fail(err, BR_BAD_INPUT,
-                           "--methods: %s: run has no option for scaled and refined, so no plan "
-                           "takes them; 'beamrate trade' measures them",
-                           r->study.methods.list[i].name);
     if (r->study.methods.count)
         p->methods = r->study.methods;
     return BR_OK;

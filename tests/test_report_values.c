@@ -156,7 +156,6 @@ static void print_other_study(FILE *out)
     make(&m, true);
     m.study.method = br_test_method("umfpack", "implicit", "uzawa");
     m.study.method.axial_degree = 2;
-    m.study.method.linear = (struct br_linear_options){.scaling = "sum", .refinement = 3};
     m.study.method.iteration = (struct br_iteration){0.5, 1e-9, 10000};
     m.cell[1][11] = m.cell[1][10];
     m.cell[1][11].at.steps = 200;
