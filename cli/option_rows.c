@@ -87,20 +87,18 @@ static const struct br_option rows[] = {
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)},
          {BR_FOR_ORDERS, .kind = BR_TAKES_TEXT})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what errors are measured against: exact, fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
+     "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
      .words = &br_judge_words,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more =
          "exact is the default; mms that of a scene which was manufactured from a solution. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is then "
-         "measured against the exact solution. With none each cell is compared with the same scheme on "
-         "the next finer mesh and with the next smaller time step, which makes two reports, "
-         "NAME-meshes and NAME-steps.",
+         "measured against the exact solution.",
      OWN({BR_FOR_TABLES, .standard = "fine:12800,1e-5",
           .more = "The exact solution stands beside it."},
          {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
-                                "order; none is not taken."},
-         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K and none are not taken."})},
+                                "order."},
+         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K is not taken."})},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
      .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",

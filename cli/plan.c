@@ -25,7 +25,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     if (br_session_alone(err) || br_study_request_read(o, &r->study, err))
         return err->status;
     const struct br_judge *judge = r->study.judge;
-    if (judge && (!judge->create || judge->nests))
+    if (judge && judge->nests)
         return br_fail(
             err, BR_BAD_INPUT,
             "--reference: found '%s', expected a judge of any mesh and step: exact or mms",
