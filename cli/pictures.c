@@ -31,8 +31,8 @@ static enum br_status split(struct br_pictures *p, char *folder, size_t size, st
     return br_is_name(p->stem)
                ? BR_OK
                : br_fail(err, BR_BAD_INPUT,
-                         "--animate: found '%s', expected a file's name that begins with "
-                         "a letter or digit, with no others but blanks and _ . - +",
+                         "--animate: found '%s', expected a file's name of letters, digits, blanks "
+                         "and _ . - + that begins with a letter or digit",
                          file);
 }
 

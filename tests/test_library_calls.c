@@ -177,7 +177,7 @@ TEST(marches_are_refused)
          "found 'shceme', expected one of: scheme, tolerance");
     ENDS(WITH(METHOD("scheme", "euler", "scheme", "bdf2")), BEAMRATE_BAD_INPUT, "found it twice");
     ENDS(WITH(METHOD("scheme")), BEAMRATE_BAD_INPUT, "the end of the list");
-    ENDS(WITH(METHOD("tolerance", "1e-6")), BEAMRATE_BAD_INPUT, "does not heed it");
+    ENDS(WITH(METHOD("tolerance", "1e-6")), BEAMRATE_BAD_INPUT, "does not use it");
     ENDS(WITH(METHOD("scheme", "bdf2", "contact", "lagged")), BEAMRATE_BAD_INPUT, "lagged");
     assert_null(march);
     ENDS(beamrate_march_create(&march, scene, 0, 8, NULL, &failure), BEAMRATE_BAD_INPUT,

@@ -88,14 +88,14 @@ static void make(struct br_made_report *m, bool with_exact)
         (struct br_seen_order){.asked = true,
                                .order = {2.03, 2.01, 2.05},
                                .theory = {2, 4, 4, "it is so"},
-                               .by = "each mesh against the next",
-                               .remark = "as in theory"};
+                               .by = "differences of successive meshes",
+                               .remark = "agrees with theory"};
     m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] = (struct br_seen_order){
         .asked = true,
         .order = {NAN, NAN, NAN},
         .theory = {1, 1, 1, ""},
         .by = "errors",
-        .remark = "not seen: for a reason"};
+        .remark = "not measurable: for a reason"};
     m->report.tip[BR_AXIAL] = (struct br_estimate){0.1715, 0.1705, 0.1725};
     m->report.tip[BR_BENDING] = (struct br_estimate){-0.0725, -0.0735, -0.0715};
 }

@@ -94,7 +94,7 @@ TEST(test_names)
         {"bdf2,", "found ''"},
         {"bdf2+euler", "given already"},
         {"bdf2+lagged", "lagged"},
-        {"bdf2+scaled", "does not heed"},
+        {"bdf2+scaled", "does not use"},
         {"bdf2,bdf2+implicit", "--methods: bdf2+implicit is given twice"},
     };
     struct br_error err = {0};

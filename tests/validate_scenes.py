@@ -22,13 +22,13 @@ LEFT_TO_THE_PROGRAM = [
     "1/0", "sqrt(-1)", "1e999", "stiffness plus viscosity", "at x = 0", "its derivative",
     "the derivative of", "expected a finite number everywhere", "Coulomb friction takes its bound from",
     # units, and what makes others
-    "which is ", "another unit of", "makes nothing here", "makes no number", "is given beside",
+    "which is ", "another unit of", "has no effect alone", "makes no number", "is given beside",
     "forgotten?", "1e308 Tm", "1e-323 nm", "the wall of a tube",
     # of verify: numbers that belong together
     "errors, expected at least", "does not divide", "time levels of", "expected meshes and one",
     "expected one mesh and", "expected as many meshes", "both lists from coarse",
     "nothing is expected", "an order > 0", "a tolerance below", "a constant", "contradict",
-    "does not go with time scheme", "does not heed it", "friction_parameter: found",
+    "does not go with time scheme", "does not use it", "friction_parameter: found",
 ]
 
 

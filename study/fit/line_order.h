@@ -2,7 +2,7 @@
 /* The observed order of a line of errors: the one place where it is found.
  *
  * One power C z^p never fits real errors. Coarse grids are not asymptotic, fine ones reach a floor,
- * a lower power comes up, a logarithm bends the line, numbers scatter. So several laws compete,
+ * a growing lower power, a logarithm bends the line, numbers scatter. So several laws compete,
  * each on several windows of rows. The order is their average, weighted by how well each explains
  * the rows (Bayesian model averaging: Hoeting, Madigan, Raftery and Volinsky, Statistical Science
  * 14, 382-417, 1999), and its interval covers each law that the rows do not rule out.

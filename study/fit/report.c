@@ -84,7 +84,7 @@ static void say_rates(struct br_seen_order *o, const struct line *l)
 {
     for (size_t i = 0; i + 1 < l->count; i++)
         REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory.formal));
-    REMARK(o, " from size to size");
+    REMARK(o, " from row to row");
 }
 
 /* The order of theory that is nearest to an observed one. */
@@ -117,13 +117,13 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
     const bool fits = order.low <= theory && theory <= order.high;
     o->order = order;
     if (isnan(o->theory.order)) {
-        REMARK(o, "theory states none: %s", o->theory.reason);
+        REMARK(o, "no theory: %s", o->theory.reason);
         return;
     }
     if (agrees(o))
-        REMARK(o, "as in theory");
+        REMARK(o, "agrees with theory");
     else if (off <= near)
-        REMARK(o, "near theory");
+        REMARK(o, "close to theory");
     else
         REMARK(o, fits ? "not settled" : order.value < theory ? "below theory" : "above theory");
     if (off <= near || !l)
@@ -134,11 +134,14 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
 
 static void say_too_few(struct br_seen_order *o, const struct line *l)
 {
-    REMARK(o, "not seen: %zu error%s, an order needs %d", l->count, l->count == 1 ? "" : "s",
-           LEAST);
+    const char *what = l->study->judge == &br_judge_none ? "difference" : "error";
     if (l->left_out)
-        REMARK(o, "; %zu left out%s%s", l->left_out, l->flag ? ", the first: " : "",
-               l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
+        REMARK(o, "not measurable: %zu of %zu %ss are left out%s%s; an order needs %d", l->left_out,
+               l->count + l->left_out, what, l->flag ? ", the first: " : "", br_flag_name(l->flag),
+               LEAST);
+    else
+        REMARK(o, "not measurable: %zu %s%s, an order needs %d", l->count, what,
+               l->count == 1 ? "" : "s", LEAST);
 }
 
 /* ---- what a picture shows ---- */
@@ -218,16 +221,16 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
         return BR_OK;
     }
     if (falls) {
-        REMARK(o, "not seen: the errors fall by orders of");
+        REMARK(o, "not measurable: the errors fall with the orders");
         say_rates(o, l);
     } else {
-        REMARK(o, "not seen: the errors do not fall,");
+        REMARK(o, "not measurable: the errors do not fall:");
         for (size_t i = 0; i < l->count; i++)
             REMARK(o, "%s%.1e", i ? ", " : " ", l->point[i].error);
     }
     const double closer = falls ? comes_closer(o, l) : 1;
     if (fabs(closer) > clear)
-        REMARK(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger",
+        REMARK(o, "; a %s %s may show the order", closer > 0 ? "smaller" : "larger",
                br_axis_letters[l->axis]);
     return BR_OK;
 }
@@ -266,7 +269,7 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
                         const struct br_study *s, enum br_part part, int axis)
 {
     const struct line l = line_of(s, part, axis, br_axis_count(s, 1 - axis) - 1);
-    snprintf(o->by, sizeof o->by, "joint fit of %zu cells, misfit %.2g %%", fit->points,
+    snprintf(o->by, sizeof o->by, "the joint fit of %zu cells, misfit %.2g %%", fit->points,
              100 * fit->misfit);
     *o->remark = '\0';
     claim(o, fit->order[axis], NULL);
@@ -286,10 +289,11 @@ static enum br_status see_apart(const struct br_study *s, enum br_part part, int
 {
     const struct line l = differences_of(s, part, axis);
     if (axis == BR_AXIS_SPACE)
-        snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
+        snprintf(o->by, sizeof o->by, "differences of successive meshes at k = %g s",
                  br_time_step(s->scene, s->steps[l.at]));
     else
-        snprintf(o->by, sizeof o->by, "each step against the next at n = %zu", s->n[l.at]);
+        snprintf(o->by, sizeof o->by, "differences of successive time steps at n = %zu",
+                 s->n[l.at]);
     return judge_line(o, &l, part, err);
 }
 
@@ -305,7 +309,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         !(width_of(&o->order) <= width_of(&fit->order[BR_AXIS_SPACE])))
         claim_joint(o, fit, br_report_fitted(r), part, BR_AXIS_SPACE);
     else if (!apart)
-        REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
+        REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     return BR_OK;
 }
 
@@ -337,12 +341,12 @@ static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
     }
     const double space = error_of_space(r, part);
     snprintf(o->by, sizeof o->by, "%s on the finest mesh, n = %zu",
-             s->judge == &br_judge_none ? "each step against the next" : "errors",
+             s->judge == &br_judge_none ? "differences of time steps" : "errors",
              s->n[s->n_count - 1]);
     if (l.count && space > hidden * l.point[l.count - 1].error) {
         keep_points(o, &l, part, NULL);
-        REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
-               l.point[l.count - 1].error);
+        REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows the order",
+               space, l.point[l.count - 1].error);
         return BR_OK;
     }
     return judge_line(o, &l, part, err);
@@ -372,8 +376,8 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 16 * s->steps[s->k_count - 1];
-        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu", finest,
-               2 * finest, 4 * finest);
+        REMARK(o, "; smaller time steps may settle it: -k T/%zu,T/%zu,T/%zu", finest, 2 * finest,
+               4 * finest);
     }
     return status;
 }

@@ -80,7 +80,7 @@ static enum br_status check(const struct br_method *m, const bool taken[KINDS],
 {
     for (size_t i = 0; i < KINDS; i++)
         if (taken[i] && kinds[i]->word && !br_method_field_used(kinds[i], m))
-            return br_fail(err, BR_BAD_INPUT, "solver %s does not heed '%s'", m->solver->name,
+            return br_fail(err, BR_BAD_INPUT, "solver %s does not use '%s'", m->solver->name,
                            kinds[i]->word[0].word);
     return br_method_check(m, err);
 }

@@ -273,8 +273,8 @@ static void compare_scene(struct br_comparison *out, const struct br_check *chec
         compare_data(out, subject, old->data, check->data);
     } else if (check->data)
         add(out, subject, "scene", NAN, NAN, BR_NOTE,
-            "the baseline is older than the record of scenes, so a change of the scene is not seen: "
-            "make a new baseline");
+            "the baseline is older than the record of scenes, so a change of the scene is not "
+            "detected: make a new baseline");
 }
 
 /* ---- cost ---- */
@@ -292,7 +292,7 @@ static void compare_cost(struct br_comparison *out, const struct br_check *check
         grade(factor(old->element_steps, check->element_steps), work_steps), "%s", "");
     if (isfinite(before) && isfinite(now)) /* both did march */
         add(out, subject, "ns per element-step", before, now,
-            grade(factor(before, now), time_steps), "on these machines, as busy as they were");
+            grade(factor(before, now), time_steps), "times depend on the machine and its load");
 }
 
 static int by_severity(const void *a, const void *b)
@@ -310,8 +310,8 @@ static enum br_status check_problem(const struct br_check *check, const struct b
         return BR_OK;
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s: the earlier check was of another problem: another command, other columns or "
-        "other expectations (%.8s..., now %.8s...)",
+        "%s: the earlier check had another problem: another command, other columns or other "
+        "expectations (%.8s..., now %.8s...)",
         check->name, old->problem, check->problem);
 }
 

@@ -156,7 +156,7 @@ static void note_drift(struct br_case *c)
     }
     const double sign = off[2] < 0 ? -1 : 1;
     if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
-        br_append(c->note, sizeof c->note, "%sfrom size to size the order still %s, the last is %.2f",
+        br_append(c->note, sizeof c->note, "%sthe order from row to row still %s, the last is %.2f",
                   c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
 }
 
@@ -168,7 +168,7 @@ static void advise_tolerance(struct br_case *c)
     const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
     const double enough = ceil(100 * off + 1e-9) / 100;
     if (enough < expected / 4)
-        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
+        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would include it", enough);
 }
 
 /* Says what would settle the verdict: which way the orders from size to size go decides it. */
@@ -182,19 +182,19 @@ static void advise(struct br_case *c)
     const double before = fabs(first - fmin(fmax(first, e->order), high));
     if (off < 0.75 * before)
         br_append(c->reason, sizeof c->reason,
-                  "; the two finest show %.2f, the two coarsest %.2f, so the coarse ones are not "
-                  "asymptotic: begin finer, or go on refining",
+                  "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
+                  "asymptotic. Start finer, or refine further",
                   last, first);
     else if (off > e->tolerance && off >= before)
         br_append(c->reason, sizeof c->reason,
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
-                  "Look for what lowers the order, or expect another one",
+                  "Find what lowers the order, or expect another order",
                   last, first);
     else {
         br_append(c->reason, sizeof c->reason, "; %s",
                   c->order.high - c->order.low > 2 * e->tolerance
-                      ? "it is wider than the band: finer grids would narrow it"
-                      : "finer grids would tell");
+                      ? "the interval is wider than the band: finer grids would narrow it"
+                      : "finer grids would decide");
         advise_tolerance(c);
     }
     if (*e->why)
@@ -208,11 +208,12 @@ static void judge_too_few(struct br_case *c)
         unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
         missing |= c->point[i].flag == BR_FLAG_FAILED;
     }
-    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors are left, an order needs %d: %s", c->used,
+    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors can be used, an order needs %d: %s", c->used,
              c->points, BR_VERIFY_LEAST_POINTS,
-             unstable  ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
-             : missing ? "the rows without a number are needed, or more rows"
-                       : "coarser grids have errors that are not lost in what limits them");
+             unstable  ? "use smaller time steps, or contact at u_n (contact: implicit), which is "
+                         "stable"
+             : missing ? "add the missing numbers, or more rows"
+                       : "use coarser grids, whose errors are above the limits");
 }
 
 /* An error that does not fall shows another solution, or the error of a reference or tolerance. */
@@ -240,11 +241,10 @@ static void straddle(struct br_case *c, const char *order, double low, double hi
     const bool below = c->order.low<low, above = c->order.high> high;
     if (below && above)
         conclude(c, BR_INCONCLUSIVE,
-                 "the order's interval, %s, straddles both ends of the band, %.4g "
-                 "and %.4g",
-                 order, low, high);
+                 "the order's interval, %s, contains both ends of the band, %.4g and %.4g", order,
+                 low, high);
     else
-        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s end, %.4g",
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, contains the band's %s end, %.4g",
                  order, below ? "lower" : "upper", below ? low : high);
 }
 
@@ -302,7 +302,8 @@ static void judge_constant(struct br_case *c)
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
     conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
-             high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
+             high ? "above its upper limit" : "below its lower limit",
+             high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         br_append(c->reason, sizeof c->reason, "; and %s", before);
 }
@@ -323,8 +324,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     choose_points(c);
     list_left_out(c);
     if (c->law)
-        br_append(c->note, sizeof c->note, "%sbeside one power the errors show %s",
-                  c->note[0] ? "; " : "", c->law);
+        br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
+                  c->law);
     note_drift(c);
     return status;
 }

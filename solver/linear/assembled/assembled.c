@@ -200,8 +200,8 @@ static enum br_status solve(struct assembled *s, double *x, struct br_error *err
         const double size = largest(s->correction, s->nodal);
         if (!(size <= last / 2) && step == 0 && isfinite(size))
             return br_fail(err, BR_SINGULAR,
-                           "%s: the refinement does not converge, since the matrix of n = %zu "
-                           "elements is too ill-conditioned for a solution with any right digit",
+                           "%s: the refinement does not converge: the matrix of n = %zu elements "
+                           "is too ill-conditioned for one correct digit",
                            s->factoriser->name, s->field.n);
         if (!(size <= last / 2))
             break;
