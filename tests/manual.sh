@@ -12,7 +12,7 @@ for file in options.md beamrate.1; do
     *) topic=man ;;
     esac
     "$BEAMRATE" help "$topic" | diff - "$BEAMRATE_DATA/docs/$file" && continue
-    echo "docs/$file differs: beamrate help $topic >docs/$file"
+    echo "docs/$file is stale: ./bootstrap update writes it anew"
     failures=$((failures + 1))
 done
 if grep -nE '.\.(SH|SS|TP|PP|B|nf|fi)( |$)' "$BEAMRATE_DATA/docs/beamrate.1"; then

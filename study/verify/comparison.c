@@ -323,8 +323,7 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
         for (size_t j = 0; j < i; j++)
             if (strcmp(checks[i].name, checks[j].name) == 0)
                 return br_fail(err, BR_BAD_INPUT,
-                               "two scenes are called %s, expected names that tell them apart from "
-                               "each other in a comparison",
+                               "two scenes are called %s, expected different names in a comparison",
                                checks[i].name);
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
         found |= before != NULL;
