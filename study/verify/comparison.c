@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/fit/theory.h"
+
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
@@ -110,7 +112,8 @@ static bool is_looser(double before, double now, double direction)
 /* A band that is wider lets pass what failed before. */
 static bool expects_less(const struct br_expectation *e, const struct br_expectation *old)
 {
-    return is_looser(old->order + old->tolerance, e->order + e->tolerance, 1) ||
+    const double old_high = fmax(old->order, old->highest) + old->tolerance;
+    return is_looser(old_high, fmax(e->order, e->highest) + e->tolerance, 1) ||
            is_looser(old->order - old->tolerance, e->order - e->tolerance, -1) ||
            is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1);
 }
@@ -119,6 +122,7 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
                           const struct br_case *old)
 {
     const struct br_expectation *e = &c->expected, *before = &old->expected;
+    char was[64], now[64];
     const double shift = c->order.value - old->order.value;
     const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
                                      : c->verdict == BR_PASS    ? BR_NOTE
@@ -135,8 +139,10 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
     add(out, subject, "expectation", before->order, e->order,
         expects_less(e, before) ? BR_WARNING : BR_SAME,
-        "looser: +- %g and %g to %g before, +- %g and %g to %g now", before->tolerance,
-        before->floor, before->ceiling, e->tolerance, e->floor, e->ceiling);
+        "looser: %s +- %g and %g to %g before, %s +- %g and %g to %g now",
+        br_theory_text(before->order, before->highest, was, sizeof was), before->tolerance,
+        before->floor, before->ceiling, br_theory_text(e->order, e->highest, now, sizeof now),
+        e->tolerance, e->floor, e->ceiling);
     add(out, subject, "order", old->order.value, c->order.value, order,
         "%+.2g of a tolerance of %.2g", shift, e->tolerance);
     add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",
