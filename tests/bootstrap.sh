@@ -154,7 +154,10 @@ echo 'exit 1' | made mpicc
 starts 0 4 'a part whose compiler finds no header' --with=mpi build
 configured 'a part' '-Dmpi=enabled --reconfigure$'
 [ -e "$work/cleared" ] || failures=$((failures + 1))
-made mpicc </dev/null
+made mpicc <<'END'
+for source; do :; done
+[ "$source" != - ]
+END
 starts 0 0 'the same part' --with mpi build
 configured 'the same part'
 echo libcmocka-dev >"$work/to_be_had"

@@ -593,6 +593,26 @@ TEST(used_numbers_are_counted)
     beamrate_orders_free(orders);
 }
 
+/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2. */
+TEST(formal_order_widens_the_limit)
+{
+    static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};
+    static const double value[] = {7 + 4096.1, 7 + 511.9, 7 + 64.1, 7 + 7.9, 7 + 1};
+    double half[3];
+    for (size_t i = 0; i < 3; i++) {
+        const struct beamrate_numbers numbers = {
+            .h = h, .number = value, .count = 5, .values = 1, .formal = formal[i]};
+        struct beamrate_orders *orders;
+        struct beamrate_order order;
+        WORKS(beamrate_orders_find(&orders, &numbers, &failure));
+        assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
+        half[i] = order.limit.high - order.limit.low;
+        beamrate_orders_free(orders);
+    }
+    assert_true(half[0] > 1.5 * half[1]);
+    CLOSE(half[2], half[0], 0);
+}
+
 /* ---- what is no handle, no index, no number ---- */
 
 TEST(wrong_handles_are_refused)
