@@ -98,6 +98,7 @@ def check_arrays():
         assert (found["error"].h is None) == (not {"k", "dt", "steps"}.isdisjoint(sizes)), sizes
     assert "2 dimensions (assumed" in repr(br.orders(error, dofs=N ** 2))
     frame = {"edge": 1 / N, "e": error, "i": N}
+    assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "i"]
     close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)
     close(br.orders(frame, h="edge", errors=["e"])["e"].order.value, 1.5)
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
@@ -118,7 +119,10 @@ def check_grid():
     both.assert_order(2, axis="h")
     both.assert_order(1, axis="k")
     refused("e: FAIL", lambda: both.assert_order(1, axis="h"), AssertionError)
-    refused("axis: found 'x'", lambda: both.assert_order(1, axis="x"))
+    value = br.orders({"h": h, "k": k, "v": 7 + h ** 2 + k}, values="v")["v"]
+    assert (value.limit["in"], value.gci["in"]) == ("h and k", "k"), value.limit
+    close(value.limit["limit"], 7, 1e-6)
+    refused("axis: found 'x', expected 'h' or 'k'", lambda: both.assert_order(1, axis="x"))
 
 
 def check_values():
@@ -128,6 +132,9 @@ def check_values():
     close(found.gci["p"], 2)
     finest, before = 7 + 3 / 160 ** 2, 7 + 3 / 80 ** 2
     close(found.gci["gci_fine"], 1.25 * (before - finest) / finest / 3, 1e-12)  # Celik et al., (7)
+    first, second = (br.orders(7 + 1 / N ** 2, n=N, values=True, formal=order)["value"].limit["high"]
+                     for order in (1, 2))
+    assert first != second
     both = br.orders({"n": N, "e": 1 / N, "cd": 7 + 3 / N ** 2}, values="cd", errors="e")
     assert [q.is_value for q in both.quantities] == [False, True]
     assert both["e"].limit is None and both["e"].gci is None
