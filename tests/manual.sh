@@ -33,4 +33,6 @@ check() { # FILE LINE
 check CITATION.cff "version: $version"
 check debian/changelog "beamrate ($version-1) .*"
 check CHANGELOG.md "## $version - .*"
+check action.yml "#   - uses: OWNER/beamrate@v$version"
+check docs/ci/your-solver.yml "      BEAMRATE_ARCHIVE: https://example.org/beamrate-$version.tar.gz"
 [ "$failures" -eq 0 ]

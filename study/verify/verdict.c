@@ -54,9 +54,10 @@ static void list_left_out(struct br_case *c)
     }
 }
 
+/* Of the expected order; where none is expected, of the observed one. */
 static void find_constants(struct br_case *c)
 {
-    const double order = c->expected.order;
+    const double order = isnan(c->expected.order) ? c->order.value : c->expected.order;
     size_t finest = 0;
     c->constant = NAN;
     for (size_t i = c->points; i-- > 0;) {
@@ -322,6 +323,8 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
+    if (isnan(c->expected.order))
+        find_constants(c);
     list_left_out(c);
     if (c->law)
         br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
