@@ -42,8 +42,8 @@ static const double least_scatter = 1e-7;
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
 static const double cell_scatter = 4e-3;
 
-/* A correction is known to this share of itself: there is always another term. */
-static const double truncation = 0.01;
+/* A correction c is known to truncation c + next_term c^2: there is always another term. */
+static const double truncation = 0.01, next_term = 0.03;
 
 /* The share of lines with a term of opposite sign that pass zero within the rows. */
 static const double passes_zero = 0.15;
@@ -60,7 +60,7 @@ struct family {
 
 #define NEXT_TERM(s, share)                              \
     {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
-        {BR_LAW_LOWER, s, 0.1, 1.6, 0.1 * (share)},     \
+        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)},       \
         {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
 
 static const double prior_of_power = 0.45;
@@ -402,7 +402,7 @@ static void add_law(struct mixture *all, const struct rows *r, const struct fami
     double change = 0;
     for (size_t i = r->count; i-- > 0;) {
         change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] = 1e-6 + share * change;
+        r->least[i] = 1e-6 + share * change * (1 + next_term / truncation * change);
     }
     const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
     const bool small = f->law == BR_LAW_CANCEL && !crosses;
