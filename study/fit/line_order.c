@@ -507,6 +507,46 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     return status;
 }
 
+/* ---- which rows count ---- */
+
+/* A level below this share of the coarsest error that counts is taken for round-off. */
+static const double deep = 1e-6;
+
+enum br_flag br_line_order_flag(const struct br_line_order *found,
+                                const struct br_order_point *point, size_t i)
+{
+    const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
+    const struct br_order_point *last = &point[found->last];
+    if (i < found->first)
+        return BR_FLAG_COARSE;
+    if (i == found->outlier)
+        return BR_FLAG_OUTLIER;
+    if (i <= found->last && !(floors && point[i].error < 2 * found->floor))
+        return BR_FLAG_NONE;
+    if (i > found->last &&
+        point[i].error < 1.05 * last->error * pow(point[i].z / last->z, found->order.value))
+        return BR_FLAG_OUTLIER;
+    return point[i].error <= deep * point[found->first].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
+}
+
+double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine)
+{
+    static const double steepest = 60;
+    const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
+    double low = -steepest, high = steepest, slope;
+    if (!usable(coarse) || !usable(fine))
+        return NAN;
+    if (coarse->z_against == 0 && fine->z_against == 0)
+        return falls / ratio;
+    while (high - low > 1e-14 * steepest) {
+        const double p = (low + high) / 2;
+        const double lost = loss(coarse->z_against / coarse->z, p, &slope) -
+                            loss(fine->z_against / fine->z, p, &slope);
+        *(p * ratio + lost < falls ? &low : &high) = p;
+    }
+    return low > -steepest && high < steepest ? (low + high) / 2 : NAN;
+}
+
 /* ---- the line of an order ---- */
 
 /* A point's share of an error of order p. */
