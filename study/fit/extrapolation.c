@@ -52,26 +52,16 @@ void br_tips_clear(struct br_tips *tips)
     *tips = (struct br_tips){0};
 }
 
-/* Three values on finer and finer grids; x is h or k in any unit. */
-struct triple {
-    const double *x, *value;
-};
-
-/* The limit that the last two values give with this order. */
-static double limit(const struct triple *t, double order)
+/* What the three values that end at x[2] show; its order is NaN unless it is monotone convergence of
+ * an order from 0.2 to 12. */
+static struct br_gci three_values(const double *x, const double *value)
 {
-    return t->value[2] + (t->value[2] - t->value[1]) / (pow(t->x[1] / t->x[2], order) - 1);
-}
-
-/* The order that three values show; NaN: none, or none from 0.2 to 12. */
-static double observed_order(const struct triple *t)
-{
-    const double growth = (t->value[0] - t->value[1]) / (t->value[1] - t->value[2]);
-    if (!(growth > 0 && isfinite(growth)))
-        return NAN;
-    const double order =
-        br_order_of_differences(log(t->x[1] / t->x[2]), log(t->x[0] / t->x[1]), log(growth), 1);
-    return order > 0.2 && order < 12 ? order : NAN;
+    struct br_gci found;
+    struct br_error err;
+    if (br_gci(x, value, 3, &found, &err) || found.sequence != BR_MONOTONE_CONVERGENCE ||
+        !(found.order > 0.2 && found.order < 12))
+        found.order = NAN;
+    return found;
 }
 
 /* Values on a line of the grid, from coarse to fine. */
@@ -117,24 +107,23 @@ static struct br_estimate extrapolate_line(const struct line *whole)
     const struct line known = known_cells(whole), *l = &known;
     if (l->count < l->least)
         return around(NAN, NAN);
-    const struct triple fine = {l->x + l->count - 3, l->value + l->count - 3};
-    const double last = fabs(fine.value[2] - fine.value[1]);
-    const double round_off = 64 * DBL_EPSILON * fabs(fine.value[2]);
+    const double *x = l->x + l->count - 3, *value = l->value + l->count - 3;
+    const double last = fabs(value[2] - value[1]), round_off = 64 * DBL_EPSILON * fabs(value[2]);
     if (last <= safety * round_off)
-        return l->constant ? around(fine.value[2], safety * last + round_off) : around(NAN, NAN);
-    const double order = observed_order(&fine), formal = formal_near(l, order, near);
+        return l->constant ? around(value[2], safety * last + round_off) : around(NAN, NAN);
+    const struct br_gci fine = three_values(x, value);
+    const double formal = formal_near(l, fine.order, near), limit = fine.fine.limit;
     if (isnan(formal))
         return around(NAN, NAN);
-    const double value = limit(&fine, order);
-    double spread = fabs(value - limit(&fine, formal));
+    double spread =
+        fabs(limit - value[2] - (value[2] - value[1]) / (pow(x[1] / x[2], formal) - 1));
     if (l->count > 3) {
-        const struct triple coarse = {l->x + l->count - 4, l->value + l->count - 4};
-        const double coarse_order = observed_order(&coarse);
-        if (formal_near(l, coarse_order, drift) != formal)
+        const struct br_gci coarse = three_values(x - 1, value - 1);
+        if (formal_near(l, coarse.order, drift) != formal)
             return around(NAN, NAN);
-        spread = fmax(spread, fabs(value - limit(&coarse, coarse_order)));
+        spread = fmax(spread, fabs(limit - coarse.fine.limit));
     }
-    return around(value, safety * spread + round_off);
+    return around(limit, safety * spread + round_off);
 }
 
 /* Extrapolates over k on each mesh, then over h. The uncertainty over k is nearly the same on all

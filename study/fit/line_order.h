@@ -56,6 +56,14 @@ struct br_line_order {
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
 
+/* Why the order of a line does not rest on point[i]; BR_FLAG_NONE: it does. */
+enum br_flag br_line_order_flag(const struct br_line_order *found,
+                                const struct br_order_point *point, size_t i);
+
+/* The order that two errors show, the coarser one first; NaN: one of them is not above 0, or no
+ * order from -60 to 60 makes such differences. */
+double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
+
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
  * their logarithms, at point[i]; and its band, by the lines of the order's low and high end. Errors
  * that are not above 0, or not finite, are left aside; NaN: there are no others, or no order. */

@@ -68,27 +68,6 @@ static void find_constants(struct br_case *c)
     }
 }
 
-/* A level below this share of the coarsest error is taken for round-off. */
-static const double deep = 1e-6;
-
-/* Why the order does not rest on point i; BR_FLAG_NONE: it does. */
-static enum br_flag left_out(const struct br_case *c, const struct br_line_order *found, size_t i)
-{
-    const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
-    const double error = c->point[i].error;
-    if (i < found->first)
-        return BR_FLAG_COARSE;
-    if (i == found->outlier)
-        return BR_FLAG_OUTLIER;
-    if (i <= found->last && !(floors && error < 2 * found->floor))
-        return BR_FLAG_NONE;
-    const struct br_point *last = &c->point[found->last];
-    const double falls_to = last->error * pow(c->point[i].z / last->z, found->order.value);
-    if (i > found->last && error < 1.05 * falls_to)
-        return BR_FLAG_OUTLIER;
-    return error <= deep * c->point[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
-}
-
 /* The order with its intervals, from the points that are not left out; those that do not show it
  * are left out then. */
 static enum br_status find_order(struct br_case *c, struct br_error *err)
@@ -109,7 +88,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
     for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
         if (c->point[i].used)
-            c->point[i].flag = left_out(c, &found, i);
+            c->point[i].flag = br_line_order_flag(&found, all, i);
     for (size_t i = 0; i < c->points; i++)
         all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
     for (size_t i = 0; i < c->points; i++)
@@ -129,7 +108,8 @@ static double rate_to(const struct br_case *c, size_t i)
     if (!c->point[i].used || before == 0)
         return NAN;
     const struct br_point *fine = &c->point[i], *coarse = &c->point[before - 1];
-    return log(coarse->error / fine->error) / log(coarse->z / fine->z);
+    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
+                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
 }
 
 /* The orders that the two coarsest points and the two finest ones show by themselves. */
@@ -217,24 +197,81 @@ static void judge_too_few(struct br_case *c)
                        : "use coarser grids, whose errors are above the limits");
 }
 
-/* An error that does not fall shows another solution, or the error of a reference or tolerance. */
-static const struct br_point *first_stalled(const struct br_case *c)
+/* An error at the fine end that does not fall with the order shows another solution, or the error of
+ * a reference or tolerance; one that is far smaller than the order makes it, terms that cancel, or a
+ * reference that is the solution itself. */
+static const struct br_point *first_beyond(const struct br_case *c)
 {
-    for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].flag == BR_FLAG_STALLED && !(c->point[i].error <= c->down_to))
-            return &c->point[i];
-    return NULL;
+    const struct br_point *first = NULL;
+    for (size_t i = c->points; i-- > 0 && !c->point[i].used;)
+        if ((c->point[i].flag == BR_FLAG_STALLED || c->point[i].flag == BR_FLAG_OUTLIER) &&
+            !(c->point[i].error <= c->down_to))
+            first = &c->point[i];
+    return first;
 }
 
-static void judge_stalled(struct br_case *c, const struct br_point *stalled)
+static void judge_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
-    const bool falls = stalled > c->point && stalled->error < stalled[-1].error;
+    const bool small = first->flag == BR_FLAG_OUTLIER;
+    const bool falls = first > c->point && first->error < first[-1].error;
     br_order_text(&c->order, text, sizeof text);
-    conclude(c, BR_INCONCLUSIVE,
-             "the order is %s, but from %s on the errors %s, %.2e: if that is the "
-             "reference's own error, expect the order 'down to %.0e'",
-             text, stalled->label, falls ? "fall more slowly" : "do not fall", stalled->error, 4 * stalled->error);
+    conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
+             first->label,
+             small   ? "are far smaller than that"
+             : falls ? "fall more slowly"
+                     : "do not fall",
+             first->error);
+    if (small)
+        br_append(c->reason, sizeof c->reason, ": finer grids would tell whether terms cancel");
+    else if (!(c->duration > 0))
+        br_append(c->reason, sizeof c->reason,
+                  ": if that is the reference's own error, expect the order 'down to %.0e'",
+                  4 * first->error);
+    else
+        br_append(c->reason, sizeof c->reason,
+                  ": another solution, or the reference's own error; coarser grids have larger ones");
+}
+
+/* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
+static double count_at(const struct br_case *c, bool of_time, size_t i)
+{
+    const struct br_resolution *at =
+        i < c->points ? &c->point[i].at : &c->point[c->points - 1].against;
+    return of_time ? (double)at->steps : (double)at->n;
+}
+
+/* The sizes of the case, and one more: finer ones, or coarser ones where the fine ones are lost. */
+static void name_axis(struct br_case *c, bool of_time, bool lost)
+{
+    const size_t count = c->points + (c->kind != BR_VERIFY_JOINT);
+    br_append(c->reason, sizeof c->reason, of_time ? " k: " : " n: ");
+    for (size_t i = 0; i <= count; i++) {
+        const double a = count_at(c, of_time, lost ? 0 : count - 1),
+                     b = count_at(c, of_time, lost ? 1 : count - 2);
+        const bool more = i == (lost ? 0 : count);
+        const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
+        br_append(c->reason, sizeof c->reason, "%s%.6g", i ? ", " : "",
+                  of_time ? c->duration / size : size);
+    }
+    br_append(c->reason, sizeof c->reason, of_time ? " s" : "");
+}
+
+/* Says what would settle the verdict: for a scene as a line of its part `verify`. */
+static void name_sizes(struct br_case *c)
+{
+    const struct br_point *last = &c->point[c->points - 1];
+    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
+    if (!(c->duration > 0) && !c->open)
+        br_append(c->reason, sizeof c->reason, "; a row %s %s would tell",
+                  lost ? "before" : "beyond", lost ? c->point[0].label : last->label);
+    if (!(c->duration > 0) || c->points < 2)
+        return;
+    br_append(c->reason, sizeof c->reason, "; expect it of");
+    if (c->kind != BR_VERIFY_TIME)
+        name_axis(c, false, lost);
+    if (c->kind != BR_VERIFY_SPACE)
+        name_axis(c, true, lost);
 }
 
 static void straddle(struct br_case *c, const char *order, double low, double high)
@@ -351,7 +388,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 void br_case_judge(struct br_case *c)
 {
-    const struct br_point *failed = first_failed(c), *stalled = first_stalled(c);
+    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
@@ -360,8 +397,8 @@ void br_case_judge(struct br_case *c)
                  BR_VERIFY_LEAST_POINTS);
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
-    else if (stalled) {
-        judge_stalled(c, stalled);
+    else if (beyond) {
+        judge_beyond(c, beyond);
         judge_constant(c);
     } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
         judge_too_few(c);
@@ -369,6 +406,8 @@ void br_case_judge(struct br_case *c)
         judge_order(c);
         judge_constant(c);
     }
+    if (c->verdict == BR_INCONCLUSIVE)
+        name_sizes(c);
 }
 
 enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
