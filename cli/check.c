@@ -54,8 +54,8 @@ static enum br_status read_study(struct run *r, struct item *item, const char *t
     if (br_study_file_read(item->path, text, o, &item->study, err))
         return err->status;
     if (item->study.request.expectations == 0)
-        return br_fail(err, BR_BAD_INPUT, "%s: verify: missing, expected what is to be checked",
-                       item->path);
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s: verify: missing, expected at least one study to check", item->path);
     r->check[r->count++] = br_study_file_check(&item->study, o);
     return BR_OK;
 }
@@ -236,14 +236,14 @@ const struct br_command br_command_check = {
     .bit = BR_FOR_CHECK,
     .name = "check",
     .arguments = "SCENE...",
-    .title = "whether the orders are as expected: a verdict for CI",
+    .title = "checks that the orders are as expected: a verdict for CI",
     .about =
-        "Whether scenes still converge as their 'verify' parts expect, or, where a scene has "
-        "none, as the scheme should. Three studies that are apart: over h at one time step, over "
-        "k on one mesh, and both together against the solution. The verdict on an order comes "
-        "from its 95 % interval: PASS within the band, FAIL outside, INCONCLUSIVE across its "
-        "end. Exit code 0: all PASS; 1: not so.",
-    .more = "The options of the method are taken instead of what the scenes say.",
+        "Checks that scenes still converge as their 'verify' parts expect. A scene without such a "
+        "part is checked against theory. There are three kinds of study: over h at one time step, "
+        "over k on one mesh, and over both against the solution. An order has the verdict PASS if "
+        "its 95 % interval lies within the band, FAIL if its 99 % interval lies outside, and else "
+        "INCONCLUSIVE. Exit code 0: all orders pass; 1: some do not.",
+    .more = "The options of the method replace what the scenes say.",
     .example = {"beamrate check --all --junit orders.xml --markdown summary.md",
                 "beamrate check my_scene.yaml --json new.json --compare old.json"},
     .most_words = BR_MOST_WORDS,

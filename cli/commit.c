@@ -98,8 +98,8 @@ static enum br_status read_lines(FILE *file, struct list *l, struct br_error *er
         return fail_with_errno(list_name, err);
     return ours ? BR_OK
                 : br_fail(err, BR_BAD_INPUT,
-                          "%s is not a list of results of this version; remove it, and all files "
-                          "there count as your own",
+                          "%s is not a list of results of this version; if you remove it, all "
+                          "files there count as your own",
                           list_name);
 }
 
@@ -289,7 +289,8 @@ static enum br_status remove_old(int folder, const struct list *new, const struc
         if (!is_ours(folder, e)) {
             fputs("beamrate: ", stderr);
             br_quote(stderr, &br_for_text, e->name);
-            fputs(" is of an earlier run and was changed since: it stays\n", stderr);
+            fputs(" comes from an earlier run and has been changed since: it is not removed\n",
+                  stderr);
         } else if (unlinkat(folder, e->name, 0) != 0)
             return fail_with_errno(e->name, err);
     }
@@ -302,7 +303,9 @@ enum br_status br_set_finish(int folder, int hidden, struct br_error *err)
     bool failed = read_list(hidden, &new, err) || read_list(folder, &old, err);
     const char *in_way = failed ? NULL : find_in_way(folder, hidden, &new, &old);
     if (in_way)
-        failed = br_fail(err, BR_BAD_INPUT, "%s is not as an earlier run wrote it: move it away",
+        failed = br_fail(err, BR_BAD_INPUT,
+                         "%s was not written by an earlier run, or has changed "
+                         "since: move it away",
                          in_way);
     failed = failed || move_new(folder, hidden, &new, err) || remove_old(folder, &new, &old, err);
     if (!failed && (!br_sync_folder(folder) ||

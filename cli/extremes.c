@@ -83,7 +83,7 @@ static enum br_status check_options(const struct run *r, struct br_error *err)
         for (size_t e = 0; e < r->parts; e++)
             wanted |= accepts(r->part[e].experiment, own_options[i].id);
         if (!wanted)
-            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part heeds it; it is for %s",
+            return br_fail(err, BR_BAD_INPUT, "%s: no chosen part uses it; it is for %s",
                            own_options[i].option, accepting(own_options[i].id));
     }
     return BR_OK;
@@ -241,18 +241,17 @@ const struct br_command br_command_extremes = {
     .bit = BR_FOR_EXTREMES,
     .name = "extremes",
     .arguments = "[PART...] [SCENE]",
-    .title = "where does it break, and does it say so?",
+    .title = "finds where a scene breaks, and whether round-off is as predicted",
     .about =
-        "Where does it break, and does it say so? Each part goes to one kind of extremes, compares "
-        "what the theory predicts with what is measured, and writes tables and pictures. The "
-        "verdict fails where a result is wrong and nothing said so. Without a PART all are "
-        "tried. A SCENE is a file or the name of a bundled scene; without one the paper's examples "
-        "are taken.",
+        "Each part tests one kind of extreme: it compares predictions with measurements, and "
+        "writes tables and pictures. The verdict fails if a result is wrong without a warning. "
+        "Without a PART all parts run. A SCENE is a file or the name of a bundled scene; without "
+        "one, the paper's examples are used.",
     .more =
-        "Parts floors and steps hold every linear solver, and what steps gather, to the solver "
-        "plain in long double. Part stability marches the scene over n and k, and over c_H and k, "
-        "and says which marches break: they are not finite, or the scheme itself makes energy. An "
-        "option that no chosen part heeds is refused.",
+        "Part floors compares every linear solver with the solver plain in long double; part steps "
+        "compares the round-off that many steps accumulate. Part stability marches the scene over "
+        "n and k, and over c_H and k, and finds the marches that break: they are not finite, or "
+        "the scheme itself adds energy. An option that no chosen part uses is refused.",
     .example = {"beamrate extremes stability impact --out stability",
                 "beamrate extremes stability my_scene.yaml --methods euler+lagged,bdf2",
                 "beamrate extremes floors -n 100,1000 -k 0.01"},

@@ -61,7 +61,7 @@ const struct br_extremes_experiment br_extremes_experiments[] = {
     },
     {
         .name = "steps",
-        .title = "round-off that 1 to 1e7 steps gather, measured and predicted; time levels",
+        .title = "round-off that 1 to 1e7 steps accumulate, measured and predicted; time levels",
         .accepts = BR_ACCEPTS(K),
         .scene = {"example1", "example2"},
         .run = run_steps,

@@ -70,12 +70,12 @@ const struct br_command br_command_figures = {
     .bit = BR_FOR_FIGURES,
     .name = "figures",
     .arguments = "",
-    .title = "the paper's Figures 2 to 10, and what its section 3.2 says beside what we find",
+    .title = "the paper's Figures 2 to 10, and the statements of its section 3.2 beside our values",
     .about =
         "Figures 2 to 10 of the paper from Examples 1 to 4 at h = k = 1e-3, each as a gnuplot "
         "script, data, SVG and PNG; and every statement of section 3.2 with our value, its error "
-        "bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). All of these but .csv and "
-        ".json show the figures with their captions, as report.html does.",
+        "bar, and whether they agree (claims.txt, .csv, .md, .tex, .json). All formats but .csv "
+        "and .json show the figures with their captions; report.html does, too.",
     .example = {"beamrate figures --out figures"},
     .run = run,
 };

@@ -92,7 +92,7 @@ static void print_commands(FILE *out)
 
 /* ---- registries ---- */
 
-/* "--equilibrate   --solver umfpack, cholmod": the rows that use field i of a method. */
+/* "--kernel   --solver auto, riccati": the rows that use field i of a method. */
 static void print_users(FILE *out, size_t i)
 {
     const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];
@@ -124,7 +124,7 @@ static void print_methods(FILE *out)
                     : br_word_available(list[i].words, row) ? "available here"
                                                             : "not available on this machine");
     }
-    fprintf(out, "\nOptions that some of these heed:\n");
+    fprintf(out, "\nOptions that some of these use:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         print_users(out, i);
     fprintf(out,
@@ -169,10 +169,11 @@ const struct br_command br_command_help = {
     .bit = BR_FOR_HELP,
     .name = "help",
     .arguments = "[TOPIC]",
-    .title = "the commands, one of them, or the methods",
+    .title = "lists the commands, the options of one command, or the methods",
     .about =
-        "Without a TOPIC the commands; with one a command's options, or with 'methods' all that "
-        "may be chosen by name, with 'man' the manual page, with 'markdown' docs/options.md.",
+        "Without a TOPIC: lists the commands. With a command: lists its options. 'methods' lists "
+        "all names that can be chosen, 'man' prints the manual page, 'markdown' prints "
+        "docs/options.md.",
     .example = {"beamrate help", "beamrate help run", "beamrate help methods"},
     .most_words = 1,
     .words = &topics,

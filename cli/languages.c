@@ -265,65 +265,61 @@ static const struct {
     const char *title, *text[8];
 } sections[] = {
     {"WHAT IS SAID BEFORE A MARCH",
-     {"run predicts the discretisation error from coarse marches, with bounds, or says "
-      "that it cannot, and the round-off of the linear solver; both are relative to the "
-      "solution and stand in the summaries. It warns on standard error, with what to do "
-      "instead, where round-off is above the discretisation error, and where the latter "
-      "is above 5 %; where a load does between the time levels what they do not see, or "
-      "inside of elements what their quadrature does not see; and where a lagged contact "
-      "will be unstable, or may gain energy. A march that needs more memory than there "
-      "is, or more than a century, is refused before a folder is made; one of more than a "
-      "day is warned of. The other commands say of their marches what is cheap to tell, "
-      "and study and tables add up the memory of marches that run at once."}},
+     {"run predicts two errors, both relative to the solution: the discretisation error, with "
+      "bounds, from coarse marches, and the round-off of the linear solver. If it cannot predict "
+      "an error, it says so. It warns on standard error, with a remedy, in these cases: round-off "
+      "is larger than the discretisation error; the discretisation error is above 5 %; a load "
+      "changes faster than the time steps or the quadrature of the elements resolve; a lagged "
+      "contact will be unstable, or may gain energy. A march that needs more memory than there is, "
+      "or more than a century, is refused before a folder is made. A march of more than a day "
+      "gives a warning. The other commands give the warnings that are cheap to compute; study and "
+      "tables add up the memory of marches that run at once."}},
     {"MORE MACHINES",
-     {"Started by mpirun or srun (with MPI built in), the ranks share the work, and rank "
-      "0 alone speaks and writes; results are those of one process, to the bit. --threads "
-      "counts for each rank; by default a rank uses the cores that it is bound to, shared "
-      "with the ranks that are bound to the same ones. All ranks must see the same "
-      "scenes. A build without MPI refuses to be started several times."}},
+     {"If mpirun or srun starts the program (with MPI built in), the ranks share the work, and "
+      "only rank 0 prints and writes. The results are those of one process, to the bit. --threads "
+      "is the number for each rank; by default a rank uses the cores that it is bound to, shared "
+      "with the ranks that are bound to the same ones. All ranks must see the same scenes. A build "
+      "without MPI refuses to be started several times."}},
     {"SCENES",
      {"A scene is a YAML file; every number carries its unit, loads and initial data are "
       "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
       "--new' explains every key. It is read once, from a file, a pipe, or standard input "
       "(-), and is refused beyond 1 MiB."}},
     {"FILES",
-     {"For every table NAME, the files NAME.txt, .csv, .md, .tex and .json, and for every "
-      "plot a gnuplot script NAME-*.gp, its data NAME-*.dat, and, where gnuplot is "
-      "installed, .svg and .png. If gnuplot fails on a picture, a warning names it and "
-      "only that picture is missing; the exit code is that of the results. A scene's NAME "
-      "is its file's, with _ for what is no letter, digit, blank or one of _ . - +, at "
-      "most 100 bytes.",
-      "The files of one run are a set. The list .beamrate-set says which files of its "
-      "folder are results, a line each: the number of the set, the size in bytes, the time of "
-      "writing in ns since 1970, and the name. New files are written in the hidden folder "
-      ".beamrate-new, under the lock of .beamrate-lock: a second program that would write "
-      "there is refused. Then the new list is put into the hidden folder, "
-      "which decides; the files are renamed into place, old ones removed, and the new list "
-      "replaces the old one last. A program that is killed before it has decided for the new "
-      "set leaves the old one; after that, the next command with the same folder finishes "
-      "its work first. A new set takes the place of those with which it shares a file's name; "
-      "their other files are removed, unless somebody has changed them. A file that is not "
-      "listed, or whose size or time is not the listed one, is never replaced: where one is "
-      "in the way, the results go into the folder set-1 beside it (or the next free number), "
-      "and the exit code is 3. An edit that keeps size and time is not seen; a copy of a "
-      "folder that has not kept the times counts as edited.",
+     {"Every table NAME is written as NAME.txt, .csv, .md, .tex and .json. Every plot is written "
+      "as a gnuplot script NAME-*.gp with its data NAME-*.dat and, where gnuplot is installed, as "
+      ".svg and .png. If gnuplot fails on a picture, a warning names it and only that picture is "
+      "missing; the exit code is that of the results. The NAME of a scene is that of its file, at "
+      "most 100 bytes, where _ replaces all but letters, digits, blanks and _ . - +.",
+      "The files of one run are a set. The list .beamrate-set says which files of its folder are "
+      "results, a line each: the number of the set, the size in bytes, the time of writing in ns "
+      "since 1970, and the name. New files are written in the hidden folder .beamrate-new, under "
+      "the lock of .beamrate-lock: a second program that would write there is refused. Then the "
+      "new list is put into the hidden folder: from now on the new set counts. The "
+      "files are renamed into place, old ones are removed, and the new list replaces the old one "
+      "last. A program that is killed before the new set counts leaves the old set; if it is "
+      "killed later, the next command with the same folder completes the new set first. A new set "
+      "takes the place of those with which it shares a file's name; their other files are removed, "
+      "unless somebody has changed them. A file that is not listed, or whose size or time is not "
+      "the listed one, is never replaced: if it is in the way, the results go into the folder "
+      "set-1 beside it (or the next free number), and the exit code is 3. An edit that keeps size "
+      "and time is not detected; a copy of a folder that has not kept the times counts as edited.",
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
       "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",
      {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
       "of the one the program was built or installed with.",
-      "BEAMRATE_SILENCE: seconds after which a rank that says nothing is taken for dead, "
-      "60 by default.",
-      "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by "
-      "default; then it is killed, as it is by an interrupt.",
+      "BEAMRATE_SILENCE: seconds after which a rank that sends nothing is regarded as dead, 60 by "
+      "default.",
+      "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by default; then "
+      "it is killed. An interrupt kills it, too.",
       "TMPDIR: the folder for the runs of orders --run, /tmp by default."}},
     {"EXIT STATUS",
-     {"0 done; 1 a verdict failed; 2 bad input; 3 the "
-      "computation failed (a failed cell, too, after the results have been written; a march "
-      "of run that stops early keeps what it has written). An interrupted program ends by "
-      "its signal and leaves no file half written; a hidden folder that a second signal "
-      "leaves behind is removed, or its set put in place, by the next command that writes "
-      "there."}},
+     {"0 done; 1 a verdict failed; 2 bad input; 3 the computation failed. If a cell failed, the "
+      "exit code is 3 after the results have been written; a march of run that stops early keeps "
+      "what it has written. An interrupted program ends by its signal and leaves no file half "
+      "written. A second signal may leave a hidden folder; the next command that writes there "
+      "removes it, or puts its set in place."}},
     {"SEE ALSO", {"gnuplot(1), mpirun(1)"}},
 };
 
@@ -367,7 +363,7 @@ static const struct br_quoting for_page = {
     .around = "", .stead = {{'|', "\\|"}, {'<', "\\<"}, {'*', "\\*"}, {'_', "\\_"}}};
 static const struct br_quoting for_zsh_words = {.around = "", .stead = {{':', "\\:"}}};
 
-#define NOT_HEEDED "An option that the chosen method does not heed is refused."
+#define NOT_HEEDED "An option that the chosen method does not use is refused."
 #define TABLE_OF_OPTIONS "| option | default | what it does |\n|---|---|---|\n"
 
 static const struct language languages[] = {
@@ -382,7 +378,7 @@ static const struct language languages[] = {
                 ".B beamrate\n.I command\n.RI [ option ...]\n.SH COMMANDS\n",
         .command = ".SS beamrate %c{ %s}\n%B\n{%M\n}",
         .option = ".TP\n.B {\\-%l, }\\-\\-%N{ \\fI%a\\fR}\n%I.\n{%M\n}",
-        .method = ".PP\nAnd the options of the method, below.\n",
+        .method = ".PP\nThe options of the method apply, too; see below.\n",
         .word = ".TP\n.B %w\n%T%u\n",
         .examples = ".PP\n.nf\n",
         .example = "%E\n",
@@ -404,7 +400,7 @@ static const struct language languages[] = {
         .examples_end = "```\n\n" TABLE_OF_OPTIONS,
         .examples_first = true,
         .option = "| {`-%l`, }`--%n{ %a}` | %d | %H{. %M} |\n",
-        .method = "\nAnd the [options of the method](#options-of-the-method).\n",
+        .method = "\nThe [options of the method](#options-of-the-method) apply, too.\n",
         .words = "\n",
         .word = "- `%w`{: %T}\n",
         .methods = "\n## Options of the method\n\n" NOT_HEEDED "\n\n" TABLE_OF_OPTIONS,
@@ -540,8 +536,9 @@ const struct br_command br_command_completions = {
     .name = "completions",
     .arguments = "bash|zsh|fish",
     .title = "makes a shell complete commands, options, values and scenes",
-    .about = "Prints what makes a shell complete the commands, their options, values and scenes.",
-    .more = "It is installed where the shells look for it.",
+    .about = "Prints a script by which a shell completes the commands, their options, values and "
+             "scenes.",
+    .more = "The scripts are installed where the shells look for them.",
     .example = {"beamrate completions bash > beamrate.bash", "beamrate completions zsh > _beamrate",
                 "beamrate completions fish > beamrate.fish"},
     .least_words = 1,

@@ -108,7 +108,7 @@ static int run_all(int argc, const char **argv)
 {
     /* A failing function sets this error. One that fails without setting it still fails, since
      * chains of calls return err->status. */
-    struct br_error err = {BR_IO, "a failure that says nothing: this is a defect of the program"};
+    struct br_error err = {BR_IO, "a failure without a message: this is a defect of the program"};
     bool failed = br_ranks_start(&err);
     if (!br_ranks_first() && !freopen("/dev/null", "w", stdout)) /* only rank 0 prints */
         failed = br_fail(&err, BR_IO, "/dev/null: %s", strerror(errno));
@@ -129,7 +129,7 @@ static int run_all(int argc, const char **argv)
         br_signals_raise_again();
     }
     if (!status && br_signals_caught()) { /* a script must see that a signal came */
-        fprintf(stderr, "beamrate: interrupted when all was written\n");
+        fprintf(stderr, "beamrate: interrupted after everything was written\n");
         br_signals_raise_again();
     }
     if (status) {

@@ -241,11 +241,12 @@ const struct br_command br_command_orders = {
     .more =
         "A table is read as programs write it: CSV, tabs, semicolons with decimal commas, blanks, "
         "Markdown, LaTeX, lines of 'h = 0.1  e = 0.2', exponents of Fortran. Columns h, n, level "
-        "or dofs, or other usual names like dx, Mesh size, N, cells, ndofs, tell the mesh; k, dt, "
-        "nt or steps the time step; a unit may follow in brackets. A line says what was taken for "
-        "what. Columns of rates, times and iterations are left aside. Errors get orders with 95 % intervals, along lines and jointly in h and k; "
-        "values get the limit, and the grid convergence index. Rows at a floor are left out by "
-        "name. With --expect or 'verify:' there are verdicts, as 'check' has them.",
+        "or dofs, or other usual names like dx, Mesh size, N, cells, ndofs, give the mesh; k, dt, "
+        "nt or steps give the time step; a unit may follow in brackets. A line says how each "
+        "column was read. Columns of rates, times and iterations are left aside. Errors get orders "
+        "with 95 % intervals, along lines and jointly in h and k; values get the limit, and the "
+        "grid convergence index. Rows at a floor are left out by name. With --expect or 'verify:' "
+        "there are verdicts, as 'check' has them.",
     .example = {"beamrate orders errors.csv --error l2,h1 --expect 'l2: h 2 +- 0.1'",
                 "beamrate orders drag.csv --value drag",
                 "beamrate orders --run './poisson {n}' -n 10,20,40,80 --read 'l2=error ([^ ]+)'"},

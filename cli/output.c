@@ -155,8 +155,8 @@ static enum br_status clear_hidden(const struct br_output *o, struct br_error *e
         br_set_remove(o->parent, hidden_name, hidden);
     close(hidden);
     return inner.status ? br_fail(err, inner.status,
-                                  "the results of an earlier run, which wait in %s, cannot be put "
-                                  "in place (remove it to give them up): %.700s",
+                                  "the results of an earlier run, which are in %s, cannot be put "
+                                  "in place (remove it to discard them): %.700s",
                                   hidden_name, inner.message)
                         : BR_OK;
 }
@@ -206,7 +206,8 @@ enum br_status br_output_file(const struct br_output *o, const char *name, FILE 
     char path[2048];
     if (*name == '.' || strchr(name, '/'))
         return br_fail(err, BR_BAD_INPUT,
-                       "found '%.900s', expected a file's name that begins with no dot", name);
+                       "found '%.900s', expected a file's name that does not begin with a dot",
+                       name);
     snprintf(path, sizeof path, "%s/%s", o->staging, name);
     *file = fopen(path, "w");
     return *file ? BR_OK
@@ -237,12 +238,15 @@ static enum br_status divert(struct br_output *o, const char *in_way, struct br_
         taken = errno == ENOTEMPTY || errno == EEXIST || errno == ENOTDIR;
     }
     if (!moved)
-        return br_fail(err, BR_IO, "%s/%s is not as an earlier run wrote it: %s", o->folder, in_way,
-                       strerror(errno));
+        return br_fail(err, BR_IO,
+                       "%s/%s was not written by an earlier run, or has changed since: "
+                       "%s",
+                       o->folder, in_way, strerror(errno));
     close_output(o);
     return br_fail(err, BR_IO,
-                   "%s/%s is not as an earlier run wrote it, and is not replaced: all results are "
-                   "in %s/%s instead; move that file away, or choose another folder",
+                   "%s/%s was not written by an earlier run, or has changed since, and is not "
+                   "replaced: all results are in %s/%s instead; move that file away, or choose "
+                   "another folder",
                    o->folder, in_way, o->folder, name);
 }
 

@@ -28,7 +28,8 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     if (judge && judge->nests)
         return br_fail(
             err, BR_BAD_INPUT,
-            "--reference: found '%s', expected a judge of any mesh and step: exact or mms",
+            "--reference: found '%s', expected a reference for any mesh and time step: exact or "
+            "mms",
             judge->name);
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
@@ -71,7 +72,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     br_report_plan(&r->plan, r->session.options->word[0], &provenance, r->session.document);
     const enum br_status status = br_session_finish(&r->session, err);
     if (!status && r->plan.chosen == r->plan.count)
-        return br_fail(err, BR_NOT_FINITE, "%s: the goal was missed by all %zu trials",
+        return br_fail(err, BR_NOT_FINITE, "%s: none of the %zu trials reaches the goal",
                        r->opened.scene.name, r->plan.count);
     return status;
 }
@@ -94,13 +95,13 @@ const struct br_command br_command_plan = {
     .name = "plan",
     .arguments = "SCENE",
     .title = "the cheapest way to an error, or the least error for some seconds",
-    .about = "The cheapest way to a relative error, or the least error for some seconds of the "
-             "processor: every method is tried on a grid of n and k (or tolerances), from the "
+    .about = "Finds the cheapest way to a relative error, or the least error for some seconds of "
+             "the processor. Every method is tried on a grid of n and k (or tolerances), from the "
              "cheapest on, until nothing cheaper is left, and then on a finer grid around the "
-             "best. All is measured. Out come the method with n and k, its error and seconds, and "
-             "a command line that marches it.",
-    .more = "One of --error and --seconds is needed. A goal that nothing reaches ends with exit "
-            "code 3.",
+             "best. All errors and times are measured. The result is the method with n and k, its "
+             "error and seconds, and a command line that marches it.",
+    .more = "One of --error and --seconds is needed. If no trial reaches the goal, the exit code "
+            "is 3.",
     .example = {"beamrate plan example2 --error 1e-3",
                 "beamrate plan example3 --error 1e-4 --methods bdf2,esdirk3,adaptive --out plan",
                 "beamrate plan example2 --seconds 1e-3 --methods euler+implicit,adaptive"},

@@ -129,7 +129,7 @@ static void print_wait(double share)
     if (progress.terminal)
         fprintf(stderr, "exact reference: %.1f %% \033[K", 100 * share);
     else
-        fprintf(stderr, "%s: waits for an exact reference\n", progress.what);
+        fprintf(stderr, "%s: computing the exact reference\n", progress.what);
 }
 
 /* The scene's marches wait for its exact reference. `show` prints the marches of others. */

@@ -309,8 +309,8 @@ static enum br_status check_swept(const struct br_options *o, struct br_error *e
     static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
     const char *name = br_first_given(o, single);
     return name ? br_fail(err, BR_BAD_INPUT,
-                          "--%s: it is of one march: --vary does not heed it; --out has what is "
-                          "found at all values",
+                          "--%s: --vary does not use it, since it is for one march; --out has the "
+                          "results at all values",
                           name)
                 : BR_OK;
 }

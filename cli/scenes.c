@@ -70,7 +70,7 @@ static enum br_status show(const char *name, struct br_error *err)
 static enum br_status begin(const char *path, struct br_error *err)
 {
     if (strcmp(path, "-") != 0 && access(path, F_OK) == 0)
-        return br_fail(err, BR_BAD_INPUT, "--new: %s is there already and is not replaced", path);
+        return br_fail(err, BR_BAD_INPUT, "--new: %s exists already and is not replaced", path);
     struct br_whole_file file = {0};
     enum br_status status = br_whole_file_open(&file, "new", path, err);
     if (!status) {

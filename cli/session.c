@@ -47,9 +47,10 @@ struct br_session br_session_begin(const struct br_options *options)
 enum br_status br_session_alone(struct br_error *err)
 {
     const int ranks = br_ranks_size();
-    return ranks == 1 ? BR_OK
-                      : br_fail(err, BR_BAD_INPUT,
-                                "%d ranks would disturb one another's clocks, expected one", ranks);
+    return ranks == 1
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT,
+                         "found %d ranks, which disturb each other's times, expected one", ranks);
 }
 
 enum br_status br_session_open(struct br_session *s, struct br_error *err)
@@ -66,8 +67,8 @@ enum br_status br_session_keep(const struct br_session *s, struct br_kept *kept,
     *kept = (struct br_kept){0};
     if (!br_output_is_open(&s->output) || br_ranks_size() > 1)
         return resume ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
-                                br_ranks_size() > 1 ? "one rank: several keep nothing"
-                                                    : "--out, the folder of what is kept")
+                                br_ranks_size() > 1 ? "one rank: several ranks keep no work"
+                                                    : "--out, the folder of the work that is kept")
                       : BR_OK;
     br_provenance_fill(&here, 0);
     return br_kept_open(kept, s->output.folder, resume, here.machine, err);
@@ -87,8 +88,8 @@ void br_session_report_kept(const struct br_session *s, const struct br_kept *k)
             k->folder, lost);
     if (bad)
         fprintf(stderr,
-                "beamrate: warning: %zu entries in %s are damaged or not what their names "
-                "say: they were not taken\n",
+                "beamrate: warning: %zu entries in %s are damaged or do not match their names: "
+                "they were not used\n",
                 bad, k->folder);
 }
 
@@ -110,7 +111,7 @@ void br_session_announce(const struct br_session *s, const struct br_foreseen *w
     fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",
             seconds, w->bytes / 1e9);
     if (w->untimed)
-        fprintf(stderr, "; not counted is the time of %zu that choose%s their steps", w->untimed,
+        fprintf(stderr, "; the time of %zu that choose%s their steps is not counted", w->untimed,
                 w->untimed == 1 ? "s" : "");
     fputc('\n', stderr);
 }

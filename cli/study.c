@@ -528,7 +528,7 @@ static const struct br_variation_column *name_columns(const struct br_norm *norm
         [Q_LOW] = {"q_low", .for_programs = true},
         [Q_HIGH] = {"q_high", .for_programs = true},
         [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
-        [POINTS] = {"points", "cells that count", .format = "%.0f"},
+        [POINTS] = {"points", "cells used", .format = "%.0f"},
     };
     memcpy(column, columns, sizeof column);
     return column;
@@ -643,8 +643,8 @@ const struct br_command br_command_study = {
     .name = "study",
     .arguments = "SCENE",
     .title = "the errors of a grid of meshes and time steps, and their orders",
-    .about = "The errors of a grid of cells (n, k) of a scene against the exact solution or a fine "
-             "run.",
+    .about = "Measures the errors of a grid of cells (n, k) of a scene against the exact solution "
+             "or a fine run.",
     .more =
         "A scene is a file, or one of the bundled scenes that 'beamrate scenes' lists. The errors "
         "are measured in exact norms over all time levels, and the orders of convergence are "
@@ -661,10 +661,11 @@ const struct br_command br_command_tables = {
     .bit = BR_FOR_TABLES,
     .name = "tables",
     .arguments = "",
-    .title = "the paper's two error tables beside the printed ones",
+    .title = "the paper's two error tables, computed, beside the printed ones",
     .about =
-        "The paper's Tables 1 and 2 beside the printed values, on the printed grids and with the "
-        "printed reference, and against the exact solution, by which the orders are fitted.",
+        "Computes the paper's Tables 1 and 2 on the printed grids with the printed reference, "
+        "beside the printed values. The errors against the exact solution are measured, too; the "
+        "orders are fitted to these.",
     .example = {"beamrate tables --out results", "mpirun -n 4 beamrate tables"},
     .run = run_tables,
 };

@@ -112,7 +112,7 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
     const char *dropped = !adaptive && br_option_given(o, BR_OPT_TOLERANCES) ? "tolerance"
                           : fixed                                            ? NULL
                                   : br_first_given(o, of_fixed);
-    return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods heeds it", dropped)
+    return dropped ? br_fail(err, BR_BAD_INPUT, "--%s: no method of --methods uses it", dropped)
                    : BR_OK;
 }
 
@@ -155,8 +155,9 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     if (!status && !r->session.quiet && (o->seconds >= worth_printing || o->left > 0)) {
         fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->planned, o->seconds);
         if (o->left)
-            fprintf(stderr, "; left out, the dearest first: %zu, --seconds %.0f has all", o->left,
-                    br_trade_seconds_of_all(o));
+            fprintf(stderr,
+                    "; %zu more, the most expensive, are left out; --seconds %.0f tries all",
+                    o->left, br_trade_seconds_of_all(o));
         fputc('\n', stderr);
     }
     if (!status)
@@ -217,7 +218,7 @@ static enum br_status check(const struct run *r, struct br_error *err)
         if (br_trade_tally(t, BR_TRIAL_FAILED) + br_trade_tally(t, BR_TRIAL_OVER) +
                 br_trade_tally(t, BR_TRIAL_LEFT) ==
             t->count)
-            return br_fail(err, BR_NOT_FINITE, "%s: no trial came to its end; the first: %.900s",
+            return br_fail(err, BR_NOT_FINITE, "%s: no trial was completed; the first: %.900s",
                            r->item[i].opened.scene.name, t->trial[0].failure.message);
     }
     return BR_OK;
@@ -232,7 +233,7 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
                                                BR_OPT_RESUME, BR_OPTIONS};
     const char *other = br_first_given(o, others);
     if (other)
-        return br_fail(err, BR_BAD_INPUT, "--%s: --split does not heed it", other);
+        return br_fail(err, BR_BAD_INPUT, "--%s: --split does not use it", other);
     if (o->words != 1)
         return br_fail(err, BR_BAD_INPUT, "--split: found %zu scenes, expected one", o->words);
     return BR_OK;
@@ -351,12 +352,13 @@ const struct br_command br_command_trade = {
     .arguments = "SCENE...",
     .title = "what a digit costs: errors against seconds of many methods",
     .about =
-        "The relative error of many methods at many resolutions against the CPU seconds of their "
-        "marches, one thread, alone. Out come work-precision diagrams with the Pareto front, the "
-        "cheapest way to an error of 1e-2, 1e-3, ... 1e-10, and all trials. Without --methods "
-        "all time schemes are tried, and other friction rules and linear solvers with one of "
-        "them; without -n and -k a coarse grid, and what the paper's table prints.",
-    .more = "Several scenes make a summary, too.",
+        "Measures the relative error of many methods at many resolutions, and the CPU seconds of "
+        "their marches in one thread. The results are work-precision diagrams with the Pareto "
+        "front, the cheapest way to an error of 1e-2, 1e-3, ... 1e-10, and all trials. Without "
+        "--methods all time schemes are tried, and with one of them the other friction rules and "
+        "linear solvers. Without -n and -k the trials are on a coarse grid and at the cells of the "
+        "paper's table.",
+    .more = "For several scenes there is a summary, too.",
     .example =
         {"beamrate trade example2 --methods euler+lagged,euler+implicit -n 25,100 -k 0.1,0.01",
          "beamrate trade example1 example3 --methods bdf2,adaptive -n 50 -k 0.05,0.01 --time-limit 2",

@@ -204,7 +204,7 @@ static void remember(const char *sum)
     char path[4096];
     FILE *file = find_trust_file(path, true) ? fopen(path, "ae") : NULL;
     if (!file || fprintf(file, "%s\n", sum) < 0)
-        fprintf(stderr, "beamrate: warning: that the study file is trusted could not be kept\n");
+        fprintf(stderr, "beamrate: warning: the permission of the study file could not be kept\n");
     if (file)
         fclose(file);
 }
@@ -221,8 +221,8 @@ static enum br_status check_trust(const struct br_orders_request *request, const
     if (!trusted && !br_option_given(options, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT,
                        "%s: it runs the command '%s', and is not trusted yet: read it, then give "
-                       "--trust once (anew where it, its place, the program or a file that the "
-                       "command names has changed)",
+                       "--trust once (again if the file, its place, the program or a file that the "
+                       "command names changes)",
                        request->path, command);
     if (!trusted)
         remember(sum);

@@ -138,7 +138,8 @@ static bool always(const struct br_report *r)
 static void fill_h(const struct br_report *r, struct br_figure *f)
 {
     say_fit(r, BR_PART_TOTAL, f->note[0]);
-    BR_SAY(f->note[1], "A curve is flat where the error of the time step is the larger one.");
+    BR_SAY(f->note[1], "A curve is flat where the error of the time step is larger than that of "
+                       "the mesh.");
     add_panel(r, BR_AXIS_SPACE, f);
     add_curves(r, BR_AXIS_SPACE, error_of, f);
 }
@@ -179,7 +180,7 @@ static void say_orders(const struct br_report *r, enum br_part part, char text[2
         const bool other = seen && strcmp(o->by, r->seen[BR_PART_TOTAL][axis].by) != 0;
         br_append(text, 256, "%s in %s %s%s%s", text[strlen(text) - 1] == 'r' ? "" : ",",
                   br_axis_letters[axis],
-                  seen ? br_order_text(&o->order, number, sizeof number) : "not seen",
+                  seen ? br_order_text(&o->order, number, sizeof number) : "not measurable",
                   other ? " by " : "", other ? o->by : "");
     }
 }
@@ -288,7 +289,8 @@ static const struct br_convergence_picture
     over_k = {"k", "The error against the time step k, one curve per number of elements n.", always,
               fill_k},
     orders = {"orders",
-              "What the orders in h and k were found from, the fitted line and its 95 % band.",
+              "The errors or differences that show the orders in h and k, the fitted line and its "
+              "95 % band.",
               has_orders, fill_orders},
     printed = {"printed",
                "The computed and the printed errors against the time step k and the mesh size h.",

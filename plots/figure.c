@@ -215,7 +215,7 @@ void br_figure_write_data(FILE *out, const struct br_figure *f)
     if (f->about[0])
         write_comment_line(out, f->about);
     if (f->hollow[0])
-        fprintf(out, "# A flag tells why a point is %s; - for none.\n", f->hollow);
+        fprintf(out, "# A flag says why a point is %s; - for none.\n", f->hollow);
     for (size_t i = 0; i < f->panels; i++) {
         const struct br_panel *p = &f->panel[i];
         for (size_t j = 0; j < p->count; j++) {

@@ -66,7 +66,7 @@ static const char *reason(char *text)
         if (!why)
             why = line;
     }
-    return why ? why : "it does not say why";
+    return why ? why : "it gives no reason";
 }
 
 /* The last bytes of whole pictures, without white space. */

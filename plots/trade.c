@@ -96,7 +96,7 @@ static const struct {
     {"other trials", BR_PEN_DOTS},
     {"beyond the limit of lagging", BR_PEN_PLUSES},
     {"printed in the paper", BR_PEN_SQUARES},
-    {"near the judge's own error", BR_PEN_STARS},
+    {"near the reference's own error", BR_PEN_STARS},
 };
 
 /* The order of hues: the paper's method first, then those with most trials on the common front. */

@@ -367,7 +367,7 @@ static enum br_status check_going_on(const struct br_march *m, struct br_error *
     const struct br_counts counts = br_march_counts(m);
     if (most == 0 || counts.steps + counts.rejected < most)
         return BR_OK;
-    return br_fail(err, BR_INTERRUPTED, "scheme %s: at t = %g s %zu steps were made, and no more",
+    return br_fail(err, BR_INTERRUPTED, "scheme %s: at t = %g s the limit of %zu steps is reached",
                    m->method.scheme->name, m->adaptive->now, most);
 }
 

@@ -123,7 +123,7 @@ static void locate(struct zero_search *s, iv part)
     if (s->status)
         return;
     if (++s->examined > MOST_EXAMINED) {
-        refuse(s, part, "where it changes its form cannot be told");
+        refuse(s, part, "where it changes its form cannot be determined");
         return;
     }
     const bool bounded = br_function_bound(s->guard, box, &value);

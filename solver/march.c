@@ -398,8 +398,8 @@ enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind
         return BR_OK;
     return br_fail(err, BR_NOT_FINITE,
                    "the %s motion is lost to underflow: its largest nodal force is %Lg N and its "
-                   "largest initial value %g m, which is to move an element by about %Lg m, "
-                   "expected no less than %g: choose smaller units",
+                   "largest initial value %g m, which move an element by about %Lg m, expected at "
+                   "least %g: choose smaller units",
                    names[fm->field.kind], force, fm->started_with, motion, least_size);
 }
 

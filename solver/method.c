@@ -109,8 +109,8 @@ static enum br_status check(const struct br_method *m, const struct br_scene *sc
         return BR_OK;
     if (scene && m->scheme->adaptive && m->friction->iterates)
         return br_fail(err, BR_BAD_INPUT,
-                       "friction rule '%s' with scheme %s, expected exact or regularised: stick "
-                       "and slip are held between switches, so that nothing is iterated",
+                       "friction rule '%s' with scheme %s, expected exact or regularised: this "
+                       "scheme keeps stick or slip between switches and does not iterate",
                        m->friction->name, m->scheme->name);
     if (scene && m->friction->needs_regularisation && !(scene->friction.regularisation > 0))
         return br_fail(err, BR_BAD_INPUT,

@@ -210,7 +210,7 @@ static const struct br_time_scheme trbdf2 = {
 
 static const struct br_time_scheme sdirk2 = {
     .name = "sdirk2",
-    .title = "diagonally implicit Runge-Kutta, L-stable, looks back at nothing; two solves a step",
+    .title = "diagonally implicit Runge-Kutta, L-stable, uses no earlier step; two solves a step",
     .citation = "Alexander, SIAM J. Numer. Anal. 14 (1977) 1006-1021, Theorem 5",
     .order = 2,
     .form = {&sdirk2_form, &sdirk2_form, &sdirk2_form},

@@ -47,6 +47,7 @@ static bool read_case(const json_t *o, struct br_case *c)
     const int kind = index_of(json_object_get(o, "study"), br_verify_names, BR_VERIFY_KINDS);
     const int verdict =
         index_of(json_object_get(o, "verdict"), br_verdict_names, BR_INCONCLUSIVE + 1);
+    const json_t *highest = json_object_get(o, "highest"); /* older reports do not have it */
     struct br_expectation *e = &c->expected;
     if (json_is_object(order)) /* of format 1 */
         order = json_object_get(order, "value");
@@ -58,6 +59,7 @@ static bool read_case(const json_t *o, struct br_case *c)
            read_number(order, -INFINITY, &c->order.value) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
            read_number(json_object_get(o, "expected"), 0, &e->order) &&
+           (!highest || read_number(highest, 0, &e->highest)) &&
            read_number(json_object_get(o, "tolerance"), 0, &e->tolerance) &&
            read_number(json_object_get(o, "floor"), 0, &e->floor) &&
            read_number(json_object_get(o, "ceiling"), 0, &e->ceiling);

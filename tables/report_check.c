@@ -63,7 +63,7 @@ static void put_verdict(struct br_document *d, const struct br_check *check,
                                                  : "the solution",
                               p->error, p->constant,
                               p->flag    ? ", left out: "
-                              : !p->used ? ", coarser than those that count"
+                              : !p->used ? ", coarser than the errors that are used"
                                          : "",
                               br_flag_name(p->flag));
     }
@@ -86,7 +86,7 @@ static void put_defaults(struct br_document *d, const struct br_check *check, si
     char key[NAME], label[1200];
     snprintf(key, sizeof key, "defaults.%zu", number);
     snprintf(label, sizeof label,
-             "%s has no verify part; these are the defaults, to begin one with", check->path);
+             "%s has no verify part. Its defaults, to start from:", check->path);
     br_put_command(d, key, label, "verify:\n");
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         const struct br_verify_study *v = &check->verify->study[kind];
@@ -118,15 +118,16 @@ static void put_comparison(struct br_document *d, const struct br_comparison *c,
         {.key = "remark"},
     };
     br_put_answer(d,
-                  "Against the earlier check: %zu serious, %zu warnings, %zu notes, %zu the same",
+                  "Compared with the earlier check: %zu serious, %zu warnings, %zu notes, %zu the "
+                  "same",
                   c->tally[BR_SERIOUS], c->tally[BR_WARNING], c->tally[BR_NOTE], c->tally[BR_SAME]);
     if (c->version && strcmp(c->version, now) != 0)
-        br_put_more(d, "; that was by beamrate %s, this is by %s", c->version, now);
+        br_put_more(d, "; the earlier check is by beamrate %s, this one by %s", c->version, now);
     for (size_t i = 0; i < c->count && i < FIRST_FAILURES; i++)
         if (c->difference[i].severity == BR_SERIOUS && isnan(c->difference[i].now))
             br_put_answer(d, *c->difference[i].remark ? "%s: %s" : "%s", c->difference[i].subject,
                           c->difference[i].remark);
-    BR_TABLE(d, "differences", "Against the earlier check", BR_LONG, columns);
+    BR_TABLE(d, "differences", "Compared with the earlier check", BR_LONG, columns);
     for (const struct br_difference *x = c->difference; x < c->difference + c->count; x++) {
         BR_PUT_ROW(d, br_text(br_severity_names[x->severity]), br_text(x->subject),
                    br_number(x->before), br_number(x->now), br_text(*x->remark ? x->remark : NULL));
@@ -191,7 +192,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         {.key = "margin", .format = "%+.3f", .flags = BR_FILES_ONLY},
         {.key = "constant", .format = "%.3e"},
         {.key = "floor", .flags = BR_FOR_PROGRAMS},
-        {.key = "ceiling", .heading = "its range"},
+        {.key = "ceiling", .heading = "allowed range"},
         {.key = "verdict"},
     };
     char order[NAME];

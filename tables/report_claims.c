@@ -26,8 +26,9 @@ void br_report_claims(const struct br_finding *finding, size_t n, size_t per_sec
     br_put_answer(d, "The paper's claims: %zu agree, %zu differ, %zu undecided.", count[BR_AGREES],
                   count[BR_DIFFERS], count[BR_UNDECIDED]);
     br_put_answer(d,
-                  "Ours: by the scheme with h = 1/%zu m and k = 1/%zu s; the bar is the distance "
-                  "to the exact solution, or, where there is none, to a second resolution.",
+                  "Our values come from the scheme with h = 1/%zu m and k = 1/%zu s. The error bar "
+                  "is the distance to the exact solution or, where there is none, to a second "
+                  "resolution.",
                   n, per_second);
     br_put_table(d, "claims", "The claims", BR_MAIN);
     for (size_t i = 0; br_claims[i].name; i++) {

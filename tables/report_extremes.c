@@ -94,10 +94,10 @@ static void put_floors(struct br_document *d, const struct br_floors *f)
     if (br_floors_verdict(f, &err))
         br_put_answer(d, "ABOVE: %s", err.message);
     else if (f->gathered)
-        br_put_answer(d, "However many steps there are, the round-off that they gather stays below "
-                         "what is predicted, and the time levels are n T/N.");
+        br_put_answer(d, "For every number of steps, the accumulated round-off stays below its "
+                         "prediction, and the time levels are n T/N.");
     else
-        br_put_answer(d, "Every solver is right to the round-off that it predicts, or refuses.");
+        br_put_answer(d, "Every solver is accurate to its predicted round-off, or refuses.");
     if (f->gathered) {
         put_gathered_grid(d, f);
         br_put_table(d, "steps", "Every scene, method and number of steps",
@@ -114,15 +114,17 @@ static void put_floors(struct br_document *d, const struct br_floors *f)
 void br_report_floors(const struct br_floors *f, struct br_document *d)
 {
     if (f->gathered) {
-        br_document_begin(d, "steps", "beamrate extremes steps", 1, "Round-off that steps gather");
+        br_document_begin(d, "steps", "beamrate extremes steps", 1,
+                          "Accumulated round-off of many "
+                          "steps");
         put_floors(d, f);
         br_put_note(d,
                     "Deviation: the largest difference of all nodal displacements from the "
                     "exact discrete solution at the end of the duration, relative to the "
                     "largest displacement of the field; the larger of both fields; 10 elements.");
-        br_put_note(d, "Predicted: what a solver loses in a step, and a random walk of "
-                       "64 * 2^-52 * sqrt(N). In example1 the tip sticks: friction holds its "
-                       "velocity, and nothing its displacement.");
+        br_put_note(d, "Predicted: the round-off of a solver in one step, and a random walk of 64 "
+                       "* 2^-52 * sqrt(N). In example1 the tip sticks: friction keeps its velocity "
+                       "at 0, but nothing corrects its displacement.");
         return;
     }
     br_document_begin(d, "floors", "beamrate extremes floors", 1,
@@ -136,7 +138,7 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
         "implicit Euler with lagged contact, or with contact at u_n where the lagged one is "
         "beyond its stability limit; the larger of both fields.",
         f->scene[0]->name);
-    br_put_note(d, "Refused: the assembled matrix would leave a march more than a twentieth off.");
+    br_put_note(d, "Refused: with the assembled matrix, the error of a march would exceed 5 %%.");
 }
 
 /* ---- stability ---- */
@@ -212,7 +214,7 @@ static void answer_meshes(struct br_document *d, const struct br_stability *s,
     else
         br_put_more(d, "no k that was tried is stable, not even %.4g s.", worst->broken);
     if (isfinite(worst->predicted))
-        br_put_more(d, " Theory has %.4g s for a contact that stays closed.", worst->predicted);
+        br_put_more(d, " Theory gives %.4g s for a contact that stays closed.", worst->predicted);
 }
 
 /* From which c_H on it breaks. */
@@ -231,8 +233,8 @@ static void answer_stiffnesses(struct br_document *d, const struct br_stability_
     else
         br_put_answer(
             d,
-            "Over c_H, at n = %zu: up to %.3g N/m all these k are stable; at %.3g N/m they "
-            "are up to %.4g s.",
+            "Over c_H, at n = %zu: up to %.3g N/m all these k are stable; at %.3g N/m k is stable "
+            "up to %.4g s.",
             c->n, c[-1].stiffness, c->stiffness, c->largest);
 }
 
@@ -262,14 +264,15 @@ void br_report_stability(const struct br_stability *s, struct br_document *d)
         put_points(d, s, p);
     br_put_section(d, "What is unstable");
     br_put_note(d,
-                "A march that is not finite, or whose scheme makes energy. The work of loads and "
-                "the energy of the start do not count. Implicit Euler: the share of energy that "
-                "the scheme added, by the balance of every step, over what was put into the "
+                "A march is unstable if it is not finite, or if its scheme adds energy. The work "
+                "of loads and the initial energy do not count. Implicit Euler: the share of energy "
+                "that the scheme added, by the balance of every step, over what was put into the "
                 "field; more than %g is unstable. With contact at u_n it adds nothing.",
                 br_stability_most(&(struct br_method){.scheme = br_time_schemes[0]}));
-    br_put_note(d, "Other schemes: the energy at the end over what the loads put in, in this march "
-                   "and in one by implicit Euler with contact at u_n; more than 10 is unstable.");
+    br_put_note(d, "Other schemes: the energy at the end over the energy that the loads put in, in "
+                   "this march and in one by implicit Euler with contact at u_n; more than 10 is "
+                   "unstable.");
     br_put_note(d,
                 "By theory a lagged contact that stays closed is stable if c_H G(2/k) is at most "
-                "1; one that opens and closes gains nothing if c_H is at most (a + 2c/k)/L.");
+                "1; one that opens and closes gains no energy if c_H is at most (a + 2c/k)/L.");
 }

@@ -109,7 +109,7 @@ void br_put_triangles(struct br_document *d, const struct br_report *r)
                    br_number(t->printed_a), br_number(t->printed_b), br_number(t->least),
                    br_number(t->most), br_number(t->distance), br_truth(t->contradiction));
     }
-    br_put_note(d, "Whatever the reference, two printed errors need solutions that are at least "
-                   "their difference and at most their sum apart. The scheme's own solutions are "
-                   "as far apart as the column before the last one says.");
+    br_put_note(d, "For every reference, the distance of two solutions is at least the difference "
+                   "of their errors, and at most the sum. The last column but one is the distance "
+                   "of the scheme's own solutions.");
 }

@@ -26,11 +26,11 @@ static void answer_missed(struct br_document *d, const struct br_plan *p)
     size_t best = p->count;
     if (isfinite(p->goal.error))
         br_put_answer(d,
-                      "Missed: nothing that was tried has a relative error of %g within the time "
-                      "limit of %g s a march.",
+                      "Missed: no trial has a relative error of %g within the time limit of %g s "
+                      "for a march.",
                       p->goal.error, p->request.time_limit);
     else
-        br_put_answer(d, "Missed: nothing that was tried takes at most %g CPU s.", p->goal.seconds);
+        br_put_answer(d, "Missed: no trial takes at most %g CPU s.", p->goal.seconds);
     for (size_t i = 0; i < p->count; i++)
         if (isfinite(error_of(p, i)) && (best == p->count || error_of(p, i) < error_of(p, best)))
             best = i;
@@ -170,12 +170,12 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
     br_put_section(d, "What is measured");
     br_put_note(d, "%s", p->request.norm->title);
     br_put_note(d,
-                "Relative errors are over the norm of the solution; the judge's own error, %.1e, "
-                "is added.",
+                "Relative errors are divided by the norm of the solution; the reference's own "
+                "error, %.1e, is added.",
                 isfinite(p->own) ? p->own : 0.0);
-    br_put_note(d, "An error is the largest at a run's own time levels: nobody asks long steps "
-                   "about what happens between them. There are at least 10 steps, and 20 levels "
-                   "where the scheme chooses its steps.");
+    br_put_note(d, "The error of a run is the largest at its own time levels; the error between "
+                   "them is not measured. A run has at least 10 steps, or 20 time levels if the "
+                   "scheme chooses its steps.");
     br_put_note(d,
                 "CPU: set-up and march, seconds of the processor in one thread, the least of up to "
                 "%zu marches after a warm-up. On %s.",

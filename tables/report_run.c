@@ -56,7 +56,7 @@ static const char *with_error(double value, double error, char text[VALUE])
 {
     if (!isinf(error))
         return br_uncertain_text(value, error, text, VALUE);
-    snprintf(text, VALUE, "%.1g (perhaps no digit is right)", value);
+    snprintf(text, VALUE, "%.1g (perhaps no digit is correct)", value);
     return text;
 }
 
@@ -118,15 +118,15 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     char interval[BR_PREDICTED_TEXT];
     if (f->prediction->known)
         br_put_answer(d,
-                      "Predicted before the march, of each field relative to its largest (L2): "
-                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is what "
-                      "this may make at the tip, an estimate.",
+                      "Predicted before the march, for each field relative to its largest L2 norm: "
+                      "discretisation error %s (time %.2g, space %.2g); round-off %.2g. +- is the "
+                      "estimated error of the tip.",
                       br_predicted_interval(&f->prediction->whole, interval),
                       f->prediction->time.error, f->prediction->space.error,
                       f->prediction->round_off);
     else if (f->prediction->bounded)
         br_put_answer(d,
-                      "The discretisation error is not known, between %.0e and %.0e: %s; "
+                      "The discretisation error is not known (between %.0e and %.0e): %s; "
                       "round-off %.1e.",
                       f->prediction->whole.low, f->prediction->whole.high, f->prediction->why,
                       f->prediction->round_off);
@@ -144,11 +144,11 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
             continue;
         br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
         if (in > 0)
-            br_put_more(d, " (%.2g %% of what was there at first and of the loads' work)",
+            br_put_more(d, " (%.2g %% of the initial energy and the work of the loads)",
                         100 * added / in);
         br_put_more(d, ".");
         if (kind == BR_AXIAL && r->work.scheme_contact < 0 && !r->method.contact->at_new_step)
-            br_put_more(d, " It is the lagged contact's: --contact implicit adds none.");
+            br_put_more(d, " The lagged contact added it: --contact implicit adds none.");
     }
     if (r->contact_unstable)
         br_put_answer(d, "The lagged contact is beyond its stability limit here: the tip may "
@@ -259,8 +259,7 @@ static void put_switches(struct br_document *d, const struct br_run_report *r)
                                                {.key = "to"}};
     BR_FACT(d, br_count(r->switches), .key = "events.switches",
             .heading = "switches that the scheme has found");
-    BR_TABLE(d, "switches_found", "Switches within its steps, as the scheme has found them", 0,
-             columns);
+    BR_TABLE(d, "switches_found", "Switches that the scheme found within its steps", 0, columns);
     for (size_t i = 0; i < r->switches && i < BR_MOST_SWITCHES; i++) {
         const struct br_switch *s = &r->switched[i];
         const enum br_regime regime[] = {s->from, s->to};
@@ -291,8 +290,8 @@ static void put_events(struct br_document *d, const struct br_run_report *r)
     const struct br_tip_watch *w = &r->watch;
     br_put_section(d, "Events at the tip");
     br_put_note(d,
-                "An event is told at the first time level of the new regime: it happened in the "
-                "step before, up to k = %g s earlier.",
+                "The time of an event is the first time level of the new regime. The event "
+                "happened in the step before, up to k = %g s earlier.",
                 r->k);
     br_hide_fact(d, br_number(r->k), "s", "events.resolution");
     BR_FACT(d, br_if(w->contact, br_truth(w->closed_at_start)), .key = "events.closed_at_start",
@@ -353,13 +352,13 @@ static void put_works(struct br_document *d, const struct br_run_report *r)
     put_two(d, r, w->scheme, "lost to the scheme", "J", "energies.lost_to_scheme");
     br_put_fact_as(d, br_if(r->marched.contact.modelled, br_number(w->scheme_contact)),
                    "  and by its contact", "J", "energies.lost_to_scheme_by_contact");
-    br_put_fact_as(d, br_number(imbalance), "missing in the balance, of the terms' sum", NULL,
+    br_put_fact_as(d, br_number(imbalance), "imbalance over the sum of the terms", NULL,
                    "energies.imbalance");
     br_put_fact_as(d, br_number(r->energy_worst), "  in one step at most", NULL,
                    "energies.largest_imbalance_of_a_step");
     put_two(d, r, added, NULL, "J", "energies.added_by_scheme.in_all");
     put_two(d, r, put_in, NULL, "J", "energies.added_by_scheme.put_in");
-    put_two(d, r, steps, any ? "steps in which the scheme added" : NULL, NULL,
+    put_two(d, r, steps, any ? "steps in which the scheme added energy" : NULL, NULL,
             "energies.added_by_scheme.steps_that_add");
     put_two(d, r, w->gained, any ? "  added in these" : NULL, "J",
             "energies.added_by_scheme.by_these_steps");
@@ -378,7 +377,7 @@ static void put_energies(struct br_document *d, const struct br_run_report *r)
             .heading = "lost to friction", .unit = "J");
     BR_FACT(d, br_truth(r->summed), .key = "energies.summed",
             .heading = r->summed ? NULL : "works, losses, balance");
-    br_put_shown(d, "not summed, they need the fields of every step: --check");
+    br_put_shown(d, "not summed; --check sums them, from the fields of every step");
     if (r->summed)
         put_works(d, r);
 }
@@ -418,7 +417,7 @@ static void put_certificate(struct br_document *d, const struct br_run_report *r
             br_put_shown(d, "%.3g of at most %.3g: %s", worst, most,
                          worst <= most ? "good" : "BAD");
         else
-            br_put_shown(d, "%.3g: not judged, round-off alone may be more", worst);
+            br_put_shown(d, "%.3g: not checked, round-off alone may be larger", worst);
         br_hide_fact(d, br_number(most), NULL, "certificate.limits.%s", rows[i].key);
     }
     BR_FACT(d, br_count(r->bad_steps), .key = "certificate.bad_steps",
@@ -479,7 +478,7 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
 
     static const char *const labels[] = {"  of the axial field", "  of the bending field"};
     const struct br_prediction *p = f->prediction;
-    br_put_section(d, "Predicted before the march, of each field relative to its largest (L2)");
+    br_put_section(d, "Predicted before the march, for each field relative to its largest L2 norm");
     br_hide_fact(d, br_truth(p->known), NULL, "prediction.known");
     br_hide_fact(d, br_text(p->known ? NULL : p->why), NULL, "prediction.why_not");
     put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
@@ -501,14 +500,14 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     put_energies(d, r);
     put_certificate(d, r);
 
-    br_put_table(d, "model", "What is modelled, and what is skipped", 0);
+    br_put_table(d, "model", "What is modelled, and what is left out", 0);
     for (size_t i = 0; i < r->model_rows; i++) {
         br_put_row(d);
         BR_PUT(d, br_text(r->model[i].key), .key = "part");
         br_put_shown(d, "%s", r->model[i].part);
         BR_PUT(d, br_truth(r->model[i].modelled), .key = "modelled");
         br_put_shown(d, "%s", r->model[i].modelled ? "modelled" : "skipped");
-        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why not");
+        BR_PUT(d, br_text(r->model[i].why), .key = "why", .heading = "how, or why it is left out");
     }
 
     const struct br_counts *c = &r->counts;

@@ -41,7 +41,7 @@ static void answer_run(struct br_document *d, const struct br_split *s)
             br_put_more(d, share_format(share), 100 * share);
             between = ", ";
         }
-    br_put_more(d, *between ? "." : "none can be told.");
+    br_put_more(d, *between ? "." : "none can be determined.");
     if (s->unstable)
         br_put_more(d, " The lagged contact is beyond its stability limit: its part is bounded "
                        "chatter.");
@@ -124,15 +124,21 @@ static void put_run_for_people(struct br_document *d, const struct br_split *s)
     }
     for (size_t m = 0; m < s->norms; m++) {
         const double whole = s->whole.error[m][BR_PART_TOTAL], sum = s->sum.error[m][BR_PART_TOTAL];
-        br_put_note(d, "The whole is %.3g of the sum of its parts%s (%s).", whole / sum,
-                    whole < 0.9 * sum ? ", which point against each other" : "", s->norm[m]->name);
+        br_put_note(d,
+                    "Norm of the whole error over the sum of the norms of its parts: %.3g%s "
+                    "(%s).",
+                    whole / sum, whole < 0.9 * sum ? ", so the parts cancel in part" : "",
+                    s->norm[m]->name);
     }
     for (size_t i = 0; i < s->shares; i++)
         if (s->share[i].none)
-            br_put_note(d, "No part %s: %s.", s->share[i].source->name, s->share[i].none);
+            br_put_note(d, "Part %s is left out: %s.", s->share[i].source->name, s->share[i].none);
     br_put_note(
-        d, "Without time error: %s.%s At the tip the parts add up but for %.1e m.", s->refined.name,
-        s->method.scheme->adaptive ? " The part called time is what the tolerance leaves." : "",
+        d,
+        "The march without time error is by %s.%s At the tip the sum of the parts differs from "
+        "the whole error by %.1e m.",
+        s->refined.name,
+        s->method.scheme->adaptive ? " The part time is the error that the tolerance allows." : "",
         fmax(fabs(s->sum.tip[BR_AXIAL] - s->whole.tip[BR_AXIAL]),
              fabs(s->sum.tip[BR_BENDING] - s->whole.tip[BR_BENDING])));
 }
@@ -182,8 +188,8 @@ void br_report_split(const struct br_split *split, size_t count,
                 "second march has one source of error less. So the parts add up to the whole: as "
                 "functions, and at the tip (x = L, t = T) as numbers with signs.",
                 split->judge->name);
-    br_put_note(d, "<: below this floor a part cannot be told from round-off and from the errors "
-                   "of what it is measured by.");
+    br_put_note(d, "<: the part is below this floor, which comes from round-off and from the "
+                   "errors of the marches that measure it.");
     if (split->scene->remark)
         br_put_note(d, "%s", split->scene->remark);
 

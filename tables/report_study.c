@@ -24,47 +24,51 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-/* Puts the own error of a reference and its round-off. own: NaN where it is not known. */
-static void say_own_error(struct br_document *d, const struct br_study *s, double own)
+/* Puts the name of a reference, its own error and its round-off. own: NaN where it is not known. */
+static void say_reference(struct br_document *d, const struct br_study *s, double own)
 {
     const double floor = s->judged_by.round_off * s->reference_scale;
     const double stated =
         br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
+    br_put_more(d, "Reference: %s %s, ", s->judge->name, s->judge->nests ? "run" : "solution");
     if (!isfinite(own))
-        br_put_more(d, "Its own error is not known: the joint fit does not describe the errors");
+        br_put_more(d, "accuracy not known, since the joint fit does not describe the errors");
     else if (s->auditor)
-        br_put_more(d, "Its own error is about %.1e, measured against the %s solution", own,
+        br_put_more(d, "accurate to %.1e (measured against the %s solution)", own,
                     s->auditor->name);
     else
-        br_put_more(d, "Its own error is about %.1e, by %s", own,
+        br_put_more(d, "accurate to %.1e (by %s)", own,
                     isfinite(stated) ? "its own estimate" : "the joint fit");
     if (floor > 0)
-        br_put_more(d, "; its round-off is about %.0e", floor);
-    br_put_more(d, ". ");
+        br_put_more(d, ", round-off about %.0e", floor);
+    br_put_more(d, "; ");
 }
 
 /* Puts the number of cells that are left out of fits, and why. */
 static void say_flags(struct br_document *d, const struct br_study *s)
 {
     static const char *const why[BR_CELL_FLAGS] = {
-        [BR_FLAG_REFERENCE] = "R, too near the reference's own error",
-        [BR_FLAG_ROUND_OFF] = "F, too near the predicted round-off",
-        [BR_FLAG_FAILED] = "X, failed",
-        [BR_FLAG_UNSTABLE] = "U, beyond the stability limit of the lagged contact: the tip may "
-                             "chatter; smaller k or --contact implicit mends it",
-        [BR_FLAG_STALLED] = "S, no smaller than on coarser grids",
-        [BR_FLAG_COARSE] = "C, not asymptotic",
-        [BR_FLAG_OUTLIER] = "O, far from its neighbours",
+        [BR_FLAG_REFERENCE] = "too near the reference's own error (R)",
+        [BR_FLAG_ROUND_OFF] = "too near the predicted round-off (F)",
+        [BR_FLAG_FAILED] = "failed (X)",
+        [BR_FLAG_UNSTABLE] = "beyond the stability limit of the lagged contact (U: the tip may "
+                             "chatter; use a smaller k or --contact implicit)",
+        [BR_FLAG_STALLED] = "no smaller than on coarser grids (S)",
+        [BR_FLAG_COARSE] = "not asymptotic (C)",
+        [BR_FLAG_OUTLIER] = "far from the neighbours (O)",
     };
     const size_t cells = s->n_count * s->k_count;
     size_t count[BR_CELL_FLAGS] = {0};
     for (size_t i = 0; i < cells; i++)
         count[s->cell[i].flag[BR_PART_TOTAL]]++;
     if (count[BR_FLAG_NONE] == cells) {
-        br_put_more(d, cells == 1 ? "Its one cell counts." : "All %zu cells count.", cells);
+        if (cells == 1)
+            br_put_more(d, "its one error is used.");
+        else
+            br_put_more(d, "all %zu errors are used.", cells);
         return;
     }
-    br_put_more(d, "%zu of %zu cells are left out of fits:", cells - count[BR_FLAG_NONE], cells);
+    br_put_more(d, "%zu of %zu errors are left out of fits:", cells - count[BR_FLAG_NONE], cells);
     const char *separator = " ";
     for (enum br_flag flag = BR_FLAG_NONE + 1; flag < BR_CELL_FLAGS; flag++)
         if (count[flag]) {
@@ -95,22 +99,22 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
     for (size_t i = 0; i < r->triangles; i++)
         pairs += r->triangle[i].contradiction;
     if (!differ)
-        br_put_answer(d, "Ours and the printed errors agree within 5 %% in all %zu cells.",
+        br_put_answer(d, "Our errors and the printed ones agree within 5 %% in all %zu cells.",
                       compared);
     else
         br_put_answer(
             d,
-            "Ours (against %s) DIFFER from the printed errors by more than 5 %% in %zu of "
-            "%zu cells, ours over printed is %.2g to %.2g; the farthest (n = %zu, "
-            "k = %g s) is %.3e, printed %.3e.",
+            "Our errors (reference: %s) DIFFER from the printed ones by more than 5 %% in %zu of "
+            "%zu cells: ours over printed is %.2g to %.2g. The largest deviation is at n = %zu, k "
+            "= %g s: ours %.3e, printed %.3e.",
             s->judge->name, differ, compared, least, most, s->cell[farthest].at.n,
             step_of(s, &s->cell[farthest]), s->cell[farthest].error[BR_PART_TOTAL],
             r->printed[farthest]);
     if (differ && pairs)
         br_put_answer(
             d,
-            "No reference can repair that: at least %zu pair%s of printed errors break%s the "
-            "triangle inequality.",
+            "No choice of reference explains this: at least %zu pair%s of printed errors violate%s "
+            "the triangle inequality.",
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
@@ -132,18 +136,15 @@ static void put_answers(struct br_document *d, const struct br_report *r)
         br_put_answer(d, "Order in %s: ", br_axis_letters[i]);
         if (isfinite(seen->order.value))
             br_put_more(d, "%s, ", br_order_text(&seen->order, text, sizeof text));
-        if (!isfinite(seen->order.value))
-            br_put_more(d, "%s. Theory: %s", seen->remark,
-                        isnan(t->order) ? "states none"
-                                        : br_theory_text(t->order, t->highest, text, sizeof text));
-        else if (isnan(t->order))
-            br_put_more(d, "%s: %s", seen->remark, seen->by);
-        else
-            br_put_more(d, "theory %s, %s: %s",
-                        br_theory_text(t->order, t->highest, text, sizeof text), seen->remark,
-                        seen->by);
+        br_put_more(d, "%s", seen->remark);
+        if (!isnan(t->order))
+            br_put_more(d, "; theory %s", br_theory_text(t->order, t->highest, text, sizeof text));
+        if (isnan(t->order) && isnan(seen->order.value))
+            br_put_more(d, "; theory: none");
         if (*t->reason && !(isnan(t->order) && isfinite(seen->order.value)))
             br_put_more(d, " (%s)", t->reason);
+        if (isfinite(seen->order.value) && *seen->by)
+            br_put_more(d, "; measured from %s", seen->by);
         br_put_more(d, ".");
     }
 
@@ -158,15 +159,15 @@ static void put_answers(struct br_document *d, const struct br_report *r)
         br_put_more(d, ", relative %.2e", relative);
     br_put_more(d, ".");
 
-    br_put_answer(d, "Judged by: %s. ", s->judge->name);
-    say_own_error(d, s, r->fits[BR_PART_TOTAL].reference_error);
+    br_put_answer(d, "%s", "");
+    say_reference(d, s, r->fits[BR_PART_TOTAL].reference_error);
     say_flags(d, s);
     for (int i = 0; i < (r->exact ? 2 : 1); i++) {
         const struct br_study *of = i ? r->study : s;
         if (of->judged_by.unstable)
             br_put_answer(d,
-                          "The %s reference itself is beyond the stability limit of the lagged "
-                          "contact: do not trust it.",
+                          "The %s reference is beyond the stability limit of the lagged contact: "
+                          "do not trust it.",
                           of->judge->name);
     }
 
@@ -174,8 +175,8 @@ static void put_answers(struct br_document *d, const struct br_report *r)
     const struct br_judge_report *by = &s->judged_by;
     if (by->shortest.length > 0 && by->shortest.length < k)
         br_put_answer(d,
-                      "In the exact solution the %s%s for %.2g s from t = %.4g s on, which no step "
-                      "of %g s resolves: the cells do not see it.",
+                      "In the exact solution the %s%s for %.2g s from t = %.4g s on. Steps of %g s "
+                      "do not resolve this.",
                       by->shortest.phase >= BR_STICK ? "tip " : "",
                       br_phase_text((enum br_phase)by->shortest.phase), by->shortest.length,
                       by->shortest.from, k);
@@ -267,7 +268,8 @@ static void put_fits(struct br_document *d, const struct br_report *r)
         for (int a = 0; a < BR_AXES; a++) {
             const bool sure = claims && br_order_determined(&j->order[a]);
             BR_PUT_ESTIMATE(d, &j->order[a],
-                            sure ? br_order_text(&j->order[a], text, sizeof text) : "not claimed",
+                            sure ? br_order_text(&j->order[a], text, sizeof text)
+                                 : "not determined",
                             .key = orders[a], .heading = headings[a]);
             BR_PUT_ESTIMATE(d, &j->c[a], claims ? NULL : "-", .key = constants[a],
                             .format = "%.3g");
@@ -282,7 +284,9 @@ static void put_fits(struct br_document *d, const struct br_report *r)
         BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
         br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
         BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
-        BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "describes them",
+        BR_PUT(d, br_truth(claims), .key = "describes_the_errors",
+               .heading = "describes the "
+                          "errors",
                .flags = BR_FILES_ONLY);
         br_hide(d, "reference_error", r->study->norm->unit,
                 br_number(r->fits[part].reference_error));
@@ -296,12 +300,12 @@ static void put_judge(struct br_document *d, const char *label, const struct br_
 {
     char method[BR_METHOD_TEXT];
     if (s->judge->nests)
-        br_put_note(d, "%s %s: %s: N = %zu, K = %g s; %s.", label, s->judge->name, s->judge->title,
+        br_put_note(d, "%s %s, %s: N = %zu, K = %g s; %s.", label, s->judge->name, s->judge->title,
                     s->reference.n, br_reference_step(s),
                     br_method_text(&(struct br_meshes){s->scene, &s->reference.n, 1},
                                    &s->reference_method, method));
     else
-        br_put_note(d, "%s %s: %s.", label, s->judge->name, s->judge->title);
+        br_put_note(d, "%s %s, %s.", label, s->judge->name, s->judge->title);
 }
 
 static void put_notes(struct br_document *d, const struct br_report *r)
@@ -314,11 +318,11 @@ static void put_notes(struct br_document *d, const struct br_report *r)
     br_put_note(
         d, "Cells: %s.",
         br_method_text(&(struct br_meshes){s->scene, s->n, s->n_count}, &s->method, method));
-    put_judge(d, "Reference,", br_report_fitted(r));
+    put_judge(d, "Reference:", br_report_fitted(r));
     if (r->exact) { /* the study that is not fitted */
-        put_judge(d, "Beside it,", s);
+        put_judge(d, "Second reference:", s);
         br_put_note(d, "%s", "");
-        say_own_error(d, s, s->reference_error[BR_PART_TOTAL]);
+        say_reference(d, s, s->reference_error[BR_PART_TOTAL]);
         say_flags(d, s);
     }
     br_put_note(d,
@@ -418,26 +422,27 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
             BR_PUT(d, br_text(i == BR_AXIS_SPACE ? "order in h" : "order in k"), .heading = "what");
             BR_PUT(d, br_text(br_order_text(&seen->order, text, sizeof text)),
-                   .heading = "seen [95 %]");
+                   .heading = "observed [95 %]");
             BR_PUT(d,
                    br_text(
                        br_theory_text(seen->theory.order, seen->theory.highest, text, sizeof text)),
                    .heading = "theory");
-            BR_PUT(d, br_text(seen->remark), .heading = "it is", .flags = BR_WRAP);
-            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "by", .flags = BR_WRAP);
+            BR_PUT(d, br_text(seen->remark), .heading = "verdict", .flags = BR_WRAP);
+            BR_PUT(d, br_text(*seen->by ? seen->by : NULL), .heading = "measured from",
+                   .flags = BR_WRAP);
         }
         if (part != BR_PART_TOTAL)
             continue;
         br_put_row(d);
         BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
         BR_PUT(d, br_text("error"), .heading = "what");
-        BR_PUT(d, br_number(error), .heading = "seen [95 %]");
+        BR_PUT(d, br_number(error), .heading = "observed [95 %]");
         if (isfinite(error))
             br_put_shown(d, "%.3e %s", error, fitted->norm->unit);
-        BR_PUT(d, br_number(relative), .heading = "it is");
+        BR_PUT(d, br_number(relative), .heading = "verdict");
         if (isfinite(relative))
             br_put_shown(d, "%.1e of the solution", relative);
-        BR_PUT(d, br_count(finest->at.n), .heading = "by");
+        BR_PUT(d, br_count(finest->at.n), .heading = "measured from");
         br_put_shown(d, "finest cell, n = %zu, k = %g s", finest->at.n, step_of(fitted, finest));
     }
 

@@ -74,14 +74,14 @@ static void answer_paper(struct br_document *d, const struct br_trade *t)
         while (digit > 0 && t->best_of[c][digit - 1] == t->count)
             digit--;
         if (digit == 0) {
-            br_put_answer(d, "The paper's way, %s, reaches none of the errors.", paper->name);
+            br_put_answer(d, "The paper's method, %s, reaches none of these errors.", paper->name);
             return;
         }
         const double seconds = br_trial_seconds(&t->trial[t->best_of[c][digit - 1]]);
         const double least = br_trial_seconds(&t->trial[t->best[digit - 1]]);
         br_put_answer(d,
-                      "The paper's way, %s, reaches %.0e in %.3g CPU s, %.3g times as much as the "
-                      "cheapest.",
+                      "The paper's method, %s, reaches %.0e in %.3g CPU s, %.3g times as much as "
+                      "the cheapest.",
                       paper->name, br_trade_target(digit - 1), seconds, seconds / least);
         return;
     }
@@ -160,15 +160,15 @@ static void note_judge(struct br_document *d, const struct br_trade *t)
     while (known < t->trial + t->count && !isfinite(known->scale))
         known++;
     br_put_note(d, "%s", t->request.norm->title);
-    br_put_note(d, "Judged by: %s.", br_trials_judge(&t->request)->title);
+    br_put_note(d, "Reference: %s.", br_trials_judge(&t->request)->title);
     if (known == t->trial + t->count)
         return;
-    br_put_note(d, "Relative errors are over the norm of the solution, %.4g %s.", known->scale,
-                t->request.norm->unit);
+    br_put_note(d, "Relative errors are divided by the norm of the solution, %.4g %s.",
+                known->scale, t->request.norm->unit);
     if (isfinite(known->own))
         br_put_note(d,
-                    "The judge's own error is at most %.1e of that. It is added before a trial "
-                    "counts as good enough.",
+                    "The reference's own error is at most %.1e of that. It is added to the error "
+                    "of a trial before the trial counts as good enough.",
                     known->own / known->scale);
 }
 
@@ -192,8 +192,8 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
     br_put_more(d, ".");
     if (t->forecast.left)
         br_put_answer(d,
-                      "Left out for time, the dearest first: %zu of %zu trials, about %.0f s; "
-                      "--seconds %.0f has all.",
+                      "Left out to save time, the most expensive first: %zu of %zu trials, about "
+                      "%.0f s; --seconds %.0f tries all.",
                       t->forecast.left, t->count, t->forecast.left_seconds,
                       br_trade_seconds_of_all(&t->forecast));
 
@@ -217,7 +217,7 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
         }
     }
 
-    br_put_table(d, "failures", "Trials that did not come to their end", BR_FOR_PEOPLE);
+    br_put_table(d, "failures", "Trials that were not completed", BR_FOR_PEOPLE);
     for (size_t i = 0; i < t->count; i++) {
         const struct br_trial *trial = &t->trial[i];
         if (!trial->failure.status)
@@ -246,12 +246,12 @@ void br_report_trade(const struct br_trade *t, const struct br_provenance *prove
                 "%zu marches after a warm-up. A march longer than %g s is not repeated. On %s.",
                 t->request.repeats, t->request.repeat_seconds, provenance->machine);
     br_put_note(d, "Digits/s: -log10 of the relative error, over these seconds.");
-    br_put_note(d, "An error is the largest at a trial's own time levels: nobody asks long steps "
-                   "about what happens between them.");
-    br_put_note(d, "A method is its time scheme and what is not the default with it. A scheme that "
-                   "chooses its steps has a tolerance (tol) instead of k.");
+    br_put_note(d, "The error of a trial is the largest at its own time levels; the error between "
+                   "them is not measured.");
+    br_put_note(d, "The name of a method consists of its time scheme and all that differs from the "
+                   "defaults. A scheme that chooses its steps has a tolerance (tol) instead of k.");
     if (br_trade_tally(t, BR_TRIAL_DOUBTFUL))
-        br_put_note(d, "Doubtful: the judge's own error is more than a third of the trial's.");
+        br_put_note(d, "Doubtful: the reference's own error is more than a third of the trial's.");
     if (br_trade_tally(t, BR_TRIAL_UNSTABLE))
         br_put_note(d, "Unstable: beyond the stability limit of the lagged contact.");
     br_put_note(d, "All trials are in the CSV and JSON files.");

@@ -32,10 +32,10 @@ static bool answer_range(struct br_document *d, const struct br_variation *s, si
         return false;
     br_put_answer(d, "%s over %s: ", what->heading, v->name);
     if (!known) {
-        br_put_more(d, "no value has one.");
+        br_put_more(d, "not known at any value.");
         return true;
     }
-    br_put_more(d, known > 1 ? "from " : "known at one value alone, ");
+    br_put_more(d, known > 1 ? "from " : "known at one value only, ");
     put_end(d, s, least, column);
     if (known > 1) {
         br_put_more(d, " to ");
@@ -58,7 +58,7 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
     if (unstable)
         br_put_answer(d,
                       "%zu of %zu values are beyond the lagged contact's stability limit: they are "
-                      "in the table alone. --contact implicit has no limit.",
+                      "only in the table. --contact implicit has no limit.",
                       unstable, v->count);
     if (failures)
         br_put_answer(d, "%zu of %zu values FAILED; the first, %g %s: %s", failures, v->count,
@@ -77,5 +77,5 @@ void br_report_variation(const struct br_variation *s, struct br_document *d)
     br_put_fact_as(d, br_text(v->name), "varied", NULL, "varied.key");
     br_hide_fact(d, br_text(v->unit), NULL, "varied.unit");
     br_hide_fact(d, br_truth(v->logarithmic), NULL, "varied.logarithmic");
-    br_put_fact_as(d, br_text(v->key->help), "which is", NULL, "varied.help");
+    br_put_fact_as(d, br_text(v->key->help), "meaning", NULL, "varied.help");
 }

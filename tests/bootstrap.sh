@@ -154,7 +154,10 @@ echo 'exit 1' | made mpicc
 starts 0 4 'a part whose compiler finds no header' --with=mpi build
 configured 'a part' '-Dmpi=enabled --reconfigure$'
 [ -e "$work/cleared" ] || failures=$((failures + 1))
-made mpicc </dev/null
+made mpicc <<'END'
+for source; do :; done
+[ "$source" != - ]
+END
 starts 0 0 'the same part' --with mpi build
 configured 'the same part'
 echo libcmocka-dev >"$work/to_be_had"
@@ -170,6 +173,24 @@ grep -q ' clang$' "$work/calls" || failures=$((failures + 1))
 CC=acc starts 2 0 'CC is no program'
 starts 2 0 'an unknown part' --with gpu build
 starts 2 0 'a part that is gone' --with ida build
+
+# What is generated is written anew by the programs that know it.
+machine "$1"
+mkdir -p "$work/tree/tests" "$work/tree/docs" "$work/tree/build/release/cli"
+echo 'echo sentences "$@" >>"${2%/tree}/made_anew"' >"$work/tree/tests/sentences.sh"
+printf '#!/bin/sh\necho the page "$@"\n' >"$work/tree/build/release/cli/beamrate"
+chmod +x "$work/tree/build/release/cli/beamrate"
+for tool in meson ninja; do
+    sed -i "1a echo $tool \${BR_TEST_UPDATE-} \$* >>$work/made_anew" "$work/bin/$tool"
+done
+starts 0 0 'all that is generated' update
+for text in 'sentences --update' 'ninja .* update-golden' 'meson 1 test .* --suite stored'; do
+    grep -q "^$text" "$work/made_anew" && continue
+    echo "an update without '$text'"
+    failures=$((failures + 1))
+done
+[ "$(cat "$work/tree/docs/options.md" "$work/tree/docs/beamrate.1")" = 'the page help markdown
+the page help man' ] || failures=$((failures + 1))
 
 # prints LINES WHAT: the last start has printed so many lines, and what apt-get, Meson and Ninja say is
 # not among them.

@@ -238,8 +238,17 @@ if "$python" -c 'import numpy' 2>/dev/null; then
     check "the example in Python runs" eval '"$python" "$source/docs/library/example.py" >py.txt'
     check "its numbers are the program's" same_numbers py.txt
     check "Python refuses, too" refused_in_python
+    check "orders in Python" "$python" -W error "$source/tests/library_orders.py"
+    for module in pandas matplotlib; do
+        if "$python" -c "import $module" 2>/dev/null; then
+            check "orders in Python, $module" "$python" "$source/tests/library_orders.py" $module
+        else
+            skip "orders in Python, $module" "no python3 with $module"
+        fi
+    done
 else
-    for what in "Python's structs are the header's" "the example in Python" "Python refuses, too"; do
+    for what in "Python's structs are the header's" "the example in Python" "Python refuses, too" \
+        "orders in Python" "orders in Python, pandas" "orders in Python, matplotlib"; do
         skip "$what" "no python3 with numpy"
     done
 fi

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "solver/linear/riccati/kernel.h"
+
 static const size_t meshes[BR_MADE_N] = {10, 20, 40}, steps[BR_MADE_K] = {25, 50, 100, 200};
 
 static void fill_cells(struct br_cell *cell, double first)
@@ -33,16 +35,22 @@ static void fail_cell(struct br_cell *cell)
         cell->error[part] = cell->worst_time[part] = NAN;
 }
 
-static struct br_study make_study(const struct br_scene *scene, struct br_cell *cell)
+/* The same on every processor. */
+static struct br_method make_method(void)
 {
     struct br_method method = br_method_default();
-    method.kernel = br_kernel_find("portable"); /* the same on every machine */
+    method.kernel = br_kernel_find("portable");
+    return method;
+}
+
+static struct br_study make_study(const struct br_scene *scene, struct br_cell *cell)
+{
     return (struct br_study){
         .scene = scene,
         .norm = br_norms[0],
-        .method = method,
+        .method = make_method(),
         .judge = &br_judge_fine,
-        .reference_method = method,
+        .reference_method = make_method(),
         .reference = {640, 3200},
         .n_count = BR_MADE_N,
         .k_count = BR_MADE_K,

@@ -12,7 +12,7 @@ for file in options.md beamrate.1; do
     *) topic=man ;;
     esac
     "$BEAMRATE" help "$topic" | diff - "$BEAMRATE_DATA/docs/$file" && continue
-    echo "docs/$file differs: beamrate help $topic >docs/$file"
+    echo "docs/$file is stale: ./bootstrap update writes it anew"
     failures=$((failures + 1))
 done
 if grep -nE '.\.(SH|SS|TP|PP|B|nf|fi)( |$)' "$BEAMRATE_DATA/docs/beamrate.1"; then
@@ -33,4 +33,6 @@ check() { # FILE LINE
 check CITATION.cff "version: $version"
 check debian/changelog "beamrate ($version-1) .*"
 check CHANGELOG.md "## $version - .*"
+check action.yml "#   - uses: OWNER/beamrate@v$version"
+check docs/ci/your-solver.yml "      BEAMRATE_ARCHIVE: https://example.org/beamrate-$version.tar.gz"
 [ "$failures" -eq 0 ]

@@ -371,7 +371,7 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     fclose(file);
     const size_t same = same_bytes(text, stored, tolerance);
     if (same != size)
-        fail_msg("%s is otherwise from here on: %.200s", path, text + (same < size ? same : size));
+        fail_msg("%s is otherwise from here on (./bootstrap update writes it anew): %.200s", path, text + (same < size ? same : size));
     free(text);
 }
 

@@ -177,7 +177,7 @@ TEST(marches_are_refused)
          "found 'shceme', expected one of: scheme, tolerance");
     ENDS(WITH(METHOD("scheme", "euler", "scheme", "bdf2")), BEAMRATE_BAD_INPUT, "found it twice");
     ENDS(WITH(METHOD("scheme")), BEAMRATE_BAD_INPUT, "the end of the list");
-    ENDS(WITH(METHOD("tolerance", "1e-6")), BEAMRATE_BAD_INPUT, "does not heed it");
+    ENDS(WITH(METHOD("tolerance", "1e-6")), BEAMRATE_BAD_INPUT, "does not use it");
     ENDS(WITH(METHOD("scheme", "bdf2", "contact", "lagged")), BEAMRATE_BAD_INPUT, "lagged");
     assert_null(march);
     ENDS(beamrate_march_create(&march, scene, 0, 8, NULL, &failure), BEAMRATE_BAD_INPUT,
@@ -528,6 +528,7 @@ TEST(orders_of_numbers)
     WORKS(beamrate_orders_find(&orders, &numbers, &failure));
     assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
     CLOSE(order.order.value, 2, 1e-6);
+    CLOSE(order.constant, 1, 1e-5);
     CLOSE(order.limit.value, 7, 1e-9);
     assert_int_equal(order.points, 3);
     assert_int_equal(beamrate_orders_line(orders, BEAMRATE_TIME, &order), 0);
@@ -568,6 +569,97 @@ TEST(wrong_numbers_are_refused)
     beamrate_orders_free(orders);
 }
 
+/* e = 3 h^2 and v = 7 + h on h = 1/n; the mesh of 5 has another error. */
+static const char two_columns[] = "Cells; e [m]; v\n5; 0,9; 7,2\n10; 0,03; 7,1\n20; 0,0075; 7,05\n"
+                                  "40; 0,001875; 7,025\n80; 0,00046875; 7,0125\n";
+
+TEST(orders_of_a_table)
+{
+    struct beamrate_table table = {.text = two_columns, .errors = "e", .values = "v", .formal = 1};
+    struct beamrate_orders *orders;
+    struct beamrate_answer answer;
+    struct beamrate_order_point point;
+    struct beamrate_check *check;
+    struct beamrate_case c;
+    const char *json;
+    WORKS(beamrate_orders_read(&orders, &table, &failure));
+    for (size_t i = 0; i < 2; i++) {
+        assert_int_equal(beamrate_orders_answer(orders, i, BEAMRATE_SPACE, &answer), 1);
+        assert_string_equal(answer.quantity, i ? "v" : "e");
+        assert_int_equal(answer.values, i);
+        assert_int_equal(answer.refined, 1);
+        CLOSE(answer.order.value, i ? 1 : 2, 1e-6);
+        assert_string_equal(answer.open, "");
+        assert_int_equal(beamrate_orders_answer(orders, i, BEAMRATE_TIME, &answer), 1);
+        assert_true(!answer.refined && isnan(answer.order.value));
+        for (size_t at = 1; at < 5 - i; at++) {
+            assert_int_equal(beamrate_orders_point(orders, i, BEAMRATE_SPACE, at, &point), 1);
+            CLOSE(point.size, 0.2 / (double)(1 << at), 1e-12);
+            CLOSE(point.error, i ? point.size / 2 : 3 * point.size * point.size, 1e-12);
+            CLOSE(point.fit.value, point.error, 1e-6 * point.error);
+            assert_true(point.fit.low <= point.fit.value && point.fit.value <= point.fit.high);
+            assert_string_equal(point.left_out, "");
+            if (at > 1)
+                CLOSE(point.rate, i ? 1 : 2, 1e-9);
+        }
+        assert_int_equal(beamrate_orders_point(orders, i, BEAMRATE_SPACE, 5 - i, &point), 0);
+        assert_true(isnan(point.error) && !*point.left_out);
+        assert_int_equal(beamrate_orders_point(orders, i, BEAMRATE_TIME, 0, &point), 0);
+        const struct beamrate_expectation expected = {BEAMRATE_SPACE, i ? 1 : 2, 0.1, 0};
+        WORKS(beamrate_orders_check_quantity(&check, orders, i, &expected, 1, &failure));
+        beamrate_check_case(check, 0, &c);
+        assert_int_equal(c.verdict, BEAMRATE_PASS);
+        assert_string_equal(c.measure, i ? "v" : "e");
+        beamrate_check_free(check);
+    }
+    beamrate_orders_point(orders, 0, BEAMRATE_SPACE, 0, &point);
+    assert_string_equal(point.left_out, "not asymptotic");
+    assert_int_equal(beamrate_orders_answer(orders, 2, BEAMRATE_SPACE, &answer), 0);
+    assert_true(!*answer.quantity && isnan(answer.order.value));
+    WORKS(beamrate_orders_report(orders, &json, &failure));
+    assert_non_null(strstr(json, "\"answer\": [\n  \"e: order in h 2.00"));
+    assert_non_null(strstr(json, "\"gci_fine\": "));
+    const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
+    ENDS(beamrate_orders_check_quantity(&check, orders, 2, &expected, 1, &failure),
+         BEAMRATE_BAD_INPUT, "quantity: found 2, expected less than 2");
+    beamrate_orders_free(orders);
+    static const struct {
+        struct beamrate_table table;
+        const char *message;
+    } refused[] = {
+        {{.text = NULL}, "table: found NULL"},
+        {{.text = "h,e\n4,1\n2,1\n1,-1\n"}, "table:4: e: found -1"},
+        {{.text = "h,e\n4,1\n2,1\n1,1\n", .name = "a.csv", .errors = "f"}, "a.csv: --error: there is"},
+        {{.text = two_columns, .dimension = NAN}, "table: found dimension nan"},
+        {{.text = two_columns, .dimension = INFINITY}, "table: found dimension inf"},
+        {{.text = two_columns, .formal = -1}, "formal order -1"},
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        ENDS(beamrate_orders_read(&orders, &refused[i].table, &failure), BEAMRATE_BAD_INPUT,
+             refused[i].message);
+        assert_null(orders);
+    }
+    ENDS(beamrate_orders_read(&orders, NULL, &failure), BEAMRATE_BAD_INPUT, "table: found NULL");
+}
+
+/* The dimension of a mesh, and that it was assumed. */
+TEST(dimensions_of_a_table)
+{
+    static const char text[] = "dofs,e\n1,64\n64,4\n4096,0.25\n262144,0.015625\n";
+    for (int dimension = 0; dimension < 4; dimension++) {
+        const struct beamrate_table table = {.text = text, .dimension = dimension};
+        struct beamrate_orders *orders;
+        struct beamrate_answer answer;
+        const char *json;
+        WORKS(beamrate_orders_read(&orders, &table, &failure));
+        WORKS(beamrate_orders_report(orders, &json, &failure));
+        beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, &answer);
+        CLOSE(answer.order.value, 2 * (dimension ? dimension : 2) / 3., 1e-6);
+        assert_int_equal(!!strstr(json, "assumed"), !dimension);
+        beamrate_orders_free(orders);
+    }
+}
+
 /* Numbers at a floor are left out of the fit, and counted. */
 TEST(used_numbers_are_counted)
 {
@@ -583,6 +675,7 @@ TEST(used_numbers_are_counted)
     assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
     assert_int_equal(order.points, 8);
     assert_int_equal(order.used, 6);
+    CLOSE(order.constant, 1, 1e-4);
     WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
     WORKS(beamrate_check_case(check, 0, &c));
     assert_int_equal(c.points, order.points);
@@ -591,6 +684,26 @@ TEST(used_numbers_are_counted)
     assert_true(*c.note);
     beamrate_check_free(check);
     beamrate_orders_free(orders);
+}
+
+/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2. */
+TEST(formal_order_widens_the_limit)
+{
+    static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};
+    static const double value[] = {7 + 4096.1, 7 + 511.9, 7 + 64.1, 7 + 7.9, 7 + 1};
+    double half[3];
+    for (size_t i = 0; i < 3; i++) {
+        const struct beamrate_numbers numbers = {
+            .h = h, .number = value, .count = 5, .values = 1, .formal = formal[i]};
+        struct beamrate_orders *orders;
+        struct beamrate_order order;
+        WORKS(beamrate_orders_find(&orders, &numbers, &failure));
+        assert_int_equal(beamrate_orders_line(orders, BEAMRATE_SPACE, &order), 1);
+        half[i] = order.limit.high - order.limit.low;
+        beamrate_orders_free(orders);
+    }
+    assert_true(half[0] > 1.5 * half[1]);
+    CLOSE(half[2], half[0], 0);
 }
 
 /* ---- what is no handle, no index, no number ---- */
@@ -615,7 +728,10 @@ TEST(wrong_handles_are_refused)
     struct beamrate_reference reference;
     struct beamrate_fit fit;
     struct beamrate_order order;
+    struct beamrate_answer answer;
+    struct beamrate_order_point point;
     struct beamrate_case c;
+    const char *json;
     double room[2 * 5];
     WORKS(beamrate_march_create(&march, scene, 4, 8, NULL, &failure));
     WORKS(beamrate_study_run(&study, scene, &request, &failure));
@@ -654,6 +770,11 @@ TEST(wrong_handles_are_refused)
         assert_int_equal(beamrate_check_count(other), 0);
         assert_int_equal(beamrate_orders_line(other, BEAMRATE_SPACE, &order), 0);
         assert_true(isnan(order.order.value));
+        assert_int_equal(beamrate_orders_answer(other, 0, BEAMRATE_SPACE, &answer), 0);
+        assert_int_equal(beamrate_orders_point(other, 0, BEAMRATE_SPACE, 0, &point), 0);
+        assert_true(isnan(answer.order.value) && isnan(point.size) && !*point.left_out);
+        ENDS(beamrate_orders_report(other, &json, &failure), BEAMRATE_BAD_INPUT, "orders: found");
+        assert_null(json);
         REFUSES(beamrate_orders_fit(other, &fit));
         assert_true(isnan(fit.p.value));
         beamrate_scene_free(other); /* nothing */
@@ -680,6 +801,10 @@ TEST(wrong_handles_are_refused)
     REFUSES(beamrate_study_fit(study, (enum beamrate_part) - 1, &fit));
     REFUSES(beamrate_march_get(march, (enum beamrate_field)2, room, room));
     assert_int_equal(beamrate_orders_line(orders, (enum beamrate_axis)2, &order), 0);
+    assert_int_equal(beamrate_orders_answer(orders, 0, (enum beamrate_axis)2, &answer), 0);
+    assert_int_equal(beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, NULL), 0);
+    assert_int_equal(beamrate_orders_point(orders, SIZE_MAX, BEAMRATE_SPACE, 0, &point), 0);
+    ENDS(beamrate_orders_report(orders, NULL, &failure), BEAMRATE_BAD_INPUT, "json: found NULL");
     expected.axis = (enum beamrate_axis) - 1;
     ENDS(beamrate_orders_check(&check, orders, &expected, 1, &failure), BEAMRATE_BAD_INPUT,
          "expectation 0: axis: found -1");
@@ -784,6 +909,7 @@ static enum br_status use_all(const void *data, struct br_error *err)
     struct beamrate_study *study = NULL;
     struct beamrate_check *check = NULL;
     struct beamrate_orders *orders = NULL;
+    const char *json;
     static const double h[] = {4, 2, 1}, error[] = {16, 4, 1};
     const struct beamrate_numbers numbers = {.h = h, .number = error, .count = 3};
     const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
@@ -792,8 +918,9 @@ static enum br_status use_all(const void *data, struct br_error *err)
     if (!beamrate_scene_parse(&scene, "rod", data, e) &&
         !beamrate_march_create(&march, scene, 4, 8, NULL, e) && !beamrate_march_step(march, 8, e) &&
         !beamrate_study_run(&study, scene, &request, e) &&
-        !beamrate_orders_find(&orders, &numbers, e))
-        beamrate_orders_check(&check, orders, &expected, 1, e);
+        !beamrate_orders_find(&orders, &numbers, e) &&
+        !beamrate_orders_check(&check, orders, &expected, 1, e))
+        beamrate_orders_report(orders, &json, e);
     beamrate_check_free(check);
     beamrate_orders_free(orders);
     beamrate_study_free(study);

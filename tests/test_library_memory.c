@@ -2,6 +2,7 @@
 /* The n-th allocation of a call of the library fails, also in GSL, SuiteSparse and the C library:
  * the call returns "out of memory", or the same numbers, and never ends the process. */
 #include <limits.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -129,6 +130,22 @@ static enum beamrate_status find_orders(const void *values, double *number)
     return status;
 }
 
+static enum beamrate_status read_orders(const void *text, double *number)
+{
+    const struct beamrate_table table = {.text = text};
+    const char *json = NULL;
+    enum beamrate_status status = beamrate_orders_read(&orders, &table, &failure);
+    assert_int_equal(!orders, status != BEAMRATE_OK);
+    *number = 0;
+    if (!status)
+        status = beamrate_orders_report(orders, &json, &failure);
+    assert_int_equal(!json, status != BEAMRATE_OK);
+    for (const char *c = json; c && *c; c++) /* each letter counts, and its place */
+        *number = fmod(*number * 31 + *c, 1e12);
+    beamrate_orders_free(orders);
+    return status;
+}
+
 /* ---- all of them ---- */
 
 static const char verified[] =
@@ -161,6 +178,7 @@ static const struct call calls[] = {
     {"check in threads", verified, check_scene, &two, 13},
     {"orders of errors", NULL, find_orders, &none, 5},
     {"orders of values", NULL, find_orders, &one, 2},
+    {"orders of a table", NULL, read_orders, "h,e,f\n8,68,9\n4,20,\n2,8,3\n1,5,1.5\n", 5},
 };
 
 /* In a child process: 0: as without a failure; 3: out of memory, named; else wrong. */

@@ -764,7 +764,7 @@ TEST(test_verdicts)
         {few, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "has 3 errors, expected at least 4"},
         {gap, NULL, "l2: h 2 +- 0.1", BR_PASS, ""},
         {gap, NULL, "l2: h 3 +- 0.1", BR_FAIL, ""},
-        {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "3 of 5 errors are left, an order needs 4"},
+        {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "3 of 5 errors can be used, an order needs 4"},
         {floor, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "the errors do not fall"},
         {floor, NULL, "l2: h 2 +- 0.1 down to 1e-3", BR_PASS, ""},
         {floor, NULL, "l2: h 3 +- 0.1 down to 1e-3", BR_FAIL, ""},

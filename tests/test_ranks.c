@@ -151,7 +151,7 @@ static void test_check(void **state)
 static void test_all_commands(void **state)
 {
     (void)state;
-    static const char disturb[] = "2 ranks would disturb one another's clocks";
+    static const char disturb[] = "2 ranks, which disturb each other's times";
     static const struct {
         const char *line;
         int exit_code;

@@ -88,14 +88,14 @@ static void make(struct br_made_report *m, bool with_exact)
         (struct br_seen_order){.asked = true,
                                .order = {2.03, 2.01, 2.05},
                                .theory = {2, 4, 4, "it is so"},
-                               .by = "each mesh against the next",
-                               .remark = "as in theory"};
+                               .by = "differences of successive meshes",
+                               .remark = "agrees with theory"};
     m->report.seen[BR_PART_TOTAL][BR_AXIS_TIME] = (struct br_seen_order){
         .asked = true,
         .order = {NAN, NAN, NAN},
         .theory = {1, 1, 1, ""},
         .by = "errors",
-        .remark = "not seen: for a reason"};
+        .remark = "not measurable: for a reason"};
 }
 
 /* For people. */
@@ -440,6 +440,25 @@ TEST(certificate_is_printed)
                                .gaining = {43, 44},
                                .gained = {45, 46}};
     br_test_stored("certificate", print_certificate, 1e-13);
+}
+
+/* Of the printed errors one is by a ratio off; the others are ours. */
+TEST(five_percent_is_a_difference)
+{
+    static const double ratio[] = {0.94, 0.96, 1.04, 1.06};
+    for (size_t i = 0; i < 4; i++) {
+        struct br_made_report m;
+        struct br_document d = {0};
+        make(&m, true);
+        for (size_t c = 0; c < BR_MADE_CELLS; c++)
+            m.report.printed[c] = m.cell[0][c].error[0] / (c == 5 ? ratio[i] : 1);
+        br_report_study(&m.report, &d);
+        char *text = printed(&br_document_text, &d);
+        assert_non_null(strstr(text, i % 3 ? "agree within 5 % in all" : " 5 % in 1 of "));
+        free(text);
+        br_document_clear(&d);
+        br_made_report_clear(&m);
+    }
 }
 
 /* People get the digits that the predicted error leaves, or the reason why it is not known. */

@@ -328,7 +328,7 @@ TEST(test_model)
     MUST(br_run(&request, &p, &err));
     assert_true(find(&p, "axial")->modelled && find(&p, "bending")->modelled);
     assert_non_null(strstr(find(&p, "friction")->why, "no friction algebra"));
-    assert_non_null(strstr(find(&p, "axial_load")->why, "one evaluation of its history a step"));
+    assert_non_null(strstr(find(&p, "axial_load")->why, "one evaluation of its history in each step"));
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
     br_scene_clear(&scene);
 }

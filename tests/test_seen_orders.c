@@ -73,19 +73,19 @@ TEST(test_hidden_in_h)
     make(&m, 1e-3, 2, 10, 1);
     see(&m);
     const struct br_seen_order *seen = m.report.seen[BR_PART_TOTAL];
-    expect(&seen[BR_AXIS_SPACE], 2, "as in theory");
-    assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "each mesh against the next at k = 0.01 s"));
-    expect(&seen[BR_AXIS_TIME], 1, "as in theory");
+    expect(&seen[BR_AXIS_SPACE], 2, "agrees with theory");
+    assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "differences of successive meshes at k = 0.01 s"));
+    expect(&seen[BR_AXIS_TIME], 1, "agrees with theory");
     assert_false(m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE].asked);
     m.report.apart[BR_AXIS_SPACE] = NULL;
     m.report.no_meshes = "the march failed";
     see(&m);
-    expect(&seen[BR_AXIS_SPACE], 2, "as in theory"); /* these have no other errors */
+    expect(&seen[BR_AXIS_SPACE], 2, "agrees with theory"); /* these have no other errors */
     assert_non_null(strstr(seen[BR_AXIS_SPACE].by, "joint fit of 16 cells"));
     for (size_t i = 0; i < CELLS; i++)
         m.cell[i].error[0] *= 1 + 0.001 * (double)(i % 3);
     see(&m);
-    expect(&seen[BR_AXIS_SPACE], NAN, "not seen: the march failed");
+    expect(&seen[BR_AXIS_SPACE], NAN, "not measurable: the march failed");
 }
 
 /* No order in k where space is in the way, and none of the joint fit. */
@@ -96,7 +96,7 @@ TEST(test_hidden_in_k)
     for (size_t i = 0; i < CELLS; i++)
         m.cell[i].error[0] *= 1 + 0.1 * (double)(i % 3); /* no fit describes that */
     see(&m);
-    expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_SPACE], 2, "as in theory");
+    expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_SPACE], 2, "agrees with theory");
     expect(&m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME], NAN,
            "hidden by the error in h, about 2.5e-04");
 }
@@ -114,15 +114,15 @@ static void expect_of(const double error[COLUMNS], double order, const char *rem
 
 TEST(test_remarks)
 {
-    expect_of((const double[]){1, 2, 3, 2.5}, NAN, "the errors do not fall, 1.0e+00, 2.0e+00");
+    expect_of((const double[]){1, 2, 3, 2.5}, NAN, "the errors do not fall: 1.0e+00, 2.0e+00");
     expect_of((const double[]){8, 7, 6, 5.2}, NAN,
-              "not seen: the errors fall by orders of 0.19, 0.22, 0.21 from size to size");
-    expect_of((const double[]){8, 6, 3.6, 2}, 0.93, "as in theory"); /* 0.42, 0.74, 0.85 */
+              "not measurable: the errors fall with the orders 0.19, 0.22, 0.21 from row to row");
+    expect_of((const double[]){8, 6, 3.6, 2}, 0.93, "agrees with theory"); /* 0.42, 0.74, 0.85 */
     expect_of((const double[]){8, 4.9, 3, 1.83}, 0.71, "below theory: 0.71, 0.71, 0.71");
     expect_of((const double[]){8, 2, 0.5, 0.125}, 2, "above theory: 2.00, 2.00, 2.00");
-    expect_of((const double[]){8, 4.1124, 2.114, 1.0867}, 0.96, "as in theory");
+    expect_of((const double[]){8, 4.1124, 2.114, 1.0867}, 0.96, "agrees with theory");
     expect_of((const double[]){8, 4, NAN, NAN}, NAN,
-              "not seen: 2 errors, an order needs 3; 2 left");
+              "not measurable: 2 of 4 errors are left out, the first: failed; an order needs 3");
 }
 
 /* Of all that marches can come to, nothing is claimed that is not above zero. */
@@ -184,11 +184,11 @@ TEST(test_bending_by_friction)
     m.scene.friction = (struct br_friction){.law = BR_COULOMB, .coefficient = 1};
     see(&m);
     const struct br_seen_order *seen = &m.report.seen[BR_PART_BENDING][BR_AXIS_SPACE];
-    expect(seen, 2, "as in theory");
-    assert_non_null(strstr(seen->theory.reason, "Coulomb's bound takes u(L) of linear elements"));
+    expect(seen, 2, "agrees with theory");
+    assert_non_null(strstr(seen->theory.reason, "Coulomb's bound uses u(L) of linear elements"));
     m.scene.friction.law = BR_TRESCA;
     see(&m);
-    expect(seen, 2, "below theory: 2.00, 2.00 from size to size");
+    expect(seen, 2, "below theory: 2.00, 2.00 from row to row");
 }
 
 /* ---- the order in k from differences of time steps on one mesh ---- */
@@ -231,9 +231,9 @@ TEST(test_steps_apart)
     const struct br_study exact = pairs_of(&m, cell, (double[]){9, 16, 8, 4, 2, 1});
     m.report.apart[BR_AXIS_TIME] = &exact;
     see(&m);
-    expect(seen, 1, "as in theory");
+    expect(seen, 1, "agrees with theory");
     assert_null(strstr(seen->remark, "may settle it"));
-    assert_string_equal(seen->by, "each step against the next at n = 10");
+    assert_string_equal(seen->by, "differences of successive time steps at n = 10");
     assert_true(br_report_settles(&m.report, BR_AXIS_TIME));
     assert_int_equal(seen->points, PAIRS);
     for (size_t i = 0; i < PAIRS; i++) { /* the first does not count, and the line ignores it */
@@ -247,15 +247,15 @@ TEST(test_steps_apart)
     const struct br_study steep = pairs_of(&m, cell, (double[]){99, 60, 8, 4, 2, 1});
     m.report.apart[BR_AXIS_TIME] = &steep;
     see(&m);
-    expect(seen, 1, "as in theory");
+    expect(seen, 1, "agrees with theory");
     assert_int_equal(seen->point[1].flag, BR_FLAG_COARSE);
     assert_int_equal(seen->point[2].flag, BR_FLAG_NONE);
     /* errors that do not fall tell nothing, and it is said what might */
     const struct br_study flat = pairs_of(&m, cell, (double[]){3, 1, 2, 1, 2, 1});
     m.report.apart[BR_AXIS_TIME] = &flat;
     see(&m);
-    expect(seen, NAN, "not seen: the errors do not fall");
-    assert_non_null(strstr(seen->remark, "a grid of smaller steps may settle it: -k "
+    expect(seen, NAN, "not measurable: the errors do not fall");
+    assert_non_null(strstr(seen->remark, "smaller time steps may settle it: -k "
                                           "T/12800,T/25600,T/51200"));
     assert_true(isnan(seen->point[0].fit.value));
     assert_false(br_report_settles(&m.report, BR_AXIS_TIME));
@@ -277,7 +277,7 @@ TEST(test_steps_apart)
         m.cell[i].error[BR_PART_TOTAL] *= 1 + 0.01 * (double)(i % 3 == 1);
     m.report.apart[BR_AXIS_TIME] = &other;
     see(&m);
-    expect(seen, 1, "as in theory");
+    expect(seen, 1, "agrees with theory");
     assert_non_null(strstr(seen->by, "joint fit of 16 cells"));
     assert_true(br_report_settles(&m.report, BR_AXIS_TIME));
     /* its picture: the errors on the finest mesh, and the model */

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/laws.h"
 #include "study/extremes/extremes.h"
 #include "study/grid/observer.h"
 #include "study/run/run.h"
@@ -94,6 +95,44 @@ TEST(test_lagged_contact)
     }
     assert_true(limits >= 25 && near >= limits / 2);
     br_scene_list_free(name, count);
+}
+
+/* The limit that stands beside a column is that of its mesh, its c_H and its elements' degree. */
+TEST(test_limit_of_columns)
+{
+    static const size_t n[] = {10, 20};
+    struct br_scene scene = br_test_bundled("impact");
+    const struct br_scene *one = &scene;
+    struct br_named_methods named;
+    struct br_error err = {0};
+    struct br_stability s;
+    size_t below = 0;
+    MUST(br_named_methods_read("--methods", "euler+lagged,euler+lagged+p2", &named, &err));
+    MUST(br_stability_run(&s,
+                          &(struct br_extremes_job){.scene = &one,
+                                                    .scenes = 1,
+                                                    .n = n,
+                                                    .n_count = 2,
+                                                    .steps = few_steps,
+                                                    .step_count = 1,
+                                                    .methods = &named},
+                          &err));
+    assert_int_equal(s.planes, 4);
+    for (struct br_stability_plane *p = s.plane; p < s.plane + s.planes; p++)
+        for (size_t i = 0; i < p->columns; i++) {
+            const struct br_stability_column *c = &p->column[i];
+            struct br_field field = br_field_of_scene(&scene, BR_AXIAL, c->n, 1);
+            field.degree = p < s.plane + 2 ? 1 : 2;
+            assert_int_equal(c->n, p->over_stiffness ? n[0] : n[i]);
+            const double limit = br_contact_limit_step(&field, c->stiffness);
+            if (limit < scene.duration) {
+                CLOSE(c->predicted, limit, 1e-9 * limit);
+                below++;
+            }
+        }
+    assert_true(below > 20);
+    br_stability_clear(&s);
+    br_scene_clear(&scene);
 }
 
 /* The load puts in more and more energy; and a rod with no contact and no load has none. */

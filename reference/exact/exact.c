@@ -340,7 +340,7 @@ static enum br_status refuse(const struct br_exact *exact, double worst,
                        "no exact solution: the events still change with the number of modes");
     return br_fail(err, BR_NOT_FINITE,
                    "no exact solution: with %zu axial and %zu bending modes the error estimate is "
-                   "%.2g times what is allowed",
+                   "%.2g times the limit",
                    exact->report[0].modes, exact->report[1].modes, worst);
 }
 
@@ -543,7 +543,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
     s->modes = next_modes(s);
     if (!s->modes)
         return br_fail(err, BR_NOT_FINITE,
-                       "no exact solution: the loads and initial data ask for %zu and %zu elements",
+                       "no exact solution: the loads and initial data need %zu and %zu elements",
                        s->outline[0].end[BR_X].count, s->outline[1].end[BR_X].count);
     for (; !status && s->modes && !(s->worst <= enough) && !is_stuck(s); s->round++) {
         status = next_round(s);
@@ -557,8 +557,8 @@ static enum br_status refine(struct search *s, struct br_error *err)
         add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
     if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))
         return br_fail(err, BR_NOT_FINITE,
-                       "no exact solution: its own error would be %.2g of it, expected at most %g; "
-                       "the load changes too fast for the times that numbers can hold",
+                       "no exact solution: its own relative error would be %.2g, expected at most "
+                       "%g; the load changes faster than times in double precision can resolve",
                        stated_error(s->exact), s->o->acceptable);
     return list_events(s->exact, s->before, err);
 }
@@ -576,8 +576,8 @@ static enum br_status outline(struct search *s, struct br_error *err)
     if (!status && !(s->missed <= s->o->acceptable))
         status =
             br_fail(err, BR_NOT_FINITE,
-                    "no exact solution: %.2g of a load may be in places that are too narrow to "
-                    "be looked into",
+                    "no exact solution: a share of %.2g of a load may lie in places that are too "
+                    "narrow to resolve",
                     s->missed);
     return status;
 }

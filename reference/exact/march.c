@@ -21,7 +21,7 @@ enum br_status br_effort_spend(struct br_effort *effort, double work, struct br_
     if (!(effort->done <= effort->most))
         return br_fail(
             err, BR_NOT_FINITE,
-            "more work than is allowed, some 20 s of a core, does not make two solutions agree");
+            "two solutions still differ after the most work that is allowed, about 20 s of a core");
     return BR_OK;
 }
 
@@ -245,8 +245,8 @@ static void end_phase(struct march *m, size_t i)
     if (m->fresh && i == 1) {
         at_rest = s->tip_velocity == 0;
         if (++m->at_once > MAX_PHASES_AT_ONCE)
-            m->status =
-                br_fail(m->err, BR_NOT_FINITE, "the tip's phase at %.17g s is undecided", s->time);
+            m->status = br_fail(m->err, BR_NOT_FINITE,
+                                "the tip's phase at %.17g s cannot be determined", s->time);
     } else {
         const double root = locate(m, h * (double)(i - 1) / SAMPLES, h * (double)i / SAMPLES);
         if (!m->status)

@@ -49,7 +49,7 @@ static enum br_status check_formal(double formal, struct br_error *err)
                : br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
 }
 
-/* The round-off that the difference of two values may have, as in extrapolation.c. */
+/* The round-off that the difference of two values may have. */
 static double round_off_of(const double *value, size_t count)
 {
     double largest = 0;
@@ -84,17 +84,19 @@ static double order_mismatch(const struct triplet *t, double p)
     return p * t->ln21 - t->ln_growth - q;
 }
 
-double br_order_of_differences(double ln_fine, double ln_coarse, double ln_growth, int s)
+/* The order p of three values, the root of (3). Celik et al. iterate p <- (ln |e32/e21| + q(p))/ln
+ * r21, which has the same fixed point, but diverges from it where r32 is greater than about r21^2.
+ * So the root is bracketed here. */
+static double order_of(const struct triplet *t)
 {
-    const struct triplet t = {ln_fine, ln_coarse, ln_growth, s};
     double low = -1, high = 1;
-    while (order_mismatch(&t, low) > 0)
+    while (order_mismatch(t, low) > 0)
         low *= 2;
-    while (order_mismatch(&t, high) < 0)
+    while (order_mismatch(t, high) < 0)
         high *= 2;
     for (int i = 0; i < 200; i++) {
         const double p = (low + high) / 2;
-        *(order_mismatch(&t, p) < 0 ? &low : &high) = p;
+        *(order_mismatch(t, p) < 0 ? &low : &high) = p;
     }
     return (low + high) / 2;
 }
@@ -150,7 +152,7 @@ static void judge_triplet(const double *h, const double *value, struct br_gci *g
         .s = (e32 > 0) == (e21 > 0) ? 1 : -1,
     };
     gci->sequence = sequence_of(&t);
-    gci->order = br_order_of_differences(t.ln21, t.ln32, t.ln_growth, t.s);
+    gci->order = order_of(&t);
 }
 
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,

@@ -71,12 +71,6 @@ struct br_gci {
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err);
 
-/* The order p that two differences of values on three grids show, e = C (h^p - h_finer^p): the root
- * of (3), with the logarithms of both refinement ratios and of |e32/e21|, and s = sign(e32/e21).
- * Celik et al. iterate p <- (ln |e32/e21| + q(p))/ln r21, which has the same fixed point, but
- * diverges from it where r32 is greater than about r21^2. So the root is bracketed here. */
-double br_order_of_differences(double ln_r21, double ln_r32, double ln_growth, int s);
-
 /* ---- least squares ---- */
 
 /* phi_0 + sum alpha_j h^power_j, fitted to the values. */

@@ -42,8 +42,8 @@ static const double least_scatter = 1e-7;
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
 static const double cell_scatter = 4e-3;
 
-/* A correction is known to this share of itself: there is always another term. */
-static const double truncation = 0.01;
+/* A correction c is known to truncation c + next_term c^2: there is always another term. */
+static const double truncation = 0.01, next_term = 0.03;
 
 /* The share of lines with a term of opposite sign that pass zero within the rows. */
 static const double passes_zero = 0.15;
@@ -60,7 +60,7 @@ struct family {
 
 #define NEXT_TERM(s, share)                              \
     {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
-        {BR_LAW_LOWER, s, 0.1, 1.6, 0.1 * (share)},     \
+        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)},       \
         {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
 
 static const double prior_of_power = 0.45;
@@ -402,7 +402,7 @@ static void add_law(struct mixture *all, const struct rows *r, const struct fami
     double change = 0;
     for (size_t i = r->count; i-- > 0;) {
         change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] = 1e-6 + share * change;
+        r->least[i] = 1e-6 + share * change * (1 + next_term / truncation * change);
     }
     const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
     const bool small = f->law == BR_LAW_CANCEL && !crosses;
@@ -505,6 +505,46 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     free(index);
     free(room);
     return status;
+}
+
+/* ---- which rows count ---- */
+
+/* A level below this share of the coarsest error that counts is taken for round-off. */
+static const double deep = 1e-6;
+
+enum br_flag br_line_order_flag(const struct br_line_order *found,
+                                const struct br_order_point *point, size_t i)
+{
+    const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
+    const struct br_order_point *last = &point[found->last];
+    if (i < found->first)
+        return BR_FLAG_COARSE;
+    if (i == found->outlier)
+        return BR_FLAG_OUTLIER;
+    if (i <= found->last && !(floors && point[i].error < 2 * found->floor))
+        return BR_FLAG_NONE;
+    if (i > found->last &&
+        point[i].error < 1.05 * last->error * pow(point[i].z / last->z, found->order.value))
+        return BR_FLAG_OUTLIER;
+    return point[i].error <= deep * point[found->first].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
+}
+
+double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine)
+{
+    static const double steepest = 60;
+    const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
+    double low = -steepest, high = steepest, slope;
+    if (!usable(coarse) || !usable(fine))
+        return NAN;
+    if (coarse->z_against == 0 && fine->z_against == 0)
+        return falls / ratio;
+    while (high - low > 1e-14 * steepest) {
+        const double p = (low + high) / 2;
+        const double lost = loss(coarse->z_against / coarse->z, p, &slope) -
+                            loss(fine->z_against / fine->z, p, &slope);
+        *(p * ratio + lost < falls ? &low : &high) = p;
+    }
+    return low > -steepest && high < steepest ? (low + high) / 2 : NAN;
 }
 
 /* ---- the line of an order ---- */

@@ -2,7 +2,7 @@
 /* The observed order of a line of errors: the one place where it is found.
  *
  * One power C z^p never fits real errors. Coarse grids are not asymptotic, fine ones reach a floor,
- * a lower power comes up, a logarithm bends the line, numbers scatter. So several laws compete,
+ * a growing lower power, a logarithm bends the line, numbers scatter. So several laws compete,
  * each on several windows of rows. The order is their average, weighted by how well each explains
  * the rows (Bayesian model averaging: Hoeting, Madigan, Raftery and Volinsky, Statistical Science
  * 14, 382-417, 1999), and its interval covers each law that the rows do not rule out.
@@ -55,6 +55,14 @@ struct br_line_order {
  * than three rows. Fails with BR_NO_MEMORY. */
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
+
+/* Why the order of a line does not rest on point[i]; BR_FLAG_NONE: it does. */
+enum br_flag br_line_order_flag(const struct br_line_order *found,
+                                const struct br_order_point *point, size_t i);
+
+/* The order that two errors show, the coarser one first; NaN: one of them is not above 0, or no
+ * order from -60 to 60 makes such differences. */
+double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
 
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
  * their logarithms, at point[i]; and its band, by the lines of the order's low and high end. Errors

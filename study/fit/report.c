@@ -15,7 +15,7 @@
 #include "study/fit/line_order.h"
 #include "study/scene/words.h"
 
-enum { LEAST = 3, MOST = 5 }; /* number of errors for an order; of more, the finest are used */
+enum { LEAST = 3 }; /* errors for an order */
 /* An error of space above this share of the error of time hides its order. */
 static const double hidden = 0.1;
 static const double near = 0.1, clear = 0.02; /* of an order */
@@ -25,7 +25,7 @@ struct line {
     const struct br_study *study;
     int axis;
     size_t at;                         /* index of the other axis */
-    struct br_order_point point[MOST]; /* the finest that are not flagged; z in m or s */
+    struct br_order_point point[BR_MOST_SEEN]; /* the finest not flagged; z in m or s */
     size_t count, left_out;
     enum br_flag flag; /* of the first that is left out */
 };
@@ -49,7 +49,7 @@ static struct line line_of(const struct br_study *s, enum br_part part, int axis
             l.flag = l.left_out++ ? l.flag : c->flag[part];
             continue;
         }
-        if (l.count == MOST)
+        if (l.count == BR_MOST_SEEN)
             memmove(l.point, l.point + 1, --l.count * sizeof *l.point);
         l.point[l.count++] =
             (struct br_order_point){br_axis_size(s->scene, axis, c->at),
@@ -69,13 +69,10 @@ static struct line differences_of(const struct br_study *s, enum br_part part, i
     return line_of(s, part, axis, 0);
 }
 
-/* The order from point i to the next; the loss by finite references is that of theory. */
-static double rate(const struct line *l, size_t i, double theory)
+/* The order from point i to the next. */
+static double rate(const struct line *l, size_t i)
 {
-    const struct br_order_point *a = &l->point[i], *b = a + 1;
-    const double lost =
-        log(1 - pow(a->z_against / a->z, theory)) - log(1 - pow(b->z_against / b->z, theory));
-    return (log(a->error / b->error) - lost) / log(a->z / b->z);
+    return br_order_rate(&l->point[i], &l->point[i + 1]);
 }
 
 /* ---- observed orders ---- */
@@ -83,8 +80,8 @@ static double rate(const struct line *l, size_t i, double theory)
 static void say_rates(struct br_seen_order *o, const struct line *l)
 {
     for (size_t i = 0; i + 1 < l->count; i++)
-        REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i, o->theory.formal));
-    REMARK(o, " from size to size");
+        REMARK(o, "%s%.2f", i ? ", " : " ", rate(l, i));
+    REMARK(o, " from row to row");
 }
 
 /* The order of theory that is nearest to an observed one. */
@@ -97,8 +94,8 @@ static double nearest(const struct br_seen_order *o, double order)
 /* By how much the last rate is nearer to theory than the first one, relative to theory. */
 static double comes_closer(const struct br_seen_order *o, const struct line *l)
 {
-    const double formal = o->theory.formal, first = rate(l, 0, formal);
-    const double last = rate(l, l->count - 2, formal);
+    const double formal = o->theory.formal, first = rate(l, 0);
+    const double last = rate(l, l->count - 2);
     return (fabs(first - nearest(o, first)) - fabs(last - nearest(o, last))) / formal;
 }
 
@@ -117,13 +114,13 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
     const bool fits = order.low <= theory && theory <= order.high;
     o->order = order;
     if (isnan(o->theory.order)) {
-        REMARK(o, "theory states none: %s", o->theory.reason);
+        REMARK(o, "no theory: %s", o->theory.reason);
         return;
     }
     if (agrees(o))
-        REMARK(o, "as in theory");
+        REMARK(o, "agrees with theory");
     else if (off <= near)
-        REMARK(o, "near theory");
+        REMARK(o, "close to theory");
     else
         REMARK(o, fits ? "not settled" : order.value < theory ? "below theory" : "above theory");
     if (off <= near || !l)
@@ -134,11 +131,14 @@ static void claim(struct br_seen_order *o, struct br_estimate order, const struc
 
 static void say_too_few(struct br_seen_order *o, const struct line *l)
 {
-    REMARK(o, "not seen: %zu error%s, an order needs %d", l->count, l->count == 1 ? "" : "s",
-           LEAST);
+    const char *what = l->study->judge == &br_judge_none ? "difference" : "error";
     if (l->left_out)
-        REMARK(o, "; %zu left out%s%s", l->left_out, l->flag ? ", the first: " : "",
-               l->flag == BR_FLAG_ROUND_OFF ? "at the round-off" : br_flag_name(l->flag));
+        REMARK(o, "not measurable: %zu of %zu %ss are left out%s%s; an order needs %d", l->left_out,
+               l->count + l->left_out, what, l->flag ? ", the first: " : "", br_flag_name(l->flag),
+               LEAST);
+    else
+        REMARK(o, "not measurable: %zu %s%s, an order needs %d", l->count, what,
+               l->count == 1 ? "" : "s", LEAST);
 }
 
 /* ---- what a picture shows ---- */
@@ -154,14 +154,8 @@ static struct br_seen_point point_of(const struct line *l, const struct br_line_
     size_t i = 0;
     while (i < l->count && l->point[i].z != p.z)
         i++;
-    if (p.flag == BR_FLAG_NONE && (l->count > 0 && p.z > l->point[0].z * (1 + 1e-9)))
-        p.flag = BR_FLAG_COARSE; /* finer ones suffice */
-    if (!found || i == l->count || isnan(found->order.value))
-        return p;
-    p.flag = i < found->first      ? BR_FLAG_COARSE
-             : i == found->outlier ? BR_FLAG_OUTLIER
-             : i > found->last     ? BR_FLAG_STALLED
-                                   : BR_FLAG_NONE;
+    if (found && i < l->count && isfinite(found->order.value))
+        p.flag = br_line_order_flag(found, l->point, i);
     return p;
 }
 
@@ -206,12 +200,17 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
         say_too_few(o, l);
         return BR_OK;
     }
-    for (size_t i = 1; i < l->count; i++)
-        falls = falls && l->point[i].error < l->point[i - 1].error;
     const enum br_status status = br_line_order_find(l->point, l->count, &found, err);
     const struct br_estimate order = found.order;
     if (status)
         return status;
+    double before = INFINITY; /* the last error that counts */
+    for (size_t i = 0; i < l->count; i++)
+        if (!br_order_determined(&order) ||
+            br_line_order_flag(&found, l->point, i) == BR_FLAG_NONE) {
+            falls = falls && l->point[i].error < before;
+            before = l->point[i].error;
+        }
     const bool settled = order.high - order.low <= near * order.value;
     if (falls && br_order_determined(&order) && (settled || order.value > o->theory.formal / 2)) {
         claim(o, order, l);
@@ -220,16 +219,16 @@ static enum br_status judge_line(struct br_seen_order *o, const struct line *l, 
         return BR_OK;
     }
     if (falls) {
-        REMARK(o, "not seen: the errors fall by orders of");
+        REMARK(o, "not measurable: the errors fall with the orders");
         say_rates(o, l);
     } else {
-        REMARK(o, "not seen: the errors do not fall,");
+        REMARK(o, "not measurable: the errors do not fall:");
         for (size_t i = 0; i < l->count; i++)
             REMARK(o, "%s%.1e", i ? ", " : " ", l->point[i].error);
     }
     const double closer = falls ? comes_closer(o, l) : 1;
     if (fabs(closer) > clear)
-        REMARK(o, "; a %s %s may show it", closer > 0 ? "smaller" : "larger",
+        REMARK(o, "; a %s %s may show the order", closer > 0 ? "smaller" : "larger",
                br_axis_letters[l->axis]);
     return BR_OK;
 }
@@ -267,7 +266,7 @@ static void claim_joint(struct br_seen_order *o, const struct br_joint_fit *fit,
                         const struct br_study *s, enum br_part part, int axis)
 {
     const struct line l = line_of(s, part, axis, br_axis_count(s, 1 - axis) - 1);
-    snprintf(o->by, sizeof o->by, "joint fit of %zu cells, misfit %.2g %%", fit->points,
+    snprintf(o->by, sizeof o->by, "the joint fit of %zu cells, misfit %.2g %%", fit->points,
              100 * fit->misfit);
     *o->remark = '\0';
     claim(o, fit->order[axis], NULL);
@@ -287,10 +286,11 @@ static enum br_status see_apart(const struct br_study *s, enum br_part part, int
 {
     const struct line l = differences_of(s, part, axis);
     if (axis == BR_AXIS_SPACE)
-        snprintf(o->by, sizeof o->by, "each mesh against the next at k = %g s",
+        snprintf(o->by, sizeof o->by, "differences of successive meshes at k = %g s",
                  br_time_step(s->scene, s->steps[l.at]));
     else
-        snprintf(o->by, sizeof o->by, "each step against the next at n = %zu", s->n[l.at]);
+        snprintf(o->by, sizeof o->by, "differences of successive time steps at n = %zu",
+                 s->n[l.at]);
     return judge_line(o, &l, part, err);
 }
 
@@ -306,7 +306,13 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         !(width_of(&o->order) <= width_of(&fit->order[BR_AXIS_SPACE])))
         claim_joint(o, fit, br_report_fitted(r), part, BR_AXIS_SPACE);
     else if (!apart)
-        REMARK(o, "not seen: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
+        REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
+    if (apart && !agrees(o) && isfinite(o->theory.order) && !r->printed) {
+        const struct br_study *s = br_report_fitted(r);
+        const size_t finest = s->n[s->n_count - 1];
+        REMARK(o, "; finer meshes may settle it: -n %zu,%zu,%zu,%zu", finest, 2 * finest,
+               4 * finest, 8 * finest);
+    }
     return BR_OK;
 }
 
@@ -340,8 +346,8 @@ static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
     snprintf(o->by, sizeof o->by, "errors on the finest mesh, n = %zu", s->n[s->n_count - 1]);
     if (l.count && space > hidden * l.point[l.count - 1].error) {
         keep_points(o, &l, part, NULL);
-        REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows it", space,
-               l.point[l.count - 1].error);
+        REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows the order",
+               space, l.point[l.count - 1].error);
         return BR_OK;
     }
     return judge_line(o, &l, part, err);
@@ -370,8 +376,8 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 16 * s->steps[s->k_count - 1];
-        REMARK(o, "; a grid of smaller steps may settle it: -k T/%zu,T/%zu,T/%zu", finest,
-               2 * finest, 4 * finest);
+        REMARK(o, "; smaller time steps may settle it: -k T/%zu,T/%zu,T/%zu", finest, 2 * finest,
+               4 * finest);
     }
     return status;
 }

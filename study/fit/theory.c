@@ -124,11 +124,11 @@ static struct br_theory of_elements(const struct br_study *s, enum br_field_kind
     if (s->method.scheme->adaptive)
         return none(order, "each mesh has time steps of its own");
     if (!smooth)
-        return none(order, "loads or initial data break inside elements");
+        return none(order, "loads or initial data are not smooth inside elements");
     if (degree > 1 && !starts_at_rest(&d))
         return none(order, "initial data start a boundary layer");
     if (tip && scene->density == 0 && degree < 2 * derivatives)
-        return none(order, "without mass, elements are right at the tip");
+        return none(order, "without mass, the elements are exact at the tip");
     return of_order(order);
 }
 
@@ -143,11 +143,11 @@ static struct br_theory of_beam(const struct br_study *s)
         isnan(t.order) || bound.order >= t.order)
         return t;
     if (isnan(bound.order))
-        return none(t.formal, "Coulomb's bound takes u(L) of a rod whose data are not smooth");
+        return none(t.formal, "Coulomb's bound uses u(L) of a rod whose data are not smooth");
     t.order = bound.order;
     snprintf(t.reason, sizeof t.reason,
-             "Coulomb's bound takes u(L) of linear elements, right to h^2; --axial-degree 2 gives "
-             "%g",
+             "Coulomb's bound uses u(L) of linear elements, accurate to h^2; --axial-degree 2 "
+             "gives %g",
              t.highest);
     return t;
 }
@@ -182,9 +182,9 @@ static const char *what_spoils(const struct br_scene *s, enum br_field_kind kind
         vanish = of < vanish ? of : vanish;
     }
     if (!smooth)
-        return "forces break at some time";
+        return "forces are not smooth in time";
     if (!starts_at_rest(&d))
-        return "initial data start what no time step resolves";
+        return "initial data start a motion that no time step resolves";
     return d.given || (vanish >= zeros && zeros_at_start(d.tip_force, s) >= zeros &&
                        zeros_at_start(d.tip_moment, s) >= zeros)
                ? NULL

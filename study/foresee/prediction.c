@@ -380,11 +380,11 @@ static void judge(struct br_prediction *p, const struct br_probe_set *s)
     p->known = p->bounded && useful && !release_unseen(s) && !switches_unseen(s);
     if (!(p->bounded && useful))
         snprintf(p->why, sizeof p->why,
-                 "the marches that it is compared with differ too much among themselves");
+                 "the marches that predict it differ too much from each other");
     else if (!p->known)
-        snprintf(p->why, sizeof p->why, "no march follows %s",
-                 release_unseen(s) ? "how the contact, pressed at t = 0, throws the tip back"
-                                   : "the swings from t = 0 on, in which the tip may switch");
+        snprintf(p->why, sizeof p->why, "no march that predicts it resolves %s",
+                 release_unseen(s) ? "how the contact, closed at t = 0, pushes the tip back"
+                                   : "the oscillations after t = 0, in which the tip may switch");
     /* If an error may be as large as the solution, the marches may be as wrong, too: they give no
      * upper bound. */
     struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
@@ -462,7 +462,7 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
         status = find_too_short(planned, &unseen, err);
     if (unseen) {
         p->known = p->bounded = false;
-        snprintf(p->why, sizeof p->why, "%s too short for what it is compared with", unseen);
+        snprintf(p->why, sizeof p->why, "%s too short for the marches that predict it", unseen);
     }
     br_probes_clear(&set);
     p->seconds = br_seconds() - begun;

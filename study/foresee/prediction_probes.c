@@ -381,7 +381,7 @@ bool br_probe_failed(const struct br_probe *p, char why[200])
     }
     if (!p->active || !failure->status)
         return false;
-    snprintf(why, 200, "a march to compare with failed: %.150s", failure->message);
+    snprintf(why, 200, "a march that predicts it failed: %.150s", failure->message);
     return true;
 }
 

@@ -429,14 +429,13 @@ static const struct check {
     const char *not_seen, *part, *changes, *not_known, *remedy;
     bool in_time;
 } checks[] = {
-    {BR_WARN_LOAD_TIME, check_times, 0.05, "between the time levels what they do not see",
-     "its impulse", "", "happens between the time levels",
-     "time steps that are shorter than what happens there", true},
+    {BR_WARN_LOAD_TIME, check_times, 0.05, "changes faster than the time steps resolve",
+     "its impulse", "", "of the time steps", "time steps short enough to resolve it", true},
     {BR_WARN_LOAD_SPACE, check_elements, 0.02,
-     "inside of elements what their quadrature does not see", "it", " in x",
-     "the elements' quadrature sees", "more elements, as short as what happens there", false},
-    {BR_WARN_INITIAL, check_nodes, 0.05, "between the nodes what they do not see", "its norm", "",
-     "lies between the nodes", "more elements, as short as what happens there", false},
+     "changes faster in x than the quadrature of the elements resolves", "it", " in x",
+     "of the elements' quadrature", "elements short enough to resolve it", false},
+    {BR_WARN_INITIAL, check_nodes, 0.05, "changes faster in x than the elements resolve",
+     "its norm", "", "of the elements", "elements short enough to resolve it", false},
 };
 
 static void report(const struct loss *s, const struct check *check, struct br_warnings *w)
@@ -455,11 +454,11 @@ static void report(const struct loss *s, const struct check *check, struct br_wa
                  s->position, check->in_time ? "s" : "m");
     if (s->unknown)
         br_warn(w, check->kind, check->remedy,
-                "%s changes so often%s that it is not known how much of it %s, with %s",
-                s->input->name, check->changes, check->not_known, with);
+                "%s changes so often%s that the error %s, with %s, is not known", s->input->name,
+                check->changes, check->not_known, with);
     else
-        br_warn(w, check->kind, check->remedy, "%s does %s: with %s %s of %s%s", s->input->name,
-                check->not_seen, with, share, check->part, near);
+        br_warn(w, check->kind, check->remedy, "%s %s: with %s the error is %s of %s%s",
+                s->input->name, check->not_seen, with, share, check->part, near);
 }
 
 enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,

@@ -175,11 +175,12 @@ static enum br_status check_bounces(const struct br_planned_march *o, struct br_
         return BR_OK;
     if (share > little)
         snprintf(found, sizeof found,
-                 "; on a coarse mesh it gains %.2g %% of what is put into the axial field",
+                 "; on a coarse mesh it gains %.2g %% of the energy that is put into the axial "
+                 "field",
                  100 * share);
     br_warn(w, BR_WARN_BOUNCE, "--contact implicit  # gains none",
-            "the lagged contact may gain energy as it opens and closes: with k = %.4g s it is sure "
-            "not to up to a stiffness of %.4g N/m, the scene has %g N/m%s",
+            "the lagged contact may gain energy as it opens and closes: with k = %.4g s it gains "
+            "none up to a stiffness of %.4g N/m, the scene has %g N/m%s",
             field.k, br_contact_limit_bouncing(&field), s->contact.stiffness, found);
     return BR_OK;
 }
@@ -206,7 +207,9 @@ static void round_off_remedy(const struct br_planned_march *o, double floor, cha
     int used = 0;
     if (least < floor / 2)
         used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
-    snprintf(remedy + used, 400 - (size_t)used, "fewer elements, which round-off grows with");
+    snprintf(remedy + used, 400 - (size_t)used,
+             "fewer elements, since round-off grows with their "
+             "number");
 }
 
 static void warn_of_round_off(const struct br_planned_march *o, const struct br_prediction *p,

@@ -240,8 +240,8 @@ static enum br_status put_together(struct work *w, struct br_error *err)
         for (size_t c = 0; c < br_study_cells(first) && !first->failure.status; c++) {
             marched |= of[c] != SIZE_MAX;
             if (of[c] == SIZE_MAX && !is_kept(first, c))
-                status =
-                    br_fail(err, BR_IO, "%s: an entry has gone meanwhile", first->kept->folder);
+                status = br_fail(err, BR_IO, "%s: an entry was removed in the meantime",
+                                 first->kept->folder);
         }
         for (struct br_study *norm = first; norm && marched && !status; norm = norm->next_norm)
             if (!norm->failure.status)

@@ -1,13 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""beamrate in Python: scenes, marches, studies, verdicts, and orders of convergence, over libbeamrate.
+"""beamrate in Python: orders of convergence of any numbers; scenes, marches, studies and verdicts.
+
+    import beamrate
+    found = beamrate.orders(frame)  # of pandas, or {"n": [10, 20, 40, 80], "l2": [...]}
+    print(found)                    # the answer
+    found.assert_order(2)           # in a test
 
 Arrays are numpy's; the library writes into them and reads from them without copies. All quantities
 are in SI units; beamrate.h describes each member of the results. A method is given by keywords:
 scheme="bdf2", axial_degree=2. An error raises Error, or BadInput, with the library's message.
 
-$BEAMRATE_LIBRARY names the shared library where it is not installed beside this file.
+$BEAMRATE_LIBRARY names the shared library where it is not installed with this file.
 """
+import csv
 import ctypes
+import io
+import json
+import math
 import operator
 import os
 import threading
@@ -61,6 +70,9 @@ _Case = _struct("s:study s:measure s:part d:expected d:tolerance e:order d:const
                 "z:used i:verdict s:reason s:note", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
 _Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
+_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal")
+_Answer = _struct("s:quantity i:values i:refined e:order s:open", e=_Estimate)
+_OrderPoint = _struct("d:size d:error d:rate e:fit s:left_out", e=_Estimate)
 _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
 
 
@@ -76,8 +88,10 @@ def _plain(value):
 # ---- the library ----
 
 def _load():
-    prefix = Path(__file__).resolve().parents[3]  # of PREFIX/share/beamrate/python
-    found = [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
+    here = Path(__file__).resolve()
+    prefix = here.parents[3]  # of PREFIX/share/beamrate/python
+    found = [*here.parent.glob("libbeamrate.so"), *prefix.glob("lib*/libbeamrate.so.0"),
+             *prefix.glob("lib/*/libbeamrate.so.0")]
     return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
 
 
@@ -214,9 +228,9 @@ class _Handle:
         free = getattr(_lib, f"beamrate_{self._kind}_free")
         weakref.finalize(self, free, self.handle).atexit = False
 
-    def _get(self, name, struct, *arguments):
+    def _get(self, name, struct, *arguments, found=0):
         out = struct()
-        if getattr(_lib, "beamrate_" + name)(self, *arguments, byref(out)) != 0:
+        if getattr(_lib, "beamrate_" + name)(self, *arguments, byref(out)) != found:
             raise BadInput(f"{name}: the library refuses this {self._kind} or index")
         return _plain(out)
 
@@ -313,7 +327,7 @@ class Check(_Handle):
     """Verdicts on a scene's orders; on those of numbers: Orders.check. cases: a list; passed: all."""
     _kind = "check"
 
-    def __init__(self, scene, threads=0, progress=None, _orders=None, _expected=()):
+    def __init__(self, scene, threads=0, progress=None, _orders=None, _quantity=0, _expected=()):
         super().__init__()
         watch, out = _Watch(progress), byref(self.handle)
         if _orders is None:
@@ -321,7 +335,8 @@ class Check(_Handle):
         else:
             expected = (_Expectation * len(_expected))(*(
                 _Expectation(_choice("axis", axis, 2), *numbers) for axis, *numbers in _expected))
-            _call("orders_check", out, _orders, expected, c_size_t(len(expected)))
+            _call("orders_check_quantity", out, _orders, c_size_t(_quantity), expected,
+                  c_size_t(len(expected)))
         self.cases = [self._get("check_case", _Case, c_size_t(i))
                       for i in range(_lib.beamrate_check_count(self))]
         for case in self.cases:
@@ -329,29 +344,220 @@ class Check(_Handle):
         self.passed = all(case.verdict == "PASS" for case in self.cases)
 
 
+class Quantity:
+    """What is known of one column of numbers.
+
+    h, k: the order in each: value, low, high (95 %), and `open`, why it is not settled, or ""; None
+    where it is not refined. order: the only one. limit, gci: of values, the rows of the report's
+    table `limits`: of all, and of the finest line; else None. rows: every row of the report.
+    points: of the finest line, from coarse to fine: size, error, rate, fit, left_out.
+    """
+
+    def __init__(self, orders, index):
+        first, second = (orders._get("orders_answer", _Answer, c_size_t(index), c_int(axis), found=1)
+                         for axis in (SPACE, TIME))
+        self.name, self.is_value = first.quantity, bool(first.values)
+        self.h, self.k = (SimpleNamespace(**vars(a.order), open=a.open) if a.refined else None
+                          for a in (first, second))
+        self._axes = [axis for axis, a in ((SPACE, first), (TIME, second)) if a.refined]
+        tables = orders.report["tables"]
+        self.rows = tables[f"rows-{index + 1}"]
+        limits = [row for row in tables["limits"] if row["quantity"] == self.name]
+        lines = [row for row in limits if row["in"] in ("h", "k")]
+        self.limit, self.gci = limits[-1] if limits else None, lines[-1] if lines else None
+        self.points = self._points(orders, index, self._axes[0]) if self._axes else []
+
+    @staticmethod
+    def _points(orders, index, axis):
+        points = []
+        while True:
+            point = _OrderPoint()
+            if not _lib.beamrate_orders_point(orders, c_size_t(index), c_int(axis),
+                                              c_size_t(len(points)), byref(point)):
+                return points
+            points.append(_plain(point))
+
+    def _axis(self, axis=None):
+        if axis not in (None, "h", "k", SPACE, TIME):
+            _refuse(BadInput, "axis", axis, "'h' or 'k'")
+        axes = self._axes if axis is None else [("h", "k").index(axis) if axis in ("h", "k") else axis]
+        if len(axes) != 1:
+            raise BadInput(f"{self.name}: " + ("refined in h and in k, expected axis='h' or axis='k'"
+                                               if axes else "no three sizes of one line"))
+        return axes[0]
+
+    @property
+    def order(self):
+        return (self.h, self.k)[self._axis()]
+
+    @property
+    def rates(self):
+        return [point.rate for point in self.points]
+
+    @property
+    def left_out(self):
+        """The points that the order does not rest on; each says why, in left_out."""
+        return [point for point in self.points if point.left_out]
+
+    def __repr__(self):
+        orders = [f"no order in {axis}" if math.isnan(o.value) else
+                  f"order in {axis} {o.value:.3f} [{o.low:.3f}, {o.high:.3f}]"
+                  for axis, o in (("h", self.h), ("k", self.k)) if o]
+        return f"{self.name}: " + (", ".join(orders) or "no order")
+
+
 class Orders(_Handle):
-    """Orders of numbers of any program: errors, or values whose limit is not known."""
+    """Orders of numbers of any program: errors, or values whose limit is not known. See orders()."""
     _kind = "orders"
 
-    def __init__(self, number, h=None, k=None, values=False, formal=0):
+    def __init__(self, number, h=None, k=None, values=False, formal=0, _table=None):
         super().__init__()
-        arrays = [None if a is None else _numbers(name, a)
-                  for name, a in (("h", h), ("k", k), ("number", [] if number is None else number))]
-        if any(a is not None and a.shape != arrays[2].shape for a in arrays):
-            raise BadInput("h, k and the numbers differ in length, expected as many of each")
-        data = [None if a is None else a.ctypes.data for a in arrays]
-        _call("orders_find", byref(self.handle), byref(_Numbers(*data, len(arrays[2]), bool(values), formal)))
+        if _table is None:
+            arrays = [None if a is None else _numbers(name, a)
+                      for name, a in (("h", h), ("k", k), ("number", [] if number is None else number))]
+            if any(a is not None and a.shape != arrays[2].shape for a in arrays):
+                raise BadInput("h, k and the numbers differ in length, expected as many of each")
+            data = [None if a is None else a.ctypes.data for a in arrays]
+            numbers = _Numbers(*data, len(arrays[2]), bool(values), formal)
+            _call("orders_find", byref(self.handle), byref(numbers))
+        else:
+            _call("orders_read", byref(self.handle), byref(_table))
+        text = c_char_p()
+        _call("orders_report", self, byref(text))
+        self.report = json.loads(text.value)
+        count = sum(key.startswith("rows-") for key in self.report["tables"])
+        self.quantities = [Quantity(self, i) for i in range(count)]
+
+    def __repr__(self):
+        return "\n".join(self.report["answer"])
+
+    def __getitem__(self, name):
+        """The Quantity of that name."""
+        for quantity in self.quantities:
+            if quantity.name == name:
+                return quantity
+        raise KeyError(f"{name}: expected one of {[q.name for q in self.quantities]}")
 
     def line(self, axis):
-        """The order along an axis at the finest size of the other one; None: there is no line."""
+        """The order of the first column along an axis, at the finest size of the other one; None: there
+        is no line."""
         out = _Order()
         found = _lib.beamrate_orders_line(self, _choice("axis", axis, 2), byref(out))
         return _plain(out) if found else None
 
     def fit(self):
-        """Both orders together, of errors on a grid."""
+        """Both orders of the first column together, of errors on a grid."""
         return self._get("orders_fit", _Fit)
 
-    def check(self, *expected):
-        """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to)."""
-        return Check(None, _orders=self, _expected=expected)
+    def check(self, *expected, quantity=None):
+        """Verdicts on expectations: (axis, order, tolerance) or (axis, order, tolerance, down_to); of
+        the quantity of that name, else of the first."""
+        index = 0 if quantity is None else self.quantities.index(self[quantity])
+        return Check(None, _orders=self, _quantity=index, _expected=expected)
+
+    def assert_order(self, order, tolerance=0.1, quantity=None, axis=None, down_to=0):
+        """For tests: AssertionError with the reason unless the verdict is PASS, which needs the whole
+        95 % interval within order -+ tolerance. Of all quantities, or of one; axis: "h" or "k"."""
+        __tracebackhide__ = True  # of pytest
+        failures = []
+        for q in self.quantities if quantity is None else [self[quantity]]:
+            check = self.check((q._axis(axis), order, tolerance, down_to), quantity=q.name)
+            failures += [f"{q.name}: {case.verdict}: {case.reason}" for case in check.cases
+                         if case.verdict != "PASS"]
+        if failures:
+            raise AssertionError("\n".join(failures))
+
+    def plot(self, axes=None):
+        """Draws errors, or differences of values, over the size, with the line of each order and its
+        band; hollow: left out. Needs matplotlib. Returns the axes."""
+        if axes is None:
+            import matplotlib.pyplot
+            axes = matplotlib.pyplot.subplots()[1]
+        for i, q in enumerate(q for q in self.quantities if q.points):
+            size = [p.size for p in q.points]
+            for hollow in (False, True):
+                drawn = [p for p in q.points if bool(p.left_out) == hollow]
+                axes.plot([p.size for p in drawn], [p.error for p in drawn], "o", color=f"C{i}",
+                          fillstyle="none" if hollow else "full", label=None if hollow else repr(q))
+            axes.plot(size, [p.fit.value for p in q.points], color=f"C{i}")
+            axes.fill_between(size, [p.fit.low for p in q.points], [p.fit.high for p in q.points],
+                              color=f"C{i}", alpha=0.2)
+        axes.set(xscale="log", yscale="log", xlabel="size", ylabel="error, or difference of values")
+        axes.legend()
+        return axes
+
+
+# ---- orders of a table ----
+
+def _column(name, values):
+    """The fields of a column, as texts; a number keeps all its digits."""
+    if isinstance(values, np.ma.MaskedArray):
+        _refuse(TypeError, name, values, "an array without a mask; NaN is a missing number")
+    values = np.asarray(values)
+    if values.ndim != 1 or values.dtype.kind == "c":
+        _refuse(TypeError, name, values, "a list of real numbers")
+    return [repr(float(v)) if isinstance(v, float) else " ".join(str(v).split())
+            for v in values.tolist()]
+
+
+def _names(name, value):
+    value = [value] if isinstance(value, str) else value
+    return None if value is None else _text(name, ",".join(map(str, value)))
+
+
+def orders(data, *, values=None, errors=None, dimension=0, formal=0, **sizes):
+    """The orders of convergence of a table: Orders, whose repr is the answer.
+
+    data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
+    of numbers. The headings tell the mesh and the time step, as those of a file do; else name them:
+    h=, n=, level=, dofs= with dimension=, k=, dt=, steps=: a list of numbers, or the name of a column.
+    values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
+    numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
+    values (2). NaN is a missing number. A report says what was taken for what.
+    """
+    if isinstance(data, (str, os.PathLike)):
+        name, text = _text("data", data), Path(data).read_bytes()
+        if sizes:
+            _refuse(TypeError, "sizes", sorted(sizes), "none beside a file, whose headings tell them")
+        if b"\0" in text:
+            raise BadInput(f"{data}: found a zero byte, expected text")
+    else:
+        name, text, values = b"table", *_as_text(data, values, sizes)
+    watch = (dimension, formal)
+    if not all(isinstance(v, (int, float, np.number)) and math.isfinite(v) and v >= 0 for v in watch):
+        _refuse(BadInput, "dimension, formal", watch, "numbers above 0")
+    return Orders(None, _table=_Table(name, text, _names("errors", errors), _names("values", values),
+                                      dimension, formal))
+
+
+def _as_text(data, values, sizes):
+    """The table of what Python has, as CSV; and `values`."""
+    known = ("h", "n", "level", "dofs", "k", "dt", "steps")
+    if wrong := sorted(set(sizes) - set(known)):
+        _refuse(TypeError, "sizes", wrong, f"some of {', '.join(known)}")
+    if hasattr(data, "to_frame") and not hasattr(data, "columns"):  # a Series of pandas
+        data = data.to_frame()
+    if any(name is not None for name in getattr(getattr(data, "index", None), "names", [])):
+        data = data.reset_index()  # pandas: an index with a name is a column
+    if not hasattr(data, "keys"):
+        data = {"value" if values else "error": data}
+        values = "value" if values else None
+    elif isinstance(values, bool):
+        _refuse(TypeError, "values", values, "names of columns")
+    named = {size for size in sizes.values() if isinstance(size, str)}
+    if missing := sorted(named - set(data.keys())):
+        _refuse(BadInput, "sizes", missing, f"columns of {[str(key) for key in data.keys()]}")
+    columns = {key: _column(key, data[size] if isinstance(size, str) else size)
+               for key, size in sizes.items() if size is not None}
+    for key in data.keys():
+        if str(key) in columns:
+            _refuse(BadInput, str(key), "it twice", "a column or an argument of that name")
+        if key not in named:
+            columns[str(key)] = _column(str(key), data[key])
+    if len(lengths := {len(column) for column in columns.values()}) != 1:
+        raise BadInput(f"found columns of {sorted(lengths)} numbers, expected as many in each")
+    out = io.StringIO()
+    table = csv.writer(out, quoting=csv.QUOTE_ALL)
+    table.writerow(columns)
+    table.writerows(zip(*columns.values()))
+    return out.getvalue().encode(), values

@@ -10,6 +10,7 @@
 #include "study/fit/fit.h"
 #include "study/grid/observer.h"
 #include "study/library/beamrate.h"
+#include "study/orders/orders.h"
 #include "study/verify/verify.h"
 
 /* Each handle begins with its kind, so that a handle of another kind is refused. */
@@ -31,6 +32,13 @@ struct beamrate_scene {
     char *path; /* for messages; owned */
     struct br_scene scene;
     struct br_verify verify;
+};
+
+struct beamrate_orders {
+    enum br_handle kind;
+    struct br_numbers numbers;
+    struct br_orders orders;
+    char *report; /* the last one; owned */
 };
 
 /* ---- the beginning and end of a call ---- */

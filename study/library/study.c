@@ -8,7 +8,7 @@
 #include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/library/library.h"
-#include "study/orders/orders.h"
+#include "study/orders/request.h"
 #include "study/verify/check.h"
 
 static_assert((int)BEAMRATE_TOTAL == BR_PART_TOTAL && (int)BEAMRATE_OF_AXIAL == BR_PART_AXIAL &&
@@ -217,6 +217,7 @@ enum beamrate_status beamrate_study_reference(const struct beamrate_study *study
 struct beamrate_check {
     enum br_handle kind;
     struct br_check check;
+    char *measure; /* of numbers: the name of their column; owned */
 };
 
 static enum br_status check_scene(struct br_check *check, const struct beamrate_scene *scene,
@@ -252,6 +253,7 @@ void beamrate_check_free(struct beamrate_check *check)
     if (!br_handle_is(check, BR_HANDLE_CHECK))
         return;
     br_check_clear(&check->check);
+    free(check->measure);
     free(check);
 }
 
@@ -294,12 +296,6 @@ enum beamrate_status beamrate_check_case(const struct beamrate_check *check, siz
 /* ---- orders of any numbers ---- */
 
 static const char name_of_numbers[] = "numbers"; /* in messages, instead of a file's path */
-
-struct beamrate_orders {
-    enum br_handle kind;
-    struct br_numbers numbers;
-    struct br_orders orders;
-};
 
 static enum br_status copy_numbers(const struct beamrate_numbers *from, struct br_numbers *to,
                                    struct br_error *err)
@@ -344,22 +340,105 @@ enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
                    find_orders(*orders, numbers, &call.err));
 }
 
+static enum br_status read_orders(struct beamrate_orders *o, const struct beamrate_table *table,
+                                  struct br_error *err)
+{
+    struct br_orders_request q = br_orders_request_default();
+    if (!table || !table->text)
+        return br_fail(err, BR_BAD_INPUT, "table: found NULL, expected a table");
+    if (!(table->dimension >= 0 && isfinite(table->dimension) && table->formal >= 0 &&
+          isfinite(table->formal)))
+        return br_fail(err, BR_BAD_INPUT,
+                       "table: found dimension %g and formal order %g, expected numbers above 0, or "
+                       "0: not stated",
+                       table->dimension, table->formal);
+    q.path = (char *)(table->name ? table->name : "table"); /* all borrowed: the request is not cleared */
+    q.table = (char *)table->text;
+    q.errors = (char *)table->errors;
+    q.values = (char *)table->values;
+    q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
+    q.assumed_dimension = !(table->dimension > 0);
+    q.formal = table->formal > 0 ? table->formal : q.formal;
+    return br_orders_read(&q, &o->numbers, err) ? err->status
+                                                : br_orders_find(&o->numbers, q.formal, &o->orders, err);
+}
+
+enum beamrate_status beamrate_orders_read(struct beamrate_orders **orders,
+                                          const struct beamrate_table *table,
+                                          struct beamrate_error *err)
+{
+    BR_MAKE_HANDLE(orders, BR_HANDLE_ORDERS, beamrate_orders_free,
+                   read_orders(*orders, table, &call.err));
+}
+
 void beamrate_orders_free(struct beamrate_orders *orders)
 {
     if (!br_handle_is(orders, BR_HANDLE_ORDERS))
         return;
+    free(orders->report);
     br_orders_clear(&orders->orders);
     br_numbers_clear(&orders->numbers);
     free(orders);
 }
 
+static const struct beamrate_estimate nothing = {NAN, NAN, NAN};
+
+/* The orders of a column, and its finest line along an axis (out); NULL: there are none. */
+static const struct br_quantity_orders *find_column(const struct beamrate_orders *orders,
+                                                    size_t quantity, enum beamrate_axis axis,
+                                                    const struct br_orders_line **line)
+{
+    const bool good = br_handle_is(orders, BR_HANDLE_ORDERS) && is_axis(axis) &&
+                      quantity < orders->orders.count;
+    const struct br_quantity_orders *of = good ? &orders->orders.of[quantity] : NULL;
+    *line = of ? br_orders_finest(of, (enum br_axis)axis) : NULL;
+    return of;
+}
+
+int beamrate_orders_answer(const struct beamrate_orders *orders, size_t quantity,
+                           enum beamrate_axis axis, struct beamrate_answer *answer)
+{
+    const struct br_orders_line *line;
+    const struct br_quantity_orders *of = find_column(orders, quantity, axis, &line);
+    if (!answer)
+        return 0;
+    *answer = (struct beamrate_answer){.quantity = "", .order = nothing, .open = ""};
+    if (!of)
+        return 0;
+    const struct br_quantity *q = &orders->numbers.quantity[quantity];
+    const struct br_orders_answer *found = &of->answer[axis];
+    answer->quantity = q->name;
+    answer->values = q->is_value;
+    answer->refined = line || br_joint_describes(&of->joint);
+    answer->order = br_library_estimate(found->order);
+    answer->open = found->open ? found->open : "";
+    return 1;
+}
+
+int beamrate_orders_point(const struct beamrate_orders *orders, size_t quantity,
+                          enum beamrate_axis axis, size_t i, struct beamrate_order_point *point)
+{
+    const struct br_orders_line *line;
+    find_column(orders, quantity, axis, &line);
+    if (!point)
+        return 0;
+    *point = (struct beamrate_order_point){NAN, NAN, NAN, nothing, ""};
+    if (!line || i >= line->observed.points)
+        return 0;
+    const struct br_point *p = &line->observed.point[i];
+    *point = (struct beamrate_order_point){.size = p->z,
+                                           .error = p->error,
+                                           .rate = br_orders_rate(line, i),
+                                           .fit = br_library_estimate(p->fit),
+                                           .left_out = br_flag_name(p->flag)};
+    return 1;
+}
+
 int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axis axis,
                          struct beamrate_order *order)
 {
-    const struct beamrate_estimate nothing = {NAN, NAN, NAN};
-    const bool good = br_handle_is(orders, BR_HANDLE_ORDERS) && is_axis(axis);
-    const struct br_orders_line *line =
-        good ? br_orders_finest(&orders->orders.of[0], (enum br_axis)axis) : NULL;
+    const struct br_orders_line *line;
+    find_column(orders, 0, axis, &line);
     if (!order)
         return 0;
     *order = (struct beamrate_order){.order = nothing, .constant = NAN, .limit = nothing};
@@ -413,22 +492,35 @@ static enum br_status copy_expectations(const struct beamrate_expectation *from,
     return BR_OK;
 }
 
-static enum br_status check_orders(struct br_check *check, const struct beamrate_orders *orders,
-                                   const struct beamrate_expectation *from, size_t count,
-                                   struct br_error *err)
+static enum br_status check_orders(struct beamrate_check *made, const struct beamrate_orders *orders,
+                                   size_t quantity, const struct beamrate_expectation *from,
+                                   size_t count, struct br_error *err)
 {
+    struct br_check *check = &made->check;
     struct br_order_expectation *e;
     if (br_handle_check(orders, BR_HANDLE_ORDERS, "orders", err))
         return err->status;
-    const struct br_quantity *quantity = orders->numbers.quantity;
-    enum br_status status = copy_expectations(from, count, &e, err);
-    for (size_t i = 0; i < count && !status; i++)
-        strcpy(e[i].quantity, quantity->name);
+    if (quantity >= orders->orders.count)
+        return br_fail(err, BR_BAD_INPUT, "quantity: found %zu, expected less than %zu", quantity,
+                       orders->orders.count);
+    if (copy_expectations(from, count, &e, err))
+        return free(e), err->status;
+    /* One column: a name that is longer than an expectation's is no other one's. */
+    struct br_orders alone = orders->orders;
+    struct br_numbers numbers = orders->numbers;
+    alone.numbers = &numbers;
+    alone.of += quantity;
+    alone.count = 1;
+    numbers.quantity += quantity;
+    made->measure = strdup(numbers.quantity->name); /* outlives the orders */
     check->path = name_of_numbers;
+    for (size_t i = 0; i < count; i++)
+        snprintf(e[i].quantity, sizeof e->quantity, "%s", numbers.quantity->name);
+    enum br_status status = made->measure ? BR_OK : br_no_memory(err, "the verdicts");
     if (!status)
-        status = br_orders_check(&orders->orders, e, count, check, err);
+        status = br_orders_check(&alone, e, count, check, err);
     for (size_t i = 0; i < check->count && !status; i++)
-        check->cases[i].measure = quantity->is_value ? "value" : "error"; /* outlives the orders */
+        check->cases[i].measure = made->measure;
     free(e);
     return status;
 }
@@ -439,5 +531,15 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            size_t count, struct beamrate_error *err)
 {
     BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
-                   check_orders(&(*check)->check, orders, expectation, count, &call.err));
+                   check_orders(*check, orders, 0, expectation, count, &call.err));
+}
+
+enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **check,
+                                                    const struct beamrate_orders *orders,
+                                                    size_t quantity,
+                                                    const struct beamrate_expectation *expectation,
+                                                    size_t count, struct beamrate_error *err)
+{
+    BR_MAKE_HANDLE(check, BR_HANDLE_CHECK, beamrate_check_free,
+                   check_orders(*check, orders, quantity, expectation, count, &call.err));
 }

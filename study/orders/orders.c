@@ -21,20 +21,10 @@ static enum br_status stopped(const struct br_numbers *numbers, struct br_error 
 
 /* ---- rates ---- */
 
-/* Orders of differences are believed up to this magnitude. */
-static const double steepest = 60;
-
-/* The order that two errors show. Differences from the next finer value are C |z^p - z_against^p|;
- * then z_against of `coarse` is z of `fine`. */
 static double rate(const struct br_point *coarse, const struct br_point *fine)
 {
-    const double falls = log(coarse->error / fine->error), ratio = log(coarse->z / fine->z);
-    if (!(coarse->error > 0 && fine->error > 0))
-        return NAN;
-    if (coarse->z_against == 0)
-        return falls / ratio;
-    const double order = br_order_of_differences(log(fine->z / fine->z_against), ratio, falls, 1);
-    return fmax(-steepest, fmin(order, steepest));
+    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
+                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
 }
 
 /* ---- lines ---- */
@@ -493,9 +483,7 @@ const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *o
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;
-    const double order = i ? rate(&p[i - 1], &p[i]) : NAN;
-    const bool is_end = i && p[i].z_against > 0 && !(fabs(order) < steepest * (1 - 1e-9));
-    return is_end ? NAN : order;
+    return i ? rate(&p[i - 1], &p[i]) : NAN;
 }
 
 /* ---- costs ---- */

@@ -138,7 +138,8 @@ static void measure_clamped(const struct br_paper *p, size_t which, struct br_fi
     compare_most(e, deflection, f);
     f->agreement = br_below(f->value, f->error, visible);
     snprintf(f->note, sizeof f->note,
-             "to the eye: one hundredth of the beam's largest deflection is %.3g m", visible);
+             "visible in a picture: one hundredth of the beam's largest deflection, %.3g m",
+             visible);
 }
 
 static void measure_below(const struct br_paper *p, size_t which, struct br_finding *f)
@@ -172,8 +173,8 @@ static void measure_stuck(const struct br_paper *p, size_t which, struct br_find
     f->agreement = f->exact > own ? BR_DIFFERS : br_below(f->exact, own, 1e-15);
     snprintf(
         f->note, sizeof f->note,
-        "the exact tip slips by %.3g m until then; steps of %.3g s jump over it, those of %.3g s "
-        "see it end at %.4g s",
+        "the exact tip slips by %.3g m until then; steps of %.3g s are too long for this slip, "
+        "with those of %.3g s it ends at %.4g s",
         fabs(e->exacts ? e->exact[e->exacts - 1].displacement[BR_BENDING] : NAN),
         time_of(e->record.row, e->record.rows, 1),
         time_of(p->early.record.row, p->early.record.rows, 1), last_movement(&p->early.record));
@@ -211,11 +212,10 @@ static void measure_cell(const struct br_paper *p, size_t which, struct br_findi
     f->error = error_of_exact(t);
     f->printed = t->printed[0];
     f->agreement = br_same(f, 0.5e-3 * pow(10, floor(log10(f->printed))));
-    snprintf(
-        f->note, sizeof f->note,
-        "printed over ours: %.2f; 'beamrate tables' shows all cells, and that no reference can "
-        "repair it",
-        f->printed / f->value);
+    snprintf(f->note, sizeof f->note,
+             "printed over ours: %.2f; 'beamrate tables' shows all cells, and that no choice of "
+             "reference explains this",
+             f->printed / f->value);
 }
 
 /* ---- Example 2 ---- */

@@ -97,14 +97,14 @@ static void add_terms(struct br_run_report *r, const char *key, const char *part
     }
     const char *how = quadrature ? "F(x) G(t): assembled once, by quadrature"
                                  : "without x: assembled once, in closed form";
-    const char *history = histories ? "one evaluation of its history a step"
-                                    : "its history is constant: nothing a step";
+    const char *history = histories ? "one evaluation of its history in each step"
+                                    : "its history is constant: no work in a step";
     if (moving)
         add(r, key, part, true, "f(x, t): quadrature every step, %zu evaluations",
             5 * moving * r->n);
     else if (products > 1)
         add(r, key, part, true,
-            "%zu products F(x) G(t): assembled once; their sum, with %zu histories, a step",
+            "%zu products F(x) G(t): assembled once; in each step their sum, with %zu histories",
             products, histories);
     else
         add(r, key, part, true, "%s; %s", how, history);

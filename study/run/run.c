@@ -45,8 +45,8 @@ static enum br_status judge_step(const struct br_run_report *report, const struc
     if (status || imbalance <= report->energy_limit)
         return status;
     return br_fail(verdict, BR_VERDICT,
-                   "what is missing in the energy balance is %.3g of the terms' sum, expected at "
-                   "most %.3g",
+                   "the energy balance is off by %.3g of the sum of its terms, expected at most "
+                   "%.3g",
                    imbalance, report->energy_limit);
 }
 

@@ -168,8 +168,8 @@ static enum br_status check_row(const struct br_scene_reader *r, size_t row)
     if (key->need == BR_OR_DERIVED && !n->line && section_is_given(r->given, key))
         return refuse_missing(r, row);
     if (key->need == BR_MAKES && n->line && n->origin == row && !n->used)
-        return br_scene_refuse(r, n->line, key->name,
-                               "makes nothing here, expected what it goes with: %s", key->help);
+        return br_scene_refuse(r, n->line, key->name, "has no effect alone, expected with it: %s",
+                               key->help);
     return BR_OK;
 }
 

@@ -2,7 +2,9 @@
 #include "study/scene/file.h"
 
 #include <dirent.h>
+#include <dlfcn.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +19,32 @@
 
 /* ---- paths and files of scenes ---- */
 
+/* The path in share/beamrate above the file of this code, which is the program or the shared
+ * library: what is installed may be moved as a whole. */
+static bool find_above(const char *relative, char *path, size_t size)
+{
+    static const char here;
+    char file[PATH_MAX];
+    Dl_info own;
+    if (!dladdr(&here, &own) ||
+        !realpath(own.dli_fname[0] == '/' ? own.dli_fname : "/proc/self/exe", file))
+        return false;
+    for (char *end; (end = strrchr(file, '/'));) {
+        *end = '\0';
+        snprintf(path, size, "%s/share/beamrate/%s", file, relative);
+        if (access(path, R_OK) == 0)
+            return true;
+    }
+    return false;
+}
+
 void br_data_path(const char *relative, char *path, size_t size)
 {
     const char *folder = getenv("BEAMRATE_DATA");
     if (!folder || !*folder)
-        folder = access(BR_SOURCE_DIR "/study/scenes", R_OK) == 0 ? BR_SOURCE_DIR : BR_DATA_DIR;
-    snprintf(path, size, "%s/%s", folder, relative);
+        folder = access(BR_SOURCE_DIR "/study/scenes", R_OK) == 0 ? BR_SOURCE_DIR : NULL;
+    if (folder || !find_above(relative, path, size))
+        snprintf(path, size, "%s/%s", folder ? folder : BR_DATA_DIR, relative);
 }
 
 /* Suggests the bundled scene with the most similar name, if there is one. */

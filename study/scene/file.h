@@ -55,8 +55,8 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
 enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err);
 void br_scene_list_free(char **names, size_t count); /* accepts NULL */
 
-/* Writes the path of the data file `relative`, in $BEAMRATE_DATA or else in the folder where the
- * program was built or installed. */
+/* Writes the path of the data file `relative`: in $BEAMRATE_DATA, or else where the program was built,
+ * or else in share/beamrate above the program or the shared library, or where it was installed. */
 void br_data_path(const char *relative, char *path, size_t size);
 
 #endif

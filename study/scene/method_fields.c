@@ -261,7 +261,7 @@ static const char *example(const struct br_method_field *f, enum br_method_style
     for (size_t row = 0; !*text && by->words->name(row); row++) {
         by->set(&m, (double)row);
         if (br_method_field_used(f, &m))
-            snprintf(text, 2 * BR_METHOD_VALUE, ", as %s%s %s does", name_of(by, style, name),
+            snprintf(text, 2 * BR_METHOD_VALUE, "; %s%s %s does", name_of(by, style, name),
                      style == BR_METHOD_IN_SCENE ? ":" : "", by->words->name(row));
     }
     return text;
@@ -275,9 +275,9 @@ static enum br_status refuse(const struct br_method_field *f, enum br_method_sty
     char field[BR_METHOD_VALUE], value[BR_METHOD_VALUE], text[2 * BR_METHOD_VALUE];
     const char *name = name_of(f, style, field);
     if (count == 1)
-        return br_fail(err, BR_BAD_INPUT, "%s: %s %s does not heed it%s", name, by->title,
+        return br_fail(err, BR_BAD_INPUT, "%s: %s %s does not use it%s", name, by->title,
                        br_method_field_text(by, method[0], value), example(f, style, text));
-    return br_fail(err, BR_BAD_INPUT, "%s: no study here has a %s that heeds it%s", name, by->title,
+    return br_fail(err, BR_BAD_INPUT, "%s: no study here has a %s that uses it%s", name, by->title,
                    example(f, style, text));
 }
 

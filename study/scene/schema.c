@@ -247,7 +247,7 @@ enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
         *culprit =
             br_function_is_zero(&s->axial.velocity) ? AT(bending.velocity) : AT(axial.velocity);
         return br_fail(err, BR_BAD_INPUT,
-                       "an initial velocity means nothing without density, expected none");
+                       "an initial velocity has no effect without density, expected none");
     }
     if (!br_function_is_zero(&b->stick_force) &&
         (!b->solution || s->friction.law == BR_FRICTIONLESS)) {

@@ -181,13 +181,12 @@ static enum br_status check_grid(struct br_plan *p, struct br_error *err)
     }
     if (good == 0)
         return br_fail(err, BR_NOT_FINITE,
-                       "no trial came to its end with an error; the first: %.900s",
+                       "no trial was completed with a known error; the first: %.900s",
                        p->count ? p->trial[0].failure.message : "there is none");
     if (p->goal.error < br_flag_margin * p->own)
         return br_fail(
             err, BR_BAD_INPUT,
-            "found %g, but what judges has an error of %.1e of its own: expected at least "
-            "%.1e",
+            "found %g, but the reference itself has an error of %.1e: expected at least %.1e",
             p->goal.error, p->own, br_flag_margin * p->own);
     return BR_OK;
 }
@@ -307,7 +306,7 @@ static enum br_status check_goal(const struct br_plan *p, struct br_error *err)
         return br_fail(err, BR_BAD_INPUT, "found %g, expected a relative error between 0 and 1", e);
     if (!isnan(s) && !(s > 0 && isfinite(s)))
         return br_fail(err, BR_BAD_INPUT, "found %g, expected seconds > 0", s);
-    return p->methods.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method takes this scene");
+    return p->methods.count ? BR_OK : br_fail(err, BR_BAD_INPUT, "no method can march this scene");
 }
 
 enum br_status br_plan_make(struct br_plan *p, struct br_error *err)

@@ -22,9 +22,9 @@ static const char *round_off(const struct br_scene *scene, const struct br_refin
 {
     (void)scene, (void)refined;
     if (stand->method.solver == &br_riccati)
-        return "riccati, the solver with the least of it: within the floor";
+        return "solver riccati has the least round-off, which is below the floor";
     if (stand->method.solver == &br_auto)
-        return "auto, which takes a solver with the least of it: within the floor";
+        return "auto chooses a solver with the least round-off, which is below the floor";
     stand->method.solver = &br_riccati;
     return NULL;
 }

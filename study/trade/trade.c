@@ -219,7 +219,8 @@ enum br_status br_trade_lay_out(struct br_trade *t, const struct br_trade_grid *
         return br_no_memory(err, "the trials");
     for (size_t i = 0; i < t->methods.count; i++)
         add_named(t, &g, &t->methods.list[i]);
-    return t->count
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "there is nothing to try: no method takes this scene");
+    return t->count ? BR_OK
+                    : br_fail(err, BR_BAD_INPUT,
+                              "there is nothing to try: no method can march this "
+                              "scene");
 }

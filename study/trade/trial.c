@@ -440,8 +440,7 @@ static enum br_status judge_all(struct br_trial *trial, size_t count,
 {
     const struct br_judge *judge = br_trials_judge(request);
     if (!judge->create)
-        return br_fail(err, BR_BAD_INPUT, "there is no judge of this scene's errors: %s",
-                       judge->title);
+        return br_fail(err, BR_BAD_INPUT, "there is no reference for this scene: %s", judge->title);
     if (count == 0)
         return BR_OK;
     struct groups g = {.study = br_allocate(count, sizeof *g.study),

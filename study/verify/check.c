@@ -177,6 +177,7 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
     c->measure = e->norm->name;
     c->part = br_part_names[e->part];
     c->unit = e->norm->unit;
+    c->duration = s->check->scene->duration;
     c->points = br_verify_points(s->kind, study_of(s)->count);
     c->point = br_allocate(c->points, sizeof *c->point);
     if (!c->point)

@@ -7,6 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/fit/theory.h"
+#include "study/scene/words.h"
+
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
 
 const char *const br_severity_names[] = {"same", "note", "warning", "serious"};
@@ -110,15 +113,30 @@ static bool is_looser(double before, double now, double direction)
 /* A band that is wider lets pass what failed before. */
 static bool expects_less(const struct br_expectation *e, const struct br_expectation *old)
 {
-    return is_looser(old->order + old->tolerance, e->order + e->tolerance, 1) ||
+    const double old_high = fmax(old->order, old->highest) + old->tolerance;
+    return is_looser(old_high, fmax(e->order, e->highest) + e->tolerance, 1) ||
            is_looser(old->order - old->tolerance, e->order - e->tolerance, -1) ||
            is_looser(old->ceiling, e->ceiling, 1) || is_looser(old->floor, e->floor, -1);
+}
+
+/* "2 to 4 +- 0.2, at most 8" */
+static const char *say_expectation(const struct br_expectation *e, char text[160])
+{
+    char order[64];
+    snprintf(text, 160, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
+             e->tolerance);
+    if (isfinite(e->floor))
+        br_append(text, 160, ", %g to %g", e->floor, e->ceiling);
+    else if (isfinite(e->ceiling))
+        br_append(text, 160, ", at most %g", e->ceiling);
+    return text;
 }
 
 static void compare_known(struct br_comparison *out, const char *subject, const struct br_case *c,
                           const struct br_case *old)
 {
     const struct br_expectation *e = &c->expected, *before = &old->expected;
+    char was[160], now[160];
     const double shift = c->order.value - old->order.value;
     const enum br_severity verdict = old->verdict == c->verdict ? BR_SAME
                                      : c->verdict == BR_PASS    ? BR_NOTE
@@ -135,8 +153,7 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
     add(out, subject, "expectation", before->order, e->order,
         expects_less(e, before) ? BR_WARNING : BR_SAME,
-        "looser: +- %g and %g to %g before, +- %g and %g to %g now", before->tolerance,
-        before->floor, before->ceiling, e->tolerance, e->floor, e->ceiling);
+        "looser: %s before, %s now", say_expectation(before, was), say_expectation(e, now));
     add(out, subject, "order", old->order.value, c->order.value, order,
         "%+.2g of a tolerance of %.2g", shift, e->tolerance);
     add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",
@@ -273,8 +290,8 @@ static void compare_scene(struct br_comparison *out, const struct br_check *chec
         compare_data(out, subject, old->data, check->data);
     } else if (check->data)
         add(out, subject, "scene", NAN, NAN, BR_NOTE,
-            "the baseline is older than the record of scenes, so a change of the scene is not seen: "
-            "make a new baseline");
+            "the baseline is older than the record of scenes, so a change of the scene is not "
+            "detected: make a new baseline");
 }
 
 /* ---- cost ---- */
@@ -292,7 +309,7 @@ static void compare_cost(struct br_comparison *out, const struct br_check *check
         grade(factor(old->element_steps, check->element_steps), work_steps), "%s", "");
     if (isfinite(before) && isfinite(now)) /* both did march */
         add(out, subject, "ns per element-step", before, now,
-            grade(factor(before, now), time_steps), "on these machines, as busy as they were");
+            grade(factor(before, now), time_steps), "times depend on the machine and its load");
 }
 
 static int by_severity(const void *a, const void *b)
@@ -310,8 +327,8 @@ static enum br_status check_problem(const struct br_check *check, const struct b
         return BR_OK;
     return br_fail(
         err, BR_BAD_INPUT,
-        "%s: the earlier check was of another problem: another command, other columns or "
-        "other expectations (%.8s..., now %.8s...)",
+        "%s: the earlier check had another problem: another command, other columns or other "
+        "expectations (%.8s..., now %.8s...)",
         check->name, old->problem, check->problem);
 }
 
@@ -323,8 +340,7 @@ enum br_status br_compare_check(const struct br_check *checks, size_t count,
         for (size_t j = 0; j < i; j++)
             if (strcmp(checks[i].name, checks[j].name) == 0)
                 return br_fail(err, BR_BAD_INPUT,
-                               "two scenes are called %s, expected names that tell them apart from "
-                               "each other in a comparison",
+                               "two scenes are called %s, expected different names in a comparison",
                                checks[i].name);
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
         found |= before != NULL;

@@ -54,9 +54,10 @@ static void list_left_out(struct br_case *c)
     }
 }
 
+/* Of the expected order; where none is expected, of the observed one. */
 static void find_constants(struct br_case *c)
 {
-    const double order = c->expected.order;
+    const double order = isnan(c->expected.order) ? c->order.value : c->expected.order;
     size_t finest = 0;
     c->constant = NAN;
     for (size_t i = c->points; i-- > 0;) {
@@ -65,27 +66,6 @@ static void find_constants(struct br_case *c)
         if (p->used && finest++ < BR_VERIFY_MOST_POINTS && !(p->constant <= c->constant))
             c->constant = p->constant; /* also where there was none yet */
     }
-}
-
-/* A level below this share of the coarsest error is taken for round-off. */
-static const double deep = 1e-6;
-
-/* Why the order does not rest on point i; BR_FLAG_NONE: it does. */
-static enum br_flag left_out(const struct br_case *c, const struct br_line_order *found, size_t i)
-{
-    const bool floors = found->law[BR_LAW_FLOOR] + found->law[BR_LAW_FLOOR_SQUARES] > 0.5;
-    const double error = c->point[i].error;
-    if (i < found->first)
-        return BR_FLAG_COARSE;
-    if (i == found->outlier)
-        return BR_FLAG_OUTLIER;
-    if (i <= found->last && !(floors && error < 2 * found->floor))
-        return BR_FLAG_NONE;
-    const struct br_point *last = &c->point[found->last];
-    const double falls_to = last->error * pow(c->point[i].z / last->z, found->order.value);
-    if (i > found->last && error < 1.05 * falls_to)
-        return BR_FLAG_OUTLIER;
-    return error <= deep * c->point[0].error ? BR_FLAG_ROUND_OFF : BR_FLAG_STALLED;
 }
 
 /* The order with its intervals, from the points that are not left out; those that do not show it
@@ -108,7 +88,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
     for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
         if (c->point[i].used)
-            c->point[i].flag = left_out(c, &found, i);
+            c->point[i].flag = br_line_order_flag(&found, all, i);
     for (size_t i = 0; i < c->points; i++)
         all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
     for (size_t i = 0; i < c->points; i++)
@@ -128,7 +108,8 @@ static double rate_to(const struct br_case *c, size_t i)
     if (!c->point[i].used || before == 0)
         return NAN;
     const struct br_point *fine = &c->point[i], *coarse = &c->point[before - 1];
-    return log(coarse->error / fine->error) / log(coarse->z / fine->z);
+    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
+                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
 }
 
 /* The orders that the two coarsest points and the two finest ones show by themselves. */
@@ -156,7 +137,7 @@ static void note_drift(struct br_case *c)
     }
     const double sign = off[2] < 0 ? -1 : 1;
     if (sign * off[0] < sign * off[1] && sign * off[1] < sign * off[2] && fabs(off[2]) > 0.03)
-        br_append(c->note, sizeof c->note, "%sfrom size to size the order still %s, the last is %.2f",
+        br_append(c->note, sizeof c->note, "%sthe order from row to row still %s, the last is %.2f",
                   c->note[0] ? "; " : "", sign < 0 ? "falls" : "rises", rate);
 }
 
@@ -168,7 +149,7 @@ static void advise_tolerance(struct br_case *c)
     const double off = fmax(fabs(c->order.low - expected), fabs(c->order.high - expected));
     const double enough = ceil(100 * off + 1e-9) / 100;
     if (enough < expected / 4)
-        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would hold it", enough);
+        br_append(c->reason, sizeof c->reason, ", a tolerance of %.4g would include it", enough);
 }
 
 /* Says what would settle the verdict: which way the orders from size to size go decides it. */
@@ -182,19 +163,19 @@ static void advise(struct br_case *c)
     const double before = fabs(first - fmin(fmax(first, e->order), high));
     if (off < 0.75 * before)
         br_append(c->reason, sizeof c->reason,
-                  "; the two finest show %.2f, the two coarsest %.2f, so the coarse ones are not "
-                  "asymptotic: begin finer, or go on refining",
+                  "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
+                  "asymptotic. Start finer, or refine further",
                   last, first);
     else if (off > e->tolerance && off >= before)
         br_append(c->reason, sizeof c->reason,
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
-                  "Look for what lowers the order, or expect another one",
+                  "Find what lowers the order, or expect another order",
                   last, first);
     else {
         br_append(c->reason, sizeof c->reason, "; %s",
                   c->order.high - c->order.low > 2 * e->tolerance
-                      ? "it is wider than the band: finer grids would narrow it"
-                      : "finer grids would tell");
+                      ? "the interval is wider than the band: finer grids would narrow it"
+                      : "finer grids would decide");
         advise_tolerance(c);
     }
     if (*e->why)
@@ -208,31 +189,89 @@ static void judge_too_few(struct br_case *c)
         unstable |= c->point[i].flag == BR_FLAG_UNSTABLE;
         missing |= c->point[i].flag == BR_FLAG_FAILED;
     }
-    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors are left, an order needs %d: %s", c->used,
+    conclude(c, BR_INCONCLUSIVE, "%zu of %zu errors can be used, an order needs %d: %s", c->used,
              c->points, BR_VERIFY_LEAST_POINTS,
-             unstable  ? "smaller time steps, or contact at u_n (contact: implicit), are stable"
-             : missing ? "the rows without a number are needed, or more rows"
-                       : "coarser grids have errors that are not lost in what limits them");
+             unstable  ? "use smaller time steps, or contact at u_n (contact: implicit), which is "
+                         "stable"
+             : missing ? "add the missing numbers, or more rows"
+                       : "use coarser grids, whose errors are above the limits");
 }
 
-/* An error that does not fall shows another solution, or the error of a reference or tolerance. */
-static const struct br_point *first_stalled(const struct br_case *c)
+/* An error at the fine end that does not fall with the order shows another solution, or the error of
+ * a reference or tolerance; one that is far smaller than the order makes it, terms that cancel, or a
+ * reference that is the solution itself. */
+static const struct br_point *first_beyond(const struct br_case *c)
 {
-    for (size_t i = 0; i < c->points; i++)
-        if (c->point[i].flag == BR_FLAG_STALLED && !(c->point[i].error <= c->down_to))
-            return &c->point[i];
-    return NULL;
+    const struct br_point *first = NULL;
+    for (size_t i = c->points; i-- > 0 && !c->point[i].used;)
+        if ((c->point[i].flag == BR_FLAG_STALLED || c->point[i].flag == BR_FLAG_OUTLIER) &&
+            !(c->point[i].error <= c->down_to))
+            first = &c->point[i];
+    return first;
 }
 
-static void judge_stalled(struct br_case *c, const struct br_point *stalled)
+static void judge_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
-    const bool falls = stalled > c->point && stalled->error < stalled[-1].error;
+    const bool small = first->flag == BR_FLAG_OUTLIER;
+    const bool falls = first > c->point && first->error < first[-1].error;
     br_order_text(&c->order, text, sizeof text);
-    conclude(c, BR_INCONCLUSIVE,
-             "the order is %s, but from %s on the errors %s, %.2e: if that is the "
-             "reference's own error, expect the order 'down to %.0e'",
-             text, stalled->label, falls ? "fall more slowly" : "do not fall", stalled->error, 4 * stalled->error);
+    conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
+             first->label,
+             small   ? "are far smaller than that"
+             : falls ? "fall more slowly"
+                     : "do not fall",
+             first->error);
+    if (small)
+        br_append(c->reason, sizeof c->reason, ": finer grids would tell whether terms cancel");
+    else if (!(c->duration > 0))
+        br_append(c->reason, sizeof c->reason,
+                  ": if that is the reference's own error, expect the order 'down to %.0e'",
+                  4 * first->error);
+    else
+        br_append(c->reason, sizeof c->reason,
+                  ": another solution, or the reference's own error; coarser grids have larger ones");
+}
+
+/* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
+static double count_at(const struct br_case *c, bool of_time, size_t i)
+{
+    const struct br_resolution *at =
+        i < c->points ? &c->point[i].at : &c->point[c->points - 1].against;
+    return of_time ? (double)at->steps : (double)at->n;
+}
+
+/* The sizes of the case, and one more: finer ones, or coarser ones where the fine ones are lost. */
+static void name_axis(struct br_case *c, bool of_time, bool lost)
+{
+    const size_t count = c->points + (c->kind != BR_VERIFY_JOINT);
+    br_append(c->reason, sizeof c->reason, of_time ? " k: " : " n: ");
+    for (size_t i = 0; i <= count; i++) {
+        const double a = count_at(c, of_time, lost ? 0 : count - 1),
+                     b = count_at(c, of_time, lost ? 1 : count - 2);
+        const bool more = i == (lost ? 0 : count);
+        const double size = more ? floor(a * a / b) : count_at(c, of_time, lost ? i - 1 : i);
+        br_append(c->reason, sizeof c->reason, "%s%.6g", i ? ", " : "",
+                  of_time ? c->duration / size : size);
+    }
+    br_append(c->reason, sizeof c->reason, of_time ? " s" : "");
+}
+
+/* Says what would settle the verdict: for a scene as a line of its part `verify`. */
+static void name_sizes(struct br_case *c)
+{
+    const struct br_point *last = &c->point[c->points - 1];
+    const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
+    if (!(c->duration > 0) && !c->open)
+        br_append(c->reason, sizeof c->reason, "; a row %s %s would tell",
+                  lost ? "before" : "beyond", lost ? c->point[0].label : last->label);
+    if (!(c->duration > 0) || c->points < 2)
+        return;
+    br_append(c->reason, sizeof c->reason, "; expect it of");
+    if (c->kind != BR_VERIFY_TIME)
+        name_axis(c, false, lost);
+    if (c->kind != BR_VERIFY_SPACE)
+        name_axis(c, true, lost);
 }
 
 static void straddle(struct br_case *c, const char *order, double low, double high)
@@ -240,11 +279,10 @@ static void straddle(struct br_case *c, const char *order, double low, double hi
     const bool below = c->order.low<low, above = c->order.high> high;
     if (below && above)
         conclude(c, BR_INCONCLUSIVE,
-                 "the order's interval, %s, straddles both ends of the band, %.4g "
-                 "and %.4g",
-                 order, low, high);
+                 "the order's interval, %s, contains both ends of the band, %.4g and %.4g", order,
+                 low, high);
     else
-        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, straddles the band's %s end, %.4g",
+        conclude(c, BR_INCONCLUSIVE, "the order's interval, %s, contains the band's %s end, %.4g",
                  order, below ? "lower" : "upper", below ? low : high);
 }
 
@@ -302,7 +340,8 @@ static void judge_constant(struct br_case *c)
     char before[sizeof c->reason];
     snprintf(before, sizeof before, "%s", c->reason);
     conclude(c, BR_FAIL, "the constant, %.4g %s, is %s, %.4g", c->constant, c->unit,
-             high ? "above its ceiling" : "below its floor", high ? e->ceiling : e->floor);
+             high ? "above its upper limit" : "below its lower limit",
+             high ? e->ceiling : e->floor);
     if (so_far != BR_PASS)
         br_append(c->reason, sizeof c->reason, "; and %s", before);
 }
@@ -321,10 +360,12 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     const bool known = !first_failed(c) && c->used >= least;
     const enum br_status status = known ? find_order(c, err) : BR_OK;
     choose_points(c);
+    if (isnan(c->expected.order))
+        find_constants(c);
     list_left_out(c);
     if (c->law)
-        br_append(c->note, sizeof c->note, "%sbeside one power the errors show %s",
-                  c->note[0] ? "; " : "", c->law);
+        br_append(c->note, sizeof c->note, "%sthe errors also show %s", c->note[0] ? "; " : "",
+                  c->law);
     note_drift(c);
     return status;
 }
@@ -347,7 +388,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 
 void br_case_judge(struct br_case *c)
 {
-    const struct br_point *failed = first_failed(c), *stalled = first_stalled(c);
+    const struct br_point *failed = first_failed(c), *beyond = first_beyond(c);
     if (failed)
         conclude(c, BR_FAIL, "at %s %s", failed->label,
                  failed->failure[0] ? failed->failure : "the error is not a number");
@@ -356,8 +397,8 @@ void br_case_judge(struct br_case *c)
                  BR_VERIFY_LEAST_POINTS);
     else if (c->open)
         conclude(c, BR_INCONCLUSIVE, "%s", c->open);
-    else if (stalled) {
-        judge_stalled(c, stalled);
+    else if (beyond) {
+        judge_beyond(c, beyond);
         judge_constant(c);
     } else if (isnan(c->order.value) && c->used < BR_VERIFY_LEAST_POINTS)
         judge_too_few(c);
@@ -365,6 +406,8 @@ void br_case_judge(struct br_case *c)
         judge_order(c);
         judge_constant(c);
     }
+    if (c->verdict == BR_INCONCLUSIVE)
+        name_sizes(c);
 }
 
 enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)

@@ -166,8 +166,8 @@ static enum br_status check_expectation(const struct br_scene *scene,
     if (!(e->tolerance < e->order))
         return br_fail(
             err, BR_BAD_INPUT,
-            "found %g +- %g, which an error that does not fall at all would meet; expected "
-            "a tolerance below the order",
+            "found %g +- %g, which includes the order 0 of an error that does not fall; expected a "
+            "tolerance below the order",
             e->order, e->tolerance);
     if (!isnan(e->ceiling) && !(e->ceiling > 0 && isfinite(e->ceiling)))
         return br_fail(err, BR_BAD_INPUT, "found a constant of %g, expected one > 0", e->ceiling);

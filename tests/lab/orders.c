@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How often is an observed order right? Random lines of errors of each class (errors.c), and grids
- * of them (grids.h), their orders and verdicts. As a test, 20 lines a class of seed 1 (--long: 300), and a
- * quarter of that of grids, with bounds; it prints
- *   claims   an interval above 0 and at most 1 wide
- *   covers   of the claims: the interval holds the truth
- *   silent   of all: claims, misses the truth by more than 0.005, and says nothing of the rows
- *   PASS, FAIL   verdicts on the true order +- 0.1; else INCONCLUSIVE
- *   false    PASS on an order that is 0.4 too low or 0.5 too high
+ * of them (grids.h), their orders and verdicts. As a test, 20 lines a class of seed 1 (--long:
+ * 300), and a quarter of that of grids, with bounds; it prints claims   an interval above 0 and at
+ * most 1 wide covers   of the claims: the interval holds the truth silent   of all: claims, misses
+ * the truth by more than 0.005, and says nothing of the rows PASS, FAIL   verdicts on the true
+ * order +- 0.1; else INCONCLUSIVE false    PASS on an order that is 0.4 too low or 0.5 too high
  *   width    the interval's over that of a regression of all rows, the median
- * usage: orders [SEED LINES] */
+ * usage: orders [SEED LINES [CLASS]] */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "study/orders/orders.h"
 #include "tests/lab/grids.h"
+#include "tests/lab/published.h"
 #include "tests/support.h"
 
 enum { SAMPLE = 20, MANY = 300, MOST_LINES = 100000 };
@@ -29,21 +29,18 @@ struct tally {
     size_t widths;
 };
 
-/* The case of a line with this order expected, and its verdict. */
-static void judge(const struct br_error_line *line, double expected, struct br_point *point,
-                  struct br_case *c)
+/* What a line shows. */
+static void observe(const struct br_error_line *line, struct br_point *point, struct br_case *c)
 {
     struct br_error err = {0};
-    *c = (struct br_case){.kind = BR_VERIFY_SPACE,
-                          .expected = {.order = expected,
-                                       .tolerance = tolerance,
-                                       .floor = NAN,
-                                       .ceiling = NAN},
-                          .measure = "error",
-                          .part = "",
-                          .unit = "",
-                          .point = point,
-                          .points = line->rows - line->values};
+    *c = (struct br_case){
+        .kind = BR_VERIFY_SPACE,
+        .expected = {.order = NAN, .tolerance = tolerance, .floor = NAN, .ceiling = NAN},
+        .measure = "error",
+        .part = "",
+        .unit = "",
+        .point = point,
+        .points = line->rows - line->values};
     for (size_t i = 0; i < c->points; i++) {
         point[i] = (struct br_point){.z = line->h[i], .error = line->e[i]};
         snprintf(point[i].label, sizeof point[i].label, "h = %g", line->h[i]);
@@ -52,10 +49,18 @@ static void judge(const struct br_error_line *line, double expected, struct br_p
             point[i].error = fabs(line->e[i] - line->e[i + 1]);
         }
     }
-    if (br_verdict_reach(c, &err)) {
+    if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, &err)) {
         printf("Bail out! %s\n", err.message);
         exit(99);
     }
+}
+
+/* Its verdict with this order expected. */
+static enum br_verdict judge(struct br_case *c, double expected)
+{
+    c->expected.order = expected;
+    br_case_judge(c);
+    return c->verdict;
 }
 
 /* Half the width of the 95 % interval of a regression of log e over log h. */
@@ -92,12 +97,32 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
     struct br_case c;
     br_error_classes[class].draw(&random, &line);
     const double expected = isnan(line.truth) ? 2 : line.truth;
-    judge(&line, index % 2 == 0 ? expected + 0.5 : expected - 0.4, point, &c);
-    t->wrong_pass += c.verdict == BR_PASS;
-    judge(&line, expected, point, &c);
+    observe(&line, point, &c);
+    t->wrong_pass += judge(&c, index % 2 == 0 ? expected + 0.5 : expected - 0.4) == BR_PASS;
+    judge(&c, expected);
     count(t, &c, &c.order, line.truth, c.note[0]);
     if (br_order_determined(&c.order) && !line.values)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
+}
+
+/* A published column: whether the interval covers the order that its source states, misses it by a
+ * rounding of what authors print, excludes it, or is no claim. */
+static size_t try_published(size_t number)
+{
+    static const char *const texts[] = {"covers", "is near", "excludes", "not determined"};
+    const struct br_published *p = &br_published[number];
+    const struct br_error_line line = br_published_line(p);
+    struct br_point point[BR_MOST_ERRORS];
+    struct br_case c;
+    char order[64];
+    observe(&line, point, &c);
+    judge(&c, p->order);
+    const double off = fmax(c.order.low - p->order, p->order - c.order.high);
+    const size_t found = !br_order_determined(&c.order) ? 3 : off <= near ? 0 : off <= 0.05 ? 1 : 2;
+    printf("# %-14s %-46s %g: %s, %s%s%s\n", texts[found], p->name, p->order,
+           br_order_text(&c.order, order, sizeof order), br_verdict_names[c.verdict],
+           *c.note ? "; " : "", c.note);
+    return found;
 }
 
 /* The numbers of a grid, of one column, with their orders. */
@@ -210,18 +235,21 @@ static void print(const char *name, struct tally *t)
 {
     const double all = (double)t->lines / 100;
     qsort(t->width, t->widths, sizeof *t->width, by_size);
-    printf("%-26s %6.1f %6.1f %6.1f %6.1f %6.1f %6.1f %8.2f\n", name,
-           (double)t->claims / all, 100 * (double)t->covers / (double)t->claims,
-           (double)t->silent / all, (double)t->pass / all, (double)t->fail / all,
-           (double)t->wrong_pass / all, t->widths ? t->width[t->widths / 2] : (double)NAN);
+    printf("%-26s %6.1f %6.1f %6.1f %6.1f %6.1f %6.1f %8.2f\n", name, (double)t->claims / all,
+           100 * (double)t->covers / (double)t->claims, (double)t->silent / all,
+           (double)t->pass / all, (double)t->fail / all, (double)t->wrong_pass / all,
+           t->widths ? t->width[t->widths / 2] : (double)NAN);
 }
 
-/* Tries so many lines, or grids, of a class; returns whether their orders are good. */
+/* Tries so many lines, or grids, of a class; only: the class, NULL: all.
+ * Returns whether their orders are good. */
 static bool try_class(size_t number, const char *name, enum br_error_group group, size_t class,
                       void (*try)(size_t, uint64_t, size_t, struct tally *), uint64_t seed,
-                      size_t lines, double *width)
+                      size_t lines, const char *only, double *width)
 {
     struct tally t = {.width = width};
+    if (only && strcmp(name, only) != 0)
+        return true;
     for (size_t i = 0; i < lines; i++)
         try(class, seed, i, &t);
     const bool good = is_good(group, &t);
@@ -231,36 +259,56 @@ static bool try_class(size_t number, const char *name, enum br_error_group group
     return good;
 }
 
+/* All published columns; number: of the test. Returns whether their orders are good. */
+static bool try_all_published(size_t number)
+{
+    size_t count[4] = {0};
+    for (size_t i = 0; i < BR_PUBLISHED; i++)
+        count[try_published(i)]++;
+    const bool good = count[0] >= 0.8 * BR_PUBLISHED && count[2] <= 0.08 * BR_PUBLISHED &&
+                      count[3] <= 0.08 * BR_PUBLISHED;
+    printf(
+        "# of %d columns %zu cover the order, %zu are near, %zu exclude it, %zu do not determine it\n",
+        BR_PUBLISHED, count[0], count[1], count[2], count[3]);
+    printf("%sok %zu - published columns\n", good ? "" : "not ", number);
+    return good;
+}
+
 int main(int arguments, char **argument)
 {
-    const uint64_t seed = arguments == 3 ? strtoull(argument[1], NULL, 10) : 1;
-    const size_t lines = arguments == 3    ? strtoul(argument[2], NULL, 10)
+    const uint64_t seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1;
+    const size_t lines = arguments >= 3   ? strtoul(argument[2], NULL, 10)
                          : br_test_long() ? MANY
                                           : SAMPLE;
+    const char *only = arguments == 4 ? argument[3] : NULL;
     const size_t grids = (lines + 3) / 4; /* of two orders and some ten lines each */
     size_t classes = 0, bad = 0;
     double *width = br_allocate(lines + 1, sizeof *width);
     while (br_error_classes[classes].name)
         classes++;
-    if (!width || !(lines > 0 && lines <= MOST_LINES) || (arguments != 1 && arguments != 3)) {
-        fputs("usage: orders [SEED LINES]\n", stderr);
+    if (!width || !(lines > 0 && lines <= MOST_LINES) ||
+        (arguments != 1 && arguments != 3 && arguments != 4)) {
+        fputs("usage: orders [SEED LINES [CLASS]]\n", stderr);
         return 2;
     }
-    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES + BR_VALUE_CLASSES);
+    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + 1);
     printf("# %% of %zu lines, seed %llu\n# %-24s %6s %6s %6s %6s %6s %6s %8s\n", lines,
            (unsigned long long)seed, "class", "claims", "covers", "silent", "PASS", "FAIL", "false",
            "width");
     for (size_t i = 0; i < classes; i++)
         bad += !try_class(i + 1, br_error_classes[i].name, br_error_classes[i].group, i, try_line,
-                          seed, lines, width);
+                          seed, lines, only, width);
     printf("# %zu grids, of two orders each\n", grids);
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
         bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
-                          try_grid, seed, grids, width);
+                          try_grid, seed, grids, only, width);
     printf("# limits of values on grids\n");
     for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
         bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
-                          BR_NOISY_ERRORS, i, try_limit, seed, grids, width);
+                          BR_NOISY_ERRORS, i, try_limit, seed, grids, only, width);
+    const size_t last = classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + 1;
+    if (!only || strcmp(only, "published") == 0)
+        bad += !try_all_published(last);
     free(width);
     return bad > 0;
 }

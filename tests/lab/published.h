@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns of errors that others have published, with the order that the same source states of each.
+ *
+ *   deal.II step-N   examples/step-N/doc/results.dox of github.com/dealii/dealii at 5820fa31
+ *   parallel_in_time Readme.md there in github.com/dealii/code-gallery at 0a59915c
+ *   Trixi            docs/src/index.md of github.com/trixi-framework/Trixi.jl at 37ff4ac5
+ * (advection, of the mean that it prints) mirgecom         pull request 112 of
+ * github.com/illinois-ceesd/mirgecom ("order N-1") Ferrite          pull request 787 of
+ * github.com/Ferrite-FEM/Ferrite.jl (by its columns "expected_next") pycaputo         issue 2 of
+ * github.com/alexfikl/pycaputo ("first-order", "alpha + 0.5")
+ *
+ * Left out are columns of fewer than four rows, and those whose source states no order. */
+#ifndef BR_TESTS_LAB_PUBLISHED_H
+#define BR_TESTS_LAB_PUBLISHED_H
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "tests/lab/errors.h"
+
+/* The sizes of the rows. */
+enum br_published_ladder {
+    HALVED,   /* each half of the one before */
+    SQUARES,  /* 4 x 4, 6 x 6, 8 x 8, 12 x 12, ... cells */
+    CUBES,    /* 2, 3, 4, 6, 8, 12, ... along an edge */
+    UNKNOWNS, /* their number in two dimensions */
+    LISTED,
+};
+
+static const struct br_published {
+    double order;
+    enum br_published_ladder ladder;
+    const char *name, *errors, *sizes;
+} br_published[] = {
+    {2, UNKNOWNS, "deal.II step-7, Q1, adaptive: L2",
+     "1.840e+00 5.336e-02 1.439e-02 8.696e-03 3.245e-03 2.407e-03 8.501e-04 7.113e-04 3.140e-04",
+     "81 154 341 678 1240 2306 4216 7909 14870"},
+    {2, HALVED, "deal.II step-7, Q1: L2", "1.840e+00 3.570e-02 1.192e-02 3.047e-03 7.660e-04", NULL},
+    {1, HALVED, "deal.II step-7, Q1: H1", "2.858e+00 1.199e+00 7.565e-01 3.823e-01 1.917e-01", NULL},
+    {3, UNKNOWNS, "deal.II step-7, Q2, adaptive: L2",
+     "1.606e-01 7.916e-03 1.092e-03 5.999e-04 2.100e-04 7.821e-05 2.868e-05 1.146e-05 3.747e-06",
+     "289 569 1317 2459 4719 9039 17143 32343 60895"},
+    {3, HALVED, "deal.II step-7, Q2: L2", "1.606e-01 7.638e-03 8.601e-04 1.107e-04 1.394e-05", NULL},
+    {2, HALVED, "deal.II step-7, Q2: H1", "1.278e+00 5.248e-01 1.086e-01 2.756e-02 6.915e-03", NULL},
+    {2, HALVED, "deal.II step-10, degree 1: pi by area",
+     "1.1416e+00 3.1317e-01 8.0125e-02 2.0148e-02 5.0442e-03 1.2615e-03", NULL},
+    {4, HALVED, "deal.II step-10, degree 2: pi by area",
+     "3.7023e-02 2.4451e-03 1.5494e-04 9.7169e-06 6.0783e-07 3.7998e-08", NULL},
+    {6, HALVED, "deal.II step-10, degree 3: pi by area",
+     "5.8927e-04 9.6142e-06 1.5185e-07 2.3792e-09 3.7015e-11 5.9952e-13", NULL},
+    {8, HALVED, "deal.II step-10, degree 4: pi by area",
+     "5.4608e-06 2.2116e-08 8.7166e-11 3.9257e-13 1.8430e-13 2.6201e-14", NULL},
+    {2, HALVED, "deal.II step-10, degree 1: pi by perimeter",
+     "3.1317e-01 8.0125e-02 2.0148e-02 5.0442e-03 1.2615e-03 3.1540e-04", NULL},
+    {4, HALVED, "deal.II step-10, degree 2: pi by perimeter",
+     "1.6700e-02 1.1876e-03 7.6890e-05 4.8493e-06 3.0377e-07 1.8997e-08", NULL},
+    {6, HALVED, "deal.II step-10, degree 3: pi by perimeter",
+     "9.8613e-05 1.3103e-06 1.9417e-08 2.9910e-10 4.6585e-12 7.7272e-14", NULL},
+    {8, HALVED, "deal.II step-10, degree 4: pi by perimeter",
+     "5.5065e-07 2.2160e-09 8.7232e-12 3.5527e-14 3.5527e-15 8.8818e-16", NULL},
+    {1, HALVED, "deal.II step-20, degree 0: L2 of p",
+     "1.45344 0.715099 0.356383 0.178055 0.0890105 0.0445032 0.0222513", NULL},
+    {2, HALVED, "deal.II step-20, degree 1: L2 of p",
+     "0.0831743 0.0245341 0.0063458 0.00159944 0.000400669 0.000100218 2.50576e-05", NULL},
+    {3, HALVED, "deal.II step-20, degree 2: L2 of p",
+     "0.0235186 0.00293983 0.000367478 4.59349e-05 5.74184e-06 7.17799e-07 9.0164e-08", NULL},
+    {1, HALVED, "deal.II step-20, degree 0: L2 of u",
+     "0.367423 0.175891 0.0869402 0.0433435 0.0216559 0.010826 0.00541274", NULL},
+    {2, HALVED, "deal.II step-20, degree 1: L2 of u",
+     "0.127657 0.0319142 0.00797856 0.00199464 0.00049866 0.000124664 3.1166e-05", NULL},
+    {3, HALVED, "deal.II step-20, degree 2: L2 of u",
+     "5.10388e-14 9.04414e-15 1.23723e-14 1.86345e-07 2.72566e-07 3.57141e-07 4.46124e-07", NULL},
+    {1, HALVED, "deal.II step-34, 2D: alpha", "5.000e-02 2.500e-02 1.250e-02 6.250e-03", NULL},
+    {2, HALVED, "deal.II step-47, Q2, gamma = 6: L2", "8.780e-03 3.515e-03 1.103e-03 3.084e-04", NULL},
+    {2, HALVED, "deal.II step-47, Q2, gamma = 6: H1", "7.095e-02 2.174e-02 6.106e-03 1.622e-03", NULL},
+    {1, HALVED, "deal.II step-47, Q2, gamma = 6: H2", "1.645 8.121e-01 4.015e-01 1.993e-01", NULL},
+    {4, HALVED, "deal.II step-47, Q3: L2", "2.045e-04 1.312e-05 8.239e-07 5.158e-08", NULL},
+    {3, HALVED, "deal.II step-47, Q3: H1", "4.402e-03 5.537e-04 6.904e-05 8.621e-06", NULL},
+    {2, HALVED, "deal.II step-47, Q3: H2", "1.641e-01 4.096e-02 1.023e-02 2.558e-03", NULL},
+    {5, HALVED, "deal.II step-47, Q4: L2", "6.510e-06 2.679e-07 9.404e-09 7.943e-10", NULL},
+    {4, HALVED, "deal.II step-47, Q4: H1", "2.215e-04 1.569e-05 1.040e-06 6.693e-08", NULL},
+    {3, HALVED, "deal.II step-47, Q4: H2", "1.275e-02 1.496e-03 1.774e-04 2.150e-05", NULL},
+    {2, HALVED, "deal.II step-47, Q2, gamma = 1: L2", "7.350e-02 6.798e-03 9.669e-04 1.755e-04", NULL},
+    {1, HALVED, "deal.II step-47, Q2, gamma = 1: H1", "7.323e-01 1.716e-01 6.436e-02 2.831e-02", NULL},
+    {2, HALVED, "deal.II step-47, Q2, gamma = 2: L2", "4.133e-02 6.500e-03 6.780e-04 1.622e-04", NULL},
+    {2, HALVED, "deal.II step-47, Q2, gamma = 2: H1", "2.517e-01 5.916e-02 1.203e-02 2.448e-03", NULL},
+    {1, HALVED, "deal.II step-47, Q2, gamma = 2: H2", "3.056 1.444 6.151e-01 2.618e-01", NULL},
+    {2, SQUARES, "deal.II step-51, 2D, Q1: L2 of u",
+     "1.804e+01 6.125e+00 9.785e-01 2.730e-01 1.493e-01 6.965e-02 4.018e-02 1.831e-02 1.043e-02 4.690e-03", NULL},
+    {2, SQUARES, "deal.II step-51, 2D, Q1: L2 of gradient",
+     "2.207e+01 9.472e+00 4.260e+00 1.866e+00 1.046e+00 4.846e-01 2.784e-01 1.264e-01 7.185e-02 3.228e-02", NULL},
+    {3, SQUARES, "deal.II step-51, 2D, Q1: L2 of post-processed u",
+     "1.798e+01 6.084e+00 7.102e-01 6.115e-02 2.880e-02 9.204e-03 4.027e-03 1.236e-03 5.306e-04 1.599e-04", NULL},
+    {4, SQUARES, "deal.II step-51, 2D, Q3: L2 of u",
+     "3.613e-01 6.411e-02 3.480e-02 8.297e-03 2.254e-03 4.558e-04 1.471e-04 2.956e-05 9.428e-06 1.876e-06", NULL},
+    {4, SQUARES, "deal.II step-51, 2D, Q3: L2 of gradient",
+     "1.891e+00 5.081e-01 2.533e-01 5.924e-02 1.636e-02 3.277e-03 1.052e-03 2.104e-04 6.697e-05 1.330e-05", NULL},
+    {5, SQUARES, "deal.II step-51, 2D, Q3: L2 of post-processed u",
+     "3.020e-01 3.238e-02 5.277e-03 6.330e-04 1.403e-04 1.844e-05 4.378e-06 5.750e-07 1.362e-07 1.788e-08", NULL},
+    {2, CUBES, "deal.II step-51, 3D, Q1: L2 of u",
+     "7.122e+00 5.491e+00 3.646e+00 1.595e+00 6.922e-01 2.915e-01 1.684e-01 7.972e-02 4.637e-02 2.133e-02", NULL},
+    {2, CUBES, "deal.II step-51, 3D, Q1: L2 of gradient",
+     "1.941e+01 2.184e+01 1.299e+01 8.550e+00 5.306e+00 2.490e+00 1.453e+00 6.861e-01 3.984e-01 1.830e-01", NULL},
+    {3, CUBES, "deal.II step-51, 3D, Q1: L2 of post-processed u",
+     "6.102e+00 4.448e+00 3.306e+00 1.441e+00 2.511e-01 8.588e-02 4.055e-02 1.335e-02 5.932e-03 1.851e-03", NULL},
+    {4, CUBES, "deal.II step-51, 3D, Q3: L2 of u",
+     "5.670e+00 1.048e+00 2.831e-01 7.883e-02 3.642e-02 8.546e-03 2.598e-03 5.314e-04 1.723e-04 3.482e-05", NULL},
+    {4, CUBES, "deal.II step-51, 3D, Q3: L2 of gradient",
+     "1.868e+01 6.988e+00 2.710e+00 7.721e-01 3.305e-01 7.581e-02 2.313e-02 4.697e-03 1.517e-03 3.055e-04", NULL},
+    {5, CUBES, "deal.II step-51, 3D, Q3: L2 of post-processed u",
+     "5.462e+00 8.011e-01 1.363e-01 2.158e-02 5.231e-03 7.640e-04 1.783e-04 2.355e-05 5.602e-06 7.374e-07", NULL},
+    {1, HALVED, "deal.II step-61, degree 0: L2 of pressure",
+     "1.587e-01 8.000e-02 4.006e-02 2.004e-02", NULL},
+    {1, HALVED, "deal.II step-61, degree 0: L2 of velocity",
+     "5.113e-01 2.529e-01 1.260e-01 6.297e-02", NULL},
+    {1, HALVED, "deal.II step-61, degree 0: L2 of flux", "7.062e-01 3.554e-01 1.780e-01 8.902e-02", NULL},
+    {2, HALVED, "deal.II step-61, degree 1: L2 of pressure",
+     "1.613e-02 4.056e-03 1.015e-03 2.540e-04", NULL},
+    {2, HALVED, "deal.II step-61, degree 1: L2 of velocity",
+     "5.093e-02 1.276e-02 3.191e-03 7.979e-04", NULL},
+    {2, HALVED, "deal.II step-61, degree 1: L2 of flux", "7.167e-02 1.802e-02 4.512e-03 1.128e-03", NULL},
+    {3, HALVED, "deal.II step-61, degree 2: L2 of pressure",
+     "1.072e-03 1.347e-04 1.685e-05 2.107e-06", NULL},
+    {3, HALVED, "deal.II step-61, degree 2: L2 of velocity",
+     "3.375e-03 4.233e-04 5.295e-05 6.620e-06", NULL},
+    {3, HALVED, "deal.II step-61, degree 2: L2 of flux", "4.762e-03 5.982e-04 7.487e-05 9.362e-06", NULL},
+    {2, HALVED, "deal.II step-78: L2",
+     "1.667e-01 3.906e-02 9.679e-03 2.405e-03 5.967e-04 1.457e-04 3.307e-05 5.016e-06", NULL},
+    {1, HALVED, "deal.II step-78: H1",
+     "5.774e-01 2.889e-01 1.444e-01 7.218e-02 3.609e-02 1.804e-02 9.022e-03 4.511e-03", NULL},
+    {1, HALVED, "deal.II step-82, degree 2: H2",
+     "5.651e-02 3.095e-02 1.511e-02 7.353e-03 3.609e-03 1.785e-03", NULL},
+    {2, HALVED, "deal.II step-82, degree 2: H1",
+     "3.366e-03 1.284e-03 3.997e-04 1.129e-04 3.024e-05 7.850e-06", NULL},
+    {2, HALVED, "deal.II step-82, degree 2: L2",
+     "3.473e-04 1.369e-04 5.339e-05 1.691e-05 4.789e-06 1.277e-06", NULL},
+    {2, HALVED, "deal.II step-82, degree 3: H2",
+     "1.451e-02 3.565e-03 8.891e-04 2.223e-04 5.560e-05 1.390e-05", NULL},
+    {3, HALVED, "deal.II step-82, degree 3: H1",
+     "5.494e-04 6.870e-05 8.584e-06 1.073e-06 1.341e-07 1.676e-08", NULL},
+    {4, HALVED, "deal.II step-82, degree 3: L2",
+     "3.035e-05 2.091e-06 1.352e-07 8.594e-09 5.418e-10 3.245e-11", NULL},
+    {2, HALVED, "deal.II step-85: L2", "8.0657e-02 1.8711e-02 4.1624e-03 9.3979e-04", NULL},
+    {2, HALVED, "deal.II step-90: L2",
+     "7.6322e-02 1.1950e-02 1.7306e-03 3.6276e-04 7.5910e-05 1.7279e-05 4.3891e-06", NULL},
+    {1, HALVED, "deal.II step-90: H1",
+     "3.6212e-01 1.4752e-01 7.4723e-02 3.9329e-02 1.9694e-02 9.8443e-03 4.9219e-03", NULL},
+    {1, HALVED, "deal.II step-90: stabilisation",
+     "2.2423e-01 1.1238e-01 6.1131e-02 3.0185e-02 1.4875e-02 7.4067e-03 3.7042e-03", NULL},
+    {2, HALVED, "deal.II step-95, Q1: L2", "8.3792e-02 1.9073e-02 4.2112e-03 9.4586e-04", NULL},
+    {3, HALVED, "deal.II step-95, Q2: L2", "1.2442e-04 9.6514e-06 8.3693e-07 7.4062e-08", NULL},
+    {2, HALVED, "deal.II step-95, DG, Q1: L2", "7.8706e-02 1.8413e-02 4.0863e-03 9.3191e-04", NULL},
+    {3, HALVED, "deal.II step-95, DG, Q2: L2", "1.5622e-04 1.0739e-05 1.0044e-06 7.9919e-08", NULL},
+    {3, HALVED, "deal.II step-104: velocity", "4.5e-02 6.0e-03 7.6e-04 9.6e-05 1.2e-05 1.5e-06", NULL},
+    {2, HALVED, "deal.II step-104: pressure", "1.5e-01 1.2e-02 1.2e-03 2.3e-04 5.6e-05 1.4e-05", NULL},
+    {2, HALVED, "parallel_in_time: L2", "6.036e-03 1.735e-03 4.513e-04 1.140e-04 2.859e-05", NULL},
+    {1, HALVED, "parallel_in_time: H1", "6.970e-02 3.414e-02 1.690e-02 8.426e-03 4.209e-03", NULL},
+    {2, HALVED, "parallel_in_time: Linf", "7.557e-03 2.721e-03 7.410e-04 1.877e-04 4.715e-05", NULL},
+    {4, HALVED, "Trixi: l2", "9.14e-06 5.69e-07 3.55e-08 2.22e-09", NULL},
+    {4, HALVED, "Trixi: linf", "6.44e-05 4.11e-06 2.58e-07 1.62e-08", NULL},
+    {1, HALVED, "mirgecom, N = 2: heat",
+     "1.7834496275775333 0.6968572287595005 0.31670333794087324 0.15230421159162905 0.07483467000993342 0.03710968141446858", NULL},
+    {2, HALVED, "mirgecom, N = 3: heat",
+     "0.6610622776093845 0.16020897329634504 0.038383352453954044 0.009168145283721212 0.0022301145386689797 0.000549392786785", NULL},
+    {2, HALVED, "Ferrite: L2", "0.202511 0.0510494 0.0128262 0.00321117 0.00080309 0.000200791", NULL},
+    {1, HALVED, "Ferrite: H1", "1.00388 0.502255 0.251625 0.125888 0.0629537 0.0314781", NULL},
+    {1, LISTED, "pycaputo, Caputo: L2 method",
+     "6.659753e-02 3.341454e-02 1.690615e-02 8.552690e-03 4.318041e-03 2.175312e-03 1.455290e-03 1.093799e-03",
+     "3.333e-02 1.613e-02 7.937e-03 3.937e-03 1.961e-03 9.785e-04 6.519e-04 4.888e-04"},
+    {2, LISTED, "pycaputo, Riemann-Liouville: L2 method",
+     "3.686930e-02 9.678625e-03 2.593723e-03 6.847805e-04 1.774681e-04 4.536133e-05 2.033538e-05 1.149314e-05",
+     "3.333e-02 1.613e-02 7.937e-03 3.937e-03 1.961e-03 9.785e-04 6.519e-04 4.888e-04"},
+};
+enum { BR_PUBLISHED = sizeof br_published / sizeof *br_published };
+
+static inline struct br_error_line br_published_line(const struct br_published *p)
+{
+    static const double edge[] = {2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96};
+    struct br_error_line line = {.truth = p->order};
+    const char *sizes = p->sizes;
+    char *end = (char *)p->errors;
+    for (size_t i = 0; *end && i < BR_MOST_ERRORS; i++, line.rows++) {
+        line.e[i] = strtod(end, &end);
+        char *next;
+        const double size = sizes ? strtod(sizes, &next) : 0;
+        sizes = sizes ? next : NULL;
+        line.h[i] = p->ladder == HALVED     ? pow(0.5, (double)i)
+                    : p->ladder == SQUARES  ? 1 / edge[i + 2]
+                    : p->ladder == CUBES    ? 1 / edge[i]
+                    : p->ladder == UNKNOWNS ? 1 / sqrt(size)
+                                            : size;
+    }
+    return line;
+}
+
+#endif

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Orders of arrays and frames in Python, against made numbers whose orders are known.
+
+usage: library_orders.py [pandas | matplotlib]: with these instead of what stands in for them.
+"""
+import math
+import sys
+import tempfile
+from types import SimpleNamespace
+
+import numpy as np
+
+import beamrate as br
+
+N = np.array([10, 20, 40, 80, 160])
+
+
+class Frame(dict):
+    """What is used of a DataFrame: columns by name, and an index that may have a name."""
+
+    def __init__(self, columns, index=None):
+        super().__init__(columns)
+        self.columns = list(columns)
+        self.index = SimpleNamespace(names=[index])
+        self.at_index = index
+
+    def set_index(self, name):
+        return Frame(dict(self), name)
+
+    def reset_index(self):
+        return Frame({key: self[key] for key in self.columns})
+
+    def __iter__(self):
+        return iter(key for key in self.columns if key != self.at_index)
+
+    keys = __iter__
+
+
+class Axes:
+    """What is used of matplotlib's axes; it keeps what is drawn."""
+
+    def __init__(self):
+        self.drawn, self.bands, self.labels = [], [], []
+
+    def plot(self, x, y, *_, fillstyle="line", label=None, **__):
+        self.drawn.append((fillstyle, list(x), list(y)))
+        self.labels.append(label)
+
+    def fill_between(self, x, low, high, **_):
+        self.bands.append((list(x), list(low), list(high)))
+
+    def set(self, **_):
+        pass
+
+    legend = set
+
+
+def close(found, expected, tolerance=1e-9):
+    if not abs(found - expected) <= tolerance:
+        raise AssertionError(f"found {found}, expected {expected}")
+
+
+def refused(text, call, kind=(br.BadInput, TypeError, KeyError)):
+    try:
+        call()
+    except kind as error:
+        assert text in str(error), (text, str(error))
+    else:
+        raise AssertionError(f"not refused: {text}")
+
+
+def check_frame(frame):
+    found = br.orders(frame)
+    assert [q.name for q in found.quantities] == ["L2", "H1"], found.quantities
+    assert repr(found).startswith("L2: order in h 2.000"), repr(found)
+    assert "left aside: rate" in repr(found)
+    close(found["L2"].order.value, 2)
+    close(found["H1"].h.value, 1)
+    assert found["L2"].k is None and found["L2"].h.open == ""
+    close(found["L2"].rates[1], 2)
+    assert math.isnan(found["L2"].rates[0])
+    assert [row["error"] for row in found["L2"].rows] == list(3.0 / N ** 2)  # to the last bit
+    again = br.orders(frame.set_index("N"))  # a name of the index is a heading
+    assert repr(again) == repr(found)
+    found.assert_order(2, quantity="L2")
+    refused("H1: FAIL: the order, 1.0000", lambda: found.assert_order(2), AssertionError)
+    refused("expected one of ['L2', 'H1']", lambda: found["l2"])
+    refused("expected columns of", lambda: br.orders(frame, h="dx"))
+
+
+def check_arrays():
+    error = 2 * (1 / N) ** 1.5
+    for sizes in ({"n": N}, {"h": 1 / N}, {"k": 1 / N}, {"dt": list(1 / N)}, {"steps": N}, {"level": range(5)},
+                  {"dofs": N ** 3, "dimension": 3}, {"dofs": N, "dimension": 1}):
+        found = br.orders(error, **sizes)
+        found.assert_order(1.5)
+        close(found["error"].order.value, 1.5)
+        assert (found["error"].h is None) == (not {"k", "dt", "steps"}.isdisjoint(sizes)), sizes
+    assert "2 dimensions (assumed" in repr(br.orders(error, dofs=N ** 2))
+    frame = {"edge": 1 / N, "e": error, "i": N}
+    assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "i"]
+    close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)
+    close(br.orders(frame, h="edge", errors=["e"])["e"].order.value, 1.5)
+    with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
+        file.write("n,e\n" + "".join(f"{n},{e!r}\n" for n, e in zip(N, error.tolist())))
+        file.flush()
+        close(br.orders(file.name)["e"].order.value, 1.5)
+        refused(f"{file.name}: --error: there is no column 'q'", lambda: br.orders(file.name, errors="q"))
+        refused("none beside a file", lambda: br.orders(file.name, n=N))
+
+
+def check_grid():
+    h, k = np.repeat(1 / N, 5), np.tile(0.1 / N, 5)
+    found = br.orders({"h": h, "k": k, "e": h ** 2 + k})["e"]
+    close(found.h.value, 2, 1e-6)
+    close(found.k.value, 1, 1e-6)
+    refused("refined in h and in k", lambda: found.order)
+    both = br.orders({"h": h, "k": k, "e": h ** 2 + k})
+    both.assert_order(2, axis="h")
+    both.assert_order(1, axis="k")
+    refused("e: FAIL", lambda: both.assert_order(1, axis="h"), AssertionError)
+    value = br.orders({"h": h, "k": k, "v": 7 + h ** 2 + k}, values="v")["v"]
+    assert (value.limit["in"], value.gci["in"]) == ("h and k", "k"), value.limit
+    close(value.limit["limit"], 7, 1e-6)
+    refused("axis: found 'x', expected 'h' or 'k'", lambda: both.assert_order(1, axis="x"))
+
+
+def check_values():
+    found = br.orders(7 + 3 / N ** 2, n=N, values=True)["value"]
+    close(found.limit["limit"], 7)
+    assert found.limit["low"] <= 7 <= found.limit["high"]
+    close(found.gci["p"], 2)
+    finest, before = 7 + 3 / 160 ** 2, 7 + 3 / 80 ** 2
+    close(found.gci["gci_fine"], 1.25 * (before - finest) / finest / 3, 1e-12)  # Celik et al., (7)
+    first, second = (br.orders(7 + 1 / N ** 2, n=N, values=True, formal=order)["value"].limit["high"]
+                     for order in (1, 2))
+    assert first != second
+    both = br.orders({"n": N, "e": 1 / N, "cd": 7 + 3 / N ** 2}, values="cd", errors="e")
+    assert [q.is_value for q in both.quantities] == [False, True]
+    assert both["e"].limit is None and both["e"].gci is None
+    close(both["cd"].limit["limit"], 7)
+
+
+def check_left_out():
+    error = 3.0 / N ** 2
+    error[0] = 5
+    found = br.orders(error, n=N)["error"]
+    assert [p.left_out for p in found.left_out] == ["not asymptotic"], found.left_out
+    close(found.left_out[0].size, 0.1)
+    error[2] = np.nan
+    assert [p.left_out for p in br.orders(error, n=N)["error"].left_out][-1] == "failed"
+    refused("INCONCLUSIVE", lambda: br.orders([4, 2, 1], h=[4, 2, 1]).assert_order(1), AssertionError)
+    nothing = br.Orders([16, 4, 1, .25], h=[8, 4, 2, 1]).line(br.SPACE)
+    close(nothing.constant, 0.25, 1e-6)
+
+
+def check_plot(make):
+    error = 3.0 / N ** 2
+    error[0] = 5
+    found = br.orders({"n": N, "e": error, "v": 7 + 1 / N}, errors="e", values="v")
+    axes = found.plot(make() if make else None)
+    if not make:
+        assert len(axes.lines) == 6 and axes.get_legend(), axes.lines
+        return
+    (_, x, y), (hollow, x_out, y_out), (_, x_fit, fit), *values = axes.drawn
+    assert x == [1 / n for n in N[1:]] and y == error[1:].tolist(), (x, y)
+    assert (hollow, x_out, y_out) == ("none", [0.1], [5])
+    assert len(x_fit) == 5 and len(values) == 3 and len(axes.bands) == 2
+    for at, low, middle, high in zip(x_fit, axes.bands[0][1], fit, axes.bands[0][2]):
+        close(middle / (3 * at ** 2), 1, 1e-6)
+        assert low <= middle <= high
+    assert "e: order in h 2.000 [2.000, 2.000]" in axes.labels, axes.labels
+
+
+def check_refusals():
+    refused("found no column of a resolution among", lambda: br.orders([3, 2, 1]))
+    refused("table:3: e: found -2", lambda: br.orders({"n": [1, 2, 3], "e": [1, -2, 3]}))
+    refused("found columns of [2, 3]", lambda: br.orders([1, 2, 3], n=[1, 2]))
+    refused("sizes: found ['m']", lambda: br.orders([1, 2, 3], m=[1, 2, 3]))
+    refused("n: found 'it twice'", lambda: br.orders({"n": N, "e": N}, n=N))
+    refused("e: found array", lambda: br.orders({"n": N, "e": 1j * N}))
+    refused("e: found masked_array", lambda: br.orders({"n": N, "e": np.ma.array(N, mask=N > 20)}))
+    refused("values: found True", lambda: br.orders({"n": N, "e": N}, values=True))
+    for wrong in (-1, math.nan, math.inf, "2"):
+        refused("dimension, formal: found", lambda: br.orders({"n": N, "e": N}, dimension=wrong))
+        refused("dimension, formal: found", lambda: br.orders({"n": N, "e": N}, formal=wrong))
+    refused("a text without NUL", lambda: br.orders({"n": N, "e": N}, errors="e\0"))
+
+
+COLUMNS = {"N": N, "L2": 3.0 / N ** 2, "H1": 2.0 / N, "rate": np.full(5, np.nan)}
+if "pandas" in sys.argv:
+    import pandas
+    check_frame(pandas.DataFrame(COLUMNS))
+    close(br.orders(pandas.Series(1.0 / N, name="e"), n=N)["e"].order.value, 1)
+elif "matplotlib" in sys.argv:
+    import matplotlib
+    matplotlib.use("Agg")
+    check_plot(None)
+else:
+    check_frame(Frame(COLUMNS))
+    check_arrays()
+    check_grid()
+    check_values()
+    check_left_out()
+    check_plot(Axes)
+    check_refusals()
