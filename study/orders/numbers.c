@@ -9,6 +9,7 @@ const struct br_resolution_column br_resolution_columns[] = {
     {"h", "h", BR_AXIS_SPACE, .is_size = true},
     {"n", "h = 1/n", BR_AXIS_SPACE, .is_size = false},
     {"dofs", "h = dofs^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
+    {"cells", "h = cells^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
     {"level", "h = 2^-level", BR_AXIS_SPACE, .is_power = true},
     {"k", "k", BR_AXIS_TIME, .is_size = true},
     {"dt", "k", BR_AXIS_TIME, .is_size = true},

@@ -16,7 +16,7 @@
 /* How a column states a resolution; const records. z is the number itself for a size; one over it
  * for a number of elements or steps; number^(-1/dimension) for unknowns. */
 struct br_resolution_column {
-    const char *name;   /* "n", "h", "dofs", "level", "k", "dt", "steps" */
+    const char *name;   /* "n", "h", "dofs", "cells", "level", "k", "dt", "steps" */
     const char *states; /* "h = 1/n" */
     enum br_axis axis;
     bool is_size;   /* z is the number itself */
@@ -54,6 +54,7 @@ struct br_numbers {
     size_t quantities;
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
+    double assumed; /* the dimension of the mesh that nobody stated; 0: none is assumed */
     char taken[800]; /* what was taken for what: "h = 1/n from column N; errors: L2"; "": a program's */
     const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };

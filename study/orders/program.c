@@ -341,7 +341,9 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
             if (!column)
                 continue;
             row->given[i] = p->axis[i].given[at[i]];
-            row->z[i] = br_numbers_z(column, row->given[i], p->dimension);
+            row->z[i] = br_numbers_z(column, row->given[i], br_orders_dimension(p, column));
+            if (column->is_volume && p->assumed_dimension)
+                numbers->assumed = br_orders_dimension(p, column);
         }
     }
     if (!status)
@@ -352,14 +354,19 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
 static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
 {
-    enum br_status status = BR_OK;
+    const char **name = br_allocate(p->readings, sizeof *name);
+    enum br_status status = name ? BR_OK : br_no_memory(err, "what is read");
     for (size_t i = 0; i < p->readings && !status; i++) {
-        const char *name = p->reading[i].name;
+        name[i] = p->reading[i].name;
         status = br_reading_check(&p->reading[i], err);
         if (!status)
-            status = br_numbers_add_quantity(numbers, name, NULL, br_lists(p->values, name), err);
+            status = br_numbers_add_quantity(numbers, name[i], NULL,
+                                             br_lists(p->values, name[i]), err);
     }
-    return status ? status : br_orders_check_lists(p, numbers, err);
+    if (!status)
+        status = br_orders_check_lists(p, numbers, name, p->readings, err);
+    free(name);
+    return status;
 }
 
 /* Refuses a command that is not valid at any resolution, before one is run. */

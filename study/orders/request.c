@@ -27,6 +27,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->command);
     free(r->folder);
     free(r->errors);
+    free(r->columns);
     free(r->values);
     free((struct br_reading *)r->reading);
     free(r->expectation);
@@ -51,43 +52,85 @@ enum br_status br_orders_read(const struct br_orders_request *r, struct br_numbe
     return status ? status : br_numbers_check(numbers, br_orders_path(r), err);
 }
 
+double br_orders_dimension(const struct br_orders_request *r,
+                           const struct br_resolution_column *column)
+{
+    return !r->assumed_dimension ? r->dimension : strcmp(column->name, "cells") == 0 ? 1 : 2;
+}
+
+/* Refuses a name that no quantity has. known[count]: the names that one may have meant. */
+static enum br_status refuse_name(const struct br_orders_request *r, const char *where,
+                                  const char *name, const char *const *known, size_t count,
+                                  struct br_error *err)
+{
+    const char *nearest = br_nearest(name, known, count);
+    char others[300] = "", shown[80], word[80];
+    for (size_t i = 0; i < count && !nearest; i++)
+        br_append(others, sizeof others, "%s%s", i ? ", " : ", expected one of: ",
+                  br_quoted(shown, sizeof shown, &br_for_text, known[i]));
+    if (nearest)
+        snprintf(others, sizeof others, "; did you mean '%s'?",
+                 br_quoted(shown, sizeof shown, &br_for_text, nearest));
+    if (br_resolution_column_find(name))
+        return br_fail(err, BR_BAD_INPUT, "%s: %s: '%s' is a resolution, expected numbers",
+                       br_orders_path(r), where, name);
+    return br_fail(err, BR_BAD_INPUT,
+                   r->command ? "%s: %s: nothing of the name '%s' is read%s"
+                              : "%s: %s: there is no column '%s'%s",
+                   br_orders_path(r), where, br_quoted(word, sizeof word, &br_for_text, name),
+                   others);
+}
+
 /* Refuses a name of a list that is not the name of a quantity. */
 static enum br_status check_list(const struct br_orders_request *r, const char *option,
                                  const char *list, const struct br_numbers *numbers,
-                                 struct br_error *err)
+                                 const char *const *known, size_t count, struct br_error *err)
 {
-    const char *name, *path = br_orders_path(r);
+    const char *name;
     size_t length;
     while (list) {
         list = br_list_next(list, &name, &length);
+        char word[200];
+        snprintf(word, sizeof word, "%.*s", (int)(length < 199 ? length : 199), name);
         bool found = false;
         for (size_t i = 0; i < numbers->quantities; i++)
             found |= strlen(numbers->quantity[i].name) == length &&
                      memcmp(numbers->quantity[i].name, name, length) == 0;
-        char word[8];
-        snprintf(word, sizeof word, "%.*s", (int)length, name);
-        if (!found && br_resolution_column_find(word))
-            return br_fail(err, BR_BAD_INPUT, "%s: %s: '%s' is a resolution, expected numbers",
-                           path, option, word);
         if (!found)
-            return br_fail(err, BR_BAD_INPUT,
-                           r->command ? "%s: %s: nothing of the name '%.*s' is read"
-                                      : "%s: %s: there is no column '%.*s'",
-                           path, option, (int)length, name);
+            return refuse_name(r, option, word, known, count, err);
     }
     return BR_OK;
 }
 
 enum br_status br_orders_check_lists(const struct br_orders_request *r,
-                                     const struct br_numbers *numbers, struct br_error *err)
+                                     const struct br_numbers *numbers, const char *const *known,
+                                     size_t count, struct br_error *err)
 {
-    if (check_list(r, "--error", r->errors, numbers, err) ||
-        check_list(r, "--value", r->values, numbers, err))
+    if (check_list(r, "--error", r->errors, numbers, known, count, err) ||
+        check_list(r, "--value", r->values, numbers, known, count, err))
         return err->status;
     for (size_t i = 0; i < numbers->quantities; i++)
         if (numbers->quantity[i].is_value && br_lists(r->errors, numbers->quantity[i].name))
             return br_fail(err, BR_BAD_INPUT, "%s: '%s' is given as an error and as a value",
                            br_orders_path(r), numbers->quantity[i].name);
+    for (size_t i = 0; i < r->expectations; i++) {
+        const struct br_order_expectation *e = &r->expectation[i];
+        bool found = false;
+        for (size_t j = 0; j < numbers->quantities; j++)
+            found |= strcmp(numbers->quantity[j].name, e->quantity) == 0;
+        if (!found)
+            return refuse_name(r, "what is expected", e->quantity, known, count, err);
+        if (!numbers->column[e->axis])
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: an order of %s in %s is expected, and there is no resolution of %s",
+                           br_orders_path(r), e->quantity, br_axis_letters[e->axis],
+                           e->axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
+        if (numbers->assumed && e->axis == BR_AXIS_SPACE)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: an order of %s in h is expected, and h follows from numbers of %s: "
+                           "state the dimension of the mesh (--dimension, or 'dimension:')",
+                           br_orders_path(r), e->quantity, numbers->column[e->axis]->name);
+    }
     return BR_OK;
 }
 
@@ -102,7 +145,12 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     if (r->axis[c->axis].column)
         return br_fail(err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
                        r->axis[c->axis].column->name, column);
-    enum br_status status = br_read_numbers(column, list, &given, &count, err);
+    const bool zero = c->is_power && strncmp(list, "0,", 2) == 0; /* the first level */
+    enum br_status status = br_read_numbers(column, list + (zero ? 2 : 0), &given, &count, err);
+    if (!status && zero && count < BR_MOST_SIZES) {
+        memmove(given + 1, given, count++ * sizeof *given);
+        given[0] = 0;
+    }
     for (size_t i = 0; i < count && !status; i++) /* all whole numbers below 2^53 are doubles */
         if (!c->is_size && !(given[i] == floor(given[i]) && given[i] < 0x1p53))
             status = br_fail(err, BR_BAD_INPUT, "%s: found %g, expected a whole number above 0",
@@ -158,6 +206,8 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
     add_text(&sum, r->command);
     add_text(&sum, r->errors);
     add_text(&sum, r->values);
+    if (r->columns)
+        add_text(&sum, r->columns);
     for (size_t i = 0; i < r->readings; i++) {
         add_text(&sum, r->reading[i].name);
         add_text(&sum, r->reading[i].what);
