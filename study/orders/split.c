@@ -454,7 +454,8 @@ static char *without_boxes(const char *text)
     return copy;
 }
 
-/* Skips titles: lines above the heading, or above rows of pairs, with another number of fields. */
+/* Skips titles: lines above the heading, or above rows of pairs, with another number of fields or
+ * with a number. */
 static enum br_status skip_titles(struct cursor *c, const char **comment, struct br_error *err)
 {
     for (bool title = true; title && !err->status;) {
@@ -471,8 +472,8 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
         title = !has_pairs(lines, 0) &&
                 (has_pairs(lines, 1) ||
                  (above == 1 && below > 2 && !has_data(lines, 1)) ||
-                 (above != below && below > 1 && !numbers(lines, 1) && has_data(lines, 2) &&
-                  !has_groups(lines, 0)));
+                 ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
+                  has_data(lines, 2) && !has_groups(lines, 0)));
         json_decref(lines);
         c->at += title ? strcspn(c->at, "\n") : 0;
         if (title)

@@ -409,8 +409,7 @@ static bool counts(const struct source *s, size_t column)
     for (size_t i = 1; i <= s->rows; i++) {
         const double *z = &s->numbers->row[i - 1].z[axis];
         if (!is_number(field_at(s, i, column), &value) || value != floor(value) ||
-            (i > 1 && !((value > before) == (z[0] < s->numbers->row[i - 2].z[axis]) &&
-                        value != before)))
+            (i > 1 && !((value - before) * (s->numbers->row[i - 2].z[axis] - *z) > 0)))
             return false;
         before = value;
     }
@@ -542,7 +541,7 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
                   s.path)
             : br_table_split(text, s.path, false, q->observer, s.table, err);
     s.rows = json_array_size(s.table) ? json_array_size(s.table) - 1 : 0;
-    s.columns = s.rows ? json_array_size(json_array_get(s.table, 0)) - 1 : 0;
+    s.columns = json_array_size(s.table) ? json_array_size(json_array_get(s.table, 0)) - 1 : 0;
     if (!status)
         status = take_columns(&s, err);
     for (size_t i = 1; i <= s.columns && s.column; i++)
