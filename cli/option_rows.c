@@ -166,9 +166,10 @@ static const struct br_option rows[] = {
      BR_TAKES_NUMBER, WHOLE(1, 16), .commands = BR_FOR_ORDERS,
      .more = "Where it is not given, 2 is assumed for unknowns, and for cells that they are counted "
              "along one side. The answer says so, and a verdict needs it."},
-    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", "2", BR_TAKES_NUMBER,
+    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
-     .more = "For the least squares of Eca and Hoekstra, 1 to 10."},
+     .more = "For the uncertainty of limits, 1 to 10. Where it is not given, 2 is assumed; the "
+             "answer says so, and what 1 would give."},
     {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},

@@ -746,7 +746,7 @@ static const struct planted_bug planted_bugs[] = {
     {"boxes_are_letters", "lost", "study/orders/split.c", "tests/test_orders",
      "*to++ = upright ? '|' : '-';", "*to++ = '-';"},
     {"assumed_dimension_passes", "lost", "study/orders/request.c", "tests/test_orders test_assumed_dimension",
-     "if (numbers->assumed && e->axis == BR_AXIS_SPACE)", "if (numbers->assumed < 0)"},
+     "if (numbers->assumed && e->axis == BR_AXIS_SPACE)", "if (numbers->dimension < 0)"},
     {"missing_hides_all", "lost", "study/orders/orders.c", "tests/test_orders",
      ".may_miss = true,",
      ".may_miss = false,"},

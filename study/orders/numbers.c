@@ -34,6 +34,15 @@ double br_numbers_z(const struct br_resolution_column *column, double given, dou
     return column->is_volume ? pow(given, -1 / dimension) : 1 / given;
 }
 
+double br_numbers_given(const struct br_resolution_column *column, double z, double dimension)
+{
+    const double given = column->is_size     ? z
+                         : column->is_power  ? -log2(z)
+                         : column->is_volume ? pow(z, -dimension)
+                                             : 1 / z;
+    return column->is_size ? given : ceil(given * (1 - 1e-9));
+}
+
 const char *br_list_next(const char *list, const char **name, size_t *length)
 {
     *name = list + strspn(list, " ");
@@ -70,6 +79,7 @@ enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, siz
                                        .z = {NAN, NAN},
                                        .number = br_allocate(quantities + 1, sizeof *row->number),
                                        .seconds = NAN,
+                                       .wall = NAN,
                                        .bytes = NAN};
         if (!row->number)
             return br_no_memory(err, "the numbers");

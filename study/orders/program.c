@@ -40,6 +40,7 @@ struct run {
     int printed[2]; /* files of standard output and error */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
+    double wall;     /* s */
     enum end end;
     int status; /* as of wait4 */
     struct rusage usage;
@@ -122,6 +123,7 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
             pause.tv_nsec *= 2;
     }
     const struct br_process_end end = br_process_wait(&r->process);
+    r->wall = br_seconds() - start;
     r->status = end.status;
     r->usage = end.usage;
     if (!r->end && prints_too_much(r))
@@ -211,6 +213,7 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
+    row->wall = r->wall;
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
     if (!r->end && WIFEXITED(r->status) && WEXITSTATUS(r->status) == 0) {
         const enum br_status status = read_numbers(p, r, row, &why);
@@ -270,6 +273,7 @@ static void pass_row(struct br_record *r, void *self)
     size_t numbers = of->numbers;
     br_record_count(r, &numbers, numbers, numbers);
     br_record_number(r, &of->row->seconds, 0, DBL_MAX);
+    br_record_number(r, &of->row->wall, 0, DBL_MAX);
     br_record_or_nan(r, &of->row->bytes, 0, DBL_MAX);
     for (size_t i = 0; i < numbers; i++)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
@@ -342,8 +346,10 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
                 continue;
             row->given[i] = p->axis[i].given[at[i]];
             row->z[i] = br_numbers_z(column, row->given[i], br_orders_dimension(p, column));
-            if (column->is_volume && p->assumed_dimension)
-                numbers->assumed = br_orders_dimension(p, column);
+            if (i == BR_AXIS_SPACE) {
+                numbers->dimension = br_orders_dimension(p, column);
+                numbers->assumed = column->is_volume && p->assumed_dimension;
+            }
         }
     }
     if (!status)

@@ -9,7 +9,8 @@
 
 struct br_orders_request br_orders_request_default(void)
 {
-    return (struct br_orders_request){.dimension = 2, .assumed_dimension = true, .formal = 2, .seconds = BR_PROGRAM_SECONDS};
+    return (struct br_orders_request){
+        .dimension = 2, .assumed_dimension = true, .seconds = BR_PROGRAM_SECONDS};
 }
 
 void br_orders_request_clear(struct br_orders_request *r)

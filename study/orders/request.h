@@ -43,7 +43,7 @@ struct br_orders_request {
     char *columns;         /* of a table, "dx=h, 3=l2": heading or position, and name; NULL: none */
     double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
-    double formal;         /* the order of theory for values */
+    double formal;         /* the order of theory for values; 0: nobody stated it */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;      /* text of a table; NULL: none */

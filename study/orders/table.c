@@ -375,8 +375,10 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     br_append(numbers->taken, sizeof numbers->taken, "%s%s from column %s",
               numbers->taken[0] ? ", " : "", c->size->states,
               br_quoted(name, sizeof name, &br_for_text, c->name));
-    if (c->size->is_volume && s->request->assumed_dimension)
-        numbers->assumed = br_orders_dimension(s->request, c->size);
+    if (axis == BR_AXIS_SPACE) {
+        numbers->dimension = br_orders_dimension(s->request, c->size);
+        numbers->assumed = c->size->is_volume && s->request->assumed_dimension;
+    }
     for (size_t i = 1; i <= s->columns; i++)
         if (i != best && s->column[i].size && s->column[i].size->axis == axis &&
             compare_sizes(s, axis, i, err))
