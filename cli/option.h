@@ -56,6 +56,7 @@ enum br_option_id {
     BR_OPT_FORMAL,
     BR_OPT_RUN,
     BR_OPT_READ,
+    BR_OPT_REPEAT,
     BR_OPT_EXPECT,
     BR_OPT_TRUST,
     BR_OPT_RESUME,

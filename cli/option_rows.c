@@ -81,8 +81,15 @@ static const struct br_option rows[] = {
              "absolute paths."},
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "May be given several times.",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+     .more = "May be given several times. last:REGEX takes the last match of many. stderr: before it "
+             "reads standard error, file:PATH: a file that the run writes. A NAME h, n, dofs, cells, "
+             "level, k, dt or steps is a resolution that the run states itself.",
      .repeats = true},
+    {BR_OPT_REPEAT, "repeat", 0, "COUNT", "runs of each resolution, whose mean counts", "1",
+     BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
+     .more = "For programs that draw random numbers: {repeat} in the command is 1, 2, ..., for "
+             "example a seed. Means count by their standard deviations."},
 
     /* what is marched, or run */
     {BR_OPT_N, "n", 'n', "LIST", "elements of the mesh", NULL, BR_TAKES_COUNTS,

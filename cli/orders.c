@@ -80,12 +80,13 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
                                    struct br_error *err)
 {
     static const enum br_option_id of_runs[] = {BR_OPT_N, BR_OPT_K, BR_OPT_TIME_LIMIT,
-                                                BR_OPT_RESUME, BR_OPTIONS};
+                                                BR_OPT_RESUME, BR_OPT_REPEAT, BR_OPTIONS};
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
     q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
+    q->repeat = br_option_number(o, BR_OPT_REPEAT, q->repeat);
     if (unused)
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
     if (q->command && br_option_given(o, BR_OPT_COLUMN))
@@ -127,7 +128,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
 {
     static const enum br_option_id refused[] = {
         BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN, BR_OPT_ERROR, BR_OPT_VALUE,
-        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPTIONS};
+        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPT_REPEAT, BR_OPTIONS};
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,
@@ -236,8 +237,11 @@ static enum br_status check_rows(const struct run *r, struct br_error *err)
             first = first ? first : &r->study.numbers.row[i];
             failed++;
         }
-    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first: %s", failed,
-                            r->study.numbers.rows, first->failure)
+    const struct br_resolution_column *const *column = r->study.numbers.column;
+    const int axis = column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s = %.6g: %s",
+                            failed, r->study.numbers.rows, column[axis]->name, first->given[axis],
+                            first->failure)
                   : BR_OK;
 }
 

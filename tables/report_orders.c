@@ -95,6 +95,14 @@ static void say_orders(struct br_document *d, const struct br_orders *o,
         br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
 }
 
+/* A size as its column states it: a count has all its digits. */
+static const char *given_text(const struct br_orders *o, enum br_axis axis, double given,
+                              char text[32])
+{
+    snprintf(text, 32, o->numbers->column[axis]->is_size ? "%.4g" : "%.0f", given);
+    return text;
+}
+
 /* What the next finer size would give. */
 static void say_next(struct br_document *d, const struct br_orders *o,
                      const struct br_quantity_orders *of, bool *first)
@@ -104,8 +112,9 @@ static void say_next(struct br_document *d, const struct br_orders *o,
     const double next = f.line ? br_orders_next(o, &f, &given) : (double)NAN;
     if (!f.line)
         return;
-    br_put_more(d, "%s%s = %.6g would give ", separator(first),
-                o->numbers->column[f.line->axis]->name, given);
+    br_put_more(d, "%s%s = %s would give ", separator(first),
+                o->numbers->column[f.line->axis]->name,
+                given_text(o, f.line->axis, given, (char[32]){0}));
     if (quantity_of(o, of)->is_value)
         br_put_more(d, "a GCI of %.2g %%", 100 * next);
     else
@@ -147,7 +156,7 @@ static void say_limit(struct br_document *d,
     else
         br_put_more(d, "%sno limit", separator(first));
     if (of->lines == 1 && isfinite(g->fine.index))
-        br_put_more(d, ", p = %.2f, GCI %.2g %%, asymptotic %.3g", g->order, 100 * g->fine.index,
+        br_put_more(d, ", p = %.2f, GCI %.2g %%, asymptotic %.3f", g->order, 100 * g->fine.index,
                     g->asymptotic);
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
@@ -173,9 +182,10 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     br_interval_text(other, text, sizeof text));
 }
 
-static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis)
+static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis,
+                       bool differ)
 {
-    if (growth->low > 0 && br_order_determined(growth))
+    if (differ && growth->low > 0 && br_order_determined(growth))
         br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
                       br_order_text(growth, (char[64]){0}, 64));
 }
@@ -208,6 +218,9 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
         put_given(d, numbers, i);
         BR_PUT(d, br_number(number), .key = q->is_value ? "value" : "error", .unit = q->unit,
                .format = q->is_value ? "%.9g" : "%.3e");
+        if (row->repeat)
+            BR_PUT(d, br_number(row->deviation[of->quantity]), .key = "deviation", .unit = q->unit,
+                   .format = "%.1e");
         for (int axis = 0; axis < BR_AXES; axis++) {
             const struct br_row_point *at = of->point[axis] ? &of->point[axis][i] : NULL;
             const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
@@ -327,18 +340,21 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
         {.key = "quantity"},
         {.key = "what"},
         {.key = "wanted", .heading = "at most", .format = "%.0e"},
-        {.key = "size", .heading = "needs", .format = "%.6g"},
-        {.key = "stated_as", .heading = "as"},
+        {.key = "column", .heading = "needs"},
+        {.key = "size"},
     };
     BR_TABLE(d, "needed", "What smaller errors need, if the order stays", 0, columns);
     for (size_t i = 0; i < o->count; i++) {
         const struct br_orders_forecast f = br_orders_foresee(o, &o->of[i]);
         double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
-        for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10)
+        for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
+            const double size = br_orders_needed(o, &f, wanted);
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
-                       br_number(wanted), br_number(br_orders_needed(o, &f, wanted)),
-                       br_text(o->numbers->column[f.line->axis]->name));
+                       br_number(wanted), br_text(o->numbers->column[f.line->axis]->name),
+                       br_number(size));
+            br_put_shown(d, "%s", given_text(o, f.line->axis, size, (char[32]){0}));
+        }
     }
 }
 
@@ -370,7 +386,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->count > MOST_NAMED)
         br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
-        say_growth(d, &growth[axis], (enum br_axis)axis);
+        say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
     for (size_t i = 0; i < o->numbers->rows; i++)

@@ -77,12 +77,15 @@ enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, siz
         struct br_numbers_row *row = &numbers->row[numbers->rows];
         *row = (struct br_numbers_row){.given = {NAN, NAN},
                                        .z = {NAN, NAN},
-                                       .number = br_allocate(quantities + 1, sizeof *row->number),
+                                       .number = br_allocate(2 * quantities + 2, sizeof *row->number),
                                        .seconds = NAN,
                                        .wall = NAN,
                                        .bytes = NAN};
         if (!row->number)
             return br_no_memory(err, "the numbers");
+        row->deviation = row->number + quantities + 1;
+        for (size_t i = 0; i <= quantities; i++)
+            row->deviation[i] = NAN;
     }
     return numbers->row && numbers->quantity ? BR_OK : br_no_memory(err, "the numbers");
 }
@@ -126,7 +129,8 @@ static int by_resolution(const void *a, const void *b)
         if (order)
             return order;
     }
-    return (x->line > y->line) - (x->line < y->line);
+    const int order = (x->line > y->line) - (x->line < y->line);
+    return order ? order : (x->repeat > y->repeat) - (x->repeat < y->repeat);
 }
 
 void br_numbers_sort(struct br_numbers *numbers)

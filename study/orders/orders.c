@@ -69,13 +69,20 @@ static int by_line(const void *a, const void *b)
     return order ? order : (x->along < y->along) - (x->along > y->along);
 }
 
+static double deviation_of(const struct br_numbers_row *row, size_t quantity)
+{
+    return row->deviation ? row->deviation[quantity] : NAN;
+}
+
 /* An error, or the difference of a value from the next finer one. */
 static struct br_point point_of(const struct br_orders *o, size_t quantity,
                                 const struct br_orders_line *line, size_t i)
 {
     const struct br_numbers *numbers = o->numbers;
     const struct br_numbers_row *row = &numbers->row[line->row[i]];
-    struct br_point p = {.z = row->z[line->axis], .error = row->number[quantity]};
+    struct br_point p = {.z = row->z[line->axis],
+                         .error = row->number[quantity],
+                         .deviation = deviation_of(row, quantity)};
     const char *failure = failure_of(row, p.error);
     size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
@@ -85,9 +92,11 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         failure = *failure ? failure : of_finer;
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
+        p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
     }
     name_size(numbers, named, line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
+    p.deviation = p.deviation > 0 ? p.deviation : 0; /* NaN: it is no mean */
     p.flag = *failure       ? BR_FLAG_FAILED
              : p.error > 0  ? BR_FLAG_NONE
              : p.error == 0 ? BR_FLAG_ROUND_OFF
@@ -513,6 +522,12 @@ double br_orders_rate(const struct br_orders_line *line, size_t i)
 
 /* ---- finer meshes ---- */
 
+static bool has_floor(const struct br_case *c)
+{
+    return c->law == br_law_text(BR_LAW_FLOOR) || c->law == br_law_text(BR_LAW_FLOOR_SQUARES) ||
+           c->law == br_law_text(BR_LAW_OFFSET);
+}
+
 struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
                                             const struct br_quantity_orders *of)
 {
@@ -526,7 +541,7 @@ struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
     f = (struct br_orders_forecast){line, line->gci.fine.index, line->gci.order,
                                     z_of(o->numbers, line->row[last], line->axis), NAN};
     if (!is_value) {
-        f.number = c->point[last].flag || c->law ? (double)NAN : c->point[last].error;
+        f.number = c->point[last].flag || has_floor(c) ? (double)NAN : c->point[last].error;
         f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
     }
     if (isnan(o->numbers->row[line->row[last]].number[of->quantity]))

@@ -38,6 +38,9 @@ struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column */
     double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
     double *number;        /* by quantity; NaN: missing; owned */
+    double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
+                              it is none; within `number` */
+    size_t repeat;         /* which of the runs of its cell; 0: it has one run */
     size_t line;           /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */

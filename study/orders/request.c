@@ -10,7 +10,7 @@
 struct br_orders_request br_orders_request_default(void)
 {
     return (struct br_orders_request){
-        .dimension = 2, .assumed_dimension = true, .seconds = BR_PROGRAM_SECONDS};
+        .dimension = 2, .assumed_dimension = true, .seconds = BR_PROGRAM_SECONDS, .repeat = 1};
 }
 
 void br_orders_request_clear(struct br_orders_request *r)
@@ -18,6 +18,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     for (size_t i = 0; i < r->readings; i++) {
         free((char *)r->reading[i].name);
         free((char *)r->reading[i].what);
+        free((char *)r->reading[i].file);
     }
     for (int axis = 0; axis < BR_AXES; axis++)
         free((double *)r->axis[axis].given);
@@ -160,21 +161,35 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     return status;
 }
 
+/* Whether a text begins with a word, which is then skipped. */
+static bool takes(const char **text, const char *word)
+{
+    const bool found = strncmp(*text, word, strlen(word)) == 0;
+    *text += found ? strlen(word) : 0;
+    return found;
+}
+
+/* Takes "PATH:". The path stays within the folder of the run. */
+static enum br_status take_file(const char **what, const char **file, struct br_error *err)
+{
+    const char *colon = strchr(*what, ':');
+    const size_t length = colon ? (size_t)(colon - *what) : 0;
+    if (!length || **what == '/' || strncmp(*what, "../", 3) == 0 || strstr(*what, "/../"))
+        return br_fail(err, BR_BAD_INPUT,
+                       "found 'file:%.60s', expected file:PATH:REGEX, with a PATH in the folder "
+                       "that each run has for itself",
+                       *what);
+    *file = strndup(*what, length);
+    *what = colon + 1;
+    return *file ? BR_OK : br_no_memory(err, "what is read");
+}
+
 enum br_status br_orders_request_reading(struct br_orders_request *r, const char *name,
                                          const char *what, struct br_error *err)
 {
-    static const struct {
-        const char *prefix;
-        enum br_reading_kind kind;
-    } kinds[] = {{"json:", BR_READING_JSON}, {"csv:", BR_READING_CSV}};
     struct br_reading reading = {.kind = BR_READING_REGEX};
     if (br_not_utf8(name))
         return br_fail(err, BR_BAD_INPUT, "found the name '%s', expected text in UTF-8", name);
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        if (strncmp(what, kinds[i].prefix, strlen(kinds[i].prefix)) == 0) {
-            reading.kind = kinds[i].kind;
-            what += strlen(kinds[i].prefix);
-        }
     for (size_t i = 0; i < r->readings; i++)
         if (strcmp(r->reading[i].name, name) == 0)
             return br_fail(err, BR_BAD_INPUT, "%s is read twice", name);
@@ -185,10 +200,21 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
         memcpy(more, r->reading, r->readings * sizeof *more);
     free((struct br_reading *)r->reading);
     r->reading = more;
+    reading.complaints = takes(&what, "stderr:");
+    enum br_status status = !reading.complaints && takes(&what, "file:")
+                                ? take_file(&what, &reading.file, err)
+                                : BR_OK;
+    reading.last = takes(&what, "last:");
+    if (!reading.last)
+        reading.kind = takes(&what, "json:")  ? BR_READING_JSON
+                       : takes(&what, "csv:") ? BR_READING_CSV
+                                              : BR_READING_REGEX;
     reading.name = strdup(name);
     reading.what = strdup(what);
     more[r->readings++] = reading;
-    return reading.name && reading.what ? BR_OK : br_no_memory(err, "what is read");
+    if (!status && !(reading.name && reading.what))
+        status = br_no_memory(err, "what is read");
+    return status;
 }
 
 /* ---- the problem ---- */
@@ -209,9 +235,18 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
     add_text(&sum, r->values);
     if (r->columns)
         add_text(&sum, r->columns);
+    if (r->repeat > 1) {
+        snprintf(text, sizeof text, "repeat %.17g", r->repeat);
+        add_text(&sum, text);
+    }
     for (size_t i = 0; i < r->readings; i++) {
         add_text(&sum, r->reading[i].name);
         add_text(&sum, r->reading[i].what);
+        if (r->reading[i].file || r->reading[i].complaints || r->reading[i].last) {
+            snprintf(text, sizeof text, "%d %d %.180s", r->reading[i].complaints,
+                     r->reading[i].last, r->reading[i].file ? r->reading[i].file : "");
+            add_text(&sum, text);
+        }
     }
     for (size_t i = 0; i < r->expectations; i++) {
         const struct br_order_expectation *e = &r->expectation[i];

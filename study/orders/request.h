@@ -12,7 +12,7 @@
 #include "study/grid/statement.h"
 #include "study/orders/orders.h"
 
-/* How a number is found in standard output. */
+/* How a number is found in what a run prints, or in a file that it writes. */
 enum br_reading_kind {
     BR_READING_REGEX, /* POSIX extended, with one group; it must match once, within a line */
     BR_READING_JSON,  /* a pointer (RFC 6901) into the output */
@@ -20,9 +20,12 @@ enum br_reading_kind {
 };
 
 struct br_reading {
-    const char *name; /* of the quantity */
+    const char *name; /* of the quantity; that of a resolution: the run states its own */
     const char *what; /* expression, pointer or heading */
     enum br_reading_kind kind;
+    const char *file; /* in the folder of the run; NULL: what it prints */
+    bool complaints;  /* what it prints on standard error */
+    bool last;        /* the last match counts, else there must be one */
 };
 
 /* The resolutions of one axis. */
@@ -58,6 +61,7 @@ struct br_orders_request {
     const struct br_reading *reading; /* readings */
     size_t readings;
     double seconds; /* limit of one run */
+    double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
     const char *kept;                   /* the folder of finished cells, made where it is missing;
@@ -184,7 +188,8 @@ enum br_status br_reading_take(const struct br_orders_request *request, size_t r
 enum br_status br_orders_request_axis(struct br_orders_request *request, const char *column,
                                       const char *list, struct br_error *err);
 
-/* A reading: NAME and REGEX, json:POINTER or csv:COLUMN. */
+/* A reading: NAME and REGEX, last:REGEX, json:POINTER or csv:COLUMN, behind nothing, stderr: or
+ * file:PATH: of a file in the folder of the run. */
 enum br_status br_orders_request_reading(struct br_orders_request *request, const char *name,
                                          const char *what, struct br_error *err);
 

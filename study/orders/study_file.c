@@ -80,6 +80,15 @@ static enum br_status take_dimension(const struct entry *e)
     return take_number(e);
 }
 
+static enum br_status take_repeat(const struct entry *e)
+{
+    const enum br_status status = take_number(e);
+    return status || (e->request->repeat <= BR_MOST_SIZES && fmod(e->request->repeat, 1) == 0)
+               ? status
+               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a whole number from 1 to %d",
+                         e->text, BR_MOST_SIZES);
+}
+
 static enum br_status take_reading(const struct entry *e)
 {
     return br_orders_request_reading(e->request, e->name, e->text, e->err);
@@ -113,6 +122,7 @@ static const struct key keys[] = {
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
+    {"repeat", take_repeat, .at = offsetof(struct br_orders_request, repeat), .of_runs = true},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},
     {"verify", take_expectation, .pairs = true},
