@@ -33,7 +33,7 @@ class Page(html.parser.HTMLParser):
             self.tables[-1].append([])
         elif tag in ("th", "td"):
             self.cell = ""
-        elif tag == "sup":
+        elif tag == "small":
             self.cell += "("
         elif re.fullmatch("h[1-6]", tag):
             self.headings.append(int(tag[1]))
@@ -46,7 +46,7 @@ class Page(html.parser.HTMLParser):
 
     def handle_endtag(self, tag):
         assert self.open and self.open.pop() == tag, (tag, self.getpos())
-        if tag == "sup":
+        if tag == "small":
             self.cell += ")"
         elif tag in ("th", "td"):
             self.tables[-1][-1].append(self.cell)
