@@ -7,7 +7,8 @@
 #include "tables/markup.h"
 
 /* Wide tables reach to the right edge of the window, beyond the column of text; their first column
- * stays visible. All colours of text have a contrast of at least 4.5 to both backgrounds (tests/html_page.py). */
+ * stays visible. All colours of text have a contrast of at least 4.5 to both backgrounds
+ * (tests/html_page.py). */
 static const char style[] =
     ":root { color-scheme: light dark; --ground: #ffffff; --shade: #f3f5f7; --line: #ccd1d6;\n"
     "  --ink: #1a1c1f; --quiet: #53585d; --link: #0a55a8;\n"

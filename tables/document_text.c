@@ -318,7 +318,7 @@ enum br_status br_document_show(FILE *out, const struct br_document *d, struct b
 }
 
 static enum br_status write_text(FILE *out, const struct br_document *d,
-                            const struct br_document_table *table, struct br_error *err)
+                                 const struct br_document_table *table, struct br_error *err)
 {
     (void)table;
     return print_page(out, d, false, err);
