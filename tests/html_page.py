@@ -100,6 +100,9 @@ def main(folder, pictures, texts):
     steps = [b - a for a, b in zip(page.headings, page.headings[1:])]
     assert page.headings[0] == 1 and page.headings.count(1) == 1 and max(steps) <= 1
     assert text.count("<svg ") == int(pictures), text.count("<svg ")
+    assert text.count("<figcaption>") == text.count("<figure>") >= int(pictures)
+    first = text.find("<figure>")  # right below the answers
+    assert not int(pictures) or text[:first].rstrip().endswith("</ul>"), text[first - 99:first]
     check_contrast(page.style)
     written = glob.glob(f"{folder}/*.md")  # by all commands but run
     expected = [table for name in written
