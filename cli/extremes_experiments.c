@@ -45,7 +45,8 @@ static enum br_status run_stability(const struct br_extremes_job *job,
     if (!status) {
         br_report_stability(&s, to->report);
         br_stability_verdict(&s, to->verdict);
-        br_session_draw(to->session, to->report, br_stability_draw(&s), NULL);
+        br_session_draw(to->session, to->report, br_stability_draw(&s),
+                        "Stable and unstable marches, and the largest stable k beside theory.");
     }
     br_stability_clear(&s);
     return status;

@@ -9,6 +9,7 @@
 #include "plots/pictures.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
+#include "study/scene/words.h"
 
 struct run {
     struct br_session session;
@@ -50,31 +51,55 @@ static enum br_status read_readings(const char *text, struct br_orders_request *
     return failed ? err->status : BR_OK;
 }
 
+/* Reads a list of resolutions, "10,20,40" or "dofs=100,400"; usual: what it has without a word. */
+static enum br_status read_list(const char *list, const char *usual, struct br_orders_request *q,
+                                struct br_error *err)
+{
+    const enum br_axis axis = br_resolution_column_find(usual)->axis;
+    const char *equals = list ? strchr(list, '=') : NULL, *names[16], *nearest;
+    char word[32], known[100] = "";
+    size_t count = 0;
+    snprintf(word, sizeof word, "%.*s", equals ? (int)(equals - list) : 0, equals ? list : "");
+    if (!equals)
+        return list ? br_orders_request_axis(q, usual, list, err) : BR_OK;
+    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
+        if (c->axis == axis) {
+            br_append(known, sizeof known, "%s%s", count ? ", " : "", c->name);
+            names[count++] = c->name;
+            if (strcmp(c->name, word) == 0)
+                return br_orders_request_axis(q, word, equals + 1, err);
+        }
+    nearest = br_nearest(word, names, count);
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s=', expected one of: %s%s%s%s", usual, word,
+                   known, nearest ? "; did you mean '" : "", nearest ? nearest : "",
+                   nearest ? "'?" : "");
+}
+
 /* Reads the options that come with a table or with --run. A table refuses those of a run. */
 static enum br_status read_options(const struct br_options *o, struct br_orders_request *q,
                                    struct br_error *err)
 {
-    static const enum br_option_id of_runs[] = {BR_OPT_N,     BR_OPT_DOFS,       BR_OPT_K,
-                                                BR_OPT_STEPS, BR_OPT_TIME_LIMIT, BR_OPT_RESUME,
-                                                BR_OPTIONS};
-    static const char *const axes[] = {"n", "dofs", "k", "steps"}; /* the first four of of_runs */
+    static const enum br_option_id of_runs[] = {BR_OPT_N, BR_OPT_K, BR_OPT_TIME_LIMIT,
+                                                BR_OPT_RESUME, BR_OPT_REPEAT, BR_OPTIONS};
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
     q->assumed_dimension = !br_option_given(o, BR_OPT_DIMENSION);
     q->formal = br_option_number(o, BR_OPT_FORMAL, q->formal);
     q->seconds = br_option_number(o, BR_OPT_TIME_LIMIT, q->seconds);
+    q->repeat = br_option_number(o, BR_OPT_REPEAT, q->repeat);
     if (unused)
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
+    if (q->command && br_option_given(o, BR_OPT_COLUMN))
+        return br_fail(err, BR_BAD_INPUT, "--column is given beside --run, expected a table");
     if (br_option_given(o, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
     if (br_option_given(o, BR_OPT_READ) != !!q->command)
         return br_fail(err, BR_BAD_INPUT, "--run and --read belong together, found one of the two");
-    for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
-        const char *list = br_option_text(o, of_runs[i]);
-        if (list && br_orders_request_axis(q, axes[i], list, err))
-            return err->status;
-    }
+    if (read_list(br_option_text(o, BR_OPT_N), "n", q, err) ||
+        read_list(br_option_text(o, BR_OPT_K), "k", q, err))
+        return err->status;
     const bool failed = read_readings(br_option_text(o, BR_OPT_READ), q, err) ||
+                        copy_text(br_option_text(o, BR_OPT_COLUMN), &q->columns, err) ||
                         copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err) ||
                         copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
     return failed ? err->status : BR_OK;
@@ -102,8 +127,8 @@ static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
 {
     static const enum br_option_id refused[] = {
-        BR_OPT_N,         BR_OPT_DOFS,   BR_OPT_K,    BR_OPT_STEPS,      BR_OPT_ERROR, BR_OPT_VALUE,
-        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPTIONS};
+        BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN, BR_OPT_ERROR, BR_OPT_VALUE,
+        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPT_REPEAT, BR_OPTIONS};
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,
@@ -212,8 +237,11 @@ static enum br_status check_rows(const struct run *r, struct br_error *err)
             first = first ? first : &r->study.numbers.row[i];
             failed++;
         }
-    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first: %s", failed,
-                            r->study.numbers.rows, first->failure)
+    const struct br_resolution_column *const *column = r->study.numbers.column;
+    const int axis = column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s = %.6g: %s",
+                            failed, r->study.numbers.rows, column[axis]->name, first->given[axis],
+                            first->failure)
                   : BR_OK;
 }
 

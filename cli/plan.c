@@ -69,7 +69,17 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         return err->status;
     if (r->plan.chosen < r->plan.count)
         br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
-    br_report_plan(&r->plan, r->session.options->word[0], &provenance, r->session.document);
+    const struct br_plan *p = &r->plan;
+    struct br_document *d = r->session.document;
+    br_report_plan(p, r->session.options->word[0], &provenance, d);
+    const struct br_drawn_trials drawn = {&p->methods, p->request.norm, p->trial,       p->count,
+                                          p->chosen,   p->goal.error,   p->goal.seconds};
+    const struct br_trade_picture *const *picture = br_trade_pictures;
+    while (*picture && !br_trade_picture_applies(*picture, &drawn))
+        picture++;
+    if (*picture)
+        br_session_draw(&r->session, d, br_trade_draw(*picture, &drawn, d->name, d->caption),
+                        (*picture)->title);
     const enum br_status status = br_session_finish(&r->session, err);
     if (!status && r->plan.chosen == r->plan.count)
         return br_fail(err, BR_NOT_FINITE, "%s: none of the %zu trials reaches the goal",

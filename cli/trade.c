@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate trade SCENE...: what a digit costs. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -197,10 +198,17 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         trade[i] = &r->item[i].trade;
         provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
         br_report_trade(trade[i], &provenance, &d[i]);
+        const struct br_drawn_trials drawn = {&trade[i]->methods,
+                                              trade[i]->request.norm,
+                                              trade[i]->trial,
+                                              trade[i]->count,
+                                              trade[i]->count,
+                                              NAN,
+                                              NAN};
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
-            if (br_trade_picture_applies(*p, trade[i]))
+            if (br_trade_picture_applies(*p, &drawn))
                 br_session_draw(&r->session, &d[i],
-                                br_trade_draw(*p, trade[i], d[i].name, d[i].caption), (*p)->title);
+                                br_trade_draw(*p, &drawn, d[i].name, d[i].caption), (*p)->title);
     }
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session.threads);

@@ -105,14 +105,28 @@ static enum br_status write_files(struct br_verdicts *v, const struct br_documen
     return br_whole_file_commit(&v->baseline, err);
 }
 
+/* The folder has a picture of the verdicts. The files, which may stand anywhere, name none. */
+static enum br_status write_all(struct br_verdicts *v, struct br_session *session,
+                                const struct br_check_findings *findings, struct br_error *err)
+{
+    struct br_document *d = &session->document[session->documents - 1];
+    for (size_t i = 1; br_check_formats[i]; i++)
+        session->quiet |= v->file[i].file == stdout;
+    if (findings && br_output_is_open(&session->output))
+        br_session_draw(
+            session, d, br_check_draw(findings->checks, findings->count),
+            "Each observed order with its 95 % interval, on the band that is expected.");
+    if (br_session_finish(session, err))
+        return err->status;
+    if (findings)
+        br_report_check(findings, d);
+    return write_files(v, d, err);
+}
+
 enum br_status br_verdicts_write(struct br_verdicts *v, struct br_session *session,
                                  struct br_error *err)
 {
-    for (size_t i = 1; br_check_formats[i]; i++)
-        session->quiet |= v->file[i].file == stdout;
-    const bool failed = br_session_finish(session, err) ||
-                        write_files(v, &session->document[session->documents - 1], err);
-    return failed ? err->status : BR_OK;
+    return write_all(v, session, NULL, err);
 }
 
 static enum br_status conclude(const struct br_verdicts *v, const struct br_check *checks,
@@ -147,8 +161,7 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
     br_report_check(&all, d);
-    const bool failed =
-        br_verdicts_write(v, session, err) || conclude(v, all.checks, all.count, err);
+    const bool failed = write_all(v, session, &all, err) || conclude(v, all.checks, all.count, err);
     return failed ? err->status : BR_OK;
 }
 

@@ -285,19 +285,20 @@ static void fill_printed(const struct br_report *r, struct br_figure *f)
 }
 
 static const struct br_convergence_picture
-    over_h = {"h", "The error against the mesh size h, one curve per time step k.", always, fill_h},
-    over_k = {"k", "The error against the time step k, one curve per number of elements n.", always,
-              fill_k},
+    over_h = {"h", "The error against the mesh size h, one curve per time step k.",
+              "Errors over the mesh size h", always, fill_h},
+    over_k = {"k", "The error against the time step k, one curve per number of elements n.",
+              "Errors over the time step k", always, fill_k},
     orders = {"orders",
               "The errors or differences that show the orders in h and k, the fitted line and its "
               "95 % band.",
-              has_orders, fill_orders},
+              "Orders in h and k", has_orders, fill_orders},
     printed = {"printed",
                "The computed and the printed errors against the time step k and the mesh size h.",
-               has_printed, fill_printed};
+               "Errors, computed and printed", has_printed, fill_printed};
 
-const struct br_convergence_picture *const br_convergence_pictures[] = {
-    &orders, &over_h, &over_k, &printed, NULL};
+const struct br_convergence_picture *const br_convergence_pictures[] = {&orders, &over_h, &over_k,
+                                                                        &printed, NULL};
 
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)
@@ -305,7 +306,7 @@ struct br_figure br_convergence_draw(const struct br_convergence_picture *pictur
     const struct br_study *study = br_report_fitted(r);
     struct br_figure f = {.hollow = "not in the fits"};
     BR_SAY(f.stem, "%.400s-%s", r->name, picture->name);
-    BR_SAY(f.title, "%s", r->caption);
+    BR_SAY(f.title, "%s. %s", r->caption, picture->short_title);
     if (study->judge->nests)
         BR_SAY(f.about, "%s Reference: n = %zu elements, N = %zu steps", picture->title,
                study->reference.n, study->reference.steps);

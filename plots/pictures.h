@@ -14,7 +14,10 @@
 #include "study/grid/observer.h"
 
 struct br_named_method;
+struct br_named_methods;
+struct br_norm;
 struct br_orders;
+struct br_check;
 struct br_example;
 struct br_floors;
 struct br_history_record;
@@ -24,7 +27,6 @@ struct br_scene;
 struct br_split;
 struct br_stability;
 struct br_variation;
-struct br_trade;
 struct br_trial;
 
 /* ---- figure.c ---- */
@@ -42,7 +44,8 @@ enum {
     BR_HUES = 6 /* that people can distinguish; each has a dash and a mark of its own */
 };
 
-/* How a series is drawn. The first four have a hue; without a free hue they become BR_PEN_OTHERS. */
+/* How a series is drawn. The first four have a hue; without a free hue they become BR_PEN_OTHERS.
+ */
 enum br_pen {
     BR_PEN_CURVE, /* a line with marks */
     BR_PEN_MARKS, /* marks alone */
@@ -69,7 +72,8 @@ struct br_figure_point {
 /* Series of one pen and title have one style in all panels, and one entry in the key. */
 struct br_series {
     char title[80]; /* "": not in the key */
-    char end[16];   /* a text beside the last point */
+    char end[80];   /* a text beside the last point; of a panel with rows, left of its axis */
+    bool stairs;    /* a line that keeps y until the next x, as a Pareto front does */
     enum br_pen pen;
     size_t style; /* 1, 2, ...: the hue; of a guide its dash */
     bool in_key;  /* the first one of its title */
@@ -86,9 +90,10 @@ struct br_range {
 struct br_panel {
     char title[96], x_label[96], y_label[96], top_label[32];
     bool log_x, log_y;
+    bool rows;                 /* y is the number of a row, whose label is the end of a series */
     struct br_series **series; /* `count` of them; owned */
     size_t count, room;
-    struct br_series top;  /* ticks of the upper axis: the number y is printed at x */
+    struct br_series top; /* ticks of the upper axis: the number y is printed at x */
 };
 
 struct br_figure {
@@ -167,6 +172,7 @@ void br_script_head(FILE *out, const char *title, const char *stem, const char *
 struct br_convergence_picture {
     const char *name;
     const char *title; /* one line for a person */
+    const char *short_title;
     bool (*applies)(const struct br_report *report);
     void (*fill)(const struct br_report *report, struct br_figure *figure);
 };
@@ -178,22 +184,39 @@ struct br_figure br_convergence_draw(const struct br_convergence_picture *pictur
 
 /* ---- trade.c: what a digit costs ---- */
 
-/* A method's curve joins the trials that none of its own beats; dots are the others. */
+/* The trials of a trade or a plan. Borrowed. */
+struct br_drawn_trials {
+    const struct br_named_methods *methods;
+    const struct br_norm *norm;
+    const struct br_trial *trial; /* count */
+    size_t count, chosen;         /* chosen: by the plan; count: none */
+    double error, seconds;        /* the plan's goal; NaN: none */
+};
+
+/* A method's stairs join the trials that none of its own beats; dots are the others. */
 struct br_trade_picture {
     const char *name;  /* of the files: <scene>-<name>.gp and so on */
     const char *title; /* one line for a person */
+    const char *short_title;
     /* Whether a method has a curve. */
-    bool (*shows)(const struct br_trade *trade, const struct br_named_method *named);
+    bool (*shows)(const struct br_drawn_trials *trials, const struct br_named_method *named);
     const char *label;                            /* of the axis of work, with its unit */
     double (*work)(const struct br_trial *trial); /* along that axis; NaN: not drawn */
 };
 extern const struct br_trade_picture *const br_trade_pictures[]; /* NULL-terminated */
 
 /* Whether the picture has anything to show. */
-bool br_trade_picture_applies(const struct br_trade_picture *picture, const struct br_trade *trade);
+bool br_trade_picture_applies(const struct br_trade_picture *picture,
+                              const struct br_drawn_trials *trials);
 
-struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
-                               const char *name, const char *caption);
+struct br_figure br_trade_draw(const struct br_trade_picture *picture,
+                               const struct br_drawn_trials *trials, const char *name,
+                               const char *caption);
+
+/* ---- check.c: observed orders beside what is expected ---- */
+
+/* A row an order or, of many, a check. No panels if there is no order. */
+struct br_figure br_check_draw(const struct br_check *checks, size_t count);
 
 /* ---- split.c: where the error comes from ---- */
 

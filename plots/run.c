@@ -35,6 +35,7 @@ struct br_figure br_history_draw(const struct br_scene *scene, const struct br_h
         br_panel_add(f, "time (s)", "friction force and its bound (N)");
         br_rows_add(f, "friction", r, BR_ROW(friction_force), 1);
         br_rows_add(f, "bound", r, BR_ROW(friction_bound), 1);
+        br_rows_add(f, "bound", r, BR_ROW(friction_bound), -1);
     }
     return figure;
 }

@@ -31,11 +31,11 @@ static const struct {
 static const char *const styles[BR_PENS] = {
     [BR_PEN_OTHERS] = "lines lw 1.5 lc rgb '#b0b0b0' dt solid",
     [BR_PEN_BAND] = "lines lw 12 lc rgb '#dcdcdc'",
-    [BR_PEN_DOTS] = "points pt 7 ps 0.45*size lc rgb '#9a9a9a'",
+    [BR_PEN_DOTS] = "points pt 7 ps 0.8*size lc rgb '#8a8a8a'",
     [BR_PEN_RINGS] = "points pt 6 ps 1.5*size lw 2 lc rgb '#222222'",
     [BR_PEN_SQUARES] = "points pt 4 ps 2.6*size lw 2 lc rgb '#000000'",
     [BR_PEN_PLUSES] = "points pt 1 ps 1.1*size lw 2 lc rgb '#707070'",
-    [BR_PEN_STARS] = "points pt 3 ps 1.5*size lw 1.5 lc rgb '#707070'",
+    [BR_PEN_STARS] = "points pt 3 ps 1.6*size lw 2.5 lc rgb '#000000'",
 };
 static const char *const guide_dashes[] = {"(9,5)", "(12,4,2,4)", "(3,3)", "(20,5)"};
 
@@ -125,6 +125,10 @@ static struct page lay_out(const struct br_figure *f)
     l.across = n <= 3 ? n : n == 4 ? 2 : 3;
     l.down = (n + l.across - 1) / l.across;
     l.height = l.down > 1 ? 1250 : 800;
+    if (f->panels && f->panel[0].rows) { /* a line of text for each row */
+        const struct br_range rows = br_extent(&f->panel[0], true);
+        l.height = fmax(l.height, 250 + 28 * (rows.high - rows.low));
+    }
     for (size_t i = 0; i < BR_FIGURE_NOTES; i++)
         l.top += f->note[i][0] ? LINE - 4 : 0;
     add_series(f, &key);
@@ -208,7 +212,8 @@ static double decades(struct br_range r)
     return log10(r.high / r.low);
 }
 
-/* A little more than the points, except along a linear x; not below 0 if the points begin at 0. */
+/* A little more than the points, except along a linear x without rows; not below 0 if the points
+ * begin at 0. */
 static struct br_range axis_range(const struct br_figure *f, const struct br_panel *p, bool along_y)
 {
     struct br_range r = br_extent(p, along_y);
@@ -223,7 +228,7 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
         return (struct br_range){r.low * pow(10, -more), r.high * pow(10, more)};
     }
     const double size = r.high > r.low ? r.high - r.low : fmax(fabs(r.high), 1);
-    const double more = along_y || !(r.high > r.low) ? 0.06 * size : 0;
+    const double more = along_y || p->rows || !(r.high > r.low) ? 0.06 * size : 0;
     return (struct br_range){r.low == 0 ? 0 : r.low - more, r.high + more};
 }
 
@@ -255,11 +260,13 @@ static void write_top(FILE *out, const struct br_panel *p, struct br_range x, do
 {
     double last = INFINITY;
     if (!p->top.count) {
-        fputs("unset x2tics; unset x2label\n", out);
+        fputs("unset x2tics; unset x2label; set title offset 0,-0.5\n", out);
         return;
     }
-    fprintf(out, "set logscale x2; set x2range [%.9g:%.9g]\nset x2tics font ',18' (", x.low,
-            x.high);
+    fprintf(out,
+            "set title offset 0,0.3\nset logscale x2; set x2range [%.9g:%.9g]\n"
+            "set x2tics font ',18' (",
+            x.low, x.high);
     for (size_t i = 0; i < p->top.count; i++) {
         const struct br_figure_point *at = &p->top.point[i];
         char number[32];
@@ -282,20 +289,32 @@ static void write_text(FILE *out, const char *what, const char *text)
 
 static void write_curve(FILE *out, const struct br_series *s, size_t index)
 {
+    if (s->pen == BR_PEN_CURVE && s->stairs)
+        fprintf(out, ", \\\n     data index %zu using 1:2 with steps ls %zu", index, s->style);
     if (s->pen == BR_PEN_CURVE || s->pen == BR_PEN_MARKS)
         fprintf(out,
                 ", \\\n     data index %zu using 1:2:(mark(%d, strcol(3))) with %spoints ls %zu "
                 "pt variable",
-                index, mark_of(s), s->pen == BR_PEN_CURVE ? "lines" : "", s->style);
+                index, mark_of(s), s->pen == BR_PEN_CURVE && !s->stairs ? "lines" : "", s->style);
     else if (s->pen == BR_PEN_AREA)
-        fprintf(out,
-                ", \\\n     data index %zu using 1:2 with filledcurves closed ls %zu fs transparent "
-                "solid 0.25 noborder",
-                index, s->style);
+        fprintf(
+            out,
+            ", \\\n     data index %zu using 1:2 with filledcurves closed ls %zu fs transparent "
+            "solid 0.25 noborder",
+            index, s->style);
+    else if (s->stairs && styles[s->pen])
+        fprintf(out, ", \\\n     data index %zu using 1:2 with steps%s", index,
+                styles[s->pen] + strlen("lines"));
     else {
         fprintf(out, ", \\\n     data index %zu using 1:2 with ", index);
         write_pen(out, s);
     }
+}
+
+/* Whether a series is a box in its row: cairo draws the ends of a short and wide line askew. */
+static bool is_box(const struct br_panel *p, const struct br_series *s)
+{
+    return p->rows && s->pen == BR_PEN_BAND;
 }
 
 /* Draws the curves that lie behind first. */
@@ -305,13 +324,47 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
     for (int behind = 1; behind >= 0; behind--)
         for (size_t j = 0, at = index; j < p->count; j++) {
             const struct br_series *s = p->series[j];
-            const bool is_behind = s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND ||
-                                   s->pen == BR_PEN_AREA;
-            if (is_behind == behind && count_drawn(p, s, false))
+            const bool is_behind =
+                s->pen == BR_PEN_OTHERS || s->pen == BR_PEN_BAND || s->pen == BR_PEN_AREA;
+            if (is_behind == behind && count_drawn(p, s, false) && !is_box(p, s))
                 write_curve(out, s, at);
             at += s->count > 0;
         }
     fputc('\n', out);
+}
+
+/* Writes boxes, and the texts beside last points, one above the other; those of rows in place of
+ * the numbers along y. width: of the panel. */
+static void write_ends(FILE *out, const struct br_panel *p, double width)
+{
+    size_t ends = 0, longest = 0, end = 0;
+    for (size_t j = 0; j < p->count; j++) {
+        const size_t length = strlen(p->series[j]->end);
+        ends += length > 0;
+        longest = length > longest ? length : longest;
+    }
+    if (p->rows)
+        fprintf(out, "unset ytics; set lmargin at screen %.4f\n",
+                (40 + LETTER * (double)longest) / width);
+    for (size_t j = 0; j < p->count; j++) {
+        const struct br_series *s = p->series[j];
+        const struct br_figure_point *last = s->point + s->count - 1;
+        if (is_box(p, s) && count_drawn(p, s, false) == s->count)
+            fprintf(out,
+                    "set object rectangle from %.9g,%.9g to %.9g,%.9g behind "
+                    "fc rgb '#d4d4d4' fs solid noborder\n",
+                    s->point->x, last->y - 0.25, last->x, last->y + 0.25);
+        if (!s->end[0] || !s->count)
+            continue;
+        fputs("set label ", out);
+        br_quote(out, &br_for_gnuplot, s->end);
+        if (p->rows)
+            fprintf(out, " at graph 0, first %.9g right offset -0.6,0\n", last->y);
+        else
+            fprintf(out, " at %.9g,%.9g left offset 0.4,%.1f\n", last->x, last->y,
+                    0.8 * ((double)end - ((double)ends - 1) / 2));
+        end++;
+    }
 }
 
 static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t index,
@@ -334,13 +387,9 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
     write_axis(out, 'y', axis_range(f, p, true), p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));
     fputs("set grid xtics ytics ls 102\n", out);
-    for (size_t j = 0; j < p->count; j++) {
-        const struct br_series *s = p->series[j];
-        if (s->end[0] && s->count)
-            fprintf(out, "set label '%s' at %.9g,%.9g left offset 0.4,0\n", s->end,
-                    s->point[s->count - 1].x, s->point[s->count - 1].y);
-    }
+    write_ends(out, p, width);
     write_plot(out, p, index);
+    fputs(p->rows ? "set lmargin; unset object\n" : "", out);
 }
 
 /* Writes the key below all panels, as a plot of its own: gnuplot fits a key to its plot. */
@@ -372,9 +421,8 @@ void br_figure_write_script(FILE *out, const struct br_figure *f)
     if (f->hollow[0])
         fprintf(out, "# A point with a flag (%s) has a hollow mark.\n", f->hollow);
     fputs("mark(filled, flag) = flag eq '-' ? filled : filled - 1\n"
-          "set datafile missing 'NaN'\n"
           "set style line 102 lw 1 lc rgb '#d0d0d0' # grid\n"
-          "set border front lw 1\nset title offset 0,-0.5\nunset key\n",
+          "set border front lw 1\nunset key\n",
           out);
     write_loop(out, &l);
     for (size_t i = 0; i < f->panels; i++) {

@@ -12,18 +12,18 @@ static bool is_plain(const struct br_named_method *c)
     return c->method.friction == br_friction_rules[0] && c->method.solver == br_linear_solvers[0];
 }
 
-static bool shows_schemes(const struct br_trade *t, const struct br_named_method *c)
+static bool shows_schemes(const struct br_drawn_trials *t, const struct br_named_method *c)
 {
     (void)t;
     return is_plain(c);
 }
 
 /* The other methods, and the plain methods of the same scheme, to compare with. */
-static bool shows_rules(const struct br_trade *t, const struct br_named_method *c)
+static bool shows_rules(const struct br_drawn_trials *t, const struct br_named_method *c)
 {
     bool compared = !is_plain(c);
-    for (size_t i = 0; i < t->methods.count; i++) {
-        const struct br_named_method *other = &t->methods.list[i];
+    for (size_t i = 0; i < t->methods->count; i++) {
+        const struct br_named_method *other = &t->methods->list[i];
         compared |= !is_plain(other) && other->method.scheme == c->method.scheme &&
                     other->method.contact == c->method.contact &&
                     other->method.axial_degree == c->method.axial_degree;
@@ -39,22 +39,34 @@ static double element_solves(const struct br_trial *trial)
 }
 
 static const struct br_trade_picture schemes = {
-    "schemes", "Relative error against CPU seconds, by time scheme", shows_schemes,
-    "CPU time of one thread (s)", br_trial_seconds};
+    "schemes",
+    "Relative error against CPU seconds, by time scheme",
+    "Time schemes",
+    shows_schemes,
+    "CPU time of one thread (s)",
+    br_trial_seconds};
 static const struct br_trade_picture work = {
-    "work", "Relative error against element-solves, by time scheme", shows_schemes,
-    "elements times linear solves a field", element_solves};
+    "work",
+    "Relative error against element-solves, by time scheme",
+    "Time schemes, element-solves",
+    shows_schemes,
+    "elements times linear solves a field",
+    element_solves};
 static const struct br_trade_picture rules = {
-    "rules", "Relative error against CPU seconds, by friction rule and linear solver", shows_rules,
-    "CPU time of one thread (s)", br_trial_seconds};
+    "rules",
+    "Relative error against CPU seconds, by friction rule and linear solver",
+    "Friction rules and solvers",
+    shows_rules,
+    "CPU time of one thread (s)",
+    br_trial_seconds};
 
 const struct br_trade_picture *const br_trade_pictures[] = {&schemes, &work, &rules, NULL};
 
-bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_trade *t)
+bool br_trade_picture_applies(const struct br_trade_picture *p, const struct br_drawn_trials *t)
 {
     bool applies = false;
-    for (size_t i = 0; i < t->methods.count; i++)
-        applies |= p->shows(t, &t->methods.list[i]);
+    for (size_t i = 0; i < t->methods->count; i++)
+        applies |= p->shows(t, &t->methods->list[i]);
     return applies;
 }
 
@@ -72,7 +84,7 @@ static void add_trial(const struct br_trade_picture *p, const struct br_trial *t
 }
 
 /* Adds the Pareto front of a method's trials, or of all that are shown (NULL). */
-static void add_front(const struct br_trade_picture *p, const struct br_trade *t,
+static void add_front(const struct br_trade_picture *p, const struct br_drawn_trials *t,
                       const struct br_named_method *only, struct br_series *s)
 {
     size_t kept = 0;
@@ -87,6 +99,7 @@ static void add_front(const struct br_trade_picture *p, const struct br_trade *t
         if (!kept || s->point[i].y < s->point[kept - 1].y)
             s->point[kept++] = s->point[i];
     s->count = kept;
+    s->stairs = true;
 }
 
 static const struct {
@@ -100,7 +113,7 @@ static const struct {
 };
 
 /* The order of hues: the paper's method first, then those with most trials on the common front. */
-static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
+static size_t merit(const struct br_trade_picture *p, const struct br_drawn_trials *t,
                     const struct br_named_method *c, const struct br_series *front)
 {
     size_t kept = 1;
@@ -111,20 +124,40 @@ static size_t merit(const struct br_trade_picture *p, const struct br_trade *t,
     return br_trade_is_printed_method(c) ? t->count + 2 : kept;
 }
 
-struct br_figure br_trade_draw(const struct br_trade_picture *picture, const struct br_trade *trade,
-                               const char *name, const char *caption)
+/* Adds the trial that a plan chose, and the line of its goal. */
+static void add_goal(const struct br_trade_picture *p, const struct br_drawn_trials *t,
+                     struct br_figure *f)
 {
-    const size_t failed = br_trade_tally(trade, BR_TRIAL_FAILED);
-    const size_t over = br_trade_tally(trade, BR_TRIAL_OVER);
+    const struct br_range x = br_extent(&f->panel[0], false);
+    if (t->chosen < t->count)
+        add_trial(p, &t->trial[t->chosen], br_series_add(f, BR_PEN_SQUARES, "chosen"));
+    if (isfinite(t->seconds))
+        br_mark_add(f, t->seconds, "goal");
+    if (!isfinite(t->error))
+        return;
+    struct br_series *goal = br_series_add(f, BR_PEN_GUIDE, "goal");
+    br_point_add(goal, x.low, t->error, NULL);
+    br_point_add(goal, x.high, t->error, NULL);
+}
+
+struct br_figure br_trade_draw(const struct br_trade_picture *picture,
+                               const struct br_drawn_trials *trade, const char *name,
+                               const char *caption)
+{
+    size_t failed = 0, over = 0;
+    for (size_t i = 0; i < trade->count; i++) {
+        failed += trade->trial[i].end == BR_TRIAL_FAILED;
+        over += trade->trial[i].end == BR_TRIAL_OVER;
+    }
     struct br_figure figure = {0}, *f = &figure;
     BR_SAY(f->stem, "%.400s-%s", name, picture->name);
-    BR_SAY(f->title, "%s", caption);
+    BR_SAY(f->title, "%s. %s", caption, picture->short_title);
     BR_SAY(f->about, "%s", picture->title);
     if (failed + over)
         BR_SAY(f->note[0], "not drawn: %zu failed, %zu over the time limit", failed, over);
     struct br_panel *panel = br_panel_add(f, picture->label, "");
     panel->log_x = panel->log_y = true;
-    BR_SAY(panel->y_label, "relative %s", trade->request.norm->symbol);
+    BR_SAY(panel->y_label, "relative %s", trade->norm->symbol);
     struct br_series *front = br_series_add(f, BR_PEN_BAND, "Pareto front");
     add_front(picture, trade, NULL, front);
     for (size_t i = 0; i < sizeof clouds / sizeof *clouds; i++) {
@@ -141,18 +174,19 @@ struct br_figure br_trade_draw(const struct br_trade_picture *picture, const str
     }
     /* The fronts of all methods that are shown, by merit. */
     size_t left[BR_MOST_NAMED_METHODS] = {0}; /* merits; 0: done, or not shown */
-    for (size_t i = 0; i < trade->methods.count; i++)
-        if (picture->shows(trade, &trade->methods.list[i]))
-            left[i] = merit(picture, trade, &trade->methods.list[i], front);
+    for (size_t i = 0; i < trade->methods->count; i++)
+        if (picture->shows(trade, &trade->methods->list[i]))
+            left[i] = merit(picture, trade, &trade->methods->list[i], front);
     for (;;) {
         size_t best = 0;
-        for (size_t i = 1; i < trade->methods.count; i++)
+        for (size_t i = 1; i < trade->methods->count; i++)
             best = left[i] > left[best] ? i : best;
         if (!left[best])
             break;
-        const struct br_named_method *c = &trade->methods.list[best];
+        const struct br_named_method *c = &trade->methods->list[best];
         left[best] = 0;
         add_front(picture, trade, c, br_series_add(f, BR_PEN_CURVE, "%s", c->name));
     }
+    add_goal(picture, trade, f);
     return figure;
 }

@@ -342,7 +342,10 @@ enum br_status br_document_print_page(FILE *out, const struct br_document *docum
                                       const char *folder, struct br_error *err);
 
 /* For a terminal: short tables that are not for files only, facts, verdicts that did not pass, and
- * last the answers and the commands. Fails as br_document_print does. */
+ * last the answers and the commands. Where `out` is a terminal, no table is wider than it: headings
+ * and long texts are wrapped, and columns that still find no room stand on further lines of their
+ * row. PASS and FAIL have colours there, unless NO_COLOR is set or TERM is dumb. Fails as
+ * br_document_print does. */
 enum br_status br_document_show(FILE *out, const struct br_document *d, struct br_error *err);
 
 /* The next table for a file of a by_table format, from block *block on (in/out, begins as 0); NULL:

@@ -6,7 +6,9 @@
 
 #include "tables/markup.h"
 
-/* All colours of text have a contrast of at least 4.5 to both backgrounds (tests/html_page.py). */
+/* Wide tables reach to the right edge of the window, beyond the column of text; their first column
+ * stays visible. All colours of text have a contrast of at least 4.5 to both backgrounds
+ * (tests/html_page.py). */
 static const char style[] =
     ":root { color-scheme: light dark; --ground: #ffffff; --shade: #f3f5f7; --line: #ccd1d6;\n"
     "  --ink: #1a1c1f; --quiet: #53585d; --link: #0a55a8;\n"
@@ -28,6 +30,7 @@ static const char style[] =
     ".INCONCLUSIVE { color: var(--doubt); font-weight: 600; }\n"
     ".SKIPPED, dt { color: var(--quiet); }\n"
     ".scroll, .card, pre { overflow-x: auto; }\n"
+    ".scroll { max-width: calc(50vw + min(50vw, 37.5rem) - 3rem); width: max-content; }\n"
     "table { border-collapse: collapse; font-variant-numeric: tabular-nums; }\n"
     "th, td { overflow-wrap: normal; padding: 0.15rem 0.6rem; text-align: right;\n"
     "  vertical-align: top; white-space: nowrap; }\n"
@@ -35,6 +38,8 @@ static const char style[] =
     ".text { text-align: left; }\n"
     ".detail { color: var(--quiet); list-style: none; margin-left: 1.5rem; }\n"
     ".wrap { min-width: 18rem; white-space: normal; }\n"
+    "tr { background: var(--ground); }\n"
+    "tr > :first-child { background: inherit; left: 0; position: sticky; }\n"
     "tbody tr:nth-child(even), pre { background: var(--shade); }\n"
     "pre { padding: 0.6rem; overflow-wrap: normal; }\n"
     "summary :is(h2, h3, h4) { display: inline; }\n"
@@ -42,10 +47,11 @@ static const char style[] =
     "dl div { display: flex; flex-wrap: wrap; gap: 0 0.6rem; }\n"
     "dt { flex: 0 1 16rem; }\n"
     "dd, figure { margin: 0; }\n"
-    ".card { background: #ffffff; color: #000000; margin: 1.5rem 0; max-width: 60rem; }\n"
+    ".card { background: #ffffff; color: #000000; margin: 1.5rem 0 0.5rem; max-width: 60rem; }\n"
+    "figcaption { color: var(--quiet); margin-bottom: 1.5rem; max-width: 60rem; }\n"
     "svg { display: block; height: auto; min-width: 44rem; }\n"
     "@media print {\n"
-    ".scroll, .card, pre { overflow: visible; }\n"
+    ".scroll, .card, pre { max-width: none; overflow: visible; }\n"
     "pre { white-space: pre-wrap; }\n"
     "svg { min-width: 0; }\n"
     "figure, tr { break-inside: avoid; }\n"
@@ -134,12 +140,12 @@ static void print_picture(struct br_markup_page *p, const struct br_block *b)
     char *svg = read_svg(p, b->what.key);
     p->pictures++;
     fputs("<figure>\n", p->out);
-    if (!print_svg(p, svg, b->text)) {
-        br_markup_put(p, "<figcaption>Not drawn here: ", b->text,
-                      ". Where gnuplot is installed, its script draws it: ");
-        br_markup_put(p, "<code>gnuplot ", b->what.key, ".gp</code></figcaption>\n");
-    }
-    fputs("</figure>\n", p->out);
+    const bool drawn = print_svg(p, svg, b->text);
+    br_markup_put(p, drawn ? "<figcaption>" : "<figcaption>Not drawn here: ", b->text,
+                  drawn ? NULL : ". Where gnuplot is installed, its script draws it: ");
+    if (!drawn)
+        br_markup_put(p, "<code>gnuplot ", b->what.key, ".gp</code>");
+    fputs("</figcaption>\n</figure>\n", p->out);
     free(svg);
 }
 
@@ -193,13 +199,14 @@ static const struct br_markup html = {
     .detail = {"<li class=\"detail\">", "</li>\n"},
     .head = {"<th scope=\"col\"%s>", "</th>\n"},
     .cell = {"<td%s>", "</td>"},
-    .mark = {" <sup>", "</sup>"},
+    .mark = {" <small>", "</small>"},
     .row = {"<tr>", "</tr>\n"},
     .rows = {"</tr></thead>\n<tbody>\n", "</tbody></table></div>\n"},
     .word = "<strong class=\"%s\">%s</strong>",
     .open_table = open_table,
     .close_table = close_table,
     .picture = print_picture,
+    .picture_first = true,
     .end = end,
     .classes = classes,
 };

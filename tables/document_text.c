@@ -1,17 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report for a terminal, and its .txt file. */
+#include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include "tables/markup.h"
 
 enum {
-    WIDTH = 100, /* columns of a paragraph */
-    WRAPPED = 44 /* of a cell in a wrapped column */
+    WIDTH = 100,  /* columns of a paragraph */
+    WRAPPED = 44, /* of a cell in a wrapped column */
+    LEAST = 16,   /* of one on a narrow terminal */
+    GAP = 2,      /* between two columns */
+    INDENT = 4,   /* of a row's further lines */
+    NARROW = 20   /* a terminal is not taken to be narrower */
 };
 
 /* Buffers of `size` bytes: enough for any text of the report, quoted. */
 struct buffers {
-    char *visible, *piece;
+    char *visible, *piece, *heading;
     size_t size;
 };
 
@@ -38,23 +45,27 @@ static void print_title(const struct br_markup_page *p, int level, const char *t
     fputc('\n', p->out);
 }
 
-/* Prints lines of at most WIDTH columns; all but the first are indented. */
+/* Prints lines of at most WIDTH columns, and no more than the terminal has; all but the first are
+ * indented. */
 static void print_paragraph(const struct br_markup_page *p, const char *paragraph)
 {
     const struct buffers *b = p->own;
     const char *text = br_quoted(b->visible, b->size, &br_for_text, paragraph);
+    const size_t width = p->columns && p->columns < WIDTH ? (size_t)p->columns : WIDTH;
     size_t column = 0;
     while (*text) {
         const size_t word = strcspn(text, " ");
-        if (column && column + 1 + word > WIDTH) {
+        if (column && column + 1 + word > width) {
             fputs("\n  ", p->out);
             column = 2;
         } else if (column) {
             fputc(' ', p->out);
             column++;
         }
-        fprintf(p->out, "%.*s", (int)word, text);
         column += word;
+        const size_t name = column == word ? strcspn(text, " ,:") : 0;
+        const size_t told = br_markup_word(p, text, name) ? name : 0;
+        fprintf(p->out, "%.*s", (int)(word - told), text + told);
         text += word;
         text += strspn(text, " ");
     }
@@ -62,22 +73,35 @@ static void print_paragraph(const struct br_markup_page *p, const char *paragrap
 
 struct layout {
     const struct br_column *column;
-    int width, mark; /* of the values and of the marks behind them */
-    bool shown, left;
-    const char *rest; /* the rest of the cell's text, for the next line */
+    int width, least, mark; /* of the values, also at least, and of the marks behind them */
+    int line;               /* of its row, from 0 on */
+    bool shown, left, ends; /* ends: the last one of its line */
+    size_t done;            /* bytes of the cell's text that stand on lines above */
 };
 
-/* The heading "time step, s"; it overwrites the buffer `piece`. */
+/* The heading "time step, s"; it overwrites the buffer `heading`. */
 static const char *heading_of(const struct br_markup_page *p, const struct br_column *c)
 {
     const struct buffers *b = p->own;
-    snprintf(b->piece, b->size, "%s%s%s", c->heading, c->unit ? ", " : "", c->unit ? c->unit : "");
-    return b->piece;
+    snprintf(b->heading, b->size, "%s%s%s", c->heading, c->unit ? ", " : "",
+             c->unit ? c->unit : "");
+    return b->heading;
 }
 
 static int larger(int a, int b)
 {
     return a > b ? a : b;
+}
+
+/* The columns of the longest word. */
+static int width_of_word(const char *text)
+{
+    int longest = 0, columns = 0;
+    for (const char *c = text; *c; c++) {
+        columns = *c == ' ' ? 0 : columns + (((unsigned char)*c & 0xc0) != 0x80);
+        longest = larger(longest, columns);
+    }
+    return longest;
 }
 
 static struct layout lay_out(const struct br_markup_page *p, const struct br_document_table *t,
@@ -90,15 +114,63 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
         .shown = br_document_is_seen(t, c) && !(p->terminal && flags & BR_FILES_ONLY),
         .left = flags & BR_TEXTUAL,
     };
+    const char *heading = heading_of(p, l.column);
     for (size_t r = 0; r < t->rows; r++) {
         const struct br_document_cell *cell = br_document_cell_at(t, r, c);
-        l.width = larger(l.width, width_of(p, br_document_shown(l.column, cell, buffer)));
+        const char *text = br_document_shown(l.column, cell, buffer);
+        const int width = width_of(p, text);
+        l.width = larger(l.width, width);
+        l.least = larger(l.least, flags & BR_WRAP ? width_of_word(text) : width);
         l.mark = larger(l.mark, cell->mark ? width_of(p, cell->mark) : 0);
     }
-    if (flags & BR_WRAP && l.width > WRAPPED)
-        l.width = WRAPPED;
-    l.width = larger(l.width, width_of(p, heading_of(p, l.column)));
+    if (flags & BR_WRAP) {
+        l.least = larger(l.least, l.width < LEAST ? l.width : LEAST);
+        l.width = l.width < WRAPPED ? l.width : WRAPPED;
+    }
+    l.width = larger(l.width, width_of(p, heading));
+    l.least = larger(l.least, width_of_word(heading));
     return l;
+}
+
+/* Ends a line of the columns from l to `end`: makes the widest one that can be wrapped narrower,
+ * until the line fits or none can. columns: of the terminal; 0: any number. */
+static void end_line(int columns, struct layout *l, struct layout *end)
+{
+    struct layout *widest = NULL, *last = NULL;
+    do {
+        int width = l->line ? INDENT - GAP : -GAP;
+        widest = NULL;
+        for (struct layout *c = l; c < end; c++) {
+            width += c->shown ? c->width + c->mark + GAP : 0;
+            last = c->shown ? c : last;
+            if (c->shown && c->width > c->least && (!widest || c->width > widest->width))
+                widest = c;
+        }
+        if (!columns || width <= columns)
+            widest = NULL;
+        if (widest)
+            widest->width--;
+    } while (widest);
+    if (last)
+        last->ends = true;
+}
+
+/* Puts the columns on the lines of a row: one, if the terminal has room. */
+static void arrange(int columns, struct layout *l, struct layout *end)
+{
+    struct layout *begin = l;
+    int line = 0, width = 0;
+    for (struct layout *c = l; c < end; c++) {
+        if (c->shown && columns && c > begin && width + c->least + c->mark > columns) {
+            end_line(columns, begin, c);
+            begin = c;
+            width = INDENT;
+            line++;
+        }
+        width += c->shown ? c->least + c->mark + GAP : 0;
+        c->line = line;
+    }
+    end_line(columns, begin, end);
 }
 
 /* The number of bytes of a text on one line of its cell: as many whole words as fit. */
@@ -106,8 +178,6 @@ static size_t bytes_of_line(const struct layout *l, const char *text)
 {
     size_t bytes = 0;
     int columns = 0;
-    if (!(l->column->flags & BR_WRAP))
-        return strlen(text);
     for (size_t i = 0; text[i]; i++) {
         columns += ((unsigned char)text[i] & 0xc0) != 0x80;
         if (columns > l->width)
@@ -118,78 +188,70 @@ static size_t bytes_of_line(const struct layout *l, const char *text)
     return bytes;
 }
 
-/* Prints one line of l->rest, and a mark. */
-static void print_piece(const struct br_markup_page *p, struct layout *l, const char *mark,
-                        bool last)
+/* Prints one line of what is left of a cell's text, and a mark. */
+static void print_piece(const struct br_markup_page *p, struct layout *l, const char *text,
+                        const char *mark)
 {
     const struct buffers *b = p->own;
-    const size_t bytes = bytes_of_line(l, l->rest);
-    snprintf(b->piece, b->size, "%.*s", (int)bytes, l->rest);
-    l->rest += bytes;
-    l->rest += strspn(l->rest, " ");
+    const size_t bytes = bytes_of_line(l, text + l->done);
+    snprintf(b->piece, b->size, "%.*s", (int)bytes, text + l->done);
+    l->done += bytes;
+    l->done += strspn(text + l->done, " ");
     const int missing = l->width - width_of(p, b->piece);
     print_blanks(p, l->left ? 0 : missing);
-    br_markup_text(p, b->piece);
+    if (!br_markup_word(p, b->piece, bytes))
+        br_markup_text(p, b->piece);
     br_markup_text(p, mark);
-    if (!last)
-        print_blanks(p, (l->left ? missing : 0) + l->mark - width_of(p, mark) + 2);
+    if (!l->ends)
+        print_blanks(p, (l->left ? missing : 0) + l->mark - width_of(p, mark) + GAP);
 }
 
-static size_t last_shown(const struct br_document_table *t, const struct layout *l)
-{
-    size_t last = t->columns;
-    while (last > 0 && !l[last - 1].shown)
-        last--;
-    return last;
-}
-
-/* Prints a row, on several lines where cells are wrapped. */
+/* Prints a row, or the headings (t->rows), on several lines where cells are wrapped or the terminal
+ * is too narrow. */
 static void print_row(const struct br_markup_page *p, const struct br_document_table *t,
-                      struct layout *l, size_t r)
+                      struct layout *l, size_t last, size_t row)
 {
     char buffer[BR_SHOWN];
-    bool first = true, more;
-    const size_t last = last_shown(t, l);
-    do {
-        more = false;
-        for (size_t c = 0; c < last; c++) {
-            const struct br_document_cell *cell = br_document_cell_at(t, r, c);
-            if (!l[c].shown)
-                continue;
-            if (first)
-                l[c].rest = br_document_shown(l[c].column, cell, buffer);
-            print_piece(p, &l[c], first && cell->mark ? cell->mark : "", c + 1 == last);
-            if (!*l[c].rest)
-                l[c].rest = ""; /* the next cell overwrites the buffer */
-            more |= *l[c].rest != '\0';
-        }
-        fputc('\n', p->out);
-        first = false;
-    } while (more);
+    for (size_t c = 0; c < last; c++)
+        l[c].done = 0;
+    for (int line = 0; line <= (last ? l[last - 1].line : -1); line++) {
+        bool first = true, more;
+        do {
+            more = false;
+            print_blanks(p, line ? INDENT : 0);
+            for (size_t c = 0; c < last; c++) {
+                const struct br_document_cell *cell =
+                    row < t->rows ? br_document_cell_at(t, row, c) : NULL;
+                if (!l[c].shown || l[c].line != line)
+                    continue;
+                const char *text = cell ? br_document_shown(l[c].column, cell, buffer)
+                                        : heading_of(p, l[c].column);
+                print_piece(p, &l[c], text, first && cell && cell->mark ? cell->mark : "");
+                more |= text[l[c].done] != '\0';
+            }
+            fputc('\n', p->out);
+            first = false;
+        } while (more);
+    }
 }
 
 static void print_table(struct br_markup_page *p, const struct br_document_table *t)
 {
     struct layout *l = br_allocate(t->columns + 1, sizeof *l);
+    size_t last = 0; /* one more than the last column that is shown */
     if (!l) {
         p->status = br_no_memory(p->err, "the columns of a table");
         return;
     }
-    for (size_t c = 0; c < t->columns; c++)
+    for (size_t c = 0; c < t->columns; c++) {
         l[c] = lay_out(p, t, c);
+        last = l[c].shown ? c + 1 : last;
+    }
+    arrange(p->columns, l, l + last);
     br_markup_put(p, "\n", t->title, "\n");
-    const size_t last = last_shown(t, l);
-    for (size_t c = 0; c < last; c++)
-        if (l[c].shown) {
-            const int missing = l[c].width - width_of(p, heading_of(p, l[c].column));
-            print_blanks(p, l[c].left ? 0 : missing);
-            br_markup_text(p, heading_of(p, l[c].column));
-            if (c + 1 < last)
-                print_blanks(p, (l[c].left ? missing : 0) + l[c].mark + 2);
-        }
-    fputc('\n', p->out);
+    print_row(p, t, l, last, t->rows);
     for (size_t r = 0; r < t->rows; r++)
-        print_row(p, t, l, r);
+        print_row(p, t, l, last, r);
     free(l);
 }
 
@@ -218,16 +280,32 @@ static const struct br_markup text = {
     .picture = print_picture,
 };
 
+/* What the terminal has, if there is one behind `out`. */
+static void ask_terminal(struct br_markup_page *p)
+{
+    const char *plain = getenv("NO_COLOR"), *term = getenv("TERM");
+    const int descriptor = fileno(p->out); /* -1: memory */
+    struct winsize size;
+    if (isatty(descriptor) != 1)
+        return;
+    if (ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+        p->columns = larger(size.ws_col, NARROW);
+    p->colour = !(plain && *plain) && term && strcmp(term, "dumb") != 0;
+}
+
 static enum br_status print_page(FILE *out, const struct br_document *d, bool terminal,
                                  struct br_error *err)
 {
     struct buffers b = {.size = 4 * d->longest + BR_SHOWN}; /* \xff for a byte; heading and unit */
     struct br_markup_page p = {
         .out = out, .markup = &text, .d = d, .terminal = terminal, .own = &b, .err = err};
-    b.visible = br_allocate(2, b.size);
+    if (terminal)
+        ask_terminal(&p);
+    b.visible = br_allocate(3, b.size);
     if (!b.visible)
         return br_no_memory(err, "the text of a report");
     b.piece = b.visible + b.size;
+    b.heading = b.piece + b.size;
     const enum br_status status = br_markup_print(&p);
     free(b.visible);
     return status;
@@ -239,8 +317,8 @@ enum br_status br_document_show(FILE *out, const struct br_document *d, struct b
     return status ? status : print_page(out, d, true, err);
 }
 
-static enum br_status write(FILE *out, const struct br_document *d,
-                            const struct br_document_table *table, struct br_error *err)
+static enum br_status write_text(FILE *out, const struct br_document *d,
+                                 const struct br_document_table *table, struct br_error *err)
 {
     (void)table;
     return print_page(out, d, false, err);
@@ -250,5 +328,5 @@ const struct br_document_format br_document_text = {
     .name = "text",
     .extension = ".txt",
     .title = "for a person",
-    .write = write,
+    .write = write_text,
 };

@@ -97,7 +97,22 @@ static void print_unit(const struct br_markup_page *p, const char *before, const
 
 static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
 {
+    static const int colours[] = {32, 31, 33, 31, 0}; /* of a terminal, by outcomes */
+    if (p->colour)
+        fprintf(p->out, "\033[1;%dm", colours[outcome]);
     fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
+    fputs(p->colour ? "\033[0m" : "", p->out);
+}
+
+bool br_markup_word(const struct br_markup_page *p, const char *text, size_t bytes)
+{
+    for (int word = BR_OUTCOME_PASS; word <= BR_OUTCOME_SKIPPED; word++)
+        if (strlen(br_outcome_names[word]) == bytes &&
+            memcmp(text, br_outcome_names[word], bytes) == 0) {
+            print_word(p, (enum br_outcome)word);
+            return true;
+        }
+    return false;
 }
 
 /* ---- tables ---- */
@@ -124,14 +139,9 @@ static void print_value(const struct br_markup_page *p, const struct br_column *
 {
     char buffer[BR_SHOWN];
     const char *text = br_document_shown(column, cell, buffer);
-    int word = BR_OUTCOME_PASS; /* of a verdict */
-    while (word <= BR_OUTCOME_SKIPPED && strcmp(text, br_outcome_names[word]) != 0)
-        word++;
     if (cell->value.kind != BR_TEXT || cell->shown)
         print_by(p, p->markup->number, text);
-    else if (word <= BR_OUTCOME_SKIPPED)
-        print_word(p, (enum br_outcome)word);
-    else
+    else if (!br_markup_word(p, text, strlen(text)))
         br_markup_text(p, text);
     if (cell->mark)
         put(p, &p->markup->mark, cell->mark);
@@ -237,8 +247,17 @@ static bool is_shown(const struct br_markup_page *p, size_t block)
            (table ? flags & BR_LONG || b->table->rows <= BR_LONG_TABLE : b->kind == BR_BLOCK_FACT);
 }
 
-/* Facts that follow each other are one list. */
-static void print_blocks(struct br_markup_page *p)
+/* The block with the picture that stands below the answers; p->d->blocks: none does. */
+static size_t first_picture(const struct br_markup_page *p)
+{
+    size_t i = p->markup->picture_first ? 0 : p->d->blocks;
+    while (i < p->d->blocks && p->d->block[i].kind != BR_BLOCK_PICTURE)
+        i++;
+    return i;
+}
+
+/* Prints all blocks but `done`. Facts that follow each other are one list. */
+static void print_blocks(struct br_markup_page *p, size_t done)
 {
     const struct br_markup *m = p->markup;
     enum br_block_kind before = BR_BLOCK_TABLE;
@@ -247,7 +266,7 @@ static void print_blocks(struct br_markup_page *p)
         const struct br_block *b = &p->d->block[i];
         p->status = br_document_status(p->d, p->err);
         const bool titled = b->kind == BR_BLOCK_TABLE || b->kind == BR_BLOCK_SECTION;
-        if (p->status || !is_shown(p, i))
+        if (p->status || i == done || !is_shown(p, i))
             continue;
         if (before == BR_BLOCK_FACT && b->kind != before)
             say(p, m->facts.after);
@@ -343,11 +362,14 @@ enum br_status br_markup_print(struct br_markup_page *p)
         m->begin(p);
     else
         br_markup_heading(p, p->level, p->d->caption);
+    const size_t picture = first_picture(p);
     if (!p->terminal) {
         print_answer(p);
+        if (picture < p->d->blocks)
+            m->picture(p, &p->d->block[picture]);
         print_verdicts(p);
     }
-    print_blocks(p);
+    print_blocks(p, picture);
     if (p->terminal)
         print_end(p);
     else if (m->end)

@@ -16,6 +16,8 @@ struct br_markup_page {
     int level;          /* of the caption's heading */
     size_t pictures;    /* so far */
     bool terminal;      /* it gets short tables only, and the answers last */
+    int columns;        /* of the terminal; 0: not known, or no terminal */
+    bool colour;        /* words of verdicts are coloured */
     void *own;          /* the format's */
     struct br_error *err;
     enum br_status status; /* of all until now; after a failure the rest is left out */
@@ -41,6 +43,7 @@ struct br_markup {
     void (*close_table)(const struct br_markup_page *p, const struct br_document_table *t);
     void (*table)(struct br_markup_page *p, const struct br_document_table *t);
     void (*picture)(struct br_markup_page *p, const struct br_block *b);
+    bool picture_first; /* the first picture stands below the answers */
     /* NULL: nothing. */
     void (*begin)(const struct br_markup_page *p);
     void (*end)(const struct br_markup_page *p);
@@ -57,6 +60,9 @@ struct br_markup {
 void br_markup_text(const struct br_markup_page *p, const char *text);
 void br_markup_put(const struct br_markup_page *p, const char *before, const char *text,
                    const char *after);
+/* Prints the word of a verdict, if the first `bytes` bytes of the text are one; else nothing, and
+ * returns false. */
+bool br_markup_word(const struct br_markup_page *p, const char *text, size_t bytes);
 void br_markup_heading(const struct br_markup_page *p, int level, const char *text);
 
 /* Prints lines to be copied. */

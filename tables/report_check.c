@@ -178,6 +178,7 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         br_put_answer(d, "%zu more do not pass: see the verdicts.", failures - FIRST_FAILURES);
 
     const struct br_column orders_columns[] = {
+        {.key = "verdict"},
         {.key = "scene", .heading = source_of(f)},
         {.key = "study"},
         {.key = "norm"},
@@ -193,7 +194,6 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         {.key = "constant", .format = "%.3e"},
         {.key = "floor", .flags = BR_FOR_PROGRAMS},
         {.key = "ceiling", .heading = "allowed range"},
-        {.key = "verdict"},
     };
     char order[NAME];
     BR_TABLE(d, "orders", "All orders", BR_MAIN | BR_LONG, orders_columns);
@@ -209,8 +209,9 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
         for (size_t j = 0; j < check->count; j++) {
             const struct br_case *c = &check->cases[j];
             const struct br_expectation *e = &c->expected;
-            BR_PUT_ROW(d, br_text(check->name), br_text(br_verify_names[c->kind]),
-                       br_text(c->measure), br_text(c->part), br_number(e->order));
+            BR_PUT_ROW(d, br_text(br_verdict_names[c->verdict]), br_text(check->name),
+                       br_text(br_verify_names[c->kind]), br_text(c->measure), br_text(c->part),
+                       br_number(e->order));
             br_put_shown(d, "%s +- %g", br_theory_text(e->order, e->highest, order, sizeof order),
                          e->tolerance);
             BR_PUT_CELLS(d, br_number(e->tolerance), br_if(e->highest > 0, br_number(e->highest)),
@@ -222,7 +223,6 @@ void br_report_check(const struct br_check_findings *f, struct br_document *d)
                 br_put_shown(d, "%g to %g", e->floor, e->ceiling);
             else if (isfinite(e->ceiling))
                 br_put_shown(d, "at most %g", e->ceiling);
-            BR_PUT_CELLS(d, br_text(br_verdict_names[c->verdict]));
             put_verdict(d, check, c);
         }
     }

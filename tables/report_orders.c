@@ -26,18 +26,58 @@ static const char *separator(bool *first)
     return was ? " " : "; ";
 }
 
-static void say_order(struct br_document *d, const struct br_estimate *order, enum br_axis axis,
-                      const char *where, bool *first)
+/* An order that follows from a number of unknowns or cells says for which mesh. */
+static void say_dimension(struct br_document *d, const struct br_orders *o, double order)
+{
+    const int assumed = (int)o->numbers->dimension;
+    if (assumed == 1)
+        br_put_more(d,
+                    " (1-D assumed, or %s along one side; --dimension 2 gives %.2f, 3 gives %.2f)",
+                    o->numbers->column[BR_AXIS_SPACE]->name, br_orders_in_dimension(o, order, 2),
+                    br_orders_in_dimension(o, order, 3));
+    else
+        br_put_more(d, " (%d-D assumed; --dimension %d gives %.2f)", assumed, 5 - assumed,
+                    br_orders_in_dimension(o, order, 5 - assumed));
+}
+
+/* The rates between the last rows of a line. */
+static void say_rates(struct br_document *d, const struct br_orders_line *line)
+{
+    enum { LAST = 3 };
+    const size_t points = line->observed.points;
+    bool any = false;
+    for (size_t i = points > LAST ? points - LAST : 1; i < points; i++) {
+        const double rate = br_orders_rate(line, i);
+        if (isfinite(rate))
+            br_put_more(d, "%s%.2f", any ? ", " : ", last rates ", rate);
+        any |= isfinite(rate);
+    }
+}
+
+static void say_order(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, const struct br_orders_line *line,
+                      enum br_axis axis, bool *first)
 {
     char text[64];
+    const bool joint = br_joint_describes(&of->joint), value = quantity_of(o, of)->is_value;
+    const struct br_estimate *order = &of->answer[axis].order;
     const bool none = !isfinite(order->value) || order->value <= 0 || order->low <= 0;
+    if (value && isnan(order->value))
+        return; /* of three values, whose p is said */
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
                 none ? "not seen" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
-                *where ? " at " : "", where);
+                !joint && *line->at ? " at " : "", joint ? "" : line->at);
+    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
+        say_dimension(d, o, order->value);
+    if (none && line && !value && br_orders_stays(line))
+        br_put_more(d, " (--value, if its limit is not known)");
+    if (!none && !joint)
+        say_rates(d, line);
 }
 
-static void say_orders(struct br_document *d, const struct br_quantity_orders *of, bool *first)
+static void say_orders(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of, bool *first)
 {
     const bool joint = br_joint_describes(&of->joint);
     for (int axis = 0; axis < BR_AXES; axis++) {
@@ -46,13 +86,39 @@ static void say_orders(struct br_document *d, const struct br_quantity_orders *o
         if (answer->open && isnan(answer->order.value))
             br_put_more(d, "%s%s", separator(first), answer->open);
         else if (line || joint)
-            say_order(d, &answer->order, (enum br_axis)axis, joint ? "" : line->at, first);
+            say_order(d, o, of, line, (enum br_axis)axis, first);
     }
     if (joint)
         br_put_more(d, "%sby the joint fit of %zu rows, misfit %.2g %%", separator(first),
                     of->joint.points, 100 * of->joint.misfit);
     if (joint && isfinite(of->joint.floor))
         br_put_more(d, "%swith a floor of %.1e", separator(first), of->joint.floor);
+}
+
+/* A size as its column states it: a count has all its digits. */
+static const char *given_text(const struct br_orders *o, enum br_axis axis, double given,
+                              char text[32])
+{
+    snprintf(text, 32, o->numbers->column[axis]->is_size ? "%.4g" : "%.0f", given);
+    return text;
+}
+
+/* What the next finer size would give. */
+static void say_next(struct br_document *d, const struct br_orders *o,
+                     const struct br_quantity_orders *of, bool *first)
+{
+    const struct br_orders_forecast f = br_orders_foresee(o, of);
+    double given;
+    const double next = f.line ? br_orders_next(o, &f, &given) : (double)NAN;
+    if (!f.line)
+        return;
+    br_put_more(d, "%s%s = %s would give ", separator(first),
+                o->numbers->column[f.line->axis]->name,
+                given_text(o, f.line->axis, given, (char[32]){0}));
+    if (quantity_of(o, of)->is_value)
+        br_put_more(d, "a GCI of %.2g %%", 100 * next);
+    else
+        br_put_more(d, "%.1e", next);
 }
 
 /* Puts the number of rows that are left out, the first reason and where it begins. */
@@ -78,24 +144,50 @@ static void say_left_out(struct br_document *d, const struct br_quantity_orders 
     br_put_more(d, ").");
 }
 
-static void say_limit(struct br_document *d, const struct br_grid_limit *limit, bool *first)
+/* The limit of a value. On a line also its grid convergence index. */
+static void say_limit(struct br_document *d,
+                      const struct br_quantity_orders *of, bool *first)
 {
+    const struct br_grid_limit *limit = &of->limit;
+    const struct br_gci *g = &of->line[of->lines - 1].gci;
     if (isfinite(limit->value.low))
-        br_put_more(d, "%slimit %.9g, between %.9g and %.9g (%s), %s", separator(first),
-                    limit->value.value, limit->value.low, limit->value.high,
-                    limit_methods[limit->method], br_sequence_text(limit->sequence));
+        br_put_more(d, "%slimit %s", separator(first),
+                    br_interval_text(&limit->value, (char[128]){0}, 128));
     else
-        br_put_more(d, "%sno limit: %s", separator(first), br_sequence_text(limit->sequence));
+        br_put_more(d, "%sno limit", separator(first));
+    if (of->lines == 1 && isfinite(g->fine.index))
+        br_put_more(d, ", p = %.2f, GCI %.2g %%, asymptotic %.3f", g->order, 100 * g->fine.index,
+                    g->asymptotic);
+    br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
 
-/* An exponent of about 0, or none, is not said. */
-static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis)
+/* What follows from the formal order: the limit of another one, and an index that trusts it. */
+static void say_formal(struct br_document *d, const struct br_orders *o,
+                       const struct br_quantity_orders *of)
 {
-    const struct br_estimate falls = {-growth->value, -growth->high, -growth->low};
-    if (fabs(growth->value) >= 0.1)
-        br_put_answer(d, "Processor time %s like %s^%s%s.", growth->value > 0 ? "grows" : "falls",
-                      br_axis_letters[axis], growth->value > 0 ? "-" : "",
-                      br_order_text(growth->value > 0 ? growth : &falls, (char[64]){0}, 64));
+    const struct br_orders_line *line = &of->line[0];
+    const struct br_estimate *limit = &line->limit.value, *other = &line->first_order.value;
+    char text[128];
+    if (!quantity_of(o, of)->is_value || of->lines != 1)
+        return;
+    if (br_gci_is_far(&line->gci, o->formal))
+        br_put_more(d,
+                    " p is far from the formal order %g%s: with the limits of Oberkampf and Roy "
+                    "(2010) the GCI is %.2g %%.",
+                    o->formal, o->assumed_formal ? " (assumed)" : "",
+                    100 * br_gci_limited(&line->gci, o->formal));
+    if (o->assumed_formal && isfinite(other->low) &&
+        (other->low != limit->low || other->high != limit->high))
+        br_put_more(d, " Formal order 2 assumed; --formal-order 1 gives %s.",
+                    br_interval_text(other, text, sizeof text));
+}
+
+static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis,
+                       bool differ)
+{
+    if (differ && growth->low > 0 && br_order_determined(growth))
+        br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
+                      br_order_text(growth, (char[64]){0}, 64));
 }
 
 static void put_given(struct br_document *d, const struct br_numbers *numbers, size_t row)
@@ -126,6 +218,9 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
         put_given(d, numbers, i);
         BR_PUT(d, br_number(number), .key = q->is_value ? "value" : "error", .unit = q->unit,
                .format = q->is_value ? "%.9g" : "%.3e");
+        if (row->repeat)
+            BR_PUT(d, br_number(row->deviation[of->quantity]), .key = "deviation", .unit = q->unit,
+                   .format = "%.1e");
         for (int axis = 0; axis < BR_AXES; axis++) {
             const struct br_row_point *at = of->point[axis] ? &of->point[axis][i] : NULL;
             const struct br_orders_line *line = at ? at->line : NULL; /* NULL: the row is on none */
@@ -150,6 +245,8 @@ static void put_costs(struct br_document *d, const struct br_numbers *numbers)
         put_given(d, numbers, i);
         BR_PUT(d, br_number(row->seconds), .key = "cpu_seconds", .heading = "processor time",
                .unit = "s", .format = "%.3g");
+        BR_PUT(d, br_number(row->wall), .key = "wall_seconds", .heading = "wall time", .unit = "s",
+               .format = "%.3g");
         BR_PUT(d, br_number(row->bytes / 1e6), .key = "peak_memory", .heading = "peak memory",
                .unit = "MB", .format = "%.3g");
         BR_PUT(d, br_truth(row->kept), .key = "kept", .flags = BR_FILES_ONLY);
@@ -195,10 +292,75 @@ static void put_order(struct br_document *d, const struct br_estimate *order)
     BR_PUT_CELLS(d, br_number(order->low), br_number(order->high));
 }
 
+/* The limit with its interval for people, and its ends for programs. */
+static void put_limit(struct br_document *d, const struct br_grid_limit *limit)
+{
+    char text[128];
+    BR_PUT_CELLS(d, br_number(limit->value.value));
+    br_put_shown(d, "%s", br_interval_text(&limit->value, text, sizeof text));
+    BR_PUT_CELLS(d, br_number(limit->value.low), br_number(limit->value.high),
+                 br_text(limit_methods[limit->method]));
+}
+
+/* The grid convergence index of each three neighbouring sizes, where there are more than three. */
+static void put_triples(struct br_document *d, const struct br_orders *o)
+{
+    static const struct br_column columns[] = {
+        {.key = "quantity"},
+        {.key = "in"},
+        {.key = "at"},
+        {.key = "finest", .heading = "finest of three", .format = "%.6g"},
+        {.key = "p", .format = "%.4f"},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
+        {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e"},
+        {.key = "sequence"},
+    };
+    BR_TABLE(d, "triples", "Grid convergence index of each three neighbours", 0, columns);
+    for (size_t i = 0; i < o->count; i++)
+        for (size_t l = 0; l < o->of[i].lines; l++) {
+            const struct br_orders_line *line = &o->of[i].line[l];
+            for (size_t t = 0; t < line->triples && line->triples > 1; t++) {
+                const struct br_gci *g = &line->triple[t];
+                BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                           br_text(br_axis_letters[line->axis]), br_text(line->at),
+                           br_number(line->finest_of[t]), br_number(g->order),
+                           br_number(g->fine.index), br_number(g->asymptotic),
+                           br_number(br_gci_limited(g, o->formal)),
+                           br_text(br_sequence_text(g->sequence)));
+            }
+        }
+}
+
+/* The sizes that the next digits need. */
+static void put_needed(struct br_document *d, const struct br_orders *o)
+{
+    enum { DIGITS = 3 };
+    static const struct br_column columns[] = {
+        {.key = "quantity"},
+        {.key = "what"},
+        {.key = "wanted", .heading = "at most", .format = "%.0e"},
+        {.key = "column", .heading = "needs"},
+        {.key = "size"},
+    };
+    BR_TABLE(d, "needed", "What smaller errors need, if the order stays", 0, columns);
+    for (size_t i = 0; i < o->count; i++) {
+        const struct br_orders_forecast f = br_orders_foresee(o, &o->of[i]);
+        double wanted = f.line ? pow(10, ceil(log10(f.number)) - 1) : 0;
+        for (int digit = 0; digit < DIGITS && f.line; digit++, wanted /= 10) {
+            const double size = br_orders_needed(o, &f, wanted);
+            BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
+                       br_text(quantity_of(o, &o->of[i])->is_value ? "GCI" : "error"),
+                       br_number(wanted), br_text(o->numbers->column[f.line->axis]->name),
+                       br_number(size));
+            br_put_shown(d, "%s", given_text(o, f.line->axis, size, (char[32]){0}));
+        }
+    }
+}
+
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
                       const char *caption, struct br_document *d)
 {
-    bool timed = false;
     br_document_begin(d, "orders", "beamrate orders", 1, caption);
 
     size_t kept = 0;
@@ -211,17 +373,20 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (!line)
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
-            say_limit(d, &of->limit, &first);
-        say_orders(d, of, &first);
+            say_limit(d, of, &first);
+        say_orders(d, o, of, &first);
+        say_next(d, o, of, &first);
         br_put_more(d, ".");
         say_left_out(d, of);
+        if (line)
+            say_formal(d, o, of);
     }
     if (o->numbers->taken[0])
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
         br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
-        say_growth(d, &growth[axis], (enum br_axis)axis);
+        say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
     if (o->tied)
         br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
     for (size_t i = 0; i < o->numbers->rows; i++)
@@ -285,9 +450,9 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "in"},
         {.key = "at"},
         {.key = "sequence"},
-        {.key = "limit", .format = "%.9g"},
-        {.key = "low", .format = "%.9g"},
-        {.key = "high", .format = "%.9g"},
+        {.key = "limit"},
+        {.key = "low", .flags = BR_FOR_PROGRAMS},
+        {.key = "high", .flags = BR_FOR_PROGRAMS},
         {.key = "method", .flags = BR_FILES_ONLY},
         {.key = "p", .heading = "p of three", .format = "%.4f"},
         {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
@@ -299,6 +464,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "of_three", .flags = BR_FOR_PROGRAMS},
+        {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e",
+         .flags = BR_FILES_ONLY},
     };
     BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
     for (size_t i = 0; i < o->count; i++)
@@ -308,27 +475,27 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             const struct br_gci *g = &line->gci;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
-                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
-                       br_number(limit->value.low), br_number(limit->value.high),
-                       br_text(limit_methods[limit->method]), br_number(g->order),
+                       br_text(br_sequence_text(limit->sequence)));
+            put_limit(d, limit);
+            BR_PUT_CELLS(d, br_number(g->order),
                        br_number(g->fine.ratio), br_number(g->coarse.ratio),
                        br_number(g->fine.limit), br_number(g->fine.relative),
                        br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
                        br_number(g->coarse.index), br_number(g->asymptotic),
-                       br_text(br_sequence_text(g->sequence)));
+                       br_text(br_sequence_text(g->sequence)),
+                       br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
         if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {
             const struct br_grid_limit *limit = &o->of[i].limit;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name), br_text("h and k"), br_text(""),
-                       br_text(br_sequence_text(limit->sequence)), br_number(limit->value.value),
-                       br_number(limit->value.low), br_number(limit->value.high),
-                       br_text(limit_methods[limit->method]));
+                       br_text(br_sequence_text(limit->sequence)));
+            put_limit(d, limit);
         }
 
-    for (size_t i = 0; i < o->numbers->rows; i++)
-        timed |= isfinite(o->numbers->row[i].seconds);
-    if (timed) {
+    put_triples(d, o);
+    put_needed(d, o);
+    if (br_orders_costs_differ(o)) {
         put_costs(d, o->numbers);
         put_cheapest(d, o);
     }

@@ -25,6 +25,7 @@ PATH=bin beamrate study example2 "${grid[@]}" --out missing 2>/dev/null
 beamrate extremes floors --n 3,6 --k 0.01 --out floors
 beamrate trade example2 example3 --methods euler,trbdf2 --n 10 --k 0.1 --no-plots --out trade
 beamrate trade example2 --split --n 10 --k 0.1,0.05 --out split
+beamrate check example3 --out check
 beamrate plan example2 --error 1e-2 --methods euler+implicit --out plan
 bin/beamrate run example1 --n 4 --k 0.1 --check --quiet --out run
 
@@ -36,7 +37,8 @@ if command -v python3 >/dev/null; then
     page missing 0 "<code>gnuplot example2-h.gp</code>"
     page trade 0 "<title>beamrate trade: 3 reports</title>"
     page split $pictures
-    page plan 0
+    page plan $pictures
+    page check $pictures "<figcaption>Each observed order"
     page run $pictures "<td"
     page floors $pictures "<h1>Round-off floors of the linear solvers</h1>"
     echo "Python read the pages"

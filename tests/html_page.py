@@ -33,7 +33,7 @@ class Page(html.parser.HTMLParser):
             self.tables[-1].append([])
         elif tag in ("th", "td"):
             self.cell = ""
-        elif tag == "sup":
+        elif tag == "small":
             self.cell += "("
         elif re.fullmatch("h[1-6]", tag):
             self.headings.append(int(tag[1]))
@@ -46,7 +46,7 @@ class Page(html.parser.HTMLParser):
 
     def handle_endtag(self, tag):
         assert self.open and self.open.pop() == tag, (tag, self.getpos())
-        if tag == "sup":
+        if tag == "small":
             self.cell += ")"
         elif tag in ("th", "td"):
             self.tables[-1][-1].append(self.cell)
@@ -100,6 +100,9 @@ def main(folder, pictures, texts):
     steps = [b - a for a, b in zip(page.headings, page.headings[1:])]
     assert page.headings[0] == 1 and page.headings.count(1) == 1 and max(steps) <= 1
     assert text.count("<svg ") == int(pictures), text.count("<svg ")
+    assert text.count("<figcaption>") == text.count("<figure>") >= int(pictures)
+    first = text.find("<figure>")  # right below the answers
+    assert not int(pictures) or text[:first].rstrip().endswith("</ul>"), text[first - 99:first]
     check_contrast(page.style)
     written = glob.glob(f"{folder}/*.md")  # by all commands but run
     expected = [table for name in written

@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One made-up document that has everything, in every format as it is stored in golden/made.
  * Documents that are built wrongly, or without memory, are not printed. */
+#include <fcntl.h>
 #include <float.h>
 #include <jansson.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include "support.h"
 #include "tables/document.h"
@@ -205,6 +209,148 @@ TEST(test_formats)
 {
     br_test_stored("document", print_formats, 0);
     br_test_stored("pages", print_pages, 0);
+}
+
+/* ---- a terminal ---- */
+
+static void build_wide(struct br_document *d)
+{
+    br_document_begin(d, "wide", "f", 1, "Wide");
+    br_put_answer(d, "FAIL: one of two, and words that go on and on until a line ends.");
+    br_put_table(d, "t", "T", 0);
+    for (int i = 0; i < 2; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(i ? "FAIL" : "PASS"), .key = "verdict");
+        BR_PUT(d, br_text(i ? "gr\xc3\xbc\xc3\x9f" : "a name of it"), .key = "name");
+        BR_PUT(d, br_number(i - 1.5), .key = "number", .heading = "a heading of words",
+               .unit = "m/s");
+        br_put_mark(d, i ? " R" : NULL);
+        BR_PUT(d, br_text(i ? "no" : "a long text that finds no room on one line of a row"),
+               .key = "text", .flags = BR_WRAP);
+        BR_PUT(d, br_number(1e-9 / 3), .key = "last", .format = "%.4e");
+    }
+}
+
+/* Shows the document on a terminal of so many columns (0: not known), at most 8191 bytes. */
+static void show_on_terminal(int columns, char text[8192])
+{
+    struct br_document d = {0};
+    struct winsize size = {.ws_col = (unsigned short)columns};
+    const int ours = posix_openpt(O_RDWR | O_NOCTTY);
+    assert_true(ours >= 0 && grantpt(ours) == 0 && unlockpt(ours) == 0);
+    const int theirs = open(ptsname(ours), O_RDWR | O_NOCTTY);
+    struct termios mode;
+    assert_int_equal(tcgetattr(theirs, &mode), 0);
+    cfmakeraw(&mode);
+    assert_int_equal(tcsetattr(theirs, TCSANOW, &mode), 0);
+    assert_int_equal(ioctl(theirs, TIOCSWINSZ, &size), 0);
+    FILE *out = fdopen(theirs, "w");
+    assert_non_null(out);
+    build_wide(&d);
+    MUST(br_document_show(out, &d, &err));
+    assert_int_equal(fclose(out), 0);
+    br_document_clear(&d);
+    size_t length = 0;
+    for (ssize_t got; (got = read(ours, text + length, 8191 - length)) > 0;)
+        length += (size_t)got;
+    text[length] = '\0';
+    close(ours);
+}
+
+static int columns_of(const char *line, size_t bytes)
+{
+    int columns = 0;
+    for (size_t i = 0; i < bytes; i++)
+        columns += ((unsigned char)line[i] & 0xc0) != 0x80;
+    return columns;
+}
+
+/* The number of each letter but blanks. */
+static void count_letters(const char *text, size_t count[256])
+{
+    memset(count, 0, 256 * sizeof *count);
+    for (; *text; text++)
+        count[(unsigned char)*text] += *text != ' ' && *text != '\n';
+}
+
+/* No line is wider than the terminal, and nothing is lost; where it is wide enough, or its width is
+ * not known, it shows what a pipe gets. */
+TEST(test_width)
+{
+    static char text[8192];
+    size_t wide[256], narrow[256];
+    char *piped = NULL;
+    size_t size;
+    struct br_document d = {0};
+    FILE *out = open_memstream(&piped, &size);
+    assert_non_null(out);
+    build_wide(&d);
+    MUST(br_document_show(out, &d, &err));
+    br_document_clear(&d);
+    assert_int_equal(fclose(out), 0);
+    assert_int_equal(setenv("NO_COLOR", "1", 1), 0);
+    show_on_terminal(0, text);
+    assert_string_equal(text, piped);
+    show_on_terminal(500, text);
+    assert_string_equal(text, piped);
+    count_letters(piped, wide);
+    for (int columns = 24; columns < 130; columns++) {
+        show_on_terminal(columns, text);
+        for (const char *line = text; *line; line += strcspn(line, "\n") + 1)
+            if (columns_of(line, strcspn(line, "\n")) > columns)
+                fail_msg("%d columns: found '%.*s'", columns, (int)strcspn(line, "\n"), line);
+        count_letters(text, narrow);
+        assert_memory_equal(wide, narrow, sizeof wide);
+    }
+    free(piped);
+    static const char at_50[] = "T\n"
+                                "verdict  name                a    text\n"
+                                "                       heading    \n"
+                                "                            of    \n"
+                                "                        words,    \n"
+                                "                           m/s    \n"
+                                "          last\n"
+                                "PASS     a name of it     -1.5    a long text that\n"
+                                "                                  finds no room on\n"
+                                "                                  one line of a\n"
+                                "                                  row\n"
+                                "    3.3333e-10\n"
+                                "FAIL     gr\xc3\xbc"
+                                "\xc3\x9f"
+                                "             -0.5 R  no\n"
+                                "    3.3333e-10\n";
+    show_on_terminal(50, text);
+    assert_memory_equal(strstr(text, "T\n"), at_50, sizeof at_50 - 1);
+}
+
+static size_t count_of(const char *text, const char *part)
+{
+    size_t count = 0;
+    for (; (text = strstr(text, part)); text++)
+        count++;
+    return count;
+}
+
+/* Verdicts have colours on a terminal that has them, unless NO_COLOR is set. */
+TEST(test_colours)
+{
+    static const struct {
+        const char *no_color, *term;
+        bool coloured;
+    } rows[] = {{NULL, "xterm", true},
+                {"", "xterm", true},
+                {"0", "xterm", false},
+                {NULL, "dumb", false},
+                {NULL, NULL, false}};
+    static char text[8192];
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        rows[i].no_color ? setenv("NO_COLOR", rows[i].no_color, 1) : unsetenv("NO_COLOR");
+        rows[i].term ? setenv("TERM", rows[i].term, 1) : unsetenv("TERM");
+        show_on_terminal(200, text);
+        assert_int_equal(count_of(text, "\033[1;32mPASS\033[0m"), rows[i].coloured);
+        assert_int_equal(count_of(text, "\033[1;31mFAIL\033[0m"), 2 * rows[i].coloured);
+        assert_int_equal(count_of(text, "\033"), 6 * rows[i].coloured);
+    }
 }
 
 /* ---- what is not printed ---- */

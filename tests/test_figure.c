@@ -12,6 +12,7 @@
 #include "plots/pictures.h"
 #include "study/extremes/extremes.h"
 #include "study/run/history.h"
+#include "study/verify/check.h"
 
 /* ---- any figure ---- */
 
@@ -32,6 +33,12 @@ static void fill_curves(struct br_figure *f)
                          i == 3 ? "far" : NULL);
     }
     br_point_add(br_series_add(f, BR_PEN_LINE, "nowhere"), 1, INFINITY, NULL);
+    for (int pen = BR_PEN_CURVE; pen <= BR_PEN_BAND; pen += BR_PEN_BAND) {
+        struct br_series *s = br_series_add(f, (enum br_pen)pen, "pen %d", pen);
+        s->stairs = true;
+        br_point_add(s, 1, 2, NULL);
+        br_point_add(s, 3, 1, NULL);
+    }
     for (int i = 0; i < 3; i++)
         br_point_add(&p->top, pow(10, i), 1000 >> i, NULL);
     BR_SAY(p->top_label, "steps N");
@@ -41,8 +48,7 @@ static void fill_curves(struct br_figure *f)
 
 static struct br_figure made(size_t panels)
 {
-    struct br_figure f = {
-        .stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
+    struct br_figure f = {.stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
     for (size_t i = 0; i < panels; i++)
         fill_curves(&f);
     return f;
@@ -104,6 +110,8 @@ static void print_powers(FILE *out)
     print(out, f);
 }
 
+enum { SVG = 100000 };
+
 static void write_file(const char *folder, const char *name, const struct br_figure *f,
                        void (*write)(FILE *, const struct br_figure *))
 {
@@ -116,8 +124,8 @@ static void write_file(const char *folder, const char *name, const struct br_fig
 }
 
 /* gnuplot takes it without a word, and all pictures are whole. Returns whether there is a gnuplot.
- */
-static bool draw(const struct br_figure *f)
+ * svg: NULL, or out: the start of that picture. */
+static bool draw(const struct br_figure *f, char svg[SVG])
 {
     static const char *const names[] = {"made.dat", "made.gp", "made.svg", "made.png", "made.pdf"};
     char folder[] = "/tmp/beamrate-figure-XXXXXX", path[128];
@@ -134,6 +142,10 @@ static bool draw(const struct br_figure *f)
         fail_msg("%s", err.message);
     for (size_t i = 0; i < 5; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        FILE *file = i == 2 && svg && !missing ? fopen(path, "r") : NULL;
+        if (file)
+            svg[fread(svg, 1, SVG - 1, file)] = '\0';
+        assert_true(!file || fclose(file) == 0);
         const bool there = unlink(path) == 0; /* PDF where gnuplot has a terminal for it */
         assert_true(i == 4 || there == (i < 2 || !missing));
     }
@@ -146,11 +158,36 @@ TEST(test_drawn)
     bool drawn = true;
     for (size_t panels = 1; panels <= BR_FIGURE_PANELS; panels++) {
         struct br_figure f = made(panels);
-        drawn = draw(&f) && drawn;
+        drawn = draw(&f, NULL) && drawn;
         br_figure_clear(&f);
     }
     if (!drawn)
         SKIP("gnuplot is not installed");
+}
+
+/* A point without a number interrupts the line. */
+TEST(test_gap)
+{
+    static char svg[SVG];
+    struct br_figure f = {.stem = "made"};
+    br_panel_add(&f, "x", "y");
+    struct br_series *s = br_series_add(&f, BR_PEN_LINE, "one");
+    for (int i = 0; i < 5; i++)
+        br_point_add(s, i, i == 2 ? (double)NAN : i, NULL);
+    const bool drawn = draw(&f, svg);
+    br_figure_clear(&f);
+    if (!drawn)
+        SKIP("gnuplot is not installed");
+    const char *line = strstr(svg, "data index 0");
+    line = line ? strstr(line, " d='") : NULL;
+    assert_non_null(line);
+    size_t moves = 0, lines = 0;
+    for (line += strlen(" d='"); *line && *line != '\''; line++) {
+        moves += *line == 'M';
+        lines += *line == 'L';
+    }
+    assert_int_equal(moves, 2);
+    assert_int_equal(lines, 2);
 }
 
 TEST(test_no_memory)
@@ -204,9 +241,11 @@ static void print_study(FILE *out)
                                  : (struct br_estimate){one, one - 0.1, one + 0.2};
             snprintf(o->by, sizeof o->by, "errors of %d", part == 1 ? 0 : part);
             for (int i = 0; i < 4; i++) {
-                o->point[i] = (struct br_seen_point){0.1 / (1 << i), one / (1 << i), BR_FLAG_NONE,
-                                                     {1.01 * one / (1 << i), one / (1 << i) - 0.01,
-                                                      one / (1 << i) + 0.02}};
+                o->point[i] = (struct br_seen_point){
+                    0.1 / (1 << i),
+                    one / (1 << i),
+                    BR_FLAG_NONE,
+                    {1.01 * one / (1 << i), one / (1 << i) - 0.01, one / (1 << i) + 0.02}};
                 if (part == 2)
                     o->point[i].fit = o->order;
             }
@@ -217,6 +256,52 @@ static void print_study(FILE *out)
         (i == 0 ? print : print_data)(out,
                                       br_convergence_draw(br_convergence_pictures[i], &m.report));
     br_made_report_clear(&m);
+}
+
+/* ---- a check ---- */
+
+/* As many checks as wanted, of an order of each verdict each; the second has no interval. */
+static struct br_figure draw_checks(size_t count)
+{
+    static const struct br_expectation expected[] = {{.order = 2, .tolerance = 0.1},
+                                                     {.order = NAN},
+                                                     {.order = 2, .highest = 4, .tolerance = 0.2}};
+    static const struct br_estimate orders[] = {{2, 1.9, 2.05}, {NAN, NAN, NAN}, {3, 1, 4}};
+    struct br_case cases[BR_INCONCLUSIVE + 1] = {0};
+    struct br_check check[60] = {0};
+    for (int v = BR_PASS; v <= BR_INCONCLUSIVE; v++)
+        cases[v] = (struct br_case){.kind = BR_VERIFY_TIME,
+                                    .expected = expected[v],
+                                    .measure = "a_b's",
+                                    .part = v ? "axial" : "",
+                                    .order = orders[v],
+                                    .verdict = (enum br_verdict)v};
+    for (size_t i = 0; i < count; i++)
+        check[i] = (struct br_check){
+            .name = i ? "other" : "first", .cases = cases, .count = BR_INCONCLUSIVE + 1};
+    return br_check_draw(check, count);
+}
+
+/* A row an order; of many orders, a row a check. */
+static void print_checks(FILE *out)
+{
+    print(out, draw_checks(1));
+    print_data(out, draw_checks(11));
+}
+
+TEST(test_checks)
+{
+    struct br_figure f = draw_checks(0);
+    assert_int_equal(f.panels, 0); /* nothing to draw */
+    f = draw_checks(10);
+    assert_string_equal(f.panel[0].series[0]->title, "PASS");
+    assert_true(br_extent(&f.panel[0], true).low == -30);
+    br_figure_clear(&f);
+    f = draw_checks(11);
+    assert_true(br_extent(&f.panel[0], true).low == -11);
+    BR_SAY(f.stem, "made");
+    draw(&f, NULL);
+    br_figure_clear(&f);
 }
 
 /* ---- extremes ---- */
@@ -318,4 +403,5 @@ TEST(test_stored)
     br_test_stored("floors", print_floors, 1e-12);
     br_test_stored("drifts", print_drifts, 1e-12);
     br_test_stored("history", print_history, 1e-12);
+    br_test_stored("checks", print_checks, 1e-12);
 }

@@ -18,8 +18,9 @@ static struct br_error err;
 struct columns {
     const char *errors, *values;
     double dimension;
+    const char *names; /* as --column has them */
 };
-static const struct columns plain = {NULL, NULL, 2};
+static const struct columns plain = {NULL, NULL, 2, NULL};
 
 static enum br_status read_table(const char *text, const struct columns *columns,
                                  struct br_numbers *numbers)
@@ -29,7 +30,8 @@ static enum br_status read_table(const char *text, const struct columns *columns
                                         .errors = (char *)columns->errors,
                                         .values = (char *)columns->values,
                                         .dimension = columns->dimension,
-                                        .assumed_dimension = columns == &plain};
+                                        .columns = (char *)columns->names,
+                                        .assumed_dimension = columns == &plain || columns->names};
     return br_orders_read(&q, numbers, &err);
 }
 
@@ -78,7 +80,7 @@ TEST(test_formats)
 TEST(test_names_and_units)
 {
     struct br_numbers n = read_with(
-        "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,1\n.5,2,2,2\n.25,1,,4\n", &plain);
+        "h [mm],dt (s),f(x) [N/m],\"a\n\"\"b\"\", c\"\n1,4,3,4\n.5,2,2,2\n.25,1,,1\n", &plain);
     assert_string_equal(n.unit[BR_AXIS_SPACE], "mm");
     assert_string_equal(n.unit[BR_AXIS_TIME], "s");
     assert_string_equal(n.column[BR_AXIS_TIME]->name, "dt");
@@ -116,25 +118,25 @@ TEST(test_resolutions)
 TEST(test_lists)
 {
     const char *text = "h,l2 rate,l2,drag,cpu\n1,9,3,-7,1\n.5,9,2,-8,1\n.25,9,1,-9,1\n";
-    const struct columns q = {"l2", " drag ", 2};
+    const struct columns q = {"l2", " drag ", 2, NULL};
     struct br_numbers n = read_with(text, &q);
     assert_int_equal(n.quantities, 2);
     assert_string_equal(n.quantity[0].name, "l2");
     assert_true(n.quantity[1].is_value);
     br_numbers_clear(&n);
     /* "l2 rate" is no l2. */
-    n = read_with(text, &(struct columns){"l2 rate , cpu", NULL, 2});
+    n = read_with(text, &(struct columns){"l2 rate , cpu", NULL, 2, NULL});
     assert_int_equal(n.quantities, 2);
     assert_string_equal(n.quantity[0].name, "l2 rate");
     br_numbers_clear(&n);
     refuse_with(text, &plain,
                 "t.csv:2: drag: found -7, expected an error of at least 0; is it a "
                 "value? (--value drag)");
-    refuse_with(text, &(struct columns){"l3", NULL, 2}, "t.csv: --error: there is no column 'l3'");
-    refuse_with(text, &(struct columns){NULL, "drag,l3", 2},
+    refuse_with(text, &(struct columns){"l3", NULL, 2, NULL}, "t.csv: --error: there is no column 'l3'");
+    refuse_with(text, &(struct columns){NULL, "drag,l3", 2, NULL},
                 "t.csv: --value: there is no column 'l3'");
-    refuse_with(text, &(struct columns){"l2", "l2", 2}, "'l2' is given as an error and as a value");
-    refuse_with(text, &(struct columns){"h,l2", NULL, 2}, "t.csv: --error: 'h' is a resolution");
+    refuse_with(text, &(struct columns){"l2", "l2", 2, NULL}, "'l2' is given as an error and as a value");
+    refuse_with(text, &(struct columns){"h,l2", NULL, 2, NULL}, "t.csv: --error: 'h' is a resolution");
     assert_true(br_lists("a, b ,c d", "c d"));
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
@@ -143,33 +145,75 @@ TEST(test_lists)
 
 /* Tables as programs write them: the order of one column, and what was taken for what. */
 static const struct {
-    const char *file, *quantity;
+    const char *table, *quantity; /* a file, or a text */
     double order;
-    const char *taken;
+    const char *taken, *names;
 } foreign[] = {
     {"dealii.txt", "L2", 2,
-     "h = dofs^(-1/d) from column dofs, of a mesh in 2 dimensions (assumed: --dimension 3 makes the "
-     "orders 1.5 times as high, 1 half as high); errors: L2, H1; left aside: cycle, cells"},
+     "h = dofs^(-1/d) from column dofs; errors: L2, H1; left aside: cells, cycle", NULL},
     {"dealii_org.txt", "L2 error", 2,
-     "h = dofs^(-1/d) from column dofs, of a mesh in 2 dimensions (assumed: --dimension 3 makes the "
-     "orders 1.5 times as high, 1 half as high); errors: L2 error; left aside: L2 rate, cells"},
-    {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler"},
-    {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r"},
-    {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error"},
-    {"gnuplot.dat", "H1", 1, "h = 1/n from column N; errors: L2, H1"},
+     "h = dofs^(-1/d) from column dofs; errors: L2 error; left aside: cells, L2 rate", NULL},
+    {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler", NULL},
+    {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r", NULL},
+    {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error", NULL},
+    {"gnuplot.dat", "H1", 1, "h = 1/n from column N; errors: L2, H1", NULL},
     {"latex.tex", "$\\|u-u_h\\|$", 2,
-     "h = 1/n from column $N$; errors: $\\|u-u_h\\|$; left aside: rate"},
-    {"markdown.md", "L2 error", 2, "h from column Mesh Size; errors: L2 error; left aside: eoc"},
+     "h = 1/n from column $N$; errors: $\\|u-u_h\\|$; left aside: rate", NULL},
+    {"markdown.md", "L2 error", 2, "h from column Mesh Size; errors: L2 error; left aside: eoc",
+     NULL},
     {"mfem.txt", "H1 error", 1,
-     "h = 2^-level from column level; errors: L2 error, H1 error; left aside: time"},
+     "h = 2^-level from column level; errors: L2 error, H1 error; left aside: time", NULL},
     {"moose.csv", "l2_error", 2,
-     "h from column h; errors: average, l2_error; left aside: time, number_of_elements"},
-    {"pandas.csv", "L2", 2, "h = 1/n from column N; errors: L2"},
-    {"pandas.txt", "L2", 2, "h = 1/n from column N; errors: L2"},
-    {"steps.csv", "L2", 1, "k from column Dt; errors: L2"},
+     "h from column h; errors: average, l2_error; left aside: number_of_elements, time", NULL},
+    {"pandas.csv", "L2", 2, "h = 1/n from column N; errors: L2", NULL},
+    {"pandas.txt", "L2", 2, "h = 1/n from column N; errors: L2", NULL},
+    {"steps.csv", "L2", 1, "k from column Dt; errors: L2", NULL},
     {"trixi.txt", "rho_e error", 4,
      "no column of the mesh, so h is assumed to halve from row to row (a column h or n states it); "
-     "errors: rho error, rho_v1 error, rho_e error; left aside: rho EOC, rho_v1 EOC, rho_e EOC"},
+     "errors: rho error, rho_v1 error, rho_e error; left aside: rho EOC, rho_v1 EOC, rho_e EOC",
+     NULL},
+    /* two columns of rates, and a bar behind the last field */
+    {"| cycle | # dofs | L2 | rate | H1 | rate |\n| 0 | 81 | 1.6e-2 | - | 2.56e-1 | - |\n"
+     "| 1 | 324 | 4e-3 | 2 | 1.28e-1 | 1 |\n| 2 | 1296 | 1e-3 | 2 | 6.4e-2 | 1 |\n",
+     "H1", 1, "h = dofs^(-1/d) from column # dofs; errors: L2, H1; left aside: cycle, rate, rate",
+     NULL},
+    {"| level | e |\n|---|---|\n| 0 | 16 |\n| 1 | 4 |\n| 2 | 1 |\n", "e", 2,
+     "h = 2^-level from column level; errors: e", NULL},
+    /* titles: another number of fields */
+    {"-----\n Errors: 1\n-----\n ref.level     h      || u_h - u ||    rate\n 0  5.0e-01  4e-2  0\n"
+     " 1  2.5e-01  1e-2  2.00\n 2  1.25e-01  2.5e-3  2.00\n",
+     "|| u_h - u ||", 2, "h from column h; errors: || u_h - u ||; left aside: rate", NULL},
+    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n.25,1\n", "e", 2, "h from column h; errors: e", NULL},
+    {"Solving on 3 meshes\nn= 1 e= 16\nn= 2 e= 4\nn= 4 e= 1\n", "e", 2,
+     "h = 1/n from column n; errors: e", NULL},
+    {"time,dofs,h,e\n0,0,0,0\n1,8,.5,16\n1,16,.25,4\n1,32,.125,1\n", "e", 2,
+     "h from column h; errors: e; left aside: a first row of zeros, dofs, time", NULL},
+    {"# 1:h  2:e\n1 16\n.5 4\n.25 1\n", "e", 2, "h from column h; errors: e", NULL},
+    {"N | e | rate\n--|---|---\n8 | 16 | -\n16 | 4 | 2\n32 | 1 | 2\n", "e", 2,
+     "h = 1/n from column N; errors: e; left aside: rate", NULL},
+    {"┌───┬────┐\n│ h │ e  │\n├───┼────┤\n│ 1 │ 16 │\n│.5 │ 4  │\n│.25│ 1  │\n└───┴────┘\n", "e", 2,
+     "h from column h; errors: e", NULL},
+    {"$h$ & $e$ \\\\\n$1$ & $1.6\\times 10^{-1}$ \\\\\n$0.5$ & $4\\cdot 10^{-2}$ \\\\\n"
+     "$0.25$ & $10^{-2}$ \\\\\n",
+     "$e$", 2, "h from column $h$; errors: $e$", NULL},
+    {"h;e\n1/8;0,16\n1/16;4 %\n1/32;1%\n", "e", 2, "h from column h; errors: e", NULL},
+    {"dt,e\n2^-3,1.6\n2^-4,.4\n2^-5,.1\n", "e", 2, "k from column dt; errors: e", NULL},
+    {"\"n\",\"e\"\n\"8\",\"1,6\"\n\"16\",\"0,4\"\n\"32\",\"0,1\"\n", "e", 2,
+     "h = 1/n from column n; errors: e", NULL},
+    {"p,resolution,e\n1,8,1.6\n2,16,.4\n3,32,.1\n", "e", 2,
+     "h = 1/n from column resolution; errors: e; left aside: p", NULL},
+    {"Time step size,e\n4,16\n2,4\n1,1\n", "e", 2, "k from column Time step size; errors: e", NULL},
+    /* named by hand */
+    {"Elemente;Gitterweite;Fehler\n8;0,125;1,6\n16;0,0625;0,4\n32;0,03125;0,1\n", "Fehler", 2,
+     "h from column Gitterweite; errors: Fehler; left aside: Elemente", "Gitterweite=h"},
+    {"8 1.6\n16 .4\n32 .1\n", "l2", 2, "h = 1/n from column 1; errors: l2", "1=n, 2=l2"},
+    {"# name: A\n# rows: 3\n# columns: 2\n 1 16\n .5 4\n .25 1\n", "2", 2,
+     "h from column 1; errors: 2", "1=h"},
+    {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97" "32,.1\n", "e", 2,
+     "h = 1/n from column mesh; errors: e", "mesh=n"},
+    {"h,cells,order,e\n1,8,1.6,3\n1,32,.4,3\n1,128,.1,3\n", "order", 1,
+     "h = 1/n from column cells; errors: order, e; left aside: h", "cells=n,order=order"},
+    {"h,L2=u-u_h\n1,1.6\n.5,.4\n.25,.1\n", "e", 2, "h from column h; errors: e", "L2=u-u_h=e"},
 };
 
 TEST(test_foreign_tables)
@@ -178,40 +222,74 @@ TEST(test_foreign_tables)
         char path[200];
         char *text = NULL;
         struct br_orders o;
+        const bool is_file = !strchr(foreign[i].table, '\n');
         snprintf(path, sizeof path, "%s/tests/data/tables/%s", getenv("BEAMRATE_DATA"),
-                 foreign[i].file);
-        MUST(br_text_load(path, BR_LONGEST_TABLE, "table", &text, &err));
-        struct br_numbers n = read_with(text, &plain);
+                 is_file ? foreign[i].table : "");
+        if (is_file)
+            MUST(br_text_load(path, BR_LONGEST_TABLE, "table", &text, &err));
+        struct br_numbers n = read_with(
+            is_file ? text : foreign[i].table,
+            foreign[i].names ? &(struct columns){NULL, NULL, 2, foreign[i].names} : &plain);
         free(text);
         assert_string_equal(n.taken, foreign[i].taken);
+        assert_true(n.assumed == !!strstr(n.taken, "dofs^"));
         MUST(br_orders_find(&n, 2, &o, &err));
         const struct br_estimate *order = NULL;
         for (size_t q = 0; q < o.count; q++)
             if (strcmp(n.quantity[q].name, foreign[i].quantity) == 0)
                 order = &o.of[q].line[0].observed.order;
         if (!order || !(fabs(order->value - foreign[i].order) <= 0.02))
-            fail_msg("%s: %s: order %g, expected %g", foreign[i].file, foreign[i].quantity,
+            fail_msg("%s: %s: order %g, expected %g", foreign[i].table, foreign[i].quantity,
                      order ? order->value : (double)NAN, foreign[i].order);
         br_orders_clear(&o);
         br_numbers_clear(&n);
     }
 }
 
-/* A level halves h; words of time are no errors unless they are asked for; cells stand for n, and
- * say so. */
+/* A level halves h; words of time are no errors unless they are asked for; cells stand for n, which
+ * is an assumption. */
 TEST(test_headings)
 {
     struct br_numbers n =
         read_with("Refinement,cells,CPU time,L2\n0,8,1,3\n1,32,2,2\n2,128,4,1\n", &plain);
     assert_int_equal(n.quantities, 1);
     CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.25, 0);
+    assert_false(n.assumed);
     br_numbers_clear(&n);
     n = read_with("\"h\",\"a;b\n| c = 2x\"\n1,3\n.5,2\n.25,1\n", &plain); /* a comma separates */
     assert_string_equal(n.quantity[0].name, "a;b\n| c = 2x");
     br_numbers_clear(&n);
-    n = read_with("Elements,CPU time\n8,1\n16,2\n32,4\n", &(struct columns){"CPU time", NULL, 2});
+    const char *cells = "Elements,CPU time\n8,1\n64,2\n512,4\n";
+    n = read_with(cells, &(struct columns){"CPU time", NULL, 3, NULL});
     assert_string_equal(n.quantity[0].name, "CPU time");
-    assert_non_null(strstr(n.taken, "counted along one side (if all cells of a mesh are counted"));
+    CLOSE(n.row[2].z[BR_AXIS_SPACE], 0.125, 1e-15);
+    assert_false(n.assumed);
+    br_numbers_clear(&n);
+    n = read_with(cells, &(struct columns){"CPU time", NULL, 3, "1=cells"});
+    CLOSE(n.row[2].z[BR_AXIS_SPACE], 1. / 512, 0);
+    assert_true(n.assumed && n.dimension == 1);
+    br_numbers_clear(&n);
+}
+
+/* No verdict on a mesh whose dimension nobody stated. */
+TEST(test_assumed_dimension)
+{
+    struct br_order_expectation e = {"e", BR_AXIS_SPACE, 2, 0.1, 0, 0};
+    struct br_orders_request q = {.path = (char *)"t.csv",
+                                  .table = (char *)"dofs,e\n8,16\n64,4\n512,1\n",
+                                  .expectation = &e,
+                                  .expectations = 1,
+                                  .dimension = 3,
+                                  .assumed_dimension = true};
+    struct br_numbers n;
+    REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, "state the dimension of the mesh");
+    br_numbers_clear(&n);
+    q.assumed_dimension = false;
+    MUST(br_orders_read(&q, &n, &err));
+    br_numbers_clear(&n);
+    strcpy(e.quantity, "l");
+    REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT,
+            "t.csv: what is expected: there is no column 'l', expected one of: e");
     br_numbers_clear(&n);
 }
 
@@ -225,6 +303,15 @@ TEST(test_numbers)
     CLOSE(value, 0.25e-103, 0);
     assert_true(br_table_number("2.q+2", &value));
     CLOSE(value, 200, 0);
+    assert_true(br_table_number("$-1.5 \\times 10^{-3}$", &value));
+    CLOSE(value, -1.5e-3, 0);
+    assert_true(br_table_number("3/8", &value) && value == 0.375);
+    assert_true(br_table_number("10^-3", &value));
+    CLOSE(value, 1e-3, 1e-15);
+    assert_true(br_table_number("8x8x8", &value) && value == 8);
+    assert_false(br_table_number("8x16", &value) || br_table_number("8x8x", &value) ||
+                 br_table_number("8x8x9", &value) || br_table_number("1/0", &value) ||
+                 br_table_number("1/2/3", &value) || br_table_number("5 % x", &value));
     assert_false(br_table_number("1-2-3", &value));
     assert_false(br_table_number("d5", &value));
     assert_false(br_table_number("", &value));
@@ -321,7 +408,7 @@ static void find(const char *text, const char *values)
 {
     br_orders_clear(&found.orders);
     br_numbers_clear(&found.numbers);
-    found.numbers = read_with(text, &(struct columns){NULL, values, 2});
+    found.numbers = read_with(text, &(struct columns){NULL, values, 2, NULL});
     MUST(br_orders_find(&found.numbers, 2, &found.orders, &err));
 }
 
@@ -583,8 +670,8 @@ TEST(test_steep_values)
 TEST(test_growth)
 {
     for (int is_value = 0; is_value < 2; is_value++) {
-        struct br_numbers numbers = read_with("h,u\n1,1\n.5,2\n.25,4\n.125,8\n.0625,16\n",
-                                              &(struct columns){NULL, is_value ? "u" : NULL, 2});
+        struct br_numbers numbers = read_with("h,u\n1,1\n.5,.2\n.25,4\n.125,8\n.0625,16\n",
+                                              &(struct columns){NULL, is_value ? "u" : NULL, 2, NULL});
         struct br_orders orders;
         struct br_estimate growth;
         for (int i = 0; i < 5; i++)
@@ -1004,7 +1091,7 @@ static enum br_status whole_table(const void *text, struct br_error *why)
     struct br_order_expectation *e = NULL;
     struct br_check check = {.path = "t.csv"};
     size_t count = 0;
-    enum br_status status = read_table(text, &(struct columns){"l2", "u", 2}, &numbers);
+    enum br_status status = read_table(text, &(struct columns){"l2", "u", 2, NULL}, &numbers);
     if (!status)
         status = br_orders_find(&numbers, 2, &orders, why);
     if (!status)

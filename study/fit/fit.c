@@ -89,6 +89,26 @@ const char *br_uncertain_text(double value, double half, char *buffer, size_t si
     return buffer;
 }
 
+const char *br_interval_text(const struct br_estimate *e, char *buffer, size_t size)
+{
+    enum { MOST = 12 };
+    const double half = (e->high - e->low) / 2, end[] = {e->value, e->low, e->high};
+    static const char *const before[] = {"", " [", ", "};
+    if (!(half > 0 && isfinite(half) && isfinite(e->value))) {
+        snprintf(buffer, size, isfinite(e->value) ? "%.9g" : "-", e->value + 0.0);
+        return buffer;
+    }
+    const int last = first_digit(half) - 1, least = first_digit(e->value) - MOST + 1;
+    size_t used = 0;
+    for (int i = 0; i < 3; i++) {
+        used += (size_t)snprintf(buffer + used, size - used, "%s", before[i]);
+        used += (size_t)print_rounded(end[i], last > least ? last : least, buffer + used,
+                                      size - used);
+    }
+    snprintf(buffer + used, size - used, "]");
+    return buffer;
+}
+
 bool br_joint_describes(const struct br_joint_fit *fit)
 {
     return fit->converged && (fit->misfit <= 0.02 || fit->scatters);

@@ -33,6 +33,8 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
  * with this number of digits. buffer: at least 64 characters. */
 const char *br_uncertain_text(double value, double half, char *buffer, size_t size);
 const char *br_digits_text(double value, int digits, char *buffer, size_t size);
+/* "24.936 [24.922, 24.940]": two digits of half the width; nine of a value without a width. */
+const char *br_interval_text(const struct br_estimate *e, char *buffer, size_t size);
 
 /* The joint model of a grid. The errors of space and of time are fields with
  * signs, so their norms do not add. The reference has a resolution, too:

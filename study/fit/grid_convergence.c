@@ -155,6 +155,20 @@ static void judge_triplet(const double *h, const double *value, struct br_gci *g
     gci->order = order_of(&t);
 }
 
+bool br_gci_is_far(const struct br_gci *gci, double formal)
+{
+    return convergent(gci->sequence) && !(fabs(gci->order - formal) <= 0.1 * formal);
+}
+
+double br_gci_limited(const struct br_gci *gci, double formal)
+{
+    const bool far = br_gci_is_far(gci, formal);
+    const double order = far ? fmin(fmax(0.5, gci->order), formal) : formal;
+    return convergent(gci->sequence) ? (far ? safety_else : safety_observed) * gci->fine.relative /
+                                           expm1(order * log(gci->fine.ratio))
+                                     : NAN;
+}
+
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err)
 {

@@ -71,6 +71,15 @@ struct br_gci {
 enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
                       struct br_error *err);
 
+/* The index of the fine grid with the limits of Oberkampf and Roy, Verification and Validation in
+ * Scientific Computing (2010), chapter 8: within a tenth of the formal order, that order with a
+ * safety of 1.25; else the observed order, between 0.5 and the formal one, with a safety of 3. NaN
+ * without convergence. */
+double br_gci_limited(const struct br_gci *gci, double formal);
+
+/* Whether the observed order is that far from the formal one. */
+bool br_gci_is_far(const struct br_gci *gci, double formal);
+
 /* ---- least squares ---- */
 
 /* phi_0 + sum alpha_j h^power_j, fitted to the values. */

@@ -92,6 +92,7 @@ struct rows {
     size_t *index;          /* in the points */
     double *z, *x, *y;      /* x, y: of the regression, slope p */
     double *ratio;          /* z_against / z */
+    double *given;          /* the weight that is given, relative; 1: none is */
     double order;           /* of the regression over all rows */
     double *bent, *weight;  /* of a law: y - correction; relative to 1/sigma^2 */
     double *log_density;    /* the part of the density of y that the weight does not cancel */
@@ -126,9 +127,15 @@ static bool usable(const struct br_order_point *p)
     return p->error > 0 && isfinite(p->error);
 }
 
-static void take_rows(struct rows *r, const struct br_order_point *point, size_t count)
+/* scatter: NULL, it is not known. */
+static void take_rows(struct rows *r, const struct br_order_point *point, const double *scatter,
+                      size_t count)
 {
-    double finest = NAN, slope;
+    double finest = NAN, slope, least = INFINITY;
+    for (size_t i = 0; i < count && scatter; i++)
+        if (usable(&point[i]))
+            least = scatter[i] > 0 && isfinite(scatter[i]) ? fmin(least, scatter[i]) : 0;
+    const bool weighted = least > 0 && isfinite(least);
     for (size_t i = 0; i < count; i++)
         finest = usable(&point[i]) ? point[i].z : finest;
     for (size_t i = 0; i < count; i++) {
@@ -138,6 +145,7 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
         r->z[r->count] = point[i].z / finest;
         r->x[r->count] = log(point[i].z / finest);
         r->ratio[r->count] = point[i].z_against / point[i].z;
+        r->given[r->count] = weighted ? pow(least / scatter[i], 2) : 1;
         r->y[r->count++] = log(point[i].error);
     }
     if (r->count < 3)
@@ -390,8 +398,8 @@ static double bend(const struct rows *r, size_t i, const struct family *f, doubl
         break;
     }
     r->bent[i] = r->y[i] - correction;
-    r->weight[i] = weight;
-    r->log_density[i] = density ? 0.5 * log(weight) : 0;
+    r->weight[i] = weight * r->given[i];
+    r->log_density[i] = (density ? 0.5 * log(weight) : 0) + 0.5 * log(r->given[i]);
     return change;
 }
 
@@ -476,7 +484,14 @@ static void describe(const struct mixture *all, const struct rows *r, struct br_
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 8 };
+    return br_line_order_of_means(point, NULL, count, found, err);
+}
+
+enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
+                                      size_t count, struct br_line_order *found,
+                                      struct br_error *err)
+{
+    enum { ARRAYS = 9 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                   .low99 = NAN,
                                   .high99 = NAN,
@@ -489,10 +504,10 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     if (!status) {
         struct rows r = {.index = index, .z = room};
         double **const array[] = {&r.x, &r.y, &r.ratio, &r.bent, &r.weight, &r.log_density,
-                                  &r.least};
+                                  &r.least, &r.given};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
-        take_rows(&r, point, count);
+        take_rows(&r, point, scatter, count);
         if (r.count >= 3 && isfinite(r.order))
             add_laws(&all, &r);
         normalise(&all);

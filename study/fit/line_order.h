@@ -64,6 +64,12 @@ enum br_flag br_line_order_flag(const struct br_line_order *found,
  * order from -60 to 60 makes such differences. */
 double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
 
+/* The same of errors that are means: scatter[i] is the standard deviation of error i over the error.
+ * Errors then weigh by their scatter, if all have one above 0. */
+enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
+                                      size_t count, struct br_line_order *found,
+                                      struct br_error *err);
+
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
  * their logarithms, at point[i]; and its band, by the lines of the order's low and high end. Errors
  * that are not above 0, or not finite, are left aside; NaN: there are no others, or no order. */

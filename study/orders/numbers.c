@@ -9,6 +9,7 @@ const struct br_resolution_column br_resolution_columns[] = {
     {"h", "h", BR_AXIS_SPACE, .is_size = true},
     {"n", "h = 1/n", BR_AXIS_SPACE, .is_size = false},
     {"dofs", "h = dofs^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
+    {"cells", "h = cells^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
     {"level", "h = 2^-level", BR_AXIS_SPACE, .is_power = true},
     {"k", "k", BR_AXIS_TIME, .is_size = true},
     {"dt", "k", BR_AXIS_TIME, .is_size = true},
@@ -31,6 +32,15 @@ double br_numbers_z(const struct br_resolution_column *column, double given, dou
     if (column->is_power)
         return exp2(-given);
     return column->is_volume ? pow(given, -1 / dimension) : 1 / given;
+}
+
+double br_numbers_given(const struct br_resolution_column *column, double z, double dimension)
+{
+    const double given = column->is_size     ? z
+                         : column->is_power  ? -log2(z)
+                         : column->is_volume ? pow(z, -dimension)
+                                             : 1 / z;
+    return column->is_size ? given : ceil(given * (1 - 1e-9));
 }
 
 const char *br_list_next(const char *list, const char **name, size_t *length)
@@ -67,11 +77,15 @@ enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, siz
         struct br_numbers_row *row = &numbers->row[numbers->rows];
         *row = (struct br_numbers_row){.given = {NAN, NAN},
                                        .z = {NAN, NAN},
-                                       .number = br_allocate(quantities + 1, sizeof *row->number),
+                                       .number = br_allocate(2 * quantities + 2, sizeof *row->number),
                                        .seconds = NAN,
+                                       .wall = NAN,
                                        .bytes = NAN};
         if (!row->number)
             return br_no_memory(err, "the numbers");
+        row->deviation = row->number + quantities + 1;
+        for (size_t i = 0; i <= quantities; i++)
+            row->deviation[i] = NAN;
     }
     return numbers->row && numbers->quantity ? BR_OK : br_no_memory(err, "the numbers");
 }
@@ -115,7 +129,8 @@ static int by_resolution(const void *a, const void *b)
         if (order)
             return order;
     }
-    return (x->line > y->line) - (x->line < y->line);
+    const int order = (x->line > y->line) - (x->line < y->line);
+    return order ? order : (x->repeat > y->repeat) - (x->repeat < y->repeat);
 }
 
 void br_numbers_sort(struct br_numbers *numbers)

@@ -59,13 +59,20 @@ static int by_line(const void *a, const void *b)
     return order ? order : (x->along < y->along) - (x->along > y->along);
 }
 
+static double deviation_of(const struct br_numbers_row *row, size_t quantity)
+{
+    return row->deviation ? row->deviation[quantity] : NAN;
+}
+
 /* An error, or the difference of a value from the next finer one. */
 static struct br_point point_of(const struct br_orders *o, size_t quantity,
                                 const struct br_orders_line *line, size_t i)
 {
     const struct br_numbers *numbers = o->numbers;
     const struct br_numbers_row *row = &numbers->row[line->row[i]];
-    struct br_point p = {.z = row->z[line->axis], .error = row->number[quantity]};
+    struct br_point p = {.z = row->z[line->axis],
+                         .error = row->number[quantity],
+                         .deviation = deviation_of(row, quantity)};
     const char *failure = failure_of(row, p.error);
     size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
@@ -75,9 +82,11 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         failure = *failure ? failure : of_finer;
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
+        p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
     }
     name_size(numbers, named, line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
+    p.deviation = p.deviation > 0 ? p.deviation : 0; /* NaN: it is no mean */
     p.flag = *failure       ? BR_FLAG_FAILED
              : p.error > 0  ? BR_FLAG_NONE
              : p.error == 0 ? BR_FLAG_ROUND_OFF
@@ -112,22 +121,32 @@ static enum br_status find_limit(const struct br_orders *o, size_t quantity, siz
                                  struct br_orders_line *line, struct br_error *err)
 {
     double *h = br_allocate(2 * rows, sizeof *h), *value = h + rows;
+    double *given = line->finest_of = br_allocate(rows, sizeof *given);
     size_t count = 0;
     line->limit.value = (struct br_estimate){NAN, NAN, NAN};
-    if (!h)
+    line->triple = br_allocate(rows, sizeof *line->triple);
+    if (!h || !given || !line->triple) {
+        free(h);
         return br_no_memory(err, "the limits");
+    }
     for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (isnan(row->number[quantity]) || row->failure)
             continue;
         h[count] = row->z[line->axis];
+        given[count >= 2 ? count - 2 : 0] = row->given[line->axis];
         value[count++] = row->number[quantity];
     }
     enum br_status status = BR_OK;
     if (count >= LEAST_POINTS)
         status = br_limit_of_values(h, value, count, o->formal, &line->limit, err);
-    if (count >= LEAST_POINTS && !status)
-        status = br_gci(h, value, count, &line->gci, err);
+    if (count >= LEAST_POINTS && !status && o->assumed_formal)
+        status = br_limit_of_values(h, value, count, 1, &line->first_order, err);
+    for (size_t i = 0; i + 2 < count && !status; i++) {
+        status = br_gci(h + i, value + i, 3, &line->triple[i], err);
+        line->gci = line->triple[i];
+        line->triples = i + 1;
+    }
     free(h);
     return status;
 }
@@ -443,7 +462,8 @@ static bool are_tied(const struct br_orders *o)
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal, struct br_orders *o,
                               struct br_error *err)
 {
-    *o = (struct br_orders){.numbers = numbers, .formal = formal};
+    *o = (struct br_orders){
+        .numbers = numbers, .formal = formal > 0 ? formal : 2, .assumed_formal = formal == 0};
     o->tied = are_tied(o);
     o->of = br_allocate(numbers->quantities, sizeof *o->of);
     if (!o->of)
@@ -462,6 +482,8 @@ void br_orders_clear(struct br_orders *o)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             free(o->of[i].line[l].row);
             free(o->of[i].line[l].observed.point);
+            free(o->of[i].line[l].triple);
+            free(o->of[i].line[l].finest_of);
         }
         free(o->of[i].line);
         for (int axis = 0; axis < BR_AXES; axis++)
@@ -486,10 +508,81 @@ double br_orders_rate(const struct br_orders_line *line, size_t i)
     return i ? rate(&p[i - 1], &p[i]) : NAN;
 }
 
+/* ---- finer meshes ---- */
+
+static bool has_floor(const struct br_case *c)
+{
+    return c->law == br_law_text(BR_LAW_FLOOR) || c->law == br_law_text(BR_LAW_FLOOR_SQUARES) ||
+           c->law == br_law_text(BR_LAW_OFFSET);
+}
+
+struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
+                                            const struct br_quantity_orders *of)
+{
+    const struct br_orders_line *line = is_grid(o) || !of->lines ? NULL : &of->line[0];
+    struct br_orders_forecast f = {.line = NULL};
+    if (!line)
+        return f;
+    const struct br_case *c = &line->observed;
+    const bool is_value = o->numbers->quantity[of->quantity].is_value;
+    const size_t last = c->points - 1 + is_value;
+    f = (struct br_orders_forecast){line, line->gci.fine.index, line->gci.order,
+                                    z_of(o->numbers, line->row[last], line->axis), NAN};
+    if (!is_value) {
+        f.number = c->point[last].flag || has_floor(c) ? (double)NAN : c->point[last].error;
+        f.order = br_order_determined(&c->order) ? c->order.value : (double)NAN;
+    }
+    if (isnan(o->numbers->row[line->row[last]].number[of->quantity]))
+        f.number = NAN; /* the index is that of a coarser row */
+    f.ratio = f.z / z_of(o->numbers, line->row[last - 1], line->axis);
+    if (!(f.number > 0 && f.order > 0))
+        f.line = NULL;
+    return f;
+}
+
+double br_orders_next(const struct br_orders *o, const struct br_orders_forecast *f, double *given)
+{
+    *given = br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio,
+                              o->numbers->dimension);
+    return f->number * pow(f->ratio, f->order);
+}
+
+double br_orders_needed(const struct br_orders *o, const struct br_orders_forecast *f,
+                        double wanted)
+{
+    return br_numbers_given(o->numbers->column[f->line->axis],
+                            f->z * pow(wanted / f->number, 1 / f->order), o->numbers->dimension);
+}
+
+double br_orders_in_dimension(const struct br_orders *o, double order, double dimension)
+{
+    return order * dimension / o->numbers->dimension;
+}
+
+bool br_orders_stays(const struct br_orders_line *line)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < line->observed.points; i++) {
+        least = fmin(least, line->observed.point[i].error);
+        most = fmax(most, line->observed.point[i].error);
+    }
+    return most < 2 * least;
+}
+
 /* ---- costs ---- */
 
 /* A shorter run is mostly its start, s. */
 static const double least_seconds = 0.02;
+
+bool br_orders_costs_differ(const struct br_orders *o)
+{
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        least = fmin(least, o->numbers->row[i].seconds);
+        most = fmax(most, o->numbers->row[i].seconds);
+    }
+    return most >= least_seconds && most > 2 * least;
+}
 
 enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
                                 struct br_estimate *growth, struct br_error *err)

@@ -16,7 +16,7 @@
 /* How a column states a resolution; const records. z is the number itself for a size; one over it
  * for a number of elements or steps; number^(-1/dimension) for unknowns. */
 struct br_resolution_column {
-    const char *name;   /* "n", "h", "dofs", "level", "k", "dt", "steps" */
+    const char *name;   /* "n", "h", "dofs", "cells", "level", "k", "dt", "steps" */
     const char *states; /* "h = 1/n" */
     enum br_axis axis;
     bool is_size;   /* z is the number itself */
@@ -38,8 +38,12 @@ struct br_numbers_row {
     double given[BR_AXES]; /* as the source has it; NaN: no such column */
     double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
     double *number;        /* by quantity; NaN: missing; owned */
+    double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
+                              it is none; within `number` */
+    size_t repeat;         /* which of the runs of its cell; 0: it has one run */
     size_t line;           /* in the source file; 0: there is none */
-    double seconds, bytes; /* processor time and peak memory; NaN: not measured */
+    double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
+                                    measured */
     bool kept;             /* whether its numbers were kept from an earlier run */
     char *failure;         /* why it has no numbers; NULL: it has; owned */
 };
@@ -54,6 +58,8 @@ struct br_numbers {
     size_t quantities;
     struct br_numbers_row *row; /* owned; from coarse to fine, first over space */
     size_t rows;
+    double dimension; /* of the mesh, where unknowns or cells are counted */
+    bool assumed;     /* nobody stated it */
     char taken[800]; /* what was taken for what: "h = 1/n from column N; errors: L2"; "": a program's */
     const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };
@@ -72,6 +78,9 @@ void br_numbers_sort(struct br_numbers *numbers);
 
 /* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
+
+/* The number that states a size z, or the next finer whole one. */
+double br_numbers_given(const struct br_resolution_column *column, double z, double dimension);
 
 /* The first name of a list "a, b" (out; without the blanks around it, and without a zero at its
  * end); returns the rest of the list, or NULL. */
@@ -97,7 +106,11 @@ struct br_orders_line {
     struct br_case observed; /* for a value: its differences from the next finer one */
     /* For a value, from all its rows that have a number: */
     struct br_grid_limit limit; /* its method depends on the number of rows */
-    struct br_gci gci;          /* of the three finest */
+    struct br_grid_limit first_order; /* with the formal order 1, where none is stated */
+    struct br_gci gci;                /* of the three finest */
+    struct br_gci *triple;            /* of each three neighbours, from coarse to fine; owned */
+    double *finest_of;                /* the finest size of each, as it is stated; owned */
+    size_t triples;
 };
 
 /* The position of a row on a line; line: NULL, it is on none. */
@@ -129,14 +142,15 @@ struct br_quantity_orders {
 struct br_orders {
     const struct br_numbers *numbers;
     double formal;                 /* order of values */
+    bool assumed_formal;           /* nobody stated it */
     struct br_quantity_orders *of; /* count; owned */
     size_t count;
     bool tied; /* both axes are refined from each row to the next, along one line */
 };
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
- * flag. formal: the order of theory for values, for the intervals of their limits. The numbers are
- * borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it even then. */
+ * flag. formal: the order of theory for values, for the intervals of their limits; 0: nobody stated
+ * it, and it is 2. The numbers are borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it even then. */
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
@@ -149,7 +163,35 @@ const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *o
  * of their differences, whatever the ratios of their sizes are. */
 double br_orders_rate(const struct br_orders_line *line, size_t i);
 
+/* ---- what a finer mesh, or a shorter time step, would give ---- */
+
+/* Along the one axis that is refined, if the errors go on to fall as they do; also of values. */
+struct br_orders_forecast {
+    const struct br_orders_line *line; /* NULL: no forecast, as for grids, floors, open orders */
+    double number;                     /* the finest error; of a value its GCI */
+    double order, z, ratio;            /* order; size of that row, over the next coarser one */
+};
+struct br_orders_forecast br_orders_foresee(const struct br_orders *orders,
+                                            const struct br_quantity_orders *of);
+
+/* The error, or GCI, one step finer, by the same ratio; *given (out): the size, as it is stated. */
+double br_orders_next(const struct br_orders *orders, const struct br_orders_forecast *f,
+                      double *given);
+
+/* The size that an error, or GCI, needs, as it is stated. */
+double br_orders_needed(const struct br_orders *orders, const struct br_orders_forecast *f,
+                        double wanted);
+
+/* The order in h, if the mesh had another dimension than the assumed one. */
+double br_orders_in_dimension(const struct br_orders *orders, double order, double dimension);
+
+/* Whether a column of errors hardly changes along its line, as a value does. */
+bool br_orders_stays(const struct br_orders_line *line);
+
 /* ---- costs ---- */
+
+/* Whether the longest run takes clearly longer than the shortest one. */
+bool br_orders_costs_differ(const struct br_orders *orders);
 
 /* The exponent by which processor time grows with finer elements or steps, on the line at the
  * finest size of the other axis; NaN with less than three runs of 0.02 s or more. Fails with

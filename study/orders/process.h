@@ -17,12 +17,15 @@ struct br_process_end {
     struct rusage usage;
 };
 
-/* Begins with the first five members set, which are borrowed until the end. */
+/* Begins with the members above the keeper set, which are borrowed until the end. */
 struct br_process {
     const char *program; /* absolute path */
     char **word, **environment;
     const char *where; /* it runs in a new folder in this one */
     int output[2];     /* open files for its standard output and error */
+    const char *const *file; /* files, in its folder, that are copied when it has ended */
+    const int *copy;         /* files: open, for the copies */
+    size_t files, most;      /* most: bytes of a copy; one more tells that there were more */
 
     pid_t keeper;
     struct br_process_end *end; /* shared with the keeper */

@@ -27,7 +27,9 @@ enum {
 
 struct job {
     const struct br_orders_request *program;
-    struct br_numbers *numbers;
+    struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
+    const char **file; /* by reading that looks into a file: the name; owned; its texts are not */
+    size_t files;
     char **environment; /* owned; its texts are not */
     struct br_kept *kept;
 };
@@ -38,18 +40,20 @@ enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
     int printed[2]; /* files of standard output and error */
+    int *copy;      /* files of the job: copies of what the run wrote; owned */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
+    double wall;     /* s */
     enum end end;
     int status; /* as of wait4 */
     struct rusage usage;
 };
 
 /* Opens a file without a name, which the program cannot find in its folder. */
-static bool open_printed(struct run *r, int i)
+static bool open_printed(int *file)
 {
-    r->printed[i] = memfd_create("printed", MFD_CLOEXEC);
-    return r->printed[i] >= 0 && fcntl(r->printed[i], F_SETFL, O_APPEND) == 0;
+    *file = memfd_create("printed", MFD_CLOEXEC);
+    return *file >= 0 && fcntl(*file, F_SETFL, O_APPEND) == 0;
 }
 
 /* Where programs get their folders. */
@@ -70,13 +74,20 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                             struct br_error *err)
 {
     struct rusage own;
-    if (!open_printed(r, 0) || !open_printed(r, 1))
+    bool opened = r->copy && open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
+    for (size_t i = 0; i < j->files && opened; i++)
+        opened = open_printed(&r->copy[i]);
+    if (!opened)
         return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
     r->process = (struct br_process){.program = cell->program,
                                      .word = cell->word,
                                      .environment = j->environment,
                                      .where = temporary(),
-                                     .output = {r->printed[0], r->printed[1]}};
+                                     .output = {r->printed[0], r->printed[1]},
+                                     .file = j->file,
+                                     .copy = r->copy,
+                                     .files = j->files,
+                                     .most = MOST_PRINTED};
     const int failure = br_process_start(&r->process);
     /* The kernel counts memory of this process that the child had before it became the program. */
     getrusage(RUSAGE_SELF, &own);
@@ -122,6 +133,7 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
             pause.tv_nsec *= 2;
     }
     const struct br_process_end end = br_process_wait(&r->process);
+    r->wall = br_seconds() - start;
     r->status = end.status;
     r->usage = end.usage;
     if (!r->end && prints_too_much(r))
@@ -185,21 +197,42 @@ static enum br_status set_failure(const struct br_orders_request *p, const struc
     return br_no_memory(err, "why a run failed");
 }
 
+/* *text (out, owned): all of a file. */
+static enum br_status load(int file, char **text, size_t *length, struct br_error *why)
+{
+    const size_t size = size_of(file);
+    *length = 0;
+    if (size > MOST_PRINTED)
+        return br_fail(why, BR_BAD_INPUT, "a file of it has more than %d MiB", MOST_PRINTED >> 20);
+    if (!(*text = br_allocate(size + 1, 1)))
+        return br_no_memory(why, "a program's output");
+    for (ssize_t got = 1; *length < size && got > 0; *length += got > 0 ? (size_t)got : 0)
+        got = pread(file, *text + *length, size - *length, (off_t)*length);
+    return *length == size ? BR_OK
+                           : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
+}
+
+/* Reads the numbers of a run: its quantities, and the resolutions that it states itself. */
 static enum br_status read_numbers(const struct br_orders_request *p, const struct run *r,
                                    struct br_numbers_row *row, struct br_error *why)
 {
-    const size_t size = size_of(r->printed[0]);
-    char *text = br_allocate(size + 1, 1);
-    if (!text)
-        return br_no_memory(why, "a program's output");
-    size_t length = 0;
-    for (ssize_t got = 1; length < size && got > 0; length += got > 0 ? (size_t)got : 0)
-        got = pread(r->printed[0], text + length, size - length, (off_t)length);
-    enum br_status status =
-        length == size ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
-    for (size_t i = 0; i < p->readings && !status; i++)
-        status = br_reading_take(p, i, text, length, &row->number[i], why);
-    free(text);
+    enum br_status status = BR_OK;
+    for (size_t i = 0, file = 0, quantity = 0; i < p->readings && !status; i++) {
+        const struct br_reading *reading = &p->reading[i];
+        const struct br_resolution_column *size = br_resolution_column_find(reading->name);
+        char *text = NULL;
+        size_t length = 0;
+        status = load(reading->file ? r->copy[file++] : r->printed[reading->complaints], &text,
+                      &length, why);
+        if (!status)
+            status = br_reading_take(p, i, text, length,
+                                     size ? &row->given[size->axis] : &row->number[quantity++],
+                                     why);
+        if (!status && size && !(row->given[size->axis] > 0))
+            status = br_fail(why, BR_BAD_INPUT, "%s: found %g, expected a number above 0",
+                             reading->name, row->given[size->axis]);
+        free(text);
+    }
     return status;
 }
 
@@ -211,6 +244,7 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     const double peak = 1024.0 * (double)r->usage.ru_maxrss;
     row->seconds =
         (double)(user->tv_sec + system->tv_sec) + 1e-6 * (double)(user->tv_usec + system->tv_usec);
+    row->wall = r->wall;
     row->bytes = peak > r->own_peak ? peak : (double)NAN;
     if (!r->end && WIFEXITED(r->status) && WEXITSTATUS(r->status) == 0) {
         const enum br_status status = read_numbers(p, r, row, &why);
@@ -221,13 +255,17 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
     }
     for (size_t i = 0; i < p->readings; i++)
         row->number[i] = (double)NAN;
+    for (int axis = 0; axis < BR_AXES; axis++)
+        row->given[axis] = NAN;
     return set_failure(p, r, why.message, row, err);
 }
 
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.printed = {-1, -1}};
+    struct run r = {.printed = {-1, -1}, .copy = br_allocate(j->files + 1, sizeof *r.copy)};
+    for (size_t i = 0; i < j->files && r.copy; i++)
+        r.copy[i] = -1;
     enum br_status status = begin(j, cell, &r, err);
     if (!status)
         status = watch(j->program, &r, err);
@@ -236,6 +274,10 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
     for (int i = 0; i < 2; i++)
         if (r.printed[i] >= 0)
             close(r.printed[i]);
+    for (size_t i = 0; i < j->files && r.copy; i++)
+        if (r.copy[i] >= 0)
+            close(r.copy[i]);
+    free(r.copy);
     return status;
 }
 
@@ -243,8 +285,8 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
 
 /* *text (out, owned): all that a cell's numbers follow from: the command, with the files that it
  * names, and the readings. Other files that the program reads are not known. */
-static enum br_status text_of(const struct job *j, const struct br_command_words *cell, char **text,
-                              struct br_error *err)
+static enum br_status text_of(const struct job *j, const struct br_command_words *cell,
+                              size_t repeat, char **text, struct br_error *err)
 {
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_statement s;
@@ -254,7 +296,13 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
         const struct br_reading *reading = &j->program->reading[i];
         br_state(&s, "name", "%s", reading->name);
         br_state(&s, kinds[reading->kind], "%s", reading->what);
+        if (reading->file || reading->complaints || reading->last)
+            br_state(&s, "from", "%s%s%s", reading->last ? "the last of " : "",
+                     reading->file ? "file " : reading->complaints ? "stderr" : "stdout",
+                     reading->file ? reading->file : "");
     }
+    if (repeat)
+        br_state(&s, "repeat", "%zu", repeat);
     *text = br_statement_end(&s);
     return *text || status ? status : br_no_memory(err, "a finished cell");
 }
@@ -270,7 +318,10 @@ static void pass_row(struct br_record *r, void *self)
     size_t numbers = of->numbers;
     br_record_count(r, &numbers, numbers, numbers);
     br_record_number(r, &of->row->seconds, 0, DBL_MAX);
+    br_record_number(r, &of->row->wall, 0, DBL_MAX);
     br_record_or_nan(r, &of->row->bytes, 0, DBL_MAX);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        br_record_or_nan(r, &of->row->given[axis], 0, DBL_MAX);
     for (size_t i = 0; i < numbers; i++)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
@@ -282,7 +333,7 @@ static enum br_status run_and_keep(const struct job *j, const struct br_command_
     char *now = NULL;
     bool failed = run_words(j, words, of->row, err);
     if (!failed && !of->row->failure) {
-        failed = text_of(j, words, &now, err);
+        failed = text_of(j, words, of->row->repeat, &now, err);
         if (!failed && strcmp(text, now) == 0)
             failed = !br_kept_put(j->kept, text, pass_row, of) &&
                      br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
@@ -295,11 +346,11 @@ static enum br_status run_and_keep(const struct job *j, const struct br_command_
 static enum br_status take_row(const struct job *j, const struct br_command_words *words,
                                struct br_numbers_row *row, struct br_error *err)
 {
-    struct row of = {row, j->program->readings};
+    struct row of = {row, j->numbers->quantities};
     char *text = NULL;
     if (!j->program->kept)
         return run_words(j, words, row, err);
-    enum br_status status = text_of(j, words, &text, err);
+    enum br_status status = text_of(j, words, row->repeat, &text, err);
     row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
     if (!status && !row->kept)
         status = run_and_keep(j, words, text, &of, err);
@@ -326,22 +377,24 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-/* *rows: out. */
+/* Makes a row for each run. *rows: out. */
 static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
                                 size_t *rows, struct br_error *err)
 {
-    const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner;
+    const size_t repeat = (size_t)p->repeat, inner = count_of(&p->axis[BR_AXIS_TIME]);
+    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
     const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
     for (size_t r = 0; r < *rows && !status; r++) {
-        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / inner, [BR_AXIS_TIME] = r % inner};
+        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / repeat / inner,
+                                    [BR_AXIS_TIME] = r / repeat % inner};
         struct br_numbers_row *row = &numbers->row[r];
+        row->repeat = repeat > 1 ? r % repeat + 1 : 0;
         for (int i = 0; i < BR_AXES; i++) {
             const struct br_resolution_column *column = numbers->column[i] = p->axis[i].column;
             if (!column)
                 continue;
             row->given[i] = p->axis[i].given[at[i]];
-            row->z[i] = br_numbers_z(column, row->given[i], p->dimension);
+            row->z[i] = br_numbers_z(column, row->given[i], br_orders_dimension(p, column));
         }
     }
     if (!status)
@@ -352,14 +405,108 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
 static enum br_status make_quantities(const struct br_orders_request *p, struct br_numbers *numbers,
                                       struct br_error *err)
 {
-    enum br_status status = BR_OK;
+    const char **name = br_allocate(p->readings, sizeof *name);
+    enum br_status status = name ? BR_OK : br_no_memory(err, "what is read");
     for (size_t i = 0; i < p->readings && !status; i++) {
-        const char *name = p->reading[i].name;
+        const char *text = p->reading[i].name;
+        const struct br_resolution_column *size = br_resolution_column_find(text);
         status = br_reading_check(&p->reading[i], err);
-        if (!status)
-            status = br_numbers_add_quantity(numbers, name, NULL, br_lists(p->values, name), err);
+        if (size)
+            numbers->column[size->axis] = size;
+        else if (!status) {
+            name[numbers->quantities] = text;
+            status = br_numbers_add_quantity(numbers, text, NULL, br_lists(p->values, text), err);
+        }
     }
-    return status ? status : br_orders_check_lists(p, numbers, err);
+    const struct br_resolution_column *mesh = numbers->column[BR_AXIS_SPACE];
+    if (mesh) {
+        numbers->dimension = br_orders_dimension(p, mesh);
+        numbers->assumed = mesh->is_volume && p->assumed_dimension;
+    }
+    if (!status && !numbers->quantities)
+        status = br_fail(err, BR_BAD_INPUT, "found no reading but of resolutions, expected a number");
+    if (!status)
+        status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
+    free(name);
+    return status;
+}
+
+/* Takes the sizes that the runs state. A run that failed states none: its size is that of its list,
+ * times what the run before it has; where all failed, that of its list. */
+static void take_stated_sizes(const struct br_orders_request *p, struct br_numbers *n, int axis)
+{
+    const struct br_resolution_column *stated = n->column[axis], *list = p->axis[axis].column;
+    double factor = NAN;
+    for (size_t i = n->rows; i-- > 0 && stated && stated != list;) {
+        const struct br_numbers_row *row = &n->row[i];
+        const double z = br_numbers_z(stated, row->given[axis], n->dimension);
+        factor = isnan(z) ? factor : z / (list ? row->z[axis] : 1);
+    }
+    n->column[axis] = stated = isnan(factor) ? list : stated;
+    for (size_t i = 0; i < n->rows && stated; i++) {
+        struct br_numbers_row *row = &n->row[i];
+        const double listed = list ? row->z[axis] : 1;
+        double z = stated == list ? listed : br_numbers_z(stated, row->given[axis], n->dimension);
+        factor = isnan(z) ? factor : z / listed;
+        row->z[axis] = z = isnan(z) ? listed * factor : z;
+        if (isnan(row->given[axis]))
+            row->given[axis] = br_numbers_given(stated, z, n->dimension);
+    }
+}
+
+/* Joins the runs of each cell: their mean, with its standard deviation. One that failed fails the
+ * cell. */
+static void join_repeated(struct br_numbers *n, size_t repeat)
+{
+    const size_t rows = n->rows;
+    n->rows = 0;
+    for (size_t first = 0; first < rows; first += repeat) {
+        struct br_numbers_row row = n->row[first];
+        for (size_t q = 0; q < n->quantities; q++) {
+            double mean = 0, squares = 0;
+            for (size_t i = 0; i < repeat; i++)
+                mean += n->row[first + i].number[q] / (double)repeat;
+            for (size_t i = 0; i < repeat; i++)
+                squares += pow(n->row[first + i].number[q] - mean, 2);
+            row.deviation[q] = sqrt(squares / (double)(repeat - 1) / (double)repeat);
+            row.number[q] = mean;
+        }
+        for (size_t i = 1; i < repeat; i++) {
+            struct br_numbers_row *other = &n->row[first + i];
+            row.seconds += other->seconds;
+            row.wall += other->wall;
+            row.bytes = fmax(row.bytes, other->bytes);
+            row.kept &= other->kept;
+            if (!row.failure) {
+                row.failure = other->failure;
+                other->failure = NULL;
+            }
+            free(other->number);
+            free(other->failure);
+        }
+        row.seconds /= (double)repeat;
+        row.wall /= (double)repeat;
+        n->row[n->rows++] = row;
+    }
+}
+
+/* After all runs. */
+static void finish_rows(const struct br_orders_request *p, struct br_numbers *n)
+{
+    for (int axis = 0; axis < BR_AXES; axis++)
+        take_stated_sizes(p, n, axis);
+    if (p->repeat > 1)
+        join_repeated(n, (size_t)p->repeat);
+}
+
+static enum br_status list_files(struct job *j, struct br_error *err)
+{
+    const struct br_orders_request *p = j->program;
+    j->file = br_allocate(p->readings + 1, sizeof *j->file);
+    for (size_t i = 0; i < p->readings && j->file; i++)
+        if (p->reading[i].file)
+            j->file[j->files++] = p->reading[i].file;
+    return j->file ? BR_OK : br_no_memory(err, "what is read");
 }
 
 /* Refuses a command that is not valid at any resolution, before one is run. */
@@ -415,10 +562,13 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
     const bool failed = make_rows(program, numbers, &each.count, err) ||
                         make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                        make_environment(&j, err) || (program->kept && open_kept(&j, err)) ||
+                        make_environment(&j, err) || list_files(&j, err) || (program->kept && open_kept(&j, err)) ||
                         br_each(&each, err);
     free(j.environment);
+    free(j.file);
     if (failed)
         br_numbers_clear(numbers);
+    else
+        finish_rows(program, numbers);
     return failed ? err->status : BR_OK;
 }

@@ -70,6 +70,12 @@ static enum br_status take_text(struct search *s, const char *from, size_t lengt
                   length);
 }
 
+/* Where a reading looks. */
+static const char *place_of(const struct br_reading *r)
+{
+    return r->file ? r->file : r->complaints ? "standard error" : "the output";
+}
+
 /* ---- regular expressions ---- */
 
 static bool continues(const char *s)
@@ -192,7 +198,7 @@ static enum br_status search_line(struct search *s, const char *line, size_t num
         const size_t used = strlen(m->lines);
         if (used < sizeof m->lines - 24)
             snprintf(m->lines + used, sizeof m->lines - used, "%s%zu", used ? ", " : "", number);
-        if (m->count++ == 0 && (status = take_group(s, line, match, number)))
+        if ((m->count++ == 0 || s->reading->last) && (status = take_group(s, line, match, number)))
             return status;
         at = (size_t)match[0].rm_eo + empty;
     }
@@ -210,11 +216,12 @@ static enum br_status search_regex(struct search *s)
             status = search_line(s, line, number, &m);
     }
     regfree(&s->regex);
-    if (status || m.count == 1)
+    if (status || m.count == 1 || (m.count && s->reading->last))
         return status;
     if (m.count == 0)
-        return refuse(s, "'%s' matches nothing in the output", shown(buffer, s->reading->what));
-    return refuse(s, "'%s' matches %zu times, expected once; lines %s",
+        return refuse(s, "'%s' matches nothing in %s", shown(buffer, s->reading->what),
+                      place_of(s->reading));
+    return refuse(s, "'%s' matches %zu times, expected once, or last:REGEX; lines %s",
                   shown(buffer, s->reading->what), m.count, m.lines);
 }
 
@@ -437,7 +444,9 @@ enum br_status br_reading_take(const struct br_orders_request *request, size_t i
         return br_no_memory(err, "a program's output");
     memcpy(s.output, output, length);
     enum br_status status = BR_OK;
-    if (reading->kind != BR_READING_JSON && memchr(output, '\0', length))
+    if (reading->file && !length)
+        status = refuse(&s, "%s is empty, or the run did not write it", reading->file);
+    else if (reading->kind != BR_READING_JSON && memchr(output, '\0', length))
         status = refuse(&s, "the output has a zero byte, expected text");
     if (!status)
         status = search[reading->kind](&s);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The words of a command, at one resolution each. */
+#include <ctype.h>
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -37,10 +38,15 @@ struct split {
 /* Replaces a brace by its text. */
 static enum br_status replace(struct split *s, char **to, struct br_error *err)
 {
-    char shown[NUMBER], expected[2 * NUMBER] = "";
+    char shown[NUMBER], expected[3 * NUMBER] = "";
     if (s->rest[1] == '{') {
         *(*to)++ = '{';
         s->rest += 2;
+        return BR_OK;
+    }
+    if (s->request->repeat > 1 && strncmp(s->rest, "{repeat}", 8) == 0) {
+        *to += sprintf(*to, "%zu", s->row->repeat);
+        s->rest += 8;
         return BR_OK;
     }
     for (int i = 0; i < BR_AXES; i++) {
@@ -61,14 +67,35 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
                    br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
+/* Refuses what only a shell does, and says how to start one. */
+static enum br_status refuse_shell(const struct split *s, const char *here, const char *sign,
+                                   int length, struct br_error *err)
+{
+    char shown[SHOWN], folder[SHOWN];
+    const bool quotes = strchr(s->request->command, '\'');
+    br_quoted(shown, sizeof shown, &br_for_text, s->request->command);
+    br_quoted(folder, sizeof folder, &br_for_text, here);
+    return quotes ? br_fail(err, BR_BAD_INPUT,
+                            "the command has '%.*s', and no shell is used: put the command into a "
+                            "script, or '%.*s' into quotes",
+                            length, sign, length, sign)
+                  : br_fail(err, BR_BAD_INPUT,
+                            "the command has '%.*s', and no shell is used; to use one: sh -c 'cd "
+                            "%s && %s'",
+                            length, sign, folder, shown);
+}
+
 /* Takes the next word; there must be one. The text for a brace has no blanks and no quotes. */
-static enum br_status take_word(struct split *s, char *to, struct br_error *err)
+static enum br_status take_word(struct split *s, const char *here, char *to, struct br_error *err)
 {
     char quote = '\0'; /* the open one; zero: none */
     while (*s->rest && (quote || !strchr(" \t\n", *s->rest))) {
         const char c = *s->rest, next = s->rest[1];
         const bool escape =
             c == '\\' && next && (!quote || (quote == '"' && strchr("\"\\$`", next)));
+        const bool shell = !quote && (strchr("|&;<>`", c) || (c == '$' && (isalpha((unsigned char)next) || next == '(' || next == '{')));
+        if (shell)
+            return refuse_shell(s, here, s->rest, 1 + (c == next), err);
         if (c == '{') {
             if (replace(s, &to, err))
                 return err->status;
@@ -133,7 +160,11 @@ static enum br_status take_words(struct split *s, const char *here, char *word,
                                  struct br_command_words *c, struct br_error *err)
 {
     for (size_t i = 0; *(s->rest += strspn(s->rest, " \t\n")); i++) {
-        if (take_word(s, word, err))
+        const char *begin = s->rest;
+        const size_t name = strcspn(begin, "= \t\n'\"");
+        if (i == 0 && (strncmp(begin, "cd ", 3) == 0 || (name && begin[name] == '=')))
+            return refuse_shell(s, here, begin, (int)name + (begin[name] == '='), err);
+        if (take_word(s, here, word, err))
             return err->status;
         c->word[i] = i ? whole_path(here, word) : strdup(word);
         if (!c->word[i])

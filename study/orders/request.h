@@ -12,7 +12,7 @@
 #include "study/grid/statement.h"
 #include "study/orders/orders.h"
 
-/* How a number is found in standard output. */
+/* How a number is found in what a run prints, or in a file that it writes. */
 enum br_reading_kind {
     BR_READING_REGEX, /* POSIX extended, with one group; it must match once, within a line */
     BR_READING_JSON,  /* a pointer (RFC 6901) into the output */
@@ -20,9 +20,12 @@ enum br_reading_kind {
 };
 
 struct br_reading {
-    const char *name; /* of the quantity */
+    const char *name; /* of the quantity; that of a resolution: the run states its own */
     const char *what; /* expression, pointer or heading */
     enum br_reading_kind kind;
+    const char *file; /* in the folder of the run; NULL: what it prints */
+    bool complaints;  /* what it prints on standard error */
+    bool last;        /* the last match counts, else there must be one */
 };
 
 /* The resolutions of one axis. */
@@ -40,9 +43,10 @@ struct br_orders_request {
     char *title;           /* one line; NULL: the path */
     char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
                               known limit; NULL: see the sources */
-    double dimension;      /* of the mesh, for unknowns (dofs) */
+    char *columns;         /* of a table, "dx=h, 3=l2": heading or position, and name; NULL: none */
+    double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
-    double formal;         /* the order of theory for values */
+    double formal;         /* the order of theory for values; 0: nobody stated it */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;      /* text of a table; NULL: none */
@@ -57,6 +61,7 @@ struct br_orders_request {
     const struct br_reading *reading; /* readings */
     size_t readings;
     double seconds; /* limit of one run */
+    double repeat;  /* runs of each cell, whose mean counts; {repeat} is 1, 2, ... */
     /* borrowed; a study file does not set them */
     int jobs;                           /* runs at once; 0: one a core */
     const char *kept;                   /* the folder of finished cells, made where it is missing;
@@ -78,10 +83,17 @@ enum br_status br_orders_read(const struct br_orders_request *request, struct br
 /* The file that the numbers come from, for messages. */
 const char *br_orders_path(const struct br_orders_request *request);
 
-/* For sources: refuses (BR_BAD_INPUT) names of errors and values of no quantity, or in both
- * lists. */
+/* For sources, before a program is run: refuses (BR_BAD_INPUT) errors, values and expectations that
+ * name no quantity, names in both lists, and expectations for an axis that is not refined, or for a
+ * mesh whose dimension is assumed. known[count]: all names that a list may have. */
 enum br_status br_orders_check_lists(const struct br_orders_request *request,
-                                     const struct br_numbers *numbers, struct br_error *err);
+                                     const struct br_numbers *numbers, const char *const *known,
+                                     size_t count, struct br_error *err);
+
+/* The dimension of the mesh whose unknowns or cells a column counts: where nobody stated it, 2, but 1
+ * for cells, which many count along one side. */
+double br_orders_dimension(const struct br_orders_request *request,
+                           const struct br_resolution_column *column);
 
 /* ---- tables ---- */
 
@@ -171,12 +183,13 @@ enum br_status br_reading_take(const struct br_orders_request *request, size_t r
 
 /* ---- items of a request, as options and study files write them ---- */
 
-/* The list of an axis, "10,20,40", for the column n, h, dofs, k, dt or steps. Numbers are positive,
- * and each is there once; counts are whole. */
+/* The list of an axis, "10,20,40", for the column n, h, dofs, cells, level, k, dt or steps.
+ * Numbers are positive, but the first level may be 0; each is there once; counts are whole. */
 enum br_status br_orders_request_axis(struct br_orders_request *request, const char *column,
                                       const char *list, struct br_error *err);
 
-/* A reading: NAME and REGEX, json:POINTER or csv:COLUMN. */
+/* A reading: NAME and REGEX, last:REGEX, json:POINTER or csv:COLUMN, behind nothing, stderr: or
+ * file:PATH: of a file in the folder of the run. */
 enum br_status br_orders_request_reading(struct br_orders_request *request, const char *name,
                                          const char *what, struct br_error *err);
 

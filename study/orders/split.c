@@ -14,7 +14,9 @@ struct cursor {
     const char *path, *at;
     char separator;     /* ' ': any number of blanks */
     size_t blanks;      /* how many, at least, where the separator is a blank */
-    bool decimal_comma; /* 0,5 is a number */
+    char mark;          /* of decimals, as the first number has it; zero: none has it yet */
+    size_t doubtful;    /* the line of "1,089", which may be 1089; 0: there is none, or 0,5 is there */
+    bool commas;        /* a number can only have a decimal comma */
     size_t line;
     char *field; /* a buffer for the longest one; owned */
 };
@@ -94,6 +96,31 @@ static const char *skip_blanks(const struct cursor *c, const char *at)
     return at;
 }
 
+/* A comma before decimals becomes a point. Refuses commas beside points: one of them may stand
+ * before thousands. */
+static enum br_status take_decimals(struct cursor *c, size_t line, struct br_error *err)
+{
+    char *equals = strrchr(c->field, '='), *number = equals ? equals + 1 : c->field;
+    number += strspn(number, " \t");
+    char *mark = number + strspn(number, "+-0123456789");
+    if (mark == number || (*mark != ',' && *mark != '.') || !isdigit((unsigned char)mark[1]))
+        return BR_OK;
+    const size_t digits = strspn(mark + 1, "0123456789");
+    if (c->mark && c->mark != *mark)
+        return br_fail(err, BR_BAD_INPUT,
+                       "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign before "
+                       "decimals, and none before thousands",
+                       c->path, line, number, c->mark);
+    c->mark = *mark;
+    if (*mark != ',')
+        return BR_OK;
+    const bool thousands = digits == 3 && !mark[4] && *number != '0' && mark - number <= 3;
+    c->doubtful = c->doubtful || !thousands ? c->doubtful : line;
+    c->commas |= !thousands;
+    *mark = '.';
+    return BR_OK;
+}
+
 /* Takes a field without the blanks around it; *more (out): whether the line goes on. */
 static enum br_status take_field(struct cursor *c, json_t *row, bool *more, struct br_error *err)
 {
@@ -115,9 +142,8 @@ static enum br_status take_field(struct cursor *c, json_t *row, bool *more, stru
         c->at += strspn(c->at, " \t\r");
     *more = !ends_line(c, c->at);
     c->at += *more && c->separator != ' ';
-    char *comma = c->decimal_comma ? strchr(c->field, ',') : NULL;
-    if (comma && isdigit((unsigned char)comma[1]))
-        *comma = '.';
+    if (take_decimals(c, line, err))
+        return err->status;
     json_t *field = *c->field ? json_string_nocheck(c->field) : json_null();
     return json_array_append_new(row, field) ? br_no_memory(err, "the table") : BR_OK;
 }
@@ -187,18 +213,45 @@ bool br_is_missing(const char *text)
     return false;
 }
 
+static size_t numbers(const json_t *table, size_t row)
+{
+    double value;
+    size_t count = 0;
+    for (size_t i = 1; i <= fields(table, row); i++) {
+        const char *text = field(table, row, i);
+        count += !br_is_missing(text) && br_table_number(text, &value);
+    }
+    return count;
+}
+
 /* Whether a row has more numbers than words. */
 static bool has_data(const json_t *table, size_t row)
 {
-    size_t numbers = 0, words = 0;
+    size_t words = 0;
+    for (size_t i = 1; i <= fields(table, row); i++)
+        words += !br_is_missing(field(table, row, i));
+    return 2 * numbers(table, row) > words;
+}
+
+/* Whether all fields of a row are "h = 0.5". */
+static bool has_pairs(const json_t *table, size_t row)
+{
+    double number;
     for (size_t i = 1; i <= fields(table, row); i++) {
-        double value;
-        const char *text = field(table, row, i);
-        const bool missing = br_is_missing(text);
-        numbers += !missing && br_table_number(text, &value);
-        words += !missing && !br_table_number(text, &value);
+        const char *text = field(table, row, i), *equals = text ? strchr(text, '=') : NULL;
+        const char *first = equals ? equals + 1 + strspn(equals + 1, " \t") : NULL;
+        if (!first || !(br_is_missing(first) || br_table_number(first, &number)))
+            return false;
     }
-    return numbers > words;
+    return fields(table, row) > 0;
+}
+
+/* Whether the names of this line stand in groups above those of the next one. */
+static bool has_groups(const json_t *table, size_t row)
+{
+    const size_t above = fields(table, row), below = fields(table, row + 1);
+    return above > 0 && below > above && below % above == 0 && !numbers(table, row) &&
+           !numbers(table, row + 1);
 }
 
 /* Puts the names of a line of headings above the next line's: rho, and error, EOC. */
@@ -259,7 +312,6 @@ static bool is_footer(const json_t *table, size_t row)
 static enum br_status check_rows(json_t *table, const char *path, struct br_error *err)
 {
     for (size_t i = 1; i < json_array_size(table); i++) {
-        trim(table, i);
         if (i + 1 == json_array_size(table) && is_footer(table, i))
             json_array_remove(table, i);
         else if (fields(table, i) == fields(table, 0))
@@ -277,13 +329,8 @@ static enum br_status check_rows(json_t *table, const char *path, struct br_erro
 static enum br_status name_pairs(json_t *table, const char *path, struct br_error *err)
 {
     const size_t columns = fields(table, 0);
-    double number;
-    for (size_t i = 1; i <= columns; i++) {
-        const char *text = field(table, 0, i), *equals = text ? strchr(text, '=') : NULL;
-        const char *first = equals ? equals + 1 + strspn(equals + 1, " \t") : NULL;
-        if (!first || !(br_is_missing(first) || br_table_number(first, &number)))
-            return BR_OK;
-    }
+    if (!has_pairs(table, 0))
+        return BR_OK;
     if (json_array_insert_new(table, 0, json_deep_copy(json_array_get(table, 0))))
         return br_no_memory(err, "the table");
     for (size_t row = json_array_size(table); row-- > 0;)
@@ -304,26 +351,27 @@ static enum br_status name_pairs(json_t *table, const char *path, struct br_erro
     return BR_OK;
 }
 
+/* The positions of columns are their names where the first row is one of numbers. */
+static enum br_status name_positions(json_t *table, struct br_error *err)
+{
+    json_t *heading = json_pack("[O]", json_array_get(json_array_get(table, 0), 0));
+    bool failed = json_array_insert_new(table, 0, heading) != 0;
+    for (size_t i = 1; i <= fields(table, 1) && !failed; i++)
+        failed = json_array_append_new(heading, json_sprintf("%zu", i)) != 0;
+    return failed ? br_no_memory(err, "the table") : BR_OK;
+}
+
 static enum br_status settle_heading(json_t *table, const char *path, struct br_error *err)
 {
     json_t *last = json_array_get(table, 0);
     while (fields(table, 0) > 1 && json_is_null(json_array_get(last, fields(table, 0))))
         json_array_remove(last, fields(table, 0));
-    if (fields(table, 0) == 1 && fields(table, 1) > 2 && !has_data(table, 1)) {
-        json_array_remove(table, 0); /* a title */
-        return settle_heading(table, path, err);
-    }
-    if (name_pairs(table, path, err))
+    if (name_pairs(table, path, err) || (has_data(table, 0) && name_positions(table, err)))
         return err->status;
-    if (has_data(table, 0))
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s:%lld: found numbers, expected a heading that names the columns: n,error",
-                       path, json_integer_value(json_array_get(json_array_get(table, 0), 0)));
-    const size_t above = fields(table, 0), below = fields(table, 1);
-    const bool two = json_array_size(table) > 2 && above && below > above && below % above == 0 &&
-                     !has_data(table, 1) && has_data(table, 2);
-    if (two && join_headings(table, err))
+    if (has_groups(table, 0) && has_data(table, 2) && join_headings(table, err))
         return err->status;
+    for (size_t i = 1; i < json_array_size(table); i++)
+        trim(table, i);
     return name_columns(table, err) || check_rows(table, path, err) ? err->status : BR_OK;
 }
 
@@ -342,29 +390,23 @@ static bool stands_in_line(const char *line, char letter, bool quotes)
     return false;
 }
 
+/* Whether a bar stands alone in the line, as in Markdown without bars at its ends. */
+static bool has_bars(const char *line)
+{
+    const char *bar = strstr(line, " | ");
+    return bar && bar < line + strcspn(line, "\n");
+}
+
 /* What separates the fields of a line. Bars stand in names, too, and LaTeX's lines end with \\. */
 static char find_separator(const char *line)
 {
     static const char separators[] = "\t|&;,";
     for (int quotes = 1; quotes >= 0; quotes--)
         for (const char *s = separators; *s; s++)
-            if (stands_in_line(line, *s, quotes) && (*s != '|' || line[strspn(line, " ")] == '|') &&
+            if (stands_in_line(line, *s, quotes) && (*s != '|' || line[strspn(line, " ")] == '|' || has_bars(line)) &&
                 (*s != '&' || stands_in_line(line, '\\', quotes)))
                 return *s;
     return ' ';
-}
-
-/* Whether numbers have a comma before their decimals, and none a point. */
-static bool has_decimal_commas(const char *text, char separator)
-{
-    bool found = false;
-    for (const char *at = text; separator != ',' && at[0] && at[1] && at[2]; at++) {
-        const bool between = isdigit((unsigned char)at[0]) && isdigit((unsigned char)at[2]);
-        if (between && at[1] == '.')
-            return false;
-        found |= between && at[1] == ',';
-    }
-    return found;
 }
 
 /* The heading of a table whose columns are apart by blanks: "L2 error" is one name where that makes
@@ -394,29 +436,77 @@ static enum br_status take_heading(struct cursor *c, json_t *table, struct br_er
     return failed && !err->status ? br_no_memory(err, "the table") : err->status;
 }
 
+/* Copies a text with lines of boxes as bars and dashes. */
+static char *without_boxes(const char *text)
+{
+    char *copy = br_allocate(strlen(text) + 1, 1), *to = copy;
+    for (; copy && *text; text++) {
+        const bool box = strncmp(text, "\xe2\x94", 2) == 0 || strncmp(text, "\xe2\x95", 2) == 0;
+        if (box && text[2]) { /* U+2500 to 257F; upright: 2502, 2503, 2506, 250A, 2551 */
+            const char code = text[2];
+            const bool upright = text[1] == '\x94' ? strchr("\x82\x83\x86\x8a", code) != NULL
+                                                   : code == '\x91';
+            *to++ = upright ? '|' : '-';
+            text += 2;
+        } else
+            *to++ = *text;
+    }
+    return copy;
+}
+
+/* Skips titles: lines above the heading, or above rows of pairs, with another number of fields or
+ * with a number. */
+static enum br_status skip_titles(struct cursor *c, const char **comment, struct br_error *err)
+{
+    for (bool title = true; title && !err->status;) {
+        struct cursor ahead = *c;
+        const char *none;
+        bool more = true;
+        json_t *lines = json_array(), *row;
+        for (int i = 0; i < 3 && more && !err->status; i++) {
+            ahead.separator = find_separator(ahead.at);
+            if (!add_row(lines, ahead.line, c->path, &row, err) && !take_fields(&ahead, row, err))
+                more = next_line(&ahead, &none);
+        }
+        const size_t above = fields(lines, 0), below = fields(lines, 1);
+        title = !has_pairs(lines, 0) &&
+                (has_pairs(lines, 1) ||
+                 (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                 ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
+                  has_data(lines, 2) && !has_groups(lines, 0)));
+        json_decref(lines);
+        c->at += title ? strcspn(c->at, "\n") : 0;
+        if (title)
+            next_line(c, comment);
+        c->separator = find_separator(c->at);
+    }
+    return err->status;
+}
+
 enum br_status br_table_split(const char *text, const char *path, bool only_last,
                               const struct br_observer *observer, json_t *table,
                               struct br_error *err)
 {
-    struct cursor c = {.path = path, .at = text, .line = 1, .blanks = 1};
+    char *copy = without_boxes(text);
+    struct cursor c = {.path = path, .at = copy, .line = 1, .blanks = 1};
     const char *comment = NULL, *none;
-    if (!next_line(&c, &comment))
-        return br_fail(err, BR_BAD_INPUT, "%s:1: the table is empty", path);
-    c.separator = find_separator(c.at);
-    c.decimal_comma = has_decimal_commas(text, c.separator);
-    c.field = br_allocate(strlen(text) + 1, 1);
+    c.field = copy ? br_allocate(strlen(copy) + 1, 1) : NULL;
     err->status = BR_OK;
-    enum br_status status = c.field ? take_heading(&c, table, err) : br_no_memory(err, "the table");
+    enum br_status status = !c.field ? br_no_memory(err, "the table")
+                            : !next_line(&c, &comment)
+                                ? br_fail(err, BR_BAD_INPUT, "%s:1: the table is empty", path)
+                            : skip_titles(&c, &comment, err) ? err->status
+                                                             : take_heading(&c, table, err);
     if (!status && comment && has_data(table, 0)) {
+        json_t *names = json_array(), *row = NULL;
         struct cursor above = c;
-        json_t *heading =
-            json_pack("[I]", json_integer_value(json_array_get(json_array_get(table, 0), 0)));
         above.at = comment;
-        if (!heading || take_fields(&above, heading, err))
-            status = heading ? err->status : br_no_memory(err, "the table");
-        if (!status && json_array_size(heading) == fields(table, 0) + 1)
-            status = json_array_insert(table, 0, heading) ? br_no_memory(err, "the table") : BR_OK;
-        json_decref(heading);
+        if (!add_row(names, c.line, path, &row, err) && !take_fields(&above, row, err) &&
+            fields(names, 0) == fields(table, 0) && !numbers(names, 0) &&
+            json_array_insert(table, 0, row))
+            br_no_memory(err, "the table");
+        status = err->status;
+        json_decref(names);
     }
     while (!status && next_line(&c, &none)) {
         json_t *row;
@@ -427,6 +517,12 @@ enum br_status br_table_split(const char *text, const char *path, bool only_last
         if (!status)
             status = take_fields(&c, row, err);
     }
+    if (!status && c.doubtful && !c.commas)
+        status = br_fail(err, BR_BAD_INPUT,
+                         "%s:%zu: found a comma before three digits only, expected no sign before "
+                         "thousands, or a point before decimals",
+                         path, c.doubtful);
     free(c.field);
+    free(copy);
     return status ? status : settle_heading(table, path, err);
 }

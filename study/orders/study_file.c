@@ -80,6 +80,15 @@ static enum br_status take_dimension(const struct entry *e)
     return take_number(e);
 }
 
+static enum br_status take_repeat(const struct entry *e)
+{
+    const enum br_status status = take_number(e);
+    return status || (e->request->repeat <= BR_MOST_SIZES && fmod(e->request->repeat, 1) == 0)
+               ? status
+               : br_fail(e->err, BR_BAD_INPUT, "found '%s', expected a whole number from 1 to %d",
+                         e->text, BR_MOST_SIZES);
+}
+
 static enum br_status take_reading(const struct entry *e)
 {
     return br_orders_request_reading(e->request, e->name, e->text, e->err);
@@ -103,14 +112,17 @@ static const struct key keys[] = {
     {"n", take_list, .of_runs = true},
     {"h", take_list, .of_runs = true},
     {"dofs", take_list, .of_runs = true},
+    {"level", take_list, .of_runs = true},
     {"k", take_list, .of_runs = true},
     {"dt", take_list, .of_runs = true},
     {"steps", take_list, .of_runs = true},
     {"read", take_reading, .of_runs = true, .pairs = true},
+    {"column", take_text, .at = offsetof(struct br_orders_request, columns)},
     {"error", take_text, .at = offsetof(struct br_orders_request, errors)},
     {"value", take_text, .at = offsetof(struct br_orders_request, values)},
     {"dimension", take_dimension, .at = offsetof(struct br_orders_request, dimension)},
     {"formal_order", take_formal, .at = offsetof(struct br_orders_request, formal)},
+    {"repeat", take_repeat, .at = offsetof(struct br_orders_request, repeat), .of_runs = true},
     {"time_limit", take_number, .at = offsetof(struct br_orders_request, seconds), .unit = "s",
      .of_runs = true},
     {"verify", take_expectation, .pairs = true},
@@ -152,9 +164,10 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     const yaml_node_t *value = yaml_document_get_node(r->document, pair->value);
     if (name->type != YAML_SCALAR_NODE)
         return br_scene_refuse(r, br_yaml_line(name), "study", "expected a key");
-    const char *text = br_yaml_text(name);
+    const char *text = br_yaml_text(name), *names[KEYS];
     char known[400] = "";
     for (size_t i = 0; i < KEYS; i++) {
+        names[i] = keys[i].name;
         br_append(known, sizeof known, "%s%s", i ? ", " : "", keys[i].name);
         if (strcmp(keys[i].name, text) != 0)
             continue;
@@ -164,7 +177,11 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
         return keys[i].pairs ? take_pairs(r, &keys[i], value, request)
                              : take_scalar(r, &keys[i], name, value, request);
     }
-    return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, expected one of: %s", known);
+    const char *nearest = br_nearest(text, names, KEYS);
+    return nearest ? br_scene_refuse(r, br_yaml_line(name), text,
+                                     "unknown key; did you mean '%s'?", nearest)
+                   : br_scene_refuse(r, br_yaml_line(name), text,
+                                     "unknown key, expected one of: %s", known);
 }
 
 /* Refuses keys of runs in a study of a table. */

@@ -9,12 +9,20 @@
 #include "study/scene/quote.h"
 #include "study/scene/words.h"
 
+struct column {
+    const char *shown; /* the heading in the file; NULL: there is none */
+    char *name, *unit; /* without its unit, or as --column names it; owned, and within it or NULL */
+    const struct br_resolution_column *size; /* NULL: it states no resolution */
+    int rank; /* of an axis's columns the least one states the resolution */
+};
+
 /* A table that is made into numbers. Rows and columns count from 1. */
 struct source {
     const struct br_orders_request *request;
     const char *path;
     json_t *table;
     size_t rows, columns;
+    struct column *column; /* owned */
     struct br_numbers *numbers;
     char aside[200]; /* the columns that are not studied, "rate, time" */
 };
@@ -36,30 +44,24 @@ static size_t line_of(const struct source *s, size_t row)
 
 /* ---- headings ---- */
 
-/* Other names of columns of resolutions, as plain() has them. rank: of an axis's columns the least
- * one states the resolution. */
+enum { BY_NAME = -1, OF_UNKNOWNS = 2, OF_CELLS };
+
+/* The names of columns of resolutions, as plain() has them, in words. */
 static const struct {
-    const char *name, *column;
+    const char *column, *names;
     int rank;
 } synonyms[] = {
-    {"h", "h", 0},          {"dx", "h", 0},          {"\xce\x94x", "h", 0},
-    {"deltax", "h", 0},     {"meshsize", "h", 0},    {"elementsize", "h", 0},
-    {"cellsize", "h", 0},   {"gridsize", "h", 0},    {"gridspacing", "h", 0},
-    {"spacing", "h", 0},    {"hmax", "h", 0},        {"n", "n", 1},
-    {"nx", "n", 1},         {"nel", "n", 1},         {"nelements", "n", 1},
-    {"ncells", "n", 3},     {"cells", "n", 3},       {"elements", "n", 3},
-    {"nelem", "n", 3},      {"numelem", "n", 3},     {"numelements", "n", 3},
-    {"numberofelements", "n", 3}, {"numberofcells", "n", 3}, {"level", "level", 1},  {"lvl", "level", 1},     {"refinement", "level", 1},
-    {"refinements", "level", 1}, {"dofs", "dofs", 2}, {"dof", "dofs", 2},
-    {"ndofs", "dofs", 2},   {"ndof", "dofs", 2},     {"numdofs", "dofs", 2},
-    {"unknowns", "dofs", 2}, {"degreesoffreedom", "dofs", 2},
-    {"k", "k", 0},          {"dt", "dt", 0},         {"\xce\x94t", "dt", 0},
-    {"deltat", "dt", 0},    {"timestep", "dt", 0},   {"stepsize", "dt", 0},
-    {"tau", "dt", 0},       {"\xcf\x84", "dt", 0},   {"steps", "steps", 1},
-    {"nt", "steps", 1},     {"nsteps", "steps", 1},  {"timesteps", "steps", 1},
-    {"numsteps", "steps", 1},
+    {"h", " h dx \xce\x94x deltax meshsize elementsize cellsize gridsize gridspacing spacing hmax ", 0},
+    {"n", " n nx nel nelements resolution cellsperside elementsperside intervals ", 1},
+    {"level", " level lvl reflevel refinement refinements ", 1},
+    {"dofs", " dofs dof ndofs ndof numdofs unknowns degreesoffreedom ", OF_UNKNOWNS},
+    {"cells", " ncells cells elements nelem numelem numelements numberofelements numberofcells ",
+     OF_CELLS},
+    {"k", " k ", 0},
+    {"dt", " dt \xce\x94t deltat timestep timestepsize stepsize tau \xcf\x84 ", 0},
+    {"steps", " steps nt nsteps timesteps numsteps ", 1},
 };
-enum { SYNONYMS = sizeof synonyms / sizeof *synonyms, RANK_OF_CELLS = 3, NOT_ONE = -1 };
+enum { SYNONYMS = sizeof synonyms / sizeof *synonyms };
 
 /* Columns with one of these words are no errors, unless they are asked for. The first are orders
  * from row to row. */
@@ -81,15 +83,17 @@ static void plain(const char *name, char text[LONGEST_NAME])
     text[length] = '\0';
 }
 
-/* The row of `synonyms` for a heading; NOT_ONE: it is no resolution. */
-static int find_synonym(const char *name)
+/* Sets the resolution that a column states by its name. */
+static void find_size(struct column *c)
 {
-    char text[LONGEST_NAME];
-    plain(name, text);
-    for (int i = 0; i < SYNONYMS; i++)
-        if (strcmp(text, synonyms[i].name) == 0)
-            return i;
-    return NOT_ONE;
+    char text[LONGEST_NAME], word[LONGEST_NAME + 2];
+    plain(c->name, text);
+    snprintf(word, sizeof word, " %s ", text);
+    for (size_t i = 0; i < SYNONYMS && !c->size && *text; i++)
+        if (strstr(synonyms[i].names, word)) {
+            c->size = br_resolution_column_find(synonyms[i].column);
+            c->rank = synonyms[i].rank;
+        }
 }
 
 /* Whether a name has one of the first `count` words of of_runs. */
@@ -112,18 +116,6 @@ static bool is_of_run(const char *name, size_t count)
     return false;
 }
 
-/* "n, l2, rate": the headings, for a refusal. */
-static const char *list_headings(const struct source *s, char *text, size_t size)
-{
-    char name[80];
-    text[0] = '\0';
-    for (size_t i = 1; i <= s->columns; i++)
-        if (heading(s, i))
-            br_append(text, size, "%s%s", text[0] ? ", " : "",
-                      br_quoted(name, sizeof name, &br_for_text, heading(s, i)));
-    return text;
-}
-
 /* Splits "dt [s]" or "dt (s)" in place, at the last bracket; NULL: there is no unit. */
 static char *split_unit(char *heading)
 {
@@ -142,22 +134,57 @@ static char *split_unit(char *heading)
 
 /* ---- numbers ---- */
 
-/* Fortran's exponents are D or Q, or have no letter where they need three digits. */
+/* Copies a number with "e" before each exponent: of Fortran, D or Q, or no letter where it needs
+ * three digits; of LaTeX, $1.5 \times 10^{-3}$. Returns the end of what is copied. */
+static const char *with_exponent(const char *text, char *number, size_t size)
+{
+    static const char *const powers[] = {"\\times10^", "\\cdot10^", "\xc3\x97" "10^", "x10^", "*10^"};
+    const char *const ignored = strchr(text, '\\') ? "${} " : "${}";
+    size_t length = 0;
+    char *const all = number;
+    for (; *text && length + 2 < size; text++)
+        if (!strchr(ignored, *text))
+            all[length++] = *text;
+    all[length] = '\0';
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+        char *power = strstr(all, powers[i]);
+        if (power && power > all) {
+            *power = 'e';
+            memmove(power + 1, power + strlen(powers[i]), strlen(power + strlen(powers[i])) + 1);
+        }
+    }
+    for (char *c = all + 1; length && *c; c++) {
+        const bool digit = isdigit((unsigned char)c[-1]) || c[-1] == '.';
+        if (digit && strchr("dDqQ", *c))
+            *c = 'e';
+        if (digit && (*c == '-' || *c == '+')) {
+            memmove(c + 1, c, strlen(c) + 1);
+            *c = 'e';
+        }
+    }
+    return text;
+}
+
 bool br_table_number(const char *text, double *value)
 {
-    char number[64];
-    size_t length = 0;
-    for (; *text && length + 2 < sizeof number; text++) {
-        const bool digit = length && (isdigit((unsigned char)number[length - 1]) ||
-                                      number[length - 1] == '.');
-        const bool exponent = digit && strchr("dDqQ", *text);
-        if (digit && (*text == '-' || *text == '+'))
-            number[length++] = 'e';
-        number[length++] = exponent ? 'e' : *text;
+    char number[72];
+    double second;
+    const char *end = *with_exponent(text, number, sizeof number - 4) ? NULL : br_read_number(number, value);
+    if (!end || !*end)
+        return end;
+    if (strcmp(end, "%") == 0 || strcmp(end, " %") == 0) {
+        *value /= 100;
+        return true;
     }
-    number[length] = '\0';
-    const char *end = *text ? NULL : br_read_number(number, value);
-    return end && !*end;
+    const bool times = *end == 'x' || strncmp(end, "\xc3\x97", 2) == 0;
+    const char sign = *end;
+    end += *end == 'x' || !times ? 1 : 2;
+    end = strchr("/^x\xc3", sign) ? br_read_number(end, &second) : NULL;
+    if (times) /* "8x8", "8x8x8": of a mesh */
+        return end && second == *value && (!*end || *end == sign) &&
+               (!*end || br_table_number(end + 1 + (sign != 'x'), &second)) && second == *value;
+    *value = sign == '/' ? *value / second : pow(*value, second);
+    return end && !*end && isfinite(*value);
 }
 
 /* Reads the number of a field; a missing one is NaN. */
@@ -185,7 +212,7 @@ static enum br_status number_at(const struct source *s, size_t row, size_t colum
     if (is_number(field, value))
         return BR_OK;
     return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found '%.40s', expected a number", s->path,
-                   line_of(s, row), heading(s, column), json_string_value(field));
+                   line_of(s, row), s->column[column].name, json_string_value(field));
 }
 
 /* ---- columns ---- */
@@ -198,30 +225,109 @@ static void put_aside(struct source *s, const char *name)
                   br_quoted(text, sizeof text, &br_for_text, name));
 }
 
-/* The column that states the resolution of an axis, and the least rank; 0: there is none. */
-static size_t best_of_axis(const struct source *s, enum br_axis axis, int *rank)
+/* Refuses the table. The message lists its headings, and says how to name columns. */
+static enum br_status refuse_columns(const struct source *s, const char *why, struct br_error *err)
+{
+    char names[300] = "", name[80], first[80] = "";
+    const bool none = heading(s, 1) && strcmp(heading(s, 1), "1") == 0;
+    for (size_t i = 1; i <= s->columns && !none; i++)
+        if (heading(s, i)) {
+            br_quoted(name, sizeof name, &br_for_text, heading(s, i));
+            br_append(names, sizeof names, "%s%s", names[0] ? ", " : "", name);
+            strcpy(first, *first ? first : name);
+        }
+    return br_fail(err, BR_BAD_INPUT,
+                   none ? "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s%s"
+                        : "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
+                          "cells, level, k, dt or steps)",
+                   s->path, line_of(s, 0), why, names, first);
+}
+
+/* Names a column as an item of --column says: its heading or position, '=', its name or what it
+ * states. */
+static enum br_status rename_column(struct source *s, const char *item, size_t length,
+                                    struct br_error *err)
+{
+    const char *equals = item + length;
+    while (equals > item && *equals != '=')
+        equals--;
+    const size_t size = (size_t)(equals - item), rest = length - size;
+    size_t found = 0;
+    if (!size || rest < 2)
+        return br_fail(err, BR_BAD_INPUT,
+                       "--column: found '%.*s', expected COLUMN=NAME, as in dx=h or 1=h",
+                       (int)length, item);
+    for (size_t i = 1; i <= s->columns && !found; i++)
+        if (s->column[i].name && strlen(s->column[i].name) == size &&
+            memcmp(s->column[i].name, item, size) == 0)
+            found = i;
+    const unsigned long position = strtoul(item, NULL, 10);
+    if (!found && strspn(item, "0123456789") == size && position > 0 && position <= s->columns)
+        found = position;
+    if (!found) {
+        char why[120];
+        snprintf(why, sizeof why, "--column: found no column '%.*s'", size < 60 ? (int)size : 60,
+                 item);
+        return refuse_columns(s, why, err);
+    }
+    struct column *c = &s->column[found];
+    char *name = strndup(equals + 1, rest - 1);
+    if (!name)
+        return br_no_memory(err, "the table");
+    c->size = br_resolution_column_find(name);
+    c->rank = BY_NAME;
+    if (c->size && c->name) { /* it keeps its name and its unit */
+        free(name);
+        return BR_OK;
+    }
+    free(c->name);
+    *c = (struct column){c->shown, name, NULL, c->size, BY_NAME};
+    return BR_OK;
+}
+
+/* Takes the names and units out of the headings, and finds what they state. */
+static enum br_status name_columns(struct source *s, struct br_error *err)
+{
+    for (size_t i = 1; i <= s->columns; i++) {
+        struct column *c = &s->column[i];
+        c->shown = heading(s, i);
+        if (!c->shown)
+            continue;
+        const size_t digits = strspn(c->shown, "0123456789"); /* gnuplot: "1:n" */
+        const bool counted = digits && c->shown[digits] == ':' && c->shown[digits + 1];
+        if (!(c->name = strdup(c->shown + (counted ? digits + 1 : 0))))
+            return br_no_memory(err, "the table");
+        c->unit = split_unit(c->name);
+        find_size(c);
+    }
+    const char *item;
+    size_t length;
+    for (const char *list = s->request->columns; list;) {
+        list = br_list_next(list, &item, &length);
+        if (rename_column(s, item, length, err))
+            return err->status;
+    }
+    return BR_OK;
+}
+
+/* The column that states the resolution of an axis; 0: there is none. */
+static size_t best_of_axis(const struct source *s, enum br_axis axis)
 {
     size_t best = 0;
-    for (size_t i = 1; i <= s->columns; i++) {
-        const int row = heading(s, i) ? find_synonym(heading(s, i)) : NOT_ONE;
-        if (row == NOT_ONE || br_resolution_column_find(synonyms[row].column)->axis != axis)
-            continue;
-        if (best && synonyms[row].rank >= *rank)
-            continue;
-        best = i;
-        *rank = synonyms[row].rank;
-    }
+    for (size_t i = 1; i <= s->columns; i++)
+        if (s->column[i].size && s->column[i].size->axis == axis &&
+            (!best || s->column[i].rank < s->column[best].rank))
+            best = i;
     return best;
 }
 
 static double size_at(const struct source *s, size_t row, size_t column, double *given,
                       struct br_error *err)
 {
-    const int name = find_synonym(heading(s, column));
+    const struct column *c = &s->column[column];
     if (number_at(s, row, column, given, err))
         return NAN;
-    return br_numbers_z(br_resolution_column_find(synonyms[name].column), *given,
-                        s->request->dimension);
+    return br_numbers_z(c->size, *given, br_orders_dimension(s->request, c->size));
 }
 
 /* Refuses another column of sizes that contradicts the one that is taken; a constant factor is
@@ -229,6 +335,7 @@ static double size_at(const struct source *s, size_t row, size_t column, double 
 static enum br_status compare_sizes(struct source *s, enum br_axis axis, size_t column,
                                     struct br_error *err)
 {
+    const struct column *c = &s->column[column];
     double factor = NAN, given;
     for (size_t i = 0; i < s->rows; i++) {
         const struct br_numbers_row *row = &s->numbers->row[i];
@@ -238,10 +345,10 @@ static enum br_status compare_sizes(struct source *s, enum br_axis axis, size_t 
         factor = i ? factor : z / row->z[axis];
         if (fabs(z / row->z[axis] / factor - 1) <= 1e-6)
             continue;
-        if (synonyms[find_synonym(heading(s, column))].rank < 2)
+        if (!c->size->is_volume && s->column[best_of_axis(s, axis)].rank != BY_NAME)
             return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found %g, which contradicts %s", s->path,
-                           row->line, heading(s, column), given, s->numbers->column[axis]->name);
-        put_aside(s, heading(s, column));
+                           row->line, c->name, given, s->numbers->column[axis]->name);
+        put_aside(s, c->name);
         return BR_OK;
     }
     return BR_OK;
@@ -252,97 +359,75 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
 {
     struct br_numbers *numbers = s->numbers;
     char name[80];
-    int rank = 0;
-    const size_t best = best_of_axis(s, axis, &rank);
+    const size_t best = best_of_axis(s, axis);
+    const struct column *c = &s->column[best];
     if (!best)
         return BR_OK;
-    const struct br_resolution_column *column =
-        br_resolution_column_find(synonyms[find_synonym(heading(s, best))].column);
-    numbers->column[axis] = column;
+    numbers->column[axis] = c->size;
     for (size_t i = 0; i < s->rows; i++) {
         struct br_numbers_row *row = &numbers->row[i];
         row->z[axis] = size_at(s, i + 1, best, &row->given[axis], err);
         if (err->status)
             return err->status;
     }
+    if (c->unit && !(numbers->unit[axis] = strdup(c->unit)))
+        return br_no_memory(err, "the table");
     br_append(numbers->taken, sizeof numbers->taken, "%s%s from column %s",
-              numbers->taken[0] ? ", " : "", column->states,
-              br_quoted(name, sizeof name, &br_for_text, heading(s, best)));
-    if (column->is_volume && s->request->assumed_dimension)
-        br_append(numbers->taken, sizeof numbers->taken,
-                  ", of a mesh in 2 dimensions (assumed: --dimension 3 makes the orders 1.5 times "
-                  "as high, 1 half as high)");
-    if (rank == RANK_OF_CELLS)
-        br_append(numbers->taken, sizeof numbers->taken,
-                  ", counted along one side (if all cells of a mesh are counted, call the column "
-                  "dofs)");
-    for (size_t i = 1; i <= s->columns; i++) {
-        const int row = heading(s, i) && i != best ? find_synonym(heading(s, i)) : NOT_ONE;
-        if (row != NOT_ONE && br_resolution_column_find(synonyms[row].column)->axis == axis &&
+              numbers->taken[0] ? ", " : "", c->size->states,
+              br_quoted(name, sizeof name, &br_for_text, c->name));
+    if (axis == BR_AXIS_SPACE) {
+        numbers->dimension = br_orders_dimension(s->request, c->size);
+        numbers->assumed = c->size->is_volume && s->request->assumed_dimension;
+    }
+    for (size_t i = 1; i <= s->columns; i++)
+        if (i != best && s->column[i].size && s->column[i].size->axis == axis &&
             compare_sizes(s, axis, i, err))
             return err->status;
-    }
     return BR_OK;
 }
 
-static enum br_status take_quantity(const struct source *s, size_t position, const char *unit,
-                                    struct br_error *err)
+static enum br_status take_quantity(const struct source *s, size_t position, struct br_error *err)
 {
     struct br_numbers *numbers = s->numbers;
+    const struct column *c = &s->column[position];
     const size_t index = numbers->quantities;
-    const char *name = heading(s, position);
-    enum br_status status =
-        br_numbers_add_quantity(numbers, name, unit, br_lists(s->request->values, name), err);
+    for (size_t i = 0; i < index; i++)
+        if (strcmp(c->name, numbers->quantity[i].name) == 0)
+            return br_fail(err, BR_BAD_INPUT, "%s:%zu: the column '%s' is there twice", s->path,
+                           line_of(s, 0), c->name);
+    enum br_status status = br_numbers_add_quantity(numbers, c->name, c->unit,
+                                                    br_lists(s->request->values, c->name), err);
     for (size_t i = 0; i < s->rows && !status; i++)
         status = number_at(s, i + 1, position, &numbers->row[i].number[index], err);
     return status;
 }
 
+/* Whether a column has whole numbers that grow as the mesh gets finer, or the steps shorter: a
+ * count, a level or a degree, no error. */
+static bool counts(const struct source *s, size_t column)
+{
+    const enum br_axis axis = s->numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    double before = NAN, value;
+    for (size_t i = 1; i <= s->rows; i++) {
+        const double *z = &s->numbers->row[i - 1].z[axis];
+        if (!is_number(field_at(s, i, column), &value) || value != floor(value) ||
+            (i > 1 && !((value - before) * (s->numbers->row[i - 2].z[axis] - *z) > 0)))
+            return false;
+        before = value;
+    }
+    return s->rows > 2;
+}
+
 static bool is_studied(const struct source *s, size_t position)
 {
     const struct br_orders_request *q = s->request;
-    const char *name = heading(s, position);
+    const struct column *c = &s->column[position];
+    if (!c->name || c->size)
+        return false;
     if (q->errors || q->values)
-        return br_lists(q->errors, name) || br_lists(q->values, name);
-    return !is_of_run(name, OF_RUNS) && has_number(s, position);
-}
-
-/* Takes the unit out of a heading; *unit (out): in `buffer`, or NULL. */
-static enum br_status name_column(struct source *s, size_t position, char **buffer,
-                                  const char **unit, struct br_error *err)
-{
-    *unit = NULL;
-    *buffer = heading(s, position) ? strdup(heading(s, position)) : NULL;
-    if (!heading(s, position))
-        return BR_OK;
-    if (!*buffer)
-        return br_no_memory(err, "the table");
-    *unit = split_unit(*buffer);
-    if (json_array_set_new(json_array_get(s->table, 0), position, json_string_nocheck(*buffer)))
-        return br_no_memory(err, "the table");
-    for (size_t i = 1; i < position; i++)
-        if (heading(s, i) && strcmp(*buffer, heading(s, i)) == 0)
-            return br_fail(err, BR_BAD_INPUT, "%s:%zu: the column '%s' is there twice", s->path,
-                           line_of(s, 0), *buffer);
-    return BR_OK;
-}
-
-static enum br_status take_column(struct source *s, size_t position, struct br_error *err)
-{
-    const char *unit;
-    char *buffer;
-    enum br_status status = name_column(s, position, &buffer, &unit, err);
-    const int row = !status && buffer ? find_synonym(buffer) : NOT_ONE;
-    if (!status && row != NOT_ONE) {
-        char **of_axis = &s->numbers->unit[br_resolution_column_find(synonyms[row].column)->axis];
-        if (unit && !*of_axis && !(*of_axis = strdup(unit)))
-            status = br_no_memory(err, "the table");
-    } else if (!status && buffer && is_studied(s, position))
-        status = take_quantity(s, position, unit, err);
-    else if (!status)
-        put_aside(s, buffer);
-    free(buffer);
-    return status;
+        return br_lists(q->errors, c->name) || br_lists(q->values, c->name);
+    return c->rank == BY_NAME ||
+           (!is_of_run(c->name, OF_RUNS) && has_number(s, position) && !counts(s, position));
 }
 
 /* A table of rates without a mesh has rows that halve it, as programs print their own studies. */
@@ -351,7 +436,7 @@ static void halve_by_row(const struct source *s)
     struct br_numbers *n = s->numbers;
     bool rates = false;
     for (size_t i = 1; i <= s->columns; i++)
-        rates |= heading(s, i) && is_of_run(heading(s, i), RATES);
+        rates |= s->column[i].name && is_of_run(s->column[i].name, RATES);
     if (!rates || n->column[BR_AXIS_SPACE] || n->column[BR_AXIS_TIME])
         return;
     n->column[BR_AXIS_SPACE] = br_resolution_column_find("level");
@@ -379,35 +464,66 @@ static void state(const struct source *s)
         br_append(n->taken, sizeof n->taken, "; left aside: %s", s->aside);
 }
 
+static enum br_status check_lists(const struct source *s, struct br_error *err)
+{
+    const char **known = br_allocate(s->columns + 1, sizeof *known);
+    size_t count = 0;
+    for (size_t i = 1; i <= s->columns && known; i++)
+        if (s->column[i].name && !s->column[i].size)
+            known[count++] = s->column[i].name;
+    const enum br_status status =
+        known ? br_orders_check_lists(s->request, s->numbers, known, count, err)
+              : br_no_memory(err, "the table");
+    free(known);
+    return status;
+}
+
+/* MOOSE writes a row of zeros before the first solution. */
+static void drop_zeros(struct source *s)
+{
+    bool zeros = s->columns > 2 && s->rows > 0;
+    double value;
+    for (size_t i = 1; i <= s->columns; i++)
+        zeros = zeros && is_number(field_at(s, 1, i), &value) && value == 0;
+    if (!zeros)
+        return;
+    json_array_remove(s->table, 1);
+    s->rows--;
+    put_aside(s, "a first row of zeros");
+}
+
 static enum br_status take_columns(struct source *s, struct br_error *err)
 {
     struct br_numbers *numbers = s->numbers;
-    char names[300];
-    enum br_status status = br_numbers_make_room(numbers, s->rows, s->columns, err);
+    drop_zeros(s);
+    s->column = br_allocate(s->columns + 1, sizeof *s->column);
+    enum br_status status = s->column ? br_numbers_make_room(numbers, s->rows, s->columns, err)
+                                      : br_no_memory(err, "the table");
     for (size_t i = 0; i < s->rows && !status; i++)
         numbers->row[i].line = line_of(s, i + 1);
-    for (size_t i = 1; i <= s->columns && !status; i++)
-        status = br_observer_stops(s->request->observer)
-                     ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                     : take_column(s, i, err);
+    if (!status)
+        status = name_columns(s, err);
     for (int axis = 0; axis < BR_AXES && !status; axis++)
         status = take_sizes(s, (enum br_axis)axis, err);
     if (!status)
-        status = br_orders_check_lists(s->request, numbers, err);
+        halve_by_row(s);
+    for (size_t i = 1; i <= s->columns && !status; i++)
+        if (br_observer_stops(s->request->observer))
+            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        else if (is_studied(s, i))
+            status = take_quantity(s, i, err);
+        else if (!s->column[i].size)
+            put_aside(s, s->column[i].name);
+    if (!status)
+        status = check_lists(s, err);
     if (status)
         return status;
-    halve_by_row(s);
     state(s);
     if (!numbers->column[BR_AXIS_SPACE] && !numbers->column[BR_AXIS_TIME])
-        return br_fail(err, BR_BAD_INPUT,
-                       "%s:%zu: found no column of a resolution among %s, expected h, n or dofs, "
-                       "or k, dt or steps, or another name of these ('beamrate help orders')",
-                       s->path, line_of(s, 0), list_headings(s, names, sizeof names));
+        return refuse_columns(s, "found no column of a resolution", err);
     return numbers->quantities
                ? BR_OK
-               : br_fail(err, BR_BAD_INPUT,
-                         "%s:%zu: found no column of numbers beside the resolution among %s",
-                         s->path, line_of(s, 0), list_headings(s, names, sizeof names));
+               : refuse_columns(s, "found no column of numbers beside the resolution", err);
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,
@@ -416,7 +532,7 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     static const char byte_order_mark[] = "\xef\xbb\xbf"; /* spreadsheet programs write it first */
     const bool marked = strncmp(q->table, byte_order_mark, strlen(byte_order_mark)) == 0;
     const char *text = q->table + (marked ? strlen(byte_order_mark) : 0);
-    struct source s = {.request = q, .path = br_orders_path(q), json_array(), .numbers = numbers};
+    struct source s = {.request = q, .path = br_orders_path(q), .table = json_array(), .numbers = numbers};
     err->status = BR_OK;
     enum br_status status =
         text[strspn(text, " \t\r\n")] == '{'
@@ -427,9 +543,12 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
                   s.path)
             : br_table_split(text, s.path, false, q->observer, s.table, err);
     s.rows = json_array_size(s.table) ? json_array_size(s.table) - 1 : 0;
-    s.columns = json_array_size(json_array_get(s.table, 0)) - 1;
+    s.columns = json_array_size(s.table) ? json_array_size(json_array_get(s.table, 0)) - 1 : 0;
     if (!status)
         status = take_columns(&s, err);
+    for (size_t i = 1; i <= s.columns && s.column; i++)
+        free(s.column[i].name);
+    free(s.column);
     json_decref(s.table);
     return status;
 }

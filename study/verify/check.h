@@ -21,6 +21,7 @@ struct br_point {
     struct br_resolution at, against; /* against: zeros for the continuous problem */
     double z, z_against;              /* h/L or k/T, what the order is in; and that of `against` */
     double error;                     /* in the norm's unit */
+    double deviation;                 /* its standard deviation, where it is a mean; 0: it is none */
     double constant;                  /* C of e = C (z^order - z_against^order) */
     char label[64];                   /* "n = 40", for messages */
     enum br_flag flag;                /* why it is left out */

@@ -73,14 +73,21 @@ static void find_constants(struct br_case *c)
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
     struct br_order_point *all = br_allocate(c->points, sizeof *all);
+    double *scatter = br_allocate(c->points, sizeof *scatter);
     struct br_line_order found;
-    if (!all)
+    if (!all || !scatter) {
+        free(all);
+        free(scatter);
         return br_no_memory(err, "the verdict");
+    }
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
+        scatter[i] = p->deviation / p->error;
     }
-    const enum br_status status = br_line_order_find(all, c->points, &found, err);
+    const enum br_status status =
+        br_line_order_of_means(all, scatter, c->points, &found, err);
+    free(scatter);
     c->order = found.order;
     c->low99 = found.low99;
     c->high99 = found.high99;
