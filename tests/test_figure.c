@@ -41,8 +41,7 @@ static void fill_curves(struct br_figure *f)
 
 static struct br_figure made(size_t panels)
 {
-    struct br_figure f = {
-        .stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
+    struct br_figure f = {.stem = "made", .title = "A \"map\" of 'it'", .hollow = "not fitted"};
     for (size_t i = 0; i < panels; i++)
         fill_curves(&f);
     return f;
@@ -204,18 +203,23 @@ static void print_study(FILE *out)
                                  : (struct br_estimate){one, one - 0.1, one + 0.2};
             snprintf(o->by, sizeof o->by, "errors of %d", part == 1 ? 0 : part);
             for (int i = 0; i < 4; i++) {
-                o->point[i] = (struct br_seen_point){0.1 / (1 << i), one / (1 << i), BR_FLAG_NONE,
-                                                     {1.01 * one / (1 << i), one / (1 << i) - 0.01,
-                                                      one / (1 << i) + 0.02}};
+                o->point[i] = (struct br_seen_point){
+                    0.1 / (1 << i),
+                    one / (1 << i),
+                    BR_FLAG_NONE,
+                    {1.01 * one / (1 << i), one / (1 << i) - 0.01, one / (1 << i) + 0.02}};
                 if (part == 2)
                     o->point[i].fit = o->order;
             }
             o->point[0].flag = BR_FLAG_COARSE;
             o->point[3].flag = part ? BR_FLAG_FAILED : BR_FLAG_OUTLIER;
         }
-    for (size_t i = 0; br_convergence_pictures[i]; i++)
-        (i == 0 ? print : print_data)(out,
-                                      br_convergence_draw(br_convergence_pictures[i], &m.report));
+    for (size_t i = 0; br_convergence_pictures[i]; i++) {
+        const struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        for (size_t j = 0; j < f.panels; j++) /* residuals may be below zero */
+            assert_true(f.panel[j].log_y == !strstr(f.panel[j].y_label, "joint fit"));
+        (i == 0 ? print : print_data)(out, f);
+    }
     br_made_report_clear(&m);
 }
 
