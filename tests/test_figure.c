@@ -252,9 +252,12 @@ static void print_study(FILE *out)
             o->point[0].flag = BR_FLAG_COARSE;
             o->point[3].flag = part ? BR_FLAG_FAILED : BR_FLAG_OUTLIER;
         }
-    for (size_t i = 0; br_convergence_pictures[i]; i++)
-        (i == 0 ? print : print_data)(out,
-                                      br_convergence_draw(br_convergence_pictures[i], &m.report));
+    for (size_t i = 0; br_convergence_pictures[i]; i++) {
+        const struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        for (size_t j = 0; j < f.panels; j++) /* residuals may be below zero */
+            assert_true(f.panel[j].log_y == !strstr(f.panel[j].y_label, "joint fit"));
+        (i == 0 ? print : print_data)(out, f);
+    }
     br_made_report_clear(&m);
 }
 

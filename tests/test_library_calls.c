@@ -686,7 +686,8 @@ TEST(used_numbers_are_counted)
     beamrate_orders_free(orders);
 }
 
-/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2. */
+/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2.
+ */
 TEST(formal_order_widens_the_limit)
 {
     static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};

@@ -83,7 +83,8 @@ TEST(test_sweep)
         {"check small.yaml --quiet --compare old.json", 37},
         {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0},
         {"plan small.yaml --error 1e-1 --methods euler --quiet --out set", 397, true},
-        {"trade small.yaml --methods euler,bdf2 --n 4 --k 0.1 --no-plots --quiet --out set", 311, true},
+        {"trade small.yaml --methods euler,bdf2 --n 4 --k 0.1 --no-plots --quiet --out set", 311,
+         true},
         {"trade small.yaml --split --n 4 --k 0.1 --no-plots --quiet --out set", 293, true},
         {"extremes stability small.yaml --n 4 --k 0.5,0.1 --no-plots --quiet --out set", 83},
         {"extremes steps small.yaml --k 0.1 --no-plots --quiet --out set", 79},
@@ -99,7 +100,8 @@ TEST(test_sweep)
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
         if (!runs[i].every && !br_test_long())
             continue;
-        const size_t failures = sweep(runs[i].line, br_test_long() ? 1 : runs[i].every, runs[i].timed);
+        const size_t failures =
+            sweep(runs[i].line, br_test_long() ? 1 : runs[i].every, runs[i].timed);
         print_message("# %s: %zu failures\n", runs[i].line, failures);
     }
 }

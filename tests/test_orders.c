@@ -682,6 +682,10 @@ TEST(test_growth)
         assert_true(growth.low < 3 + 1e-9 && growth.high > 3 - 1e-9 && growth.low < growth.high);
         MUST(br_orders_growth(&orders, BR_AXIS_TIME, &growth, &err));
         assert_true(isnan(growth.value));
+        for (int i = 0; i < 5; i++)
+            numbers.row[i].seconds = 1e-6 * pow(8, i);
+        MUST(br_orders_growth(&orders, BR_AXIS_SPACE, &growth, &err));
+        assert_true(isnan(growth.value));
         br_orders_clear(&orders);
         br_numbers_clear(&numbers);
     }
