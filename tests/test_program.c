@@ -366,10 +366,15 @@ TEST(test_repeated)
     run(&p);
     assert_true(numbers.row[2].kept);
     CLOSE(numbers.row[2].number[0], 23.5, 1e-12);
+    p.command = (char *)command_of("drawn", "{n} 1"); /* the same words each time */
+    run(&p);
+    has_entries(kept, 21); /* the first of each is there */
+    p.command = (char *)command_of("drawn", "{n} {repeat}");
     shell("touch drawn.fail");
     p.kept = NULL;
     run(&p);
     assert_null(numbers.row[0].failure);
+    assert_non_null(numbers.row[1].failure);
     assert_non_null(strstr(numbers.row[1].failure, "exit code 1"));
     assert_true(isnan(numbers.row[1].number[0]));
 }
