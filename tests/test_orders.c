@@ -638,8 +638,44 @@ TEST(test_values)
             CLOSE(line->gci.order, p, 1e-8);
             CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
             CLOSE(line->gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->triples; i++) {
+                CLOSE(line->triple[i].order, p, 1e-8);
+                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+                CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
+            }
             assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
         }
+}
+
+/* What finer sizes would give, of errors and of values; not at a floor, nor where a run failed. */
+TEST(test_finer)
+{
+    double given;
+    find("n,e\n8,.04\n16,.01\n32,.0025\n", NULL);
+    struct br_orders_forecast f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    CLOSE(br_orders_next(&found.orders, &f, &given), .000625, 1e-12);
+    CLOSE(given, 64, 0);
+    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 51, 0); /* 50.6 */
+    find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n", "u"); /* 5 - 2 h^2 */
+    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    CLOSE(f.number, 1.25 * (5 - 4.96875) / 4.96875, 1e-12);
+    CLOSE(br_orders_next(&found.orders, &f, &given), f.number / 4, 1e-12);
+    CLOSE(given, 0.0625, 0);
+    CLOSE(br_orders_needed(&found.orders, &f, f.number / 16), 0.03125, 1e-12);
+    find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n.0625,\n", "u");
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find("h,e\n1,1.01\n.5,.26\n.25,.0725\n.125,.025625\n.0625,.01390625\n", NULL); /* h^2 + .01 */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find(floor_table(12, pow(4, -7)), NULL); /* its rows are left out */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find(table_of(4, 4, 2, 1), NULL); /* a grid */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find("dofs,e\n64,.04\n256,.01\n1024,.0025\n", NULL);
+    CLOSE(br_orders_in_dimension(&found.orders, 2, 3), 3, 1e-12);
+    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    br_orders_next(&found.orders, &f, &given);
+    CLOSE(given, 4096, 0);
 }
 
 /* A difference without its finer value names that one. */
