@@ -89,9 +89,9 @@ def _plain(value):
 
 def _load():
     here = Path(__file__).resolve()
-    prefix = here.parents[3]  # of PREFIX/share/beamrate/python
-    found = [*here.parent.glob("libbeamrate.so"), *prefix.glob("lib*/libbeamrate.so.0"),
-             *prefix.glob("lib/*/libbeamrate.so.0")]
+    found = [*here.parent.glob("libbeamrate.so")]
+    for prefix in list(here.parents)[3:4]:  # of PREFIX/share/beamrate/python
+        found += [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
     return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
 
 
