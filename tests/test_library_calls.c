@@ -629,7 +629,8 @@ TEST(orders_of_a_table)
     } refused[] = {
         {{.text = NULL}, "table: found NULL"},
         {{.text = "h,e\n4,1\n2,1\n1,-1\n"}, "table:4: e: found -1"},
-        {{.text = "h,e\n4,1\n2,1\n1,1\n", .name = "a.csv", .errors = "f"}, "a.csv: --error: there is"},
+        {{.text = "h,e\n4,1\n2,1\n1,1\n", .name = "a.csv", .errors = "f"},
+         "a.csv: --error: there is"},
         {{.text = two_columns, .dimension = NAN}, "table: found dimension nan"},
         {{.text = two_columns, .dimension = INFINITY}, "table: found dimension inf"},
         {{.text = two_columns, .formal = -1}, "formal order -1"},
@@ -686,7 +687,8 @@ TEST(used_numbers_are_counted)
     beamrate_orders_free(orders);
 }
 
-/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2. */
+/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2.
+ */
 TEST(formal_order_widens_the_limit)
 {
     static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};
