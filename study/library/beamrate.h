@@ -443,7 +443,8 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err);
 
-/* The same of column `quantity`, from 0 on. */
+/* The same of column `quantity`, from 0 on. Refuses an order in h of a table where the dimension of the
+ * mesh is assumed. */
 enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **check,
                                                     const struct beamrate_orders *orders,
                                                     size_t quantity,

@@ -328,8 +328,7 @@ static enum br_status find_orders(struct beamrate_orders *o, const struct beamra
                                   struct br_error *err)
 {
     const enum br_status status = copy_numbers(from, &o->numbers, err);
-    const double formal = !status && from->formal != 0 ? from->formal : 2;
-    return status ? status : br_orders_find(&o->numbers, formal, &o->orders, err);
+    return status ? status : br_orders_find(&o->numbers, from->formal, &o->orders, err);
 }
 
 enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
@@ -521,6 +520,12 @@ static enum br_status check_orders(struct beamrate_check *made,
     for (size_t i = 0; i < count; i++)
         snprintf(e[i].quantity, sizeof e->quantity, "%s", numbers.quantity->name);
     enum br_status status = made->measure ? BR_OK : br_no_memory(err, "the verdicts");
+    for (size_t i = 0; i < count && !status; i++)
+        if (numbers.assumed && e[i].axis == BR_AXIS_SPACE)
+            status = br_fail(err, BR_BAD_INPUT,
+                             "an order of %.200s in h is expected, and h follows from numbers of %s: "
+                             "state the dimension of the mesh",
+                             made->measure, numbers.column[BR_AXIS_SPACE]->name);
     if (!status)
         status = br_orders_check(&alone, e, count, check, err);
     for (size_t i = 0; i < check->count && !status; i++)
