@@ -37,8 +37,6 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
-        v->method.rounding =
-            br_rounding_mode((size_t)br_option_number(r->session.options, BR_OPT_ROUNDING, 0));
         if (v->n && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
                                    &v->method, &inner))
             return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,

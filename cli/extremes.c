@@ -37,10 +37,7 @@ struct run {
 static const struct {
     const char *option;
     enum br_option_id id;
-} own_options[] = {{"--n", BR_OPT_N},
-                   {"--k", BR_OPT_K},
-                   {"--methods", BR_OPT_METHODS},
-                   {"--rounding", BR_OPT_ROUNDING}};
+} own_options[] = {{"--n", BR_OPT_N}, {"--k", BR_OPT_K}, {"--methods", BR_OPT_METHODS}};
 enum { OPTIONS = sizeof own_options / sizeof *own_options };
 
 static bool accepts(const struct br_extremes_experiment *experiment, enum br_option_id option)
@@ -167,7 +164,6 @@ static enum br_status read_request(struct run *r, struct br_error *err)
         .n = o->whole[BR_OPT_N],
         .n_count = o->count[BR_OPT_N],
         .methods = &r->methods,
-        .rounding = br_rounding_mode((size_t)br_option_number(o, BR_OPT_ROUNDING, 0)),
     };
     if (choose_parts(r, err) || check_options(r, err) ||
         (methods && br_named_methods_read("--methods", methods, &r->methods, err)))

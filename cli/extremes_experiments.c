@@ -56,14 +56,14 @@ const struct br_extremes_experiment br_extremes_experiments[] = {
     {
         .name = "floors",
         .title = "round-off of every linear solver over n and k, measured and predicted",
-        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
+        .accepts = BR_ACCEPTS(N) | BR_ACCEPTS(K),
         .scene = {"example2"},
         .run = run_floors,
     },
     {
         .name = "steps",
         .title = "round-off that 1 to 1e7 steps accumulate, measured and predicted; time levels",
-        .accepts = BR_ACCEPTS(K) | BR_ACCEPTS(ROUNDING),
+        .accepts = BR_ACCEPTS(K),
         .scene = {"example1", "example2"},
         .run = run_steps,
     },

@@ -92,7 +92,7 @@ static void print_commands(FILE *out)
 
 /* ---- registries ---- */
 
-/* "--equilibrate   --solver umfpack, cholmod": the rows that use field i of a method. */
+/* "--kernel   --solver auto, riccati": the rows that use field i of a method. */
 static void print_users(FILE *out, size_t i)
 {
     const struct br_method_field *f = &br_method_fields[i], *by = &br_method_fields[f->by];

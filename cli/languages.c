@@ -284,9 +284,7 @@ static const struct {
      {"A scene is a YAML file; every number carries its unit, loads and initial data are "
       "expressions in x and t. What it leaves out is not modelled. 'beamrate scenes "
       "--new' explains every key. It is read once, from a file, a pipe, or standard input "
-      "(-), and is refused beyond 1 MiB. An editor with a YAML language server completes "
-      "and checks a scene that begins with the line '# yaml-language-server: "
-      "$schema=PATH' of scene.schema.json."}},
+      "(-), and is refused beyond 1 MiB."}},
     {"FILES",
      {"Every table NAME is written as NAME.txt, .csv, .md, .tex and .json. Every plot is written "
       "as a gnuplot script NAME-*.gp with its data NAME-*.dat and, where gnuplot is installed, as "
@@ -296,8 +294,8 @@ static const struct {
       "The files of one run are a set. The list .beamrate-set says which files of its folder are "
       "results, a line each: the number of the set, the size in bytes, the time of writing in ns "
       "since 1970, and the name. New files are written in the hidden folder .beamrate-new, under "
-      "the lock of .beamrate-lock: a second program that would write there is refused, and a movie "
-      "waits. Then the new list is put into the hidden folder: from now on the new set counts. The "
+      "the lock of .beamrate-lock: a second program that would write there is refused. Then the "
+      "new list is put into the hidden folder: from now on the new set counts. The "
       "files are renamed into place, old ones are removed, and the new list replaces the old one "
       "last. A program that is killed before the new set counts leaves the old set; if it is "
       "killed later, the next command with the same folder completes the new set first. A new set "
@@ -307,8 +305,7 @@ static const struct {
       "set-1 beside it (or the next free number), and the exit code is 3. An edit that keeps size "
       "and time is not detected; a copy of a folder that has not kept the times counts as edited.",
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
-      "share/beamrate/scene.schema.json (their schema), and the completions of bash, zsh "
-      "and fish."}},
+      "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",
      {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
       "of the one the program was built or installed with.",
@@ -316,7 +313,7 @@ static const struct {
       "default.",
       "BEAMRATE_GNUPLOT_SECONDS: seconds that gnuplot may take for one script, 60 by default; then "
       "it is killed. An interrupt kills it, too.",
-      "TMPDIR: the folder for temporary files of run --animate, /tmp by default."}},
+      "TMPDIR: the folder for the runs of orders --run, /tmp by default."}},
     {"EXIT STATUS",
      {"0 done; 1 a verdict failed; 2 bad input; 3 the computation failed. If a cell failed, the "
       "exit code is 3 after the results have been written; a march of run that stops early keeps "

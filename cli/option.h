@@ -42,7 +42,6 @@ enum br_option_id {
     BR_OPT_CHECK,
     BR_OPT_AT,
     BR_OPT_ROWS,
-    BR_OPT_ANIMATE,
     BR_OPT_ALL,
     BR_OPT_COMPARE,
     BR_OPT_JUNIT,
@@ -60,9 +59,7 @@ enum br_option_id {
     BR_OPT_EXPECT,
     BR_OPT_TRUST,
     BR_OPT_RESUME,
-    BR_OPT_ROUNDING,
     BR_OPT_NEW,
-    BR_OPT_SCHEMA,
     BR_OPT_OUT,
     BR_OPT_FORMAT,
     BR_OPT_NO_PLOTS,
@@ -125,10 +122,7 @@ const char *br_option_default(const struct br_option *row, char text[BR_METHOD_V
 
 /* ---- registries that options name ---- */
 
-extern const struct br_words br_norm_words, br_judge_words, br_format_words, br_rounding_words;
-
-/* Row i of --rounding as fesetround takes it. */
-int br_rounding_mode(size_t row);
+extern const struct br_words br_norm_words, br_judge_words, br_format_words;
 
 /* ---- a command line ---- */
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options, a row each, and what single commands have of their own: defaults, limits, words. */
-#include <fenv.h>
 #include <math.h>
 
 #include "cli/command.h"
@@ -19,29 +18,9 @@ static const char *judge_syntax(size_t row)
     return judge_name(row) ? br_judges[row]->syntax : NULL;
 }
 
-static const struct {
-    const char *name;
-    int mode;
-} roundings[] = {{"nearest", FE_TONEAREST},
-                 {"up", FE_UPWARD},
-                 {"down", FE_DOWNWARD},
-                 {"zero", FE_TOWARDZERO},
-                 {NULL, 0}};
-
-static const char *rounding_name(size_t row)
-{
-    return roundings[row].name;
-}
-
-int br_rounding_mode(size_t row)
-{
-    return roundings[row].mode;
-}
-
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
 const struct br_words br_format_words = {format_name, format_title, NULL};
 const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
-const struct br_words br_rounding_words = {rounding_name, NULL, NULL};
 
 /* ---- options ---- */
 
@@ -115,20 +94,18 @@ static const struct br_option rows[] = {
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what errors are measured against: exact, fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
+     "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
      .words = &br_judge_words,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more =
          "exact is the default; for a scene that was manufactured from a solution, it is mms. "
          "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is "
-         "then measured against the exact solution. With none each cell is compared with the same "
-         "scheme on the next finer mesh and with the next smaller time step, which makes two "
-         "reports, NAME-meshes and NAME-steps.",
+         "then measured against the exact solution.",
      OWN({BR_FOR_TABLES, .standard = "fine:12800,1e-5",
           .more = "The errors against the exact solution are shown, too."},
          {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
-                                "order; none is not possible."},
-         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K and none are not possible."})},
+                                "order."},
+         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K is not possible."})},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
      .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",
@@ -140,8 +117,7 @@ static const struct br_option rows[] = {
      .more =
          "A name is made of words joined by +, in any order, at most one of a kind: a time scheme, "
          "a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the axial "
-         "elements), scaled and refined (for a solver that uses it): euler+lagged, bdf2+uzawa, "
-         "bdf2+umfpack+scaled.",
+         "elements): euler+lagged, bdf2+uzawa, bdf2+umfpack.",
      OWN({BR_FOR_PLAN, .more = "By default all time schemes."})},
     {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
@@ -210,11 +186,6 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},
-    {BR_OPT_ANIMATE, "animate", 0, "FILE", "a moving picture, a .gif", NULL, BR_TAKES_FILE,
-     .commands = BR_FOR_RUN,
-     .more = "It shows the beam, the obstacle, the contact force, and the friction force with its "
-             "bound, in at most about 120 frames; its script and data are written, too. If it "
-             "cannot be drawn, the exit code is 3; the results have been written before."},
 
     /* what `check` takes and writes: the formats but for the text */
     {BR_OPT_TRUST, "trust", 0, NULL,
@@ -244,21 +215,12 @@ static const struct br_option rows[] = {
      "write the results into the file of --compare", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
-    /* extremes */
-    {BR_OPT_ROUNDING, "rounding", 0, "MODE",
-     "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
-     .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
-     .more = "References are not affected."},
-
     /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_SCENES,
      .more =
          "A valid scene, with the meaning, unit and default of each key. An existing file is not "
          "replaced."},
-    {BR_OPT_SCHEMA, "schema", 0, NULL,
-     "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_SCENES},
 
     /* what is kept */
     {BR_OPT_RESUME, "resume", 0, NULL, "use finished work that is kept in the folder of --out",

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "cli/provenance.h"
-#include "study/scene/quote.h"
 
 static const char lock_name[] = ".beamrate-lock", hidden_name[] = ".beamrate-new";
 
@@ -110,17 +109,6 @@ static void read_owner(int folder, char owner[800])
         strcpy(owner, "another program");
 }
 
-/* Says for whom it waits. */
-static int wait_for_lock(int folder)
-{
-    char owner[800];
-    read_owner(folder, owner);
-    fputs("beamrate: the folder is in use by ", stderr);
-    br_quote(stderr, &br_for_text, owner);
-    fputs("; waiting for its end\n", stderr);
-    return br_lock_file(folder, lock_name, true);
-}
-
 static enum br_status fail_to_lock(const struct br_output *o, struct br_error *err)
 {
     char owner[800];
@@ -146,8 +134,6 @@ static enum br_status make_and_lock(struct br_output *o, struct br_error *err)
             return br_fail(err, br_status_of_errno(errno), "cannot make the folder: %s",
                            strerror(errno));
         o->lock = br_lock_file(o->parent, lock_name, false);
-        if (o->lock < 0 && errno == EWOULDBLOCK && o->waits)
-            o->lock = wait_for_lock(o->parent);
     }
     if (o->lock < 0)
         return fail_to_lock(o, err);

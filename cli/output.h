@@ -14,9 +14,8 @@
 #include "cli/commit.h"
 #include "solver/status.h"
 
-/* Begins with zeros, or with `waits`. */
+/* Begins with zeros. */
 struct br_output {
-    bool waits;             /* for another program to end; else br_output_open refuses */
     char folder[1024];      /* for the results */
     char staging[1400];     /* where they are written first; "": not open */
     int parent, descriptor; /* the open folder and hidden folder */

@@ -25,7 +25,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     if (br_session_alone(err) || br_study_request_read(o, &r->study, err))
         return err->status;
     const struct br_judge *judge = r->study.judge;
-    if (judge && (!judge->create || judge->nests))
+    if (judge && judge->nests)
         return br_fail(
             err, BR_BAD_INPUT,
             "--reference: found '%s', expected a reference for any mesh and time step: exact or "
@@ -43,12 +43,6 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     p->request.judge = judge;
     p->request.threads = r->session.threads;
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
-    for (size_t i = 0; i < r->study.methods.count; i++)
-        if (!br_method_has_options(&r->study.methods.list[i].method))
-            return br_fail(err, BR_BAD_INPUT,
-                           "--methods: %s: run has no option for scaled and refined, so plan does "
-                           "not use them; 'beamrate trade' measures them",
-                           r->study.methods.list[i].name);
     if (r->study.methods.count)
         p->methods = r->study.methods;
     return BR_OK;

@@ -16,11 +16,12 @@
 
 /* The files of --out that are written while it marches. */
 enum { HISTORY, FIELDS_CSV, FIELDS_XDMF, FILES };
+enum { PICTURE_ROWS = 2000 };
 static const char *const file_names[] = {"history.csv", "fields.csv", "fields.xdmf"};
 
 struct run {
     struct br_session session;
-    const char *out, *json, *animate; /* paths of these options; NULL: not given */
+    const char *out, *json; /* paths of these options; NULL: not given */
     struct br_run_plan plan;
     struct br_prediction prediction;
     struct br_warnings warnings;
@@ -29,7 +30,9 @@ struct run {
     struct br_whole_file summary; /* of --json */
     FILE *file[FILES];            /* this and the next one: of --out */
     struct br_fields fields;
-    struct br_pictures pictures;
+    size_t picture_stride; /* steps between rows of the picture of the tip; 0: none is drawn */
+    struct br_history_record record;
+    struct br_history_observer recorder; /* writes into the record */
 };
 
 /* ---- the files of --out ---- */
@@ -87,6 +90,18 @@ static enum br_status write_sample(void *self, const struct br_march *march,
     return check_files(r, err);
 }
 
+/* Keeps a row of the picture; the beam's end, which a step does not fill, is asked for. */
+static enum br_status keep_row(void *self, const struct br_march *march,
+                               const struct br_history_row *row, struct br_error *err)
+{
+    struct run *r = self;
+    if (row->step % r->picture_stride && row->step != r->plan.request.steps)
+        return BR_OK;
+    struct br_history_row whole = *row;
+    whole.displacement[BR_BENDING] = br_march_tip_displacement(march, BR_BENDING);
+    return r->recorder.row(r->recorder.self, &whole, err);
+}
+
 /* stopped: why the march did not reach T; NULL: it did. */
 static enum br_status close_results(struct run *r, const char *stopped, struct br_error *err)
 {
@@ -114,16 +129,9 @@ static enum br_status write_results(struct run *r, const char *stopped, struct b
 
 /* ---- before the march ---- */
 
-static const char *base_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 /* One output must not replace another, or a scene. */
 static enum br_status check_places(const struct run *r, struct br_error *err)
 {
-    char folder[1024] = "./";
     if (br_whole_file_meets(&r->summary, r->plan.opened.path))
         return br_fail(err, BR_BAD_INPUT, "--json would replace the scene %s", r->summary.path);
     if (r->out && br_whole_file_meets(&r->summary, r->out))
@@ -131,32 +139,17 @@ static enum br_status check_places(const struct run *r, struct br_error *err)
                        "--json: found '%s', expected a place outside of the folder of --out, which "
                        "has a summary.json of its own",
                        r->json);
-    if (r->animate && strchr(r->animate, '/'))
-        snprintf(folder, sizeof folder, "%.*s", (int)(base_of(r->animate) - r->animate),
-                 r->animate);
-    if (r->animate && (br_whole_file_meets(&r->summary, r->animate) ||
-                       (br_whole_file_meets(&r->summary, folder) &&
-                        br_same_stem(base_of(r->json), base_of(r->animate)))))
-        return br_fail(err, BR_BAD_INPUT,
-                       "--json: found '%s', which --animate %s writes too, expected another name",
-                       r->json, r->animate);
     return BR_OK;
 }
 
 static enum br_status open_files(struct run *r, struct br_error *err)
 {
     r->provenance = br_provenance_of(&r->plan.opened, 1);
-    r->pictures = (struct br_pictures){
-        .animate = r->animate,
-        .quiet = r->session.quiet,
-        .history = r->out && !br_option_given(r->session.options, BR_OPT_NO_PLOTS),
-        .scene = &r->plan.opened.scene,
-        .n = r->plan.request.n,
-        .steps = r->plan.request.steps,
-    };
+    r->recorder = br_history_recorder(&r->record, r->plan.request.n);
+    if (r->out && !br_option_given(r->session.options, BR_OPT_NO_PLOTS))
+        r->picture_stride = br_history_stride(r->plan.request.steps, PICTURE_ROWS);
     const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
-                        check_places(r, err) || br_pictures_open(&r->pictures, err) ||
-                        (r->out && open_results(r, err));
+                        check_places(r, err) || (r->out && open_results(r, err));
     return failed ? err->status : BR_OK;
 }
 
@@ -205,8 +198,8 @@ static enum br_status march(struct run *r, struct br_error *err)
     if (r->out)
         output[outputs++] =
             (struct br_history_observer){.self = r, .row = write_row, .sample = write_sample};
-    if (r->animate || r->pictures.history)
-        output[outputs++] = br_pictures_observer(&r->pictures);
+    if (r->picture_stride)
+        output[outputs++] = (struct br_history_observer){.self = r, .step = keep_row};
     struct br_run_request request = r->plan.request;
     request.output = output;
     request.outputs = outputs;
@@ -234,14 +227,12 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
         return err->status;
     struct br_document *d = r->session.document;
     br_report_run(&findings, d);
-    if (r->pictures.record.rows > 1)
-        br_session_draw(&r->session, d, br_history_draw(r->pictures.scene, &r->pictures.record),
-                        NULL);
+    if (r->record.rows > 1)
+        br_session_draw(&r->session, d, br_history_draw(&r->plan.opened.scene, &r->record), NULL);
     const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
                         (terminal && !r->session.quiet && br_document_show(terminal, d, err)) ||
                         (r->out && write_results(r, stopped, err)) ||
-                        br_whole_file_commit(&r->summary, err) ||
-                        br_pictures_finish(&r->pictures, err);
+                        br_whole_file_commit(&r->summary, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -315,8 +306,7 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 /* With --vary, options for one march alone are refused. */
 static enum br_status check_swept(const struct br_options *o, struct br_error *err)
 {
-    static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_ANIMATE, BR_OPT_JSON,
-                                               BR_OPTIONS};
+    static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
     const char *name = br_first_given(o, single);
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: --vary does not use it, since it is for one march; --out has the "
@@ -395,12 +385,11 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         return check_swept(options, err) ? err->status : br_vary_run(options, &varied, err);
     r = (struct run){.session = br_session_begin(options),
                      .out = br_option_text(options, BR_OPT_OUT),
-                     .json = br_option_text(options, BR_OPT_JSON),
-                     .animate = br_option_text(options, BR_OPT_ANIMATE)};
+                     .json = br_option_text(options, BR_OPT_JSON)};
     const bool failed =
         prepare(&r, err) || march(&r, err) || write_all(&r, start, err) || conclude(&r, err);
     close_results(&r, NULL, NULL);
-    br_pictures_discard(&r.pictures);
+    br_history_record_clear(&r.record);
     br_whole_file_discard(&r.summary);
     br_run_plan_clear(&r.plan);
     br_session_close(&r.session);
@@ -417,7 +406,6 @@ const struct br_command br_command_run = {
         "stuck, slipped, reversed, closed and opened, energies, and what was modelled and what "
         "not.",
     .example = {"beamrate run example3", "beamrate run example2 -n 400 -k 1e-4 --check",
-                "beamrate run example4 --animate example4.gif",
                 "beamrate run example2 --vary 'contact.stiffness=1e2..1e6 log 9' --out sweep",
                 "beamrate run example1 --at 0.5,T --out results --json -"},
     .least_words = 1,

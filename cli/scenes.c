@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* beamrate scenes: lists or shows the bundled scenes, and writes a template or the schema. */
+/* beamrate scenes: lists or shows the bundled scenes, and writes a template. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -69,14 +69,12 @@ static enum br_status show(const char *name, struct br_error *err)
 
 static enum br_status begin(const char *path, struct br_error *err)
 {
-    char schema[1024];
-    br_data_path("scene.schema.json", schema, sizeof schema);
     if (strcmp(path, "-") != 0 && access(path, F_OK) == 0)
         return br_fail(err, BR_BAD_INPUT, "--new: %s exists already and is not replaced", path);
     struct br_whole_file file = {0};
     enum br_status status = br_whole_file_open(&file, "new", path, err);
     if (!status) {
-        br_scene_template_write(file.file, access(schema, R_OK) == 0 ? schema : NULL);
+        br_scene_template_write(file.file);
         status = br_whole_file_commit(&file, err);
     }
     br_whole_file_discard(&file);
@@ -86,13 +84,11 @@ static enum br_status begin(const char *path, struct br_error *err)
 static enum br_status run(const struct br_options *o, struct br_error *err)
 {
     const char *file = br_option_text(o, BR_OPT_NEW);
-    const bool schema = br_option_given(o, BR_OPT_SCHEMA);
-    if ((file != NULL) + schema + (o->words > 0) > 1)
-        return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new, --schema");
+    if (file && o->words)
+        return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new");
     if (!br_ranks_first())
         return BR_OK;
     return file       ? begin(file, err)
-           : schema   ? br_scene_schema_write(stdout, err)
            : o->words ? show(o->word[0], err)
                       : list(err);
 }
@@ -104,8 +100,7 @@ const struct br_command br_command_scenes = {
     .title = "lists the bundled scenes, shows one, begins a new one",
     .about = "Lists the bundled scenes, a line each; shows one; or begins a new one.",
     .example = {"beamrate scenes", "beamrate scenes example2",
-                "beamrate scenes --new my_scene.yaml",
-                "beamrate scenes --schema > scene.schema.json"},
+                "beamrate scenes --new my_scene.yaml"},
     .most_words = 1,
     .run = run,
 };

@@ -134,7 +134,9 @@ void br_session_draw(struct br_session *s, struct br_document *report, struct br
 
 /* ---- pictures ---- */
 
-enum br_status br_picture_failed(const struct br_error *why, const char *what, struct br_error *err)
+/* Warns of a picture that gnuplot has not drawn (what: its name). BR_INTERRUPTED: by a signal. */
+static enum br_status picture_failed(const struct br_error *why, const char *what,
+                                     struct br_error *err)
 {
     if (br_signals_caught()) /* Ctrl-C ends gnuplot, too: the picture did not fail by itself */
         return br_fail(err, BR_INTERRUPTED, "interrupted");
@@ -151,8 +153,7 @@ static enum br_status end_oldest(struct br_session *s, struct br_error *err)
     struct br_error why = {0};
     struct br_gnuplot oldest = s->at_work[0];
     memmove(s->at_work, s->at_work + 1, --s->drawn * sizeof *s->at_work);
-    return br_gnuplot_end_figure(&oldest, &why) ? br_picture_failed(&why, oldest.script, err)
-                                                : BR_OK;
+    return br_gnuplot_end(&oldest, &why) ? picture_failed(&why, oldest.script, err) : BR_OK;
 }
 
 static enum br_status render(struct br_session *s, const char *script, struct br_error *err)
@@ -163,7 +164,7 @@ static enum br_status render(struct br_session *s, const char *script, struct br
     if (s->drawn == sizeof s->at_work / sizeof *s->at_work && end_oldest(s, err))
         return err->status;
     if (br_gnuplot_start(&s->at_work[s->drawn], s->output.staging, script, &s->missing, &why))
-        return s->missing ? BR_OK : br_picture_failed(&why, script, err);
+        return s->missing ? BR_OK : picture_failed(&why, script, err);
     s->drawn++;
     return BR_OK;
 }

@@ -93,10 +93,6 @@ enum br_status br_session_write(struct br_session *session,
  * given. Fails as br_session_write; the reports are shown even then. */
 enum br_status br_session_finish(struct br_session *session, struct br_error *err);
 
-/* Warns of a picture that gnuplot has not drawn (what: its name). BR_INTERRUPTED: by a signal. */
-enum br_status br_picture_failed(const struct br_error *why, const char *what,
-                                 struct br_error *err);
-
 /* Removes what has not been put in place, and releases the rest. */
 void br_session_close(struct br_session *session);
 

@@ -45,12 +45,10 @@ static double work_of(size_t n, size_t steps)
 }
 
 /* The data of a job while it is computed. Each mesh is compared with the next at one time step, and
- * where the grid does not settle the order in k, each step with the next on one mesh; without a
- * reference, each cell of the grid is compared with its neighbours. */
+ * where the grid does not settle the order in k, each step with the next on one mesh. */
 struct work {
     struct br_opened_scene opened;
     size_t *steps;             /* numbers of steps of the grid, ascending; owned */
-    struct br_tips tips;       /* only without a reference */
     size_t mesh[MESHES];       /* for differences, if those of the grid do not suffice */
     size_t cheap, step[STEPS]; /* a mesh, and numbers of steps, for differences in k */
     struct br_error no_meshes; /* why there are no differences */
@@ -69,7 +67,6 @@ struct run {
     struct br_session *session; /* borrowed */
     struct br_study_request request;
     const char *what; /* for the progress */
-    bool differences; /* --reference none: cells against the next finer ones */
     size_t jobs, pages;
     size_t heads;           /* jobs, or 2 * jobs: each job, then each against the exact solution */
     struct work *work;      /* `jobs` of them */
@@ -152,10 +149,9 @@ static enum br_status read_printed(const char *relative, struct br_report *repor
     return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
 }
 
-/* Starts report i of a job in norm m; without a reference, the first is over h, the second over k.
- * Its name ends with the norm, unless that is the default, and with what is compared. */
+/* Starts report i of a job in norm m. Its name ends with the norm, unless that is the default. */
 static enum br_status start_report(struct run *r, const struct job *job, size_t i, size_t m,
-                                   bool over_k, struct br_error *err)
+                                   struct br_error *err)
 {
     struct work *w = &r->work[i];
     const struct br_norm *norm = r->request.norm[m];
@@ -163,28 +159,17 @@ static enum br_status start_report(struct run *r, const struct job *job, size_t 
     const bool usual = norm == br_norms[0];
     struct page *page = &r->page[r->pages++];
     page->work = w;
-    snprintf(page->name, sizeof page->name, "%s%s%s%s", job->name ? job->name : scene->name,
-             usual ? "" : "-", usual ? "" : norm->name,
-             !r->differences ? ""
-             : over_k        ? "-steps"
-                             : "-meshes");
-    snprintf(page->caption, sizeof page->caption, "%s%s%s",
-             job->caption ? job->caption : scene->title,
-             r->differences ? ": differences of successive " : "",
-             !r->differences ? ""
-             : over_k        ? "time steps"
-                             : "meshes");
+    snprintf(page->name, sizeof page->name, "%s%s%s", job->name ? job->name : scene->name,
+             usual ? "" : "-", usual ? "" : norm->name);
+    snprintf(page->caption, sizeof page->caption, "%s", job->caption ? job->caption : scene->title);
     page->report = (struct br_report){
         .name = page->name,
         .caption = page->caption,
-        .study = !r->differences ? study_of(r, i, m)
-                                 : &w->apart[m].over[over_k ? BR_AXIS_TIME : BR_AXIS_SPACE],
+        .study = study_of(r, i, m),
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
-        .tips = r->differences ? &w->tips : NULL,
-        .apart = {over_k ? NULL : &w->apart[m].over[BR_AXIS_SPACE]},
+        .apart = {&w->apart[m].over[BR_AXIS_SPACE]},
     };
-    const bool printed = job->printed && norm->printed && !r->differences;
-    return printed ? read_printed(job->printed, &page->report, err) : BR_OK;
+    return job->printed && norm->printed ? read_printed(job->printed, &page->report, err) : BR_OK;
 }
 
 static enum br_status prepare_job(struct run *r, const struct job *job, size_t i,
@@ -197,8 +182,7 @@ static enum br_status prepare_job(struct run *r, const struct job *job, size_t i
         return err->status;
     spread_study(r, i);
     for (size_t m = 0; m < r->request.norms; m++)
-        if (start_report(r, job, i, m, false, err) ||
-            (r->differences && start_report(r, job, i, m, true, err)))
+        if (start_report(r, job, i, m, err))
             return err->status;
     return BR_OK;
 }
@@ -211,10 +195,9 @@ static enum br_status prepare(struct run *r, const struct job *job, bool with_ex
     bool axial = false;
     if (br_study_request_read(r->session->options, &r->request, err))
         return err->status;
-    r->differences = q->judge == &br_judge_none;
     r->heads = with_exact && q->judge && q->judge->nests ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
-    r->page = br_allocate(2 * r->jobs * q->norms, sizeof *r->page);
+    r->page = br_allocate(r->jobs * q->norms, sizeof *r->page);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
     if (!r->work || !r->page || !r->study)
         return br_no_memory(err, "the studies");
@@ -241,7 +224,6 @@ static void clear(void *self)
             br_study_clear(&r->work[i].apart[m].over[BR_AXIS_TIME]);
         }
         br_opened_scene_clear(&r->work[i].opened);
-        br_tips_clear(&r->work[i].tips);
         free(r->work[i].steps);
     }
     free(r->page);
@@ -254,10 +236,6 @@ static void clear(void *self)
 /* Finished cells are kept with their scene; the differences of neighbours are not. */
 static enum br_status keep(struct run *r, struct br_error *err)
 {
-    if (r->differences)
-        return br_option_given(r->session->options, BR_OPT_RESUME)
-                   ? br_fail(err, BR_BAD_INPUT, "--resume: --reference none does not use it")
-                   : BR_OK;
     for (size_t i = 0; i < r->jobs; i++)
         if (br_session_keep(r->session, &r->work[i].kept, err))
             return err->status;
@@ -267,15 +245,12 @@ static enum br_status keep(struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* Checks the memory of jobs that march at once; without a reference they march one by one. */
+/* Checks the memory of the studies, which march at once. */
 static enum br_status check_memory(const struct run *r, struct br_error *err)
 {
-    const double available = br_memory_available();
-    const size_t groups = r->differences ? r->jobs : 1, at_once = r->differences ? 1 : r->heads;
-    for (size_t i = 0; i < groups && br_ranks_size() == 1; i++)
-        if (br_fit_together(study_of(r, i, 0), at_once, available, err))
-            return err->status;
-    return BR_OK;
+    return br_ranks_size() == 1
+               ? br_fit_together(study_of(r, 0, 0), r->heads, br_memory_available(), err)
+               : BR_OK;
 }
 
 /* The meshes for the differences, at the coarsest time step that all of them can march: those of
@@ -301,8 +276,8 @@ static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESH
     return grid;
 }
 
-/* Differences of meshes show the order in h, which the error in k hides in most grids. A study with
- * a reference goes on if they fail. */
+/* Differences of meshes show the order in h, which the error in k hides in most grids. The study
+ * goes on if they fail. */
 static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
                                       struct br_error *err)
 {
@@ -310,17 +285,15 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
     struct work *w = &r->work[job];
     struct br_study grid[BR_MOST_NORMS] = {0};
     for (size_t m = 0; m < norms; m++) {
-        grid[m] =
-            r->differences ? *study_of(r, job, 0) : grid_of_meshes(study_of(r, job, 0), w->mesh);
+        grid[m] = grid_of_meshes(study_of(r, job, 0), w->mesh);
         grid[m].norm = r->request.norm[m];
         grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
     }
     const enum br_status status =
-        br_differences_run(grid, w->apart, r->differences ? &w->tips : NULL, r->session->threads,
-                           observer, &w->no_meshes);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED || (status && r->differences))
+        br_differences_run(grid, w->apart, r->session->threads, observer, &w->no_meshes);
+    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", w->no_meshes.message);
-    for (size_t m = 0; m < norms && !status && !r->differences; m++)
+    for (size_t m = 0; m < norms && !status; m++)
         br_flag_beside(&w->apart[m].over[BR_AXIS_SPACE]);
     return BR_OK;
 }
@@ -350,8 +323,8 @@ static double choose_steps(struct work *w, const struct br_study *s)
 }
 
 /* Appends the difference of a pair of time steps to those before it. */
-static enum br_status append(struct br_study *to, const struct br_study *pair,
-                             const struct work *w, struct br_error *err)
+static enum br_status append(struct br_study *to, const struct br_study *pair, const struct work *w,
+                             struct br_error *err)
 {
     struct br_cell *cell = br_allocate(to->k_count + 1, sizeof *cell);
     if (!cell)
@@ -390,8 +363,7 @@ static enum br_status run_pair(struct run *r, size_t job, size_t i,
                                     .k_count = 2,
                                     .next_norm = m + 1 < norms ? &grid[m + 1] : NULL};
     }
-    enum br_status status =
-        br_differences_run(grid, pair, NULL, r->session->threads, observer, &why);
+    enum br_status status = br_differences_run(grid, pair, r->session->threads, observer, &why);
     *failed = status != BR_OK;
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", why.message);
@@ -444,9 +416,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const double start = br_seconds();
     const bool varies = br_option_given(r->session->options, BR_OPT_VARY);
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
-    enum br_status status = BR_OK;
-    if (!r->differences)
-        status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
+    enum br_status status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
     for (size_t i = 0; i < r->jobs && !status; i++)
         status = run_differences(r, i, observer, err);
     for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
@@ -457,7 +427,7 @@ static enum br_status compute(struct run *r, struct br_error *err)
         }
         status = br_report_finish(&page->report, r->session->threads, err);
     }
-    for (size_t i = 0; i < r->jobs && !status && !r->differences && !varies; i++)
+    for (size_t i = 0; i < r->jobs && !status && !varies; i++)
         status = run_steps(r, i, observer, err);
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
@@ -610,7 +580,8 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     struct run *r = self;
     struct br_study named = *r->study;
     struct br_scene scene = *named.scene;
-    char text[BR_VARIED_TEXT], what[64];
+    static char what[64];
+    char text[BR_VARIED_TEXT];
     named.scene = &scene;
     scene.name = (char *)br_varied_text(&v->varied, i, text);
     snprintf(what, sizeof what, "marching (value %zu of %zu)", i + 1, v->points);
@@ -636,14 +607,9 @@ static const struct br_vary_command varied = {
 
 static enum br_status run_varied(const struct br_options *o, struct br_error *err)
 {
-    const char *reference = br_option_text(o, BR_OPT_REFERENCE);
     if (o->count[BR_OPT_NORM] > 1)
         return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
                        o->count[BR_OPT_NORM]);
-    if (reference && strcmp(reference, br_judge_none.name) == 0)
-        return br_fail(err, BR_BAD_INPUT,
-                       "--reference: found 'none', expected a reference that gives errors: exact, "
-                       "mms or fine:N,K");
     return br_vary_run(o, &varied, err);
 }
 
@@ -685,8 +651,7 @@ const struct br_command br_command_study = {
         "fitted with 95 % intervals.",
     .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
                 "beamrate study example2 --norm l2,energy,tip",
-                "beamrate study example2 --vary 'contact.stiffness=1e2..1e4 log 5'",
-                "beamrate study release --reference none"},
+                "beamrate study example2 --vary 'contact.stiffness=1e2..1e4 log 5'"},
     .least_words = 1,
     .most_words = 1,
     .run = run_study,

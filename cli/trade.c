@@ -117,19 +117,11 @@ static enum br_status check_used(const struct run *r, bool split, struct br_erro
                    : BR_OK;
 }
 
-/* One norm, and a judge that gives errors. */
-static enum br_status check_judge(const struct run *r, struct br_error *err)
+static enum br_status check_norm(const struct run *r, struct br_error *err)
 {
-    const struct br_judge *judge = r->study.judge;
-    if (r->study.norms > 1)
-        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms);
-    if (judge && !judge->create)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "--reference: found '%s', expected a reference that gives errors: exact, mms or "
-            "fine:N,K",
-            judge->name);
-    return BR_OK;
+    return r->study.norms > 1
+               ? br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one", r->study.norms)
+               : BR_OK;
 }
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
@@ -337,7 +329,7 @@ static bool split(struct run *r, struct br_error *err)
 static bool trade(struct run *r, struct br_error *err)
 {
     if (br_session_alone(err) || br_study_request_read(r->session.options, &r->study, err) ||
-        check_judge(r, err) || check_used(r, false, err) || read_scenes(r, err))
+        check_norm(r, err) || check_used(r, false, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))

@@ -36,10 +36,7 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
            BR_FLOOR_STEPS, f->scene[0]->name, step);
     br_panel_add(figure, "elements n", "relative deviation");
     for (size_t m = 0; m < f->methods; m++) {
-        const char *name = f->method[m].name;
-        if (strstr(name, "scaled")) /* their points are those without scaling */
-            continue;
-        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", name);
+        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->method[m].name);
         for (size_t i = 0; i < f->n_count; i++)
             add_deviation(s, br_floor_at(f, 0, m, i, k), br_floor_at(f, 0, m, i, k)->n);
     }

@@ -275,20 +275,6 @@ void br_rows_add(struct br_figure *figure, const char *title,
 struct br_figure br_history_draw(const struct br_scene *scene,
                                  const struct br_history_record *record);
 
-/* ---- run.c, too: beam, obstacle, and the forces at the tip, moving ---- */
-
-/* A movie shows all samples of the record. Borrowed. */
-struct br_movie {
-    const struct br_scene *scene;
-    const struct br_history_record *record;
-    const char *stem; /* of the files, without a quote */
-};
-
-/* Write the data, that is, the tip in all frames, then each frame's fields; and the script that
- * draws stem.gif from stem.dat. */
-void br_movie_write_data(FILE *out, const struct br_movie *movie);
-void br_movie_write_script(FILE *out, const struct br_movie *movie);
-
 /* ---- render.c ---- */
 
 /* Running gnuplot. All fail with BR_IO if gnuplot fails (the message is its line about
@@ -305,9 +291,6 @@ struct br_gnuplot {
     pid_t child;
     FILE *said;     /* its messages */
     double started; /* s, by the monotonic clock */
-    /* reports progress of a script that prints a dot for each picture; NULL: none */
-    const struct br_observer *observer;
-    size_t pictures;
 };
 
 /* Starts gnuplot on a script in its folder. *missing (out): gnuplot is not installed, and the call
@@ -315,15 +298,8 @@ struct br_gnuplot {
 enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const char *script,
                                 bool *missing, struct br_error *err);
 
-/* Waits for the end. */
+/* Waits for the end. Fails, too, if a picture is incomplete (a full disk), which gnuplot itself does
+ * not check. After any failure it removes all pictures of the figure. */
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err);
-
-/* The same for the script of a figure. Fails, too, if a picture is incomplete (a full disk). After
- * any failure it removes all pictures of the figure. */
-enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err);
-
-/* Checks that gnuplot has written a whole picture, which gnuplot itself does not check. Fails with
- * BR_IO if the file is missing, or does not end as its kind does. */
-enum br_status br_picture_check(const char *path, struct br_error *err);
 
 #endif

@@ -2,7 +2,6 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -73,8 +72,7 @@ static const char *reason(char *text)
 /* The last bytes of whole pictures, without white space. */
 static const struct {
     const char *extension, *ending;
-} endings[] = {
-    {".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".pdf", "%%EOF"}, {".gif", ";"}};
+} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".pdf", "%%EOF"}};
 
 static bool ends_with(const char *path, const char *ending)
 {
@@ -92,7 +90,7 @@ static bool ends_with(const char *path, const char *ending)
     return got > 0 && got >= size && memcmp(tail + got - size, ending, size) == 0;
 }
 
-enum br_status br_picture_check(const char *path, struct br_error *err)
+static enum br_status check_picture(const char *path, struct br_error *err)
 {
     const char *dot = strrchr(path, '.');
     for (size_t i = 0; i < sizeof endings / sizeof *endings && dot; i++)
@@ -120,7 +118,7 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
                                 bool *missing, struct br_error *err)
 {
     static char gnuplot[] = "gnuplot", defaults[] = "--default-settings";
-    *g = (struct br_gnuplot){.pictures = 0};
+    *g = (struct br_gnuplot){.child = 0};
     char *const words[] = {gnuplot, defaults, g->script, NULL};
     const int folder_length = snprintf(g->folder, sizeof g->folder, "%s", folder);
     const int script_length = snprintf(g->script, sizeof g->script, "%s", script);
@@ -143,22 +141,17 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
                    *missing ? "it is not installed" : strerror(failure));
 }
 
-/* Reports progress: gnuplot prints a dot and a line end for each picture. */
 static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
-    struct stat said;
     if (stops && stops())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (g->observer && g->observer->progress && fstat(fileno(g->said), &said) == 0)
-        g->observer->progress(g->observer->self,
-                              fmin(1, (double)said.st_size / 2 / (double)g->pictures));
     if (now() - g->started < time_limit())
         return BR_OK;
     return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
                    g->script, time_limit());
 }
 
-enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
+static enum br_status end_program(struct br_gnuplot *g, struct br_error *err)
 {
     static const struct timespec soon = {.tv_nsec = 5000000};
     enum br_status status = BR_OK;
@@ -181,16 +174,16 @@ enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
 
 /* The PDF may be missing: without a terminal for PDF gnuplot draws none; with one, it fails if it
  * cannot make the file. */
-enum br_status br_gnuplot_end_figure(struct br_gnuplot *g, struct br_error *err)
+enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
 {
     static const char *const extensions[] = {"svg", "png", "pdf"};
     char path[3][sizeof g->folder + sizeof g->script];
     const int stem = (int)(strrchr(g->script, '.') - g->script);
-    enum br_status status = br_gnuplot_end(g, err);
+    enum br_status status = end_program(g, err);
     for (size_t i = 0; i < 3; i++) {
         snprintf(path[i], sizeof path[i], "%s/%.*s.%s", g->folder, stem, g->script, extensions[i]);
         if (!status && (i < 2 || access(path[i], F_OK) == 0))
-            status = br_picture_check(path[i], err);
+            status = check_picture(path[i], err);
     }
     for (size_t i = 0; i < 3 && status; i++)
         unlink(path[i]);

@@ -5,14 +5,10 @@
 
 const struct br_judge br_judge_none = {
     .name = "none",
-    .syntax = "none",
-    .title = "none: each cell against the same scheme on the next finer mesh or time step",
-    .citation = "Richardson 1911; Roache, Verification and Validation in Computational Science "
-                "and Engineering, 1998",
 };
 
 const struct br_judge *const br_judges[] = {
-    &br_judge_exact, &br_judge_fine, &br_judge_mms, &br_judge_none, NULL,
+    &br_judge_exact, &br_judge_fine, &br_judge_mms, NULL,
 };
 
 const struct br_judge *br_judge_find(const char *name)

@@ -97,12 +97,10 @@ static void combine(void *self, size_t into, size_t count, const double *weight)
     }
 }
 
-static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
-                             const struct br_linear_options *options, void **self,
-                             struct br_error *err)
+static enum br_status create(const struct br_field *field, const struct br_kernel *kernel,
+                             void **self, struct br_error *err)
 {
-    (void)row;
-    (void)options;
+    (void)kernel;
     struct long_plain *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
@@ -185,18 +183,14 @@ static const struct br_field_solver form = {
     .size = size_of,
 };
 
-static double round_off(const struct br_linear_solver *row, const struct br_field *field,
-                        const struct br_linear_options *options)
+static double round_off(const struct br_field *field)
 {
-    (void)row;
     (void)field;
-    (void)options;
     return DBL_EPSILON;
 }
 
 const struct br_linear_solver br_long_plain = {
     .name = "plain in long double",
-    .options = "",
     .axial = &form,
     .axial_quadratic = &form,
     .bending = &form,

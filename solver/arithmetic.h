@@ -1,34 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The floating-point environment of a march: its rounding mode, and traps. */
+/* The floating-point environment of a march: its traps. */
 #ifndef BR_SOLVER_ARITHMETIC_H
 #define BR_SOLVER_ARITHMETIC_H
 
 #include <fenv.h>
-
-/* ---- rounding ---- */
-
-/* Each thread has its own mode, which a new thread inherits. */
-
-enum { BR_ROUNDING_KEPT = -1 }; /* no mode has this value (C17, 7.6) */
-
-/* Sets a mode, as fesetround takes it; FE_TONEAREST leaves the mode of the thread unchanged, at no
- * cost. Returns the mode before, or BR_ROUNDING_KEPT, for br_rounding_restore. */
-static inline int br_rounding_set(int mode)
-{
-    if (mode == FE_TONEAREST)
-        return BR_ROUNDING_KEPT;
-    const int before = fegetround();
-    fesetround(mode);
-    return before;
-}
-
-static inline void br_rounding_restore(int before)
-{
-    if (before != BR_ROUNDING_KEPT)
-        fesetround(before);
-}
-
-/* ---- traps ---- */
 
 /* Traps for operations that a correct march never does: an invalid operation, a division by zero,
  * an overflow. In builds with -Dtraps (debug builds) they stop the program at the operation; in

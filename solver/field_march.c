@@ -107,7 +107,7 @@ enum br_status br_field_march_create(struct br_field_march *fm, const struct br_
         return BR_OK;
     const struct br_linear_solver *row = br_method_solver(method, field);
     fm->solver = br_linear_solver_for(row, field);
-    enum br_status status = fm->solver->create(row, field, &method->linear, &fm->state, err);
+    enum br_status status = fm->solver->create(field, method->kernel, &fm->state, err);
     if (!status)
         status = br_step_load_init(&fm->load, s, field, err);
     bool needed[BR_KNOWN] = {false};

@@ -79,11 +79,9 @@ enum br_status br_march_create(struct br_march **out, const struct br_scene *sce
     m->scene = scene;
     m->method = *method;
     m->steps = steps;
-    const int rounding = br_rounding_set(method->rounding);
     status = create_fields(m, n, err);
     if (!status)
         status = find_start(m, n, err);
-    br_rounding_restore(rounding);
     if (status) {
         br_march_free(m);
         return status;
@@ -159,9 +157,7 @@ enum br_status br_march_step_field(struct br_march *m, enum br_field_kind kind,
                                    struct br_error *err)
 {
     const int traps = br_traps_set();
-    const int rounding = br_rounding_set(m->method.rounding);
     const enum br_status status = step_field(m, kind, err);
-    br_rounding_restore(rounding);
     br_traps_restore(traps);
     return status;
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/method.h"
 
-#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,12 +11,10 @@ struct br_method br_method_default(void)
         .scheme = br_time_schemes[0],
         .tolerance = 1e-6,
         .solver = br_linear_solvers[0],
-        .linear = br_linear_defaults,
         .contact = br_contact_rules[0],
         .friction = br_friction_rules[0],
         .iteration = br_iteration_defaults,
         .axial_degree = 1,
-        .rounding = FE_TONEAREST,
     };
 }
 
@@ -32,13 +29,13 @@ const struct br_linear_solver *br_method_solver(const struct br_method *m,
 double br_method_round_off(const struct br_method *m, const struct br_field *field)
 {
     const struct br_linear_solver *solver = br_method_solver(m, field);
-    return solver->round_off(solver, field, &m->linear);
+    return solver->round_off(field);
 }
 
 double br_method_residual(const struct br_method *m, const struct br_field *field)
 {
     const struct br_linear_solver *solver = br_method_solver(m, field);
-    return solver->residual ? solver->residual(solver, field, &m->linear) : 0;
+    return solver->residual ? solver->residual(field) : 0;
 }
 
 double br_method_cost(const struct br_method *m, const struct br_scene *scene, size_t n)

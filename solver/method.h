@@ -12,15 +12,13 @@ struct br_method {
     const struct br_time_scheme *scheme;
     double tolerance; /* of an adaptive scheme: error a step, relative to the largest strain */
     const struct br_linear_solver *solver;
-    struct br_linear_options linear;
+    const struct br_kernel *kernel; /* of the solver riccati; NULL: the best that is available */
     const struct br_contact_rule *contact;
     const struct br_friction_rule *friction;
     struct br_iteration iteration; /* of friction rules that iterate */
     int axial_degree;              /* of the axial elements: 1, the paper's, or 2 */
     size_t most_steps; /* of an adaptive scheme, rejected ones included: more end the march with
                           BR_INTERRUPTED; 0: no limit */
-    int rounding;      /* of the march's set-up and steps, as fesetround takes it;
-                          FE_TONEAREST: as the caller's thread has it */
 };
 
 /* The defaults: the first row of each registry, elements of degree 1. */

@@ -130,15 +130,15 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
     br_document_begin(d, "floors", "beamrate extremes floors", 1,
                       "Round-off floors of the linear solvers");
     put_floors(d, f);
-    br_put_note(d,
-                "Deviation: the largest difference of all nodal displacements from the exact "
-                "discrete solution (the same march by 'plain' in long double), relative to the "
-                "largest displacement of the field, after 20 steps of %s by implicit Euler with "
-                "lagged contact; the larger of both fields.",
-                f->scene[0]->name);
-    br_put_note(d, "Refused: with the assembled matrix, the error of a march would exceed 5 "
-                   "%%. 'refined' does up to 2 steps of refinement a solve, 'scaled' scales the "
-                   "rows.");
+    br_put_note(
+        d,
+        "Deviation: the largest difference of all nodal displacements from the exact "
+        "discrete solution (the same march by 'plain' in long double), relative to the "
+        "largest displacement of the field at all time levels, after 20 steps of %s by "
+        "implicit Euler with lagged contact, or with contact at u_n where the lagged one is "
+        "beyond its stability limit; the larger of both fields.",
+        f->scene[0]->name);
+    br_put_note(d, "Refused: with the assembled matrix, the error of a march would exceed 5 %%.");
 }
 
 /* ---- stability ---- */

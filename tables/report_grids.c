@@ -52,7 +52,7 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
                            const struct br_study *s, enum br_part part)
 {
     static const char *const names[] = {"Total", "Axial", "Bending"};
-    const bool fitted = s == br_report_fitted(r), none = s->judge == &br_judge_none;
+    const bool fitted = s == br_report_fitted(r);
     char title[200];
     const struct grid g = {
         .key = fitted ? br_part_names[part] : s->judge->name,
@@ -61,8 +61,8 @@ static void put_error_grid(struct br_document *d, const struct br_report *r,
         .format = "%.3e",
         .flags = part == BR_PART_TOTAL && fitted ? 0 : BR_FILES_ONLY,
     };
-    snprintf(title, sizeof title, "%s %s%s, %s", names[part],
-             none ? "difference" : "error against ", none ? "" : s->judge->name, s->norm->unit);
+    snprintf(title, sizeof title, "%s error against %s, %s", names[part], s->judge->name,
+             s->norm->unit);
     put_grid(d, r, &g, title);
 }
 

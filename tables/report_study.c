@@ -24,22 +24,12 @@ static double relative_of(const struct br_study *s, const struct br_cell *c, enu
 
 /* ---- the answer ---- */
 
-/* What a study measures in a cell. */
-static const char *measured(const struct br_study *s)
-{
-    return s->judge == &br_judge_none ? "difference" : "error";
-}
-
 /* Puts the name of a reference, its own error and its round-off. own: NaN where it is not known. */
 static void say_reference(struct br_document *d, const struct br_study *s, double own)
 {
     const double floor = s->judged_by.round_off * s->reference_scale;
     const double stated =
         br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, BR_PART_TOTAL);
-    if (s->judge == &br_judge_none) {
-        br_put_more(d, "Reference: the next finer cell; ");
-        return;
-    }
     br_put_more(d, "Reference: %s %s, ", s->judge->name, s->judge->nests ? "run" : "solution");
     if (!isfinite(own))
         br_put_more(d, "accuracy not known, since the joint fit does not describe the errors");
@@ -73,13 +63,12 @@ static void say_flags(struct br_document *d, const struct br_study *s)
         count[s->cell[i].flag[BR_PART_TOTAL]]++;
     if (count[BR_FLAG_NONE] == cells) {
         if (cells == 1)
-            br_put_more(d, "its one %s is used.", measured(s));
+            br_put_more(d, "its one error is used.");
         else
-            br_put_more(d, "all %zu %ss are used.", cells, measured(s));
+            br_put_more(d, "all %zu errors are used.", cells);
         return;
     }
-    br_put_more(d, "%zu of %zu %ss are left out of fits:", cells - count[BR_FLAG_NONE], cells,
-                measured(s));
+    br_put_more(d, "%zu of %zu errors are left out of fits:", cells - count[BR_FLAG_NONE], cells);
     const char *separator = " ";
     for (enum br_flag flag = BR_FLAG_NONE + 1; flag < BR_CELL_FLAGS; flag++)
         if (count[flag]) {
@@ -129,14 +118,6 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
 }
 
-static bool is_outside(const struct br_report *r, enum br_field_kind kind)
-{
-    const struct br_study *s = br_report_fitted(r);
-    const struct br_estimate *e = &r->tip[kind];
-    return s->judge != &br_judge_none && isfinite(e->high - e->low) &&
-           !(s->reference_tip[kind] >= e->low && s->reference_tip[kind] <= e->high);
-}
-
 static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
 {
     const struct br_scene *s = r->study->scene;
@@ -169,8 +150,7 @@ static void put_answers(struct br_document *d, const struct br_report *r)
 
     const struct br_cell *c = &s->cell[s->n_count * s->k_count - 1];
     const double error = c->error[BR_PART_TOTAL], relative = relative_of(s, c, BR_PART_TOTAL);
-    br_put_answer(d, "%s of the finest cell (n = %zu, k = %g s): ",
-                  s->judge == &br_judge_none ? "Difference" : "Error", c->at.n, step_of(s, c));
+    br_put_answer(d, "Error of the finest cell (n = %zu, k = %g s): ", c->at.n, step_of(s, c));
     if (isfinite(error))
         br_put_more(d, "%.3e %s", error, s->norm->unit);
     else
@@ -259,7 +239,7 @@ static void put_cells(struct br_document *d, const struct br_report *r)
                 put_cell(d, r, studies[i], part, c);
 }
 
-/* ---- fits and tips ---- */
+/* ---- fits ---- */
 
 /* People do not see the numbers of a fit that does not describe the errors. */
 static void put_fits(struct br_document *d, const struct br_report *r)
@@ -455,7 +435,7 @@ void br_report_study(const struct br_report *r, struct br_document *d)
             continue;
         br_put_row(d);
         BR_PUT(d, br_text(br_part_names[part]), .heading = "part");
-        BR_PUT(d, br_text(measured(fitted)), .heading = "what");
+        BR_PUT(d, br_text("error"), .heading = "what");
         BR_PUT(d, br_number(error), .heading = "observed [95 %]");
         if (isfinite(error))
             br_put_shown(d, "%.3e %s", error, fitted->norm->unit);
@@ -469,26 +449,16 @@ void br_report_study(const struct br_report *r, struct br_document *d)
     br_put_grids(d, r);
     put_fits(d, r);
 
-    const bool judged = fitted->judge != &br_judge_none;
-    const bool known = isfinite(r->tip[BR_AXIAL].value) || isfinite(r->tip[BR_BENDING].value);
-    br_put_table(d, "tips",
-                 known ? "Tip at t = T, extrapolated from the cells (Richardson, h and k to 0)"
-                       : "Tip at t = T (the cells do not allow an extrapolation)",
-                 r->printed ? BR_FILES_ONLY : 0);
+    br_put_table(d, "tips", "Tip at t = T", r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_estimate *e = &r->tip[kind];
-        const bool compared = judged && isfinite(e->high - e->low);
-        char shown[64];
-        br_uncertain_text(e->value, (e->high - e->low) / 2, shown, sizeof shown);
         if (!is_modelled(r, kind))
             continue;
         br_put_row(d);
         BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
-        BR_PUT_ESTIMATE(d, e, shown, .key = "extrapolated", .unit = "m");
-        BR_PUT(d, br_number(judged ? fitted->reference_tip[kind] : NAN), .key = "reference",
+        BR_PUT(d, br_number(finest->tip[kind]), .key = "finest", .heading = "finest cell",
                .unit = "m", .format = "%.10g");
-        BR_PUT(d, br_if(compared, br_text(is_outside(r, kind) ? "outside" : "within")),
-               .key = "reference_is", .heading = "reference is");
+        BR_PUT(d, br_number(fitted->reference_tip[kind]), .key = "reference", .unit = "m",
+               .format = "%.10g");
     }
 
     br_put_triangles(d, r);

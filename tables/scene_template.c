@@ -78,10 +78,8 @@ static void write_verify(FILE *out, const struct br_scene_key *key)
     }
 }
 
-void br_scene_template_write(FILE *out, const char *schema)
+void br_scene_template_write(FILE *out)
 {
-    if (schema)
-        fprintf(out, "# yaml-language-server: $schema=%s\n", schema);
     fprintf(
         out,
         "# A scene of beamrate. Every number carries its unit; an expression, in x (m) and t (s),\n"

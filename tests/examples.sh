@@ -85,7 +85,6 @@ shorten() {
     unless 'beamrate extremes' ' --help' ' -h ' --help
     unless 'beamrate figures' ' --help' ' -h ' --help
     unless ' 1e-4 --check' ' --help' ' -h ' --help
-    unless ' --animate example' ' --n ' ' -n ' '--n 4 --k 0.2'
     for command in tables study trade; do
         unless "beamrate $command" ' --no-plots' ' --help' --no-plots
     done

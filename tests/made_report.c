@@ -39,7 +39,7 @@ static void fail_cell(struct br_cell *cell)
 static struct br_method make_method(void)
 {
     struct br_method method = br_method_default();
-    method.linear.kernel = br_kernel_find("portable");
+    method.kernel = br_kernel_find("portable");
     return method;
 }
 

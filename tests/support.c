@@ -247,11 +247,11 @@ static void remove_scene_file(void)
     remove(scene_file);
 }
 
-static void write_file(const char *path, const char *remark, const char *text)
+static void write_file(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
     assert_non_null(file);
-    fprintf(file, "%s%s", remark, text);
+    fputs(text, file);
     assert_int_equal(fclose(file), 0);
 }
 
@@ -264,20 +264,8 @@ const char *br_test_scene_file(const char *text)
         assert_int_equal(atexit(remove_scene_file), 0);
         made = true;
     }
-    write_file(scene_file, "", text);
+    write_file(scene_file, text);
     return scene_file;
-}
-
-static void keep_wrong(const char *scene, const char *message)
-{
-    static int count;
-    const char *folder = getenv("BR_WRONG_SCENES");
-    char path[1024], remark[2048];
-    if (!folder)
-        return;
-    snprintf(path, sizeof path, "%s/%d-%03d.yaml", folder, (int)getpid(), count++);
-    snprintf(remark, sizeof remark, "# %s\n", message);
-    write_file(path, remark, scene);
 }
 
 void br_test_scene_refused(const char *text, bool verify, const char *message)
@@ -290,7 +278,6 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
     const enum br_status status = br_scene_parse(path, text, &asked, &scene, &err);
     br_verify_clear(&v);
     br_scene_clear(&scene);
-    keep_wrong(text, err.message);
     if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||
         strncmp(err.message, path, strlen(path)) != 0)
         fail_msg("%s\nsaid '%s', expected '%s'", text, err.message, message);
@@ -376,7 +363,7 @@ void br_test_stored(const char *name, void (*print)(FILE *out), double tolerance
     assert_int_equal(fclose(out), 0);
     snprintf(path, sizeof path, "%s/tests/golden/made/%s.txt", getenv("BEAMRATE_DATA"), name);
     if (getenv("BR_TEST_UPDATE"))
-        write_file(path, "", text);
+        write_file(path, text);
     FILE *file = fopen(path, "r");
     if (!file)
         fail_msg("%s is not there", path);

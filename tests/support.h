@@ -98,8 +98,7 @@ char *br_test_unescape(char *text);
 void br_test_rows(const char *section, void (*check)(char *row));
 
 /* Reading the scene, with its verify part or without, is refused with a message that begins with
- * the file and contains `message`. The text is put into the folder $BR_WRONG_SCENES, if that is
- * set: the scene schema is tested with them. */
+ * the file and contains `message`. */
 void br_test_scene_refused(const char *text, bool verify, const char *message);
 
 /* Fails every allocation of an attempt in turn until some attempts in a row succeed (a few

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "reference/certificate/certificate.h"
-#include "study/scene/file.h"
 #include "rescale.h"
+#include "study/scene/file.h"
 #include "support.h"
 
 enum { MOST = 2 * 100 };
@@ -142,7 +142,7 @@ static const double one_sided_factors = 64;
 
 static double one_sided_by(const struct br_method *method)
 {
-    const bool flexible = !method->solver->factoriser;
+    const bool flexible = method->solver != &br_umfpack;
     return flexible ? one_sided : one_sided_factors;
 }
 
@@ -179,32 +179,6 @@ TEST(test_rounding)
         }
         br_scene_clear(&s);
     }
-}
-
-/* A method's rounding mode acts like a thread's, but only inside the march. */
-TEST(test_mode_of_method)
-{
-    struct br_scene s = br_test_bundled("example1");
-    EACH_METHOD(solver, scheme)
-    {
-        struct br_method method = method_of(solver, scheme);
-        if (!goes(&s, 24, 20, &method))
-            continue;
-        fesetround(FE_UPWARD);
-        struct br_march *march = marched(&s, 24, 20, &method);
-        fesetround(FE_TONEAREST);
-        const struct result thread = result_of(march);
-        const struct result nearest = run(&s, 24, 20, &method);
-        method.rounding = FE_UPWARD;
-        const struct result own = run(&s, 24, 20, &method);
-        assert_int_equal(fegetround(), FE_TONEAREST);
-        /* The bits may differ: a compiler may compute a quotient before the mode is set. */
-        const double limit = one_sided_by(&method) * nearest.round_off;
-        assert_true(method.scheme->adaptive || apart(&thread, &own, BR_BENDING, 1) <= limit);
-        assert_memory_not_equal(own.value[BR_BENDING][0], nearest.value[BR_BENDING][0],
-                                own.size[BR_BENDING] * sizeof(double));
-    }
-    br_scene_clear(&s);
 }
 
 static void certify(const struct br_scene *s, const char *name, const struct br_method *method,
@@ -280,7 +254,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     const struct result a = run(s, n, 30, method), b = run(&other, n, 30, method);
     br_scene_clear(&other);
     /* The other scene's numbers are rounded, too, which changes an assembled matrix. */
-    const bool flexible = !method->solver->factoriser;
+    const bool flexible = method->solver != &br_umfpack;
     const double numbers = flexible ? 1e-12 : 1e-8;
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
@@ -290,12 +264,6 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
                      method->solver->name, method->scheme->name, method->friction->name, n,
                      u->metre, u->second, u->kilogram, apart(&a, &b, kind, 1 / u->metre), limit);
-}
-
-/* A Cholesky factor contains square roots of the units, and that of 2 is not exact. */
-static bool takes_roots(const struct br_method *method)
-{
-    return method->solver == &br_cholmod || method->solver == &br_banded;
 }
 
 /* The most vibrations that elements of either field make in the scene. */
@@ -327,7 +295,7 @@ TEST(test_units)
             if (method.scheme->adaptive && s.density > 0 && vibrations(&s, n) > 1000)
                 continue; /* its steps may resolve every vibration: too many steps */
             compare_units(&s, &method, n, &any, false);
-            compare_units(&s, &method, n, &twos, !method.scheme->adaptive && !takes_roots(&method));
+            compare_units(&s, &method, n, &twos, !method.scheme->adaptive);
         }
     }
 }

@@ -215,10 +215,8 @@ static struct br_method any_method(struct br_test_random *r)
     while (br_kernels[kernels])
         kernels++;
     const struct br_kernel *kernel = br_kernels[br_test_index(r, kernels)];
-    if (br_linear_solver_accepts(m.solver, "--kernel") && kernel->available())
-        m.linear.kernel = kernel;
-    if (br_linear_solver_accepts(m.solver, "--refinement"))
-        m.linear.refinement = (int)br_test_index(r, 4);
+    if (m.solver->takes_kernel && kernel->available())
+        m.kernel = kernel;
     m.axial_degree = m.solver->axial_quadratic ? 1 + (int)br_test_index(r, 2) : 1;
     return m;
 }
@@ -227,7 +225,7 @@ static struct br_method any_method(struct br_test_random *r)
 static size_t any_mesh(struct br_test_random *r, const struct br_method *m)
 {
     static const size_t meshes[] = {1, 2, 5, 17, 21, 33, 40};
-    const bool flexible = !m->solver->factoriser;
+    const bool flexible = m->solver != &br_umfpack;
     if (flexible && br_test_index(r, 2))
         return (size_t)br_test_log_uniform(r, 1, br_test_index(r, 8) ? 200 : MOST_N);
     return meshes[br_test_index(r, 7)];

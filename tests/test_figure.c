@@ -137,7 +137,7 @@ static bool draw(const struct br_figure *f, char svg[SVG])
     write_file(folder, names[1], f, br_figure_write_script);
     enum br_status status = br_gnuplot_start(&gnuplot, folder, names[1], &missing, &err);
     if (!status)
-        status = br_gnuplot_end_figure(&gnuplot, &err);
+        status = br_gnuplot_end(&gnuplot, &err);
     if (status && !missing)
         fail_msg("%s", err.message);
     for (size_t i = 0; i < 5; i++) {

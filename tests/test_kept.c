@@ -155,44 +155,43 @@ TEST(test_stopped_and_resumed)
  * compiler refuses a member that has no row. */
 #pragma GCC diagnostic error "-Wmissing-field-initializers"
 #define FIRST(in, member, a, b) a,
-#define LINEAR(X)                   \
-    X(CELL, scaling, "none", "sum") \
-    X(CELL, refinement, 1, 2) X(CELL, kernel, br_kernels[0], br_kernels[1])
 #define ITERATION(X) \
     X(CELL, parameter, 0.5, 0.25) X(CELL, tolerance, 1e-8, 2e-8) X(CELL, most, 10, 11)
-#define METHOD(X)                                                                                \
-    X(CELL, scheme, br_time_schemes[0], br_time_schemes[1])                                      \
-    X(CELL, tolerance, 1e-6, 2e-6) X(CELL, solver, br_linear_solvers[0], br_linear_solvers[1])   \
-        X(NONE, linear, linear, linear) /* LINEAR */                                             \
-        X(CELL, contact, br_contact_rules[0],                                                    \
-          br_contact_rules[1]) X(CELL, friction, br_friction_rules[0], br_friction_rules[1])     \
-            X(NONE, iteration, iteration, iteration) /* ITERATION */ X(CELL, axial_degree, 1, 2) \
-                X(CELL, most_steps, 7, 8) X(CELL, rounding, 0, 1)
-#define AXIAL(X)                                                                \
-    X(CELL, modelled, true, false)                                              \
-    X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) X(CELL, load, none, load) \
-        X(CELL, tip_force, zero, one) X(CELL, displacement, zero, one)          \
-            X(CELL, velocity, zero, one) X(CELL, solution, NULL, "x [m]")       \
-                X(CELL, given, zero, one)
-#define BENDING(X)                                                                  \
-    X(CELL, modelled, true, false)                                                  \
-    X(CELL, stiffness, 1, 2) X(CELL, viscosity, 1, 2) X(CELL, load, none, load)     \
-        X(CELL, tip_force, zero, one) X(CELL, tip_moment, zero, one)                \
-            X(CELL, displacement, zero, one) X(CELL, displacement_slope, zero, one) \
-                X(CELL, velocity, zero, one) X(CELL, velocity_slope, zero, one)     \
-                    X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)      \
-                        X(CELL, stick_force, zero, one)
+#define METHOD(X)                                                               \
+    X(CELL, scheme, br_time_schemes[0], br_time_schemes[1])                     \
+    X(CELL, tolerance, 1e-6, 2e-6)                                              \
+    X(CELL, solver, br_linear_solvers[0], br_linear_solvers[1])                 \
+        X(CELL, kernel, br_kernels[0], br_kernels[1])                           \
+            X(CELL, contact, br_contact_rules[0], br_contact_rules[1])          \
+                X(CELL, friction, br_friction_rules[0], br_friction_rules[1])   \
+                    X(NONE, iteration, iteration, iteration) /* ITERATION */ X( \
+                        CELL, axial_degree, 1, 2) X(CELL, most_steps, 7, 8)
+#define AXIAL(X)                                                                     \
+    X(CELL, modelled, true, false)                                                   \
+    X(CELL, stiffness, 1, 2)                                                         \
+    X(CELL, viscosity, 1, 2) X(CELL, load, none, load) X(CELL, tip_force, zero, one) \
+        X(CELL, displacement, zero, one) X(CELL, velocity, zero, one)                \
+            X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)
+#define BENDING(X)                                                                   \
+    X(CELL, modelled, true, false)                                                   \
+    X(CELL, stiffness, 1, 2)                                                         \
+    X(CELL, viscosity, 1, 2) X(CELL, load, none, load) X(CELL, tip_force, zero, one) \
+        X(CELL, tip_moment, zero, one) X(CELL, displacement, zero, one)              \
+            X(CELL, displacement_slope, zero, one) X(CELL, velocity, zero, one)      \
+                X(CELL, velocity_slope, zero, one) X(CELL, solution, NULL, "x [m]")  \
+                    X(CELL, given, zero, one) X(CELL, stick_force, zero, one)
 #define CONTACT(X) \
     X(CELL, modelled, true, false) X(CELL, gap, 0, 0x1p-1074) X(CELL, stiffness, 1, 2)
 #define FRICTION(X)                     \
     X(CELL, law, BR_TRESCA, BR_COULOMB) \
     X(CELL, coefficient, 1, 1 + 0x1p-52) X(CELL, regularisation, 0, 1)
-#define SCENE(X)                                                                    \
-    X(NONE, name, "a", "b")                                                         \
-    X(CELL, title, "a", "b") X(CELL, remark, "a", "b") X(CELL, length, 1, 2)        \
-        X(CELL, duration, 1, 2) X(CELL, density, 1, 2) X(NONE, axial, axial, axial) \
-            X(NONE, bending, bending, bending) X(NONE, contact, contact, contact)   \
-                X(NONE, friction, friction, friction) /* those lists */             \
+#define SCENE(X)                                                                                   \
+    X(NONE, name, "a", "b")                                                                        \
+    X(CELL, title, "a", "b")                                                                       \
+    X(CELL, remark, "a", "b") X(CELL, length, 1, 2) X(CELL, duration, 1, 2) X(CELL, density, 1, 2) \
+        X(NONE, axial, axial, axial) X(NONE, bending, bending, bending)                            \
+            X(NONE, contact, contact, contact)                                                     \
+                X(NONE, friction, friction, friction) /* those lists */                            \
         X(NONE, derived, {{0}}, )
 #define STUDY(X)                                                                                  \
     X(NONE, scene, &scene, &scene)                                                                \
@@ -250,7 +249,6 @@ TEST(test_all_members_are_stated)
     struct br_contact contact = {CONTACT(FIRST)};
     struct br_friction friction = {FRICTION(FIRST)};
     struct br_scene scene = {SCENE(FIRST)};
-    struct br_linear_options linear = {LINEAR(FIRST)};
     struct br_iteration iteration = {ITERATION(FIRST)};
     struct br_method method = {METHOD(FIRST)}, apart[4] = {method, method, method, method};
     struct br_judge_report unjudged = {.unstable = false};
@@ -271,7 +269,6 @@ TEST(test_all_members_are_stated)
 #define NONE(member, b, at)
 #define IN_STUDY(in, member, a, b) in(member, b, other)
 #define IN_METHOD(in, member, a, b) in(member, b, other.method)
-#define IN_LINEAR(in, member, a, b) in(member, b, other.method.linear)
 #define IN_ITERATION(in, member, a, b) in(member, b, other.method.iteration)
 #define IN_SCENE(in, member, a, b) in(member, b, of)
 #define IN_AXIAL(in, member, a, b) in(member, b, of.axial)
@@ -280,9 +277,9 @@ TEST(test_all_members_are_stated)
 #define IN_FRICTION(in, member, a, b) in(member, b, of.friction)
     reset(&asked, &other, &scene, &of);
     STUDY(IN_STUDY)
-    METHOD(IN_METHOD) LINEAR(IN_LINEAR) ITERATION(IN_ITERATION) SCENE(IN_SCENE) AXIAL(IN_AXIAL)
-        BENDING(IN_BENDING) CONTACT(IN_CONTACT) FRICTION(IN_FRICTION)
-            other.reference_method.most_steps = 9;
+    METHOD(IN_METHOD)
+    ITERATION(IN_ITERATION) SCENE(IN_SCENE) AXIAL(IN_AXIAL) BENDING(IN_BENDING) CONTACT(IN_CONTACT)
+        FRICTION(IN_FRICTION) other.reference_method.most_steps = 9;
     expect_other("the reference's method", &asked, &other, true);
     /* The registries: a field of a method that is got, and a number of a scene, is stated. */
     for (const struct br_method_field *f = br_method_fields;

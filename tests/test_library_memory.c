@@ -168,8 +168,6 @@ static const struct call calls[] = {
     {"foresee, adaptive", "release", foresee, METHOD("scheme", "adaptive"), 97},
     {"march", "example2", march_all, NULL, 3},
     {"march, umfpack", "example2", march_all, METHOD("solver", "umfpack"), 5},
-    {"march, cholmod", "example2", march_all, METHOD("solver", "cholmod"), 5},
-    {"march, banded", "example2", march_all, METHOD("solver", "banded"), 3},
     {"march, plain", "example2", march_all, METHOD("solver", "plain", "axial_degree", "2"), 3},
     {"march, adaptive", "release", march_all, METHOD("scheme", "adaptive", "tolerance", "1e-4"), 5},
     {"study", "example2", run_study, &exact, 37},

@@ -76,7 +76,7 @@ TEST(test_sweep)
         {"scenes --new set.json", 1},
         {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23},
         {"run small.yaml --n 4 --k 0.1 --quiet --out set", 97},
-        {"study small.yaml --n 2,4 --k 0.1,0.05 --reference none --format csv --no-plots --quiet --out set",
+        {"study small.yaml --n 2,4 --k 0.1,0.05 --reference fine:8,0.025 --format csv --no-plots --quiet --out set",
          7}, /* lists of sets */
         {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37},
         {"check small.yaml --quiet --json set.json", 37},

@@ -25,7 +25,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
     void *self;
     double free_velocity;
     const struct br_field_solver *solver = br_linear_solver_for(s, field);
-    MUST(solver->create(s, field, &br_linear_defaults, &self, &err));
+    MUST(solver->create(field, NULL, &self, &err));
     MUST(solver->predict(self, &(struct br_drive){load, 1, true, {0, 0}}, &free_velocity, &err));
     const double velocity = solver->finish(self, tip_force);
     CLOSE(velocity, free_velocity - tip_force * solver->tip_compliance(self),
@@ -40,7 +40,7 @@ static void solve_once(const struct br_linear_solver *s, const struct br_field *
 static double tolerance_of(const struct br_linear_solver *s, const struct br_field *field)
 {
     const struct br_linear_solver *taken = br_linear_solver_taken(s, field, 0);
-    return br_test_slack() * (1e-13 + taken->round_off(taken, field, &br_linear_defaults));
+    return br_test_slack() * (1e-13 + taken->round_off(field));
 }
 
 /* A uniform load: nodal values of the exact solution, u = f x (2L - x) / (2a) and
@@ -73,7 +73,7 @@ static double compliance_of(const struct br_linear_solver *s, const struct br_fi
     struct br_error err = {0};
     void *self;
     const struct br_field_solver *solver = br_linear_solver_for(s, field);
-    MUST(solver->create(s, field, &br_linear_defaults, &self, &err));
+    MUST(solver->create(field, NULL, &self, &err));
     const double z = solver->tip_compliance(self);
     solver->free(self);
     return z;

@@ -305,11 +305,11 @@ TEST(test_warnings)
     assert_non_null(one);
     assert_non_null(strstr(one->remedy, "--contact implicit"));
 
-    method.solver = br_linear_solver_find("banded");
+    method.solver = br_linear_solver_find("umfpack");
     w = warnings_of(&s, &method, 6400, 1000);
     one = br_warnings_find(&w, BR_WARN_ROUND_OFF);
     assert_non_null(one);
-    assert_non_null(strstr(one->text, "--solver banded at n = 6400"));
+    assert_non_null(strstr(one->text, "--solver umfpack at n = 6400"));
     assert_non_null(strstr(one->remedy, "--solver auto"));
     assert_null(br_warnings_find(&w, BR_WARN_INACCURATE));
     br_scene_clear(&s);

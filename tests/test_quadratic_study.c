@@ -151,23 +151,3 @@ TEST(test_one_element)
     }
     br_scene_clear(&scene);
 }
-
-/* The extrapolation of the tip counts with its order: 4. */
-TEST(test_extrapolation)
-{
-    static const size_t n[] = {4, 8, 16, 32}, steps[] = {10, 20, 40, 80};
-    for (int degree = 1; degree <= 2; degree++) {
-        struct br_error err = {0};
-        struct br_study grid = {
-            .method = {.axial_degree = degree}, .n_count = 4, .k_count = 4, .n = n, .steps = steps};
-        struct br_tips tips;
-        MUST(br_tips_create(&tips, &grid, &err));
-        for (int i = 0; i < 16; i++)
-            tips.value[BR_AXIAL][i] =
-                1 + pow(1.0 / (double)n[i / 4], 2 * degree) + 0.1 / (double)steps[i % 4];
-        const struct br_estimate e = br_extrapolate(&tips, BR_AXIAL);
-        CLOSE(e.value, 1, 1e-9);
-        AT_MOST(e.high - e.low, 1e-9);
-        br_tips_clear(&tips);
-    }
-}

@@ -101,7 +101,6 @@ static void test_same_bits(void **state)
         {"tables --n 10,20,40 --k 0.02,0.01,0.005 --reference fine:160,1e-3 --norm l2,energy",
          {"table1", "table2", "table2-energy"}},
         {"study example3 --n 10,15,40 --k 0.02,0.01,0.005", {"example3"}}, /* slices */
-        {"study release --reference none", {"release-meshes", "release-steps"}},
     };
     static const int ranks[] = {2, 8}, threads[] = {2, 1};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)

@@ -71,9 +71,9 @@ TEST(test_side_by_side)
     for (int i = 0; i < SCRIPTS; i++) {
         static const char *const endings[] = {"png", "svg", "gp"};
         if (!missing && i == BAD)
-            REFUSED(br_gnuplot_end_figure(&at_work[i], &err), BR_IO, "\"s2.gp\"");
+            REFUSED(br_gnuplot_end(&at_work[i], &err), BR_IO, "\"s2.gp\"");
         else if (!missing)
-            MUST(br_gnuplot_end_figure(&at_work[i], &err));
+            MUST(br_gnuplot_end(&at_work[i], &err));
         for (size_t j = 0; j < 3; j++) {
             snprintf(script, sizeof script, "s%d.%s", i, endings[j]);
             assert_int_equal(is_there(folder, script), (!missing && i != BAD) || j == 2);

@@ -332,24 +332,3 @@ TEST(test_model)
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
     br_scene_clear(&scene);
 }
-
-/* ---- refinement ---- */
-
-/* A refined solve repairs the error of every unknown, the last node's slope, too: no step of a mesh
- * whose matrix has lost ten digits is beyond the certificate. */
-TEST(test_refined)
-{
-    struct br_error err = {0};
-    static struct br_run_report p;
-    struct br_scene scene = br_test_bundled("vibration");
-    struct br_method method = br_method_default();
-    method.solver = br_linear_solver_find("cholmod");
-    method.linear.refinement = 3;
-    const struct br_run_request request = {
-        .scene = &scene, .method = method, .n = 1600, .steps = 50, .check = true};
-    MUST(br_run(&request, &p, &err));
-    assert_int_equal(p.failure.status, BR_OK);
-    if (p.bad_steps)
-        fail_msg("%zu steps are beyond a limit; the first: %s", p.bad_steps, p.verdict.message);
-    br_scene_clear(&scene);
-}

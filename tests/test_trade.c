@@ -94,13 +94,11 @@ TEST(test_names)
         {"bdf2,", "found ''"},
         {"bdf2+euler", "given already"},
         {"bdf2+lagged", "lagged"},
-        {"bdf2+scaled", "does not use"},
         {"bdf2,bdf2+implicit", "--methods: bdf2+implicit is given twice"},
     };
     struct br_error err = {0};
     struct br_named_methods all;
-    MUST(
-        br_named_methods_read("--methods", "euler,regularised+bdf2+umfpack+scaled+p2", &all, &err));
+    MUST(br_named_methods_read("--methods", "euler,regularised+bdf2+umfpack+p2", &all, &err));
     assert_int_equal(all.count, 2);
     assert_false(all.list[0].method.contact->at_new_step);
     assert_true(br_trade_is_printed_method(&all.list[0]));
@@ -109,8 +107,6 @@ TEST(test_names)
     assert_string_equal(m->scheme->name, "bdf2");
     assert_string_equal(m->friction->name, "regularised");
     assert_string_equal(m->solver->name, "umfpack");
-    assert_string_equal(m->linear.scaling, "sum");
-    assert_int_equal(m->linear.refinement, 0);
     assert_int_equal(m->axial_degree, 2);
     assert_false(br_trade_is_printed_method(&all.list[1]));
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)

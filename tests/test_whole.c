@@ -137,8 +137,13 @@ static enum br_status open_folder(void)
     struct br_error err;
     char path[512];
     cli_path("set", path);
-    struct br_output output = {.waits = true}; /* until a killed program is gone */
-    const enum br_status status = br_output_open(&output, path, &err);
+    struct br_output output = {0};
+    enum br_status status = br_output_open(&output, path, &err);
+    for (int i = 0; i < 1000 && status && strstr(err.message, "in use by"); i++) {
+        usleep(10000); /* until a killed program is gone */
+        output = (struct br_output){0};
+        status = br_output_open(&output, path, &err);
+    }
     br_output_discard(&output);
     return status;
 }

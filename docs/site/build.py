@@ -5,7 +5,7 @@
 usage: build.py PROJECT PROGRAM FOLDER [SCENE...]
 
 The pages and what they link to keep their places, so that their links hold; a link that does not is
-an error. The gallery shows the animation of each bundled scene, or of the SCENEs.
+an error. The gallery shows the tip over time of each bundled scene, or of the SCENEs.
 """
 import os
 import pathlib
@@ -56,19 +56,21 @@ def copy_page(project, source, page):
 
 
 def draw(program, scene, folder):
-    """A scene's animation; None where there is no gnuplot."""
-    picture = folder / f"{scene}.gif"
-    command = [program, "run", scene, "--quiet", "--animate", picture]
+    """The picture of a scene's tip over time; None where there is no gnuplot."""
+    command = [program, "run", scene, "--quiet", "--out", folder / "run"]
     subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
-    for other in (".gp", ".dat"):
-        picture.with_suffix(other).unlink()
-    return picture.name if picture.exists() else None
+    picture = folder / "run" / "history.svg"
+    there = picture.exists()
+    if there:
+        picture.rename(folder / f"{scene}.svg")
+    shutil.rmtree(folder / "run")
+    return f"{scene}.svg" if there else None
 
 
 def make_gallery(program, scenes, folder):
-    """A page with each scene's animation and what its file says of it."""
+    """A page with each scene's tip and what its file says of it."""
     folder.mkdir()
-    page = ["# Gallery", "", "Each bundled scene, as `beamrate run SCENE --animate` draws it."]
+    page = ["# Gallery", "", "Each bundled scene, as `beamrate run SCENE --out` draws it."]
     for scene in scenes:
         text = subprocess.run([program, "scenes", scene], check=True, capture_output=True, text=True)
         title = re.search(r"^title: *(.*)$", text.stdout, re.M)

@@ -4,18 +4,15 @@
 #include <math.h>
 #include <string.h>
 
-const struct br_linear_options br_linear_defaults = {
-    .scaling = "none", .refinement = 0, .kernel = NULL};
-
 const struct br_linear_solver *const br_linear_solvers[] = {
-    &br_auto, &br_riccati, &br_plain, &br_umfpack, &br_cholmod, &br_banded, NULL,
+    &br_auto, &br_riccati, &br_plain, &br_umfpack, NULL,
 };
 
 const struct br_linear_solver br_auto = {
     .name = "auto",
     .title = "the fastest of the others for the mesh, the elements and the time scheme",
     .citation = "costs as measured, see their rows",
-    .options = "--kernel",
+    .takes_kernel = true,
 };
 
 const struct br_linear_solver *br_linear_solver_find(const char *name)
@@ -73,9 +70,4 @@ const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver
 {
     const struct br_linear_solver *taken = br_linear_solver_taken(solver, field, 0);
     return taken ? own_solver(taken, field) : NULL;
-}
-
-bool br_linear_solver_accepts(const struct br_linear_solver *solver, const char *option)
-{
-    return strstr(solver->options, option) != NULL;
 }

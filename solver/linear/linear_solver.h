@@ -16,15 +16,6 @@
 #include "solver/field.h"
 #include "solver/linear/riccati/kernel.h"
 
-/* Options of solvers. The `options` text of a solver names those that it accepts. */
-struct br_linear_options {
-    const char *scaling;            /* umfpack: "none", "sum" or "max" */
-    int refinement;                 /* assembled: largest number of refinement steps a solve */
-    const struct br_kernel *kernel; /* riccati; NULL: the best that is available */
-};
-
-extern const struct br_linear_options br_linear_defaults;
-
 /* The loads on a field in one step: the load vector factor * vector, and forces on the tip. */
 struct br_drive {
     const double *vector; /* br_field_size values, N; NULL: none */
@@ -34,16 +25,15 @@ struct br_drive {
 };
 
 struct br_linear_solver;
-struct br_factoriser;
 
 /* A march of one field: create, then predict and finish once a step. Every function but
  * round_off is needed. */
 struct br_field_solver {
-    /* Prepares the field's operator; the state starts at rest. Fails with
-     * BR_SINGULAR, BR_BAD_INPUT (an option), BR_NO_MEMORY; free *self even then. */
-    enum br_status (*create)(const struct br_linear_solver *row, const struct br_field *field,
-                             const struct br_linear_options *options, void **self,
-                             struct br_error *err);
+    /* Prepares the field's operator; the state starts at rest. kernel: of riccati; NULL: the best
+     * that is available. Fails with BR_SINGULAR, BR_BAD_INPUT (a kernel that the machine has not),
+     * BR_NO_MEMORY; free *self even then. */
+    enum br_status (*create)(const struct br_field *field, const struct br_kernel *kernel,
+                             void **self, struct br_error *err);
     void (*free)(void *self); /* accepts NULL */
 
     /* The tip's velocity per unit of tip force, z_tip > 0, m/s per N. */
@@ -110,21 +100,19 @@ struct br_linear_solver {
     const char *name;     /* as on the command line */
     const char *title;    /* one line for a person */
     const char *citation; /* where the method comes from */
-    const char *options;  /* the br_linear_options that it accepts; "" for none */
+    bool takes_kernel;    /* whether the choice of a kernel changes its digits */
     const struct br_field_solver *axial, *bending;
     const struct br_field_solver *axial_quadratic; /* for elements of degree 2; NULL: it has none */
-    const struct br_factoriser *factoriser; /* of the assembled form (assembled.h), or NULL */
 
-    /* Predicted round-off of a march's displacement relative to the exact discrete
-     * solution at its end, from measurements (`beamrate extremes floors`; the benchmark). */
-    double (*round_off)(const struct br_linear_solver *row, const struct br_field *field,
-                        const struct br_linear_options *options);
+    /* Predicted round-off of a march's displacement at its end, the deviation from the exact
+     * discrete solution over the largest displacement of the march, from measurements (`beamrate
+     * extremes floors`; the benchmark). */
+    double (*round_off)(const struct br_field *field);
 
     /* The residual of its solves in the equations (27) and (28), beyond the rounding of nodal
      * values: the norm of the error in the normal force or the moment, relative to the terms' sum.
      * NULL: none. */
-    double (*residual)(const struct br_linear_solver *row, const struct br_field *field,
-                       const struct br_linear_options *options);
+    double (*residual)(const struct br_field *field);
 
     /* The largest measured number of bytes an element: of the solver with one state, during its
      * set-up and after; and of each further state that a scheme keeps. tests/test_resources.c
@@ -143,8 +131,7 @@ struct br_linear_solver {
 double br_cost_by_elements(const struct br_linear_solver *row, const struct br_field *field,
                            double sums);
 
-extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack, br_cholmod,
-    br_banded;
+extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack;
 
 /* The functions of `plain`, for both fields, and both degrees of the axial one. */
 extern const struct br_field_solver br_plain_form;
@@ -165,8 +152,5 @@ const struct br_linear_solver *br_linear_solver_taken(const struct br_linear_sol
  * that degree. */
 const struct br_field_solver *br_linear_solver_for(const struct br_linear_solver *solver,
                                                    const struct br_field *field);
-
-/* Whether the solver heeds a field of struct br_linear_options, "--scaling" for example. */
-bool br_linear_solver_accepts(const struct br_linear_solver *solver, const char *option);
 
 #endif

@@ -53,12 +53,10 @@ static enum br_status set_step(void *self, double k, struct br_error *err)
     return br_recursion_fill(&s->recursion, s->field.kind == BR_AXIAL ? "axial" : "bending", err);
 }
 
-static enum br_status create(const struct br_linear_solver *row, const struct br_field *field,
-                             const struct br_linear_options *options, void **self,
-                             struct br_error *err)
+static enum br_status create(const struct br_field *field, const struct br_kernel *kernel,
+                             void **self, struct br_error *err)
 {
-    (void)row;
-    (void)options;
+    (void)kernel;
     const char *what = field->kind == BR_AXIAL ? "the axial solver" : "the bending solver";
     struct plain *s = br_allocate(1, sizeof *s);
     *self = s;
@@ -139,11 +137,8 @@ const struct br_field_solver br_plain_form = {
 
 /* An upper estimate; the benchmark and tests/ measure less. The round-off of a tip that sticks does
  * not depend on the mesh. */
-static double round_off(const struct br_linear_solver *row, const struct br_field *field,
-                        const struct br_linear_options *options)
+static double round_off(const struct br_field *field)
 {
-    (void)row;
-    (void)options;
     return 4 * DBL_EPSILON * ((double)field->n + 1024);
 }
 
@@ -151,7 +146,6 @@ const struct br_linear_solver br_plain = {
     .name = "plain",
     .title = "the same form as it is written down: one backward and one forward recursion",
     .citation = "discrete linear-quadratic problem; Riccati recursion, see solver/linear/plain.h",
-    .options = "",
     .axial = &br_plain_form,
     .axial_quadratic = &br_plain_form,
     .bending = &br_plain_form,

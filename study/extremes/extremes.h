@@ -19,7 +19,6 @@ struct br_extremes_job {
     const size_t *n, *steps; /* elements; numbers of steps of the duration */
     size_t n_count, step_count;
     const struct br_named_methods *methods;
-    int rounding; /* as fesetround takes it: of the marches, not of their judges */
     const struct br_observer *observer; /* NULL: none */
 };
 
@@ -39,11 +38,13 @@ static inline double br_worst(double a, double b)
 struct br_floor {
     const struct br_scene *scene; /* borrowed */
     const struct br_named_method *by;
+    bool at_new_step;        /* floors: contact at u_n, since the lagged one is beyond its limit */
     size_t n, of;            /* elements; steps of the duration */
     size_t steps;            /* steps of these that are taken; 0: not marched */
     double k;                /* s */
     double deviation[2];     /* by br_field_kind: at the end, largest of all nodal displacements,
-                                relative to the largest displacement of the field */
+                                relative to the largest displacement of the field at all
+                                time levels */
     double tip[2];           /* of the tip's, relative to the same */
     double predicted;        /* br_march_round_off */
     double time_error;       /* largest error of the march's times, relative to the duration */
@@ -55,11 +56,12 @@ enum { BR_FLOOR_STEPS = 20, BR_GATHERED_N = 10, BR_FLOOR_SCENES = 2, BR_FLOOR_ME
 /* Not to be moved: its marches point to its scenes and methods. */
 struct br_floors {
     /* False: floors. Every linear solver takes BR_FLOOR_STEPS steps of implicit Euler with the
-     * paper's lagged contact. A tip that slips (example2) is best, since a free tip is the softest
+     * paper's lagged contact, or with contact at u_n where that is beyond its limit and would
+     * multiply round-off. A tip that slips (example2) is best, since a free tip is the softest
      * motion, which loses most. So many steps are enough for the memory of inertia at k = 1e-6.
      * True: round-off that steps gather until the end of the duration, of BR_GATHERED_N elements by
      * every time scheme of equal steps, with contact and friction (example1 sticks, example2
-     * slips). */
+     * slips); a lagged contact beyond its limit is not marched. */
     bool gathered;
     const struct br_scene *scene[BR_FLOOR_SCENES]; /* borrowed */
     struct br_named_method method[BR_FLOOR_METHODS];

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <fenv.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -29,18 +28,12 @@ __attribute__((format(printf, 2, 3))) static void add_method(struct br_floors *f
         f->methods++;
 }
 
-/* Every linear solver, and each option that changes its digits. */
+/* Every linear solver. */
 static void add_solvers(struct br_floors *f)
 {
-    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++) {
-        if (!(*s)->cost) /* it chooses one of the others */
-            continue;
-        add_method(f, "%s", (*s)->name);
-        if (br_linear_solver_accepts(*s, "--scaling"))
-            add_method(f, "%s+scaled", (*s)->name);
-        if (br_linear_solver_accepts(*s, "--refinement"))
-            add_method(f, "%s+refined", (*s)->name);
-    }
+    for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
+        if ((*s)->cost) /* else it chooses one of the others */
+            add_method(f, "%s", (*s)->name);
     f->solvers = f->methods;
 }
 
@@ -74,6 +67,15 @@ static bool is_usual(const struct br_method *m, bool sticks, size_t steps)
     return steps <= most_of_one || (m->scheme->may_lag && m->contact->at_new_step && sticks);
 }
 
+/* Whether the lagged contact is beyond its limit, where it multiplies round-off in each step. */
+static bool contact_grows(const struct br_scene *scene, const struct br_method *m, size_t n,
+                          size_t steps)
+{
+    const struct br_field rod = br_field_of_scene(scene, BR_AXIAL, n, br_time_step(scene, steps));
+    return scene->contact.modelled && !m->contact->at_new_step &&
+           br_contact_grows(&rod, scene->contact.stiffness);
+}
+
 /* All marches of a mesh and a time step. */
 static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps, bool chosen)
 {
@@ -81,11 +83,14 @@ static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps,
     for (size_t i = 0; i < f->scenes * f->methods; i++) {
         const struct br_scene *scene = f->scene[i / f->methods];
         const struct br_named_method *by = &f->method[i % f->methods];
+        const bool grows = contact_grows(scene, &by->method, n, steps);
         const bool marched =
-            chosen || !f->gathered || is_usual(&by->method, scene == f->scene[0], steps);
+            !f->gathered ||
+            (!grows && (chosen || is_usual(&by->method, scene == f->scene[0], steps)));
         f->floor[i * f->n_count * f->k_count + at] = (struct br_floor){
             .scene = scene,
             .by = by,
+            .at_new_step = grows,
             .n = n,
             .of = steps,
             .steps = !marched       ? 0
@@ -115,8 +120,6 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
         add_schemes(f);
     else
         add_solvers(f);
-    for (size_t i = 0; i < f->methods; i++)
-        f->method[i].method.rounding = job->rounding;
     f->n_count = f->gathered ? COUNT(gathered_n) : job->n ? job->n_count : COUNT(usual_n);
     f->k_count = job->steps    ? job->step_count
                  : f->gathered ? COUNT(gathered_steps)
@@ -142,9 +145,18 @@ void br_floors_clear(struct br_floors *f)
 struct work {
     struct br_floor *first; /* the others follow, with a stride */
     const struct br_observer *observer;
-    double *nodal[2]; /* of the exact discrete solution, by br_field_kind; owned */
-    double *march;    /* workspace, 2 (n + 1); owned */
+    double *nodal[2];  /* of the exact discrete solution at the end, by br_field_kind; owned */
+    double largest[2]; /* displacement of that solution at all time levels, m */
+    double *march;     /* workspace, 2 (n + 1); owned */
 };
+
+static struct br_method method_of(const struct br_floor *f)
+{
+    struct br_method m = f->by->method;
+    if (f->at_new_step)
+        m.contact = br_contact_rule_find("implicit");
+    return m;
+}
 
 /* Checks so often that on any mesh little time passes between two checks. */
 static bool stopped(const struct work *w, size_t step)
@@ -152,43 +164,65 @@ static bool stopped(const struct work *w, size_t step)
     return step % (40960 / w->first->n + 1) == 0 && br_observer_stops(w->observer);
 }
 
+/* The nodal values of a displacement: slopes belong to the same function and need no comparison. */
+static size_t stride_of(enum br_field_kind kind)
+{
+    return kind == BR_AXIAL ? 1 : 2;
+}
+
+/* Takes the displacements of a level. A vibration may have died down at the end: its round-off is
+ * that of the times before, so the largest displacement of all levels is the scale. */
+static void take_level(struct work *w, const struct br_march *march)
+{
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_march_get(march, kind, w->nodal[kind], NULL);
+        for (size_t i = 0; i <= w->first->n; i++)
+            w->largest[kind] = fmax(w->largest[kind], fabs(w->nodal[kind][i * stride_of(kind)]));
+    }
+}
+
 /* The same march by `plain` in long double. Where it is refused, or fails, there is nothing to
- * compare with. */
+ * compare with: no values are left. */
 static enum br_status find_exact(struct work *w, struct br_error *err)
 {
     const struct br_floor *f = w->first;
-    struct br_method method = f->by->method;
+    struct br_method method = method_of(f);
     method.solver = &br_long_plain;
-    method.rounding = FE_TONEAREST;
     struct br_march *march;
     enum br_status status = br_march_create(&march, f->scene, f->n, f->of, &method, err);
-    for (size_t i = 0; i < f->steps && !status; i++)
-        status =
-            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_march_step(march, err);
     for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         w->nodal[kind] = br_allocate(2 * (f->n + 1), sizeof *w->nodal[kind]);
-        if (w->nodal[kind])
-            br_march_get(march, (enum br_field_kind)kind, w->nodal[kind], NULL);
-        else
+        if (!w->nodal[kind])
             status = br_no_memory(err, "the exact discrete solution");
+    }
+    if (!status)
+        take_level(w, march);
+    for (size_t i = 0; i < f->steps && !status; i++) {
+        status =
+            stopped(w, i) ? br_fail(err, BR_INTERRUPTED, "interrupted") : br_march_step(march, err);
+        if (!status)
+            take_level(w, march);
+    }
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && status; kind++) {
+        free(w->nodal[kind]);
+        w->nodal[kind] = NULL;
     }
     br_march_free(march);
     return status == BR_NO_MEMORY || status == BR_INTERRUPTED ? status : BR_OK;
 }
 
-/* Compares nodal displacements. Slopes belong to the same functions and need no comparison. */
+/* Compares nodal displacements. */
 static void compare(const struct work *w, const struct br_march *march, enum br_field_kind kind,
                     struct br_floor *floor)
 {
-    const size_t stride = kind == BR_AXIAL ? 1 : 2, last = stride * floor->n;
-    const double *exact = w->nodal[kind];
-    double most = 0, largest = 0;
+    const size_t stride = stride_of(kind), last = stride * floor->n;
+    const double *exact = w->nodal[kind], largest = w->largest[kind];
+    double most = 0;
     if (!exact)
         return; /* the deviation stays NaN */
     br_march_get(march, kind, w->march, NULL);
     for (size_t i = 0; i <= last; i += stride) {
         const double error = fabs(exact[i] - w->march[i]);
-        largest = fmax(largest, fabs(exact[i]));
         most = isnan(most) || error <= most ? most : error;
     }
     floor->deviation[kind] = largest > 0 ? most / largest : most;
@@ -207,8 +241,9 @@ static enum br_status measure(const struct work *w, struct br_floor *floor, stru
 {
     struct br_march *march;
     bool stop = false;
-    enum br_status status = br_march_create(&march, floor->scene, floor->n, floor->of,
-                                            &floor->by->method, &floor->refused);
+    const struct br_method method = method_of(floor);
+    enum br_status status =
+        br_march_create(&march, floor->scene, floor->n, floor->of, &method, &floor->refused);
     floor->time_error = 0;
     for (size_t i = 0; i < floor->steps && !status && !stop; i++) {
         stop = stopped(w, i);

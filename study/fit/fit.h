@@ -111,34 +111,6 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
  * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);
 
-/* ---- extrapolation ----
- *
- * The tip at h = k = 0 from the tips of a grid's cells, without any reference:
- * Richardson extrapolation with observed orders, first over k on each mesh, then over h. */
-
-/* The displacement of the tip at t = T in all cells of a grid. */
-struct br_tips {
-    size_t n_count, k_count;
-    const size_t *n, *steps; /* ascending; borrowed */
-    int axial_degree;        /* of the elements */
-    double scheme_order;     /* 0: the scheme chooses its own steps */
-    double *value[2];        /* by br_field_kind: n_count * k_count by rows of equal n, m; NaN
-                                where a cell failed or is unstable; owned */
-};
-
-/* Room for the tips of a grid, all NaN. Fails with BR_NO_MEMORY. */
-enum br_status br_tips_create(struct br_tips *tips, const struct br_study *grid,
-                              struct br_error *err);
-enum br_status br_tips_of_study(struct br_tips *tips, const struct br_study *study,
-                                struct br_error *err);
-void br_tips_clear(struct br_tips *tips);
-
-/* The value at h = k = 0, m. Half the width of its interval is Roache's (1998): 3 times the
- * distance from the values by the order of theory and by the next coarser three cells. NaN with
- * less than three meshes or four time steps, and where the values do not show an order of theory.
- */
-struct br_estimate br_extrapolate(const struct br_tips *tips, enum br_field_kind kind);
-
 /* Least squares |b - A c| with A of m rows of n columns, n <= 7, m >= n, by Q R with pivoting; c
  * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
  * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL

@@ -49,7 +49,7 @@ static enum br_status check_formal(double formal, struct br_error *err)
                : br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
 }
 
-/* The round-off that the difference of two values may have, as in extrapolation.c. */
+/* The round-off that the difference of two values may have. */
 static double round_off_of(const double *value, size_t count)
 {
     double largest = 0;

@@ -147,8 +147,10 @@ static void say_too_few(struct br_seen_order *o, const struct line *l)
 static struct br_seen_point point_of(const struct line *l, const struct br_line_order *found,
                                      const struct br_cell *c, enum br_part part)
 {
-    struct br_seen_point p = {br_axis_size(l->study->scene, l->axis, c->at), c->error[part],
-                              c->flag[part], {NAN, NAN, NAN}};
+    struct br_seen_point p = {br_axis_size(l->study->scene, l->axis, c->at),
+                              c->error[part],
+                              c->flag[part],
+                              {NAN, NAN, NAN}};
     size_t i = 0;
     while (i < l->count && l->point[i].z != p.z)
         i++;
@@ -164,8 +166,8 @@ static void keep_points(struct br_seen_order *o, const struct line *l, enum br_p
     const size_t count = br_axis_count(l->study, l->axis);
     o->points = 0;
     for (size_t i = count > BR_MOST_SEEN ? count - BR_MOST_SEEN : 0; i < count; i++)
-        o->point[o->points++] = point_of(
-            l, found, &l->study->cell[br_axis_cell(l->study, l->axis, i, l->at)], part);
+        o->point[o->points++] =
+            point_of(l, found, &l->study->cell[br_axis_cell(l->study, l->axis, i, l->at)], part);
 }
 
 /* The cell of a kept point. */
@@ -239,8 +241,7 @@ static bool determines(const struct br_joint_fit *fit, int axis, double theory)
 }
 
 /* Draws the model and its band along the line: the errors of the other axis bend it. */
-static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit,
-                      const struct line *l)
+static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit, const struct line *l)
 {
     const double order[] = {o->order.value, o->order.low, o->order.high};
     const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
@@ -342,9 +343,7 @@ static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
         return BR_OK;
     }
     const double space = error_of_space(r, part);
-    snprintf(o->by, sizeof o->by, "%s on the finest mesh, n = %zu",
-             s->judge == &br_judge_none ? "differences of time steps" : "errors",
-             s->n[s->n_count - 1]);
+    snprintf(o->by, sizeof o->by, "errors on the finest mesh, n = %zu", s->n[s->n_count - 1]);
     if (l.count && space > hidden * l.point[l.count - 1].error) {
         keep_points(o, &l, part, NULL);
         REMARK(o, "hidden by the error in h, about %.1e beside %.1e: a finer mesh shows the order",
@@ -373,8 +372,7 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     if (status || !r->apart[BR_AXIS_TIME] || settles(o))
         return status;
     status = see_apart(r->apart[BR_AXIS_TIME], part, BR_AXIS_TIME, &apart, err);
-    if (isnan(o->order.value) || settles(&apart) ||
-        width_of(&apart.order) < width_of(&o->order))
+    if (isnan(o->order.value) || settles(&apart) || width_of(&apart.order) < width_of(&o->order))
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 16 * s->steps[s->k_count - 1];
@@ -401,13 +399,12 @@ static bool is_modelled(const struct br_scene *scene, enum br_part part)
 enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, struct br_error *err)
 {
     const struct br_study *s = br_report_fitted(r);
-    const bool over_h = axis == BR_AXIS_SPACE, none = s->judge == &br_judge_none;
+    const bool over_h = axis == BR_AXIS_SPACE;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
         struct br_seen_order *o = &r->seen[part][axis];
         *o = (struct br_seen_order){
             .asked = is_modelled(s->scene, part) && br_study_cells(s) > 0 &&
-                     (!none || over_h == (r->apart[BR_AXIS_SPACE] != NULL)) &&
                      (over_h || !s->method.scheme->adaptive),
             .order = {NAN, NAN, NAN},
             .theory = br_theory_of(s, part, axis),
@@ -423,16 +420,6 @@ enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, stru
 
 /* ---- the report ---- */
 
-static enum br_status extrapolate_tips(struct br_report *r, struct br_error *err)
-{
-    struct br_tips own = {0};
-    const enum br_status status = r->tips ? BR_OK : br_tips_of_study(&own, r->study, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        r->tip[kind] = br_extrapolate(r->tips ? r->tips : &own, (enum br_field_kind)kind);
-    br_tips_clear(&own);
-    return status;
-}
-
 enum br_status br_report_finish(struct br_report *r, int threads, struct br_error *err)
 {
     enum br_status status = BR_OK;
@@ -440,8 +427,6 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
         status = br_fit(br_report_fitted(r), (enum br_part)part, &r->fits[part], err);
     for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
         status = br_report_see_orders(r, axis, err);
-    if (!status)
-        status = extrapolate_tips(r, err);
     if (!status && r->exact)
         br_flag_beside(r->study);
     if (!status && r->printed)

@@ -36,7 +36,6 @@ struct br_report {
                                    or there is none. Borrowed */
     double *printed;            /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
                                    none; NULL: there is no printed table. Owned */
-    const struct br_tips *tips; /* of the cells; NULL: those of the study. Borrowed */
     const struct br_study *apart[BR_AXES]; /* each mesh against the next; the study itself where it
                                               has such differences. Each time step against the next
                                               smaller one on one mesh. NULL: none. Flagged;
@@ -45,8 +44,6 @@ struct br_report {
                               Borrowed */
     struct br_fits fits[BR_PARTS];
     struct br_seen_order seen[BR_PARTS][BR_AXES];
-    struct br_estimate tip[2]; /* by br_field_kind: the tip at t = T for h, k -> 0, by
-                                  extrapolation of those tips alone, m; NaN: not known */
     struct br_triangle triangle[BR_MOST_TRIANGLES];
     size_t triangles;
     double wall_seconds; /* of the whole study */
@@ -65,8 +62,7 @@ enum br_status br_report_see_orders(struct br_report *report, enum br_axis axis,
  * tolerance of a check, and are as in theory. */
 bool br_report_settles(const struct br_report *report, enum br_axis axis);
 
-/* Fits all components of those errors, sets their orders, extrapolates the tips, and checks the
- * printed values, where there are some, by the triangle inequality. The borrowed members and
+/* Fits all components of those errors, sets their orders, and checks the printed values, where there are some, by the triangle inequality. The borrowed members and
  * `printed` must be set before. Fails with BR_NO_MEMORY or as br_study_run does. */
 enum br_status br_report_finish(struct br_report *report, int threads, struct br_error *err);
 void br_report_clear(struct br_report *report);

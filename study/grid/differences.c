@@ -39,26 +39,24 @@ static void set_pair(const struct pairs *p, bool over_h, size_t i, size_t j)
         };
 }
 
-static enum br_status check_grid(const struct br_study *grid, bool both, struct br_error *err)
+static enum br_status check_grid(const struct br_study *grid, struct br_error *err)
 {
-    const size_t least = both ? 2 : 1;
-    if (grid->n_count < least || grid->k_count < least || grid->n_count + grid->k_count < 3)
-        return br_fail(
-            err, BR_BAD_INPUT,
-            "found %zu meshes and %zu time steps, expected at least two of each: without "
-            "a reference successive grids are compared",
-            grid->n_count, grid->k_count);
+    if (grid->n_count < 1 || grid->k_count < 1 || grid->n_count + grid->k_count < 3)
+        return br_fail(err, BR_BAD_INPUT,
+                       "found %zu meshes and %zu time steps, expected at least two of one of them: "
+                       "successive grids are compared",
+                       grid->n_count, grid->k_count);
     for (size_t i = 0; i + 1 < grid->n_count; i++)
         if (grid->n[i] == 0 || grid->n[i + 1] % grid->n[i] != 0)
             return br_fail(err, BR_BAD_INPUT,
                            "n = %zu does not divide n = %zu, the next finer mesh, which it is "
-                           "compared with without a reference",
+                           "compared with",
                            grid->n[i], grid->n[i + 1]);
     for (size_t j = 0; j + 1 < grid->k_count; j++)
         if (grid->steps[j] == 0 || grid->steps[j + 1] % grid->steps[j] != 0)
             return br_fail(err, BR_BAD_INPUT,
                            "the time levels of k = %g s are not all among those of k = %g s, the "
-                           "next smaller step, which it is compared with without a reference",
+                           "next smaller step, which it is compared with",
                            br_time_step(grid->scene, grid->steps[j]),
                            br_time_step(grid->scene, grid->steps[j + 1]));
     return BR_OK;
@@ -117,29 +115,12 @@ static enum br_status gather(const struct pairs *p, bool over_h, size_t m, struc
     return BR_OK;
 }
 
-/* Every cell of the grid is the first of a pair, except that of finest mesh and smallest step. */
-static void collect_tips(const struct pairs *p, struct br_tips *tips)
-{
-    const size_t rows = tips->n_count, columns = tips->k_count;
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++) {
-            const bool finest = i + 1 == rows, last = j + 1 == columns;
-            const size_t from_i = finest && last ? i - 1 : i;
-            const struct br_study *s = &p->study[pair_index(p->grid, !finest || last, from_i, j)];
-            const double *tip = finest && last ? s->reference_tip : s->cell[0].tip;
-            const bool failed =
-                (s->cell[0].failure.status || s->cell[0].unstable) && !(finest && last);
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-                tips->value[kind][i * columns + j] = failed ? NAN : tip[kind];
-        }
-}
-
 enum br_status br_differences_run(const struct br_study *grid, struct br_differences *out,
-                                  struct br_tips *tips, int threads,
-                                  const struct br_observer *observer, struct br_error *err)
+                                  int threads, const struct br_observer *observer,
+                                  struct br_error *err)
 {
     struct pairs p = {.grid = grid};
-    enum br_status status = check_grid(grid, tips != NULL, err);
+    enum br_status status = check_grid(grid, err);
     if (!status)
         status = create_pairs(&p, err);
     if (!status)
@@ -149,10 +130,6 @@ enum br_status br_differences_run(const struct br_study *grid, struct br_differe
             if (br_axis_count(grid, axis) > 1)
                 status = gather(&p, axis == BR_AXIS_SPACE, m, &out[m].over[axis], err);
     }
-    if (!status && tips)
-        status = br_tips_create(tips, grid, err);
-    if (!status && tips)
-        collect_tips(&p, tips);
     for (size_t i = 0; p.study && i < p.count * p.norms; i++)
         br_study_clear(&p.study[i]);
     free(p.study);

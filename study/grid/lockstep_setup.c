@@ -90,7 +90,7 @@ static enum br_status create_ladder(struct br_lockstep *l, const struct br_sampl
                                     const struct br_mesh_list *meshes, struct br_ladder **ladder,
                                     struct br_error *err)
 {
-    const struct br_kernel *kernel = l->study->method.linear.kernel;
+    const struct br_kernel *kernel = l->study->method.kernel;
     const size_t modes = br_mode_count(br_lockstep_elements(l, at->kind), at->measure);
     const enum br_status status = br_ladder_create(ladder, modes, roots, meshes, &l->store, err);
     if (!status && kernel)

@@ -126,7 +126,6 @@ void br_state_method(struct br_statement *s, const struct br_method *m)
             br_state(s, f->name, "%s", br_method_field_text(f, m, value));
     br_state(s, "iterations", "%zu", m->iteration.most);
     br_state(s, "most_steps", "%zu", m->most_steps);
-    br_state(s, "rounding", "%d", m->rounding);
 }
 
 static void state_resolution(struct br_statement *s, struct br_resolution at)

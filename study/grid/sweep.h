@@ -27,11 +27,11 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
 enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
                            const struct br_observer *observer, struct br_error *err);
 
-/* ---- without a reference ---- */
+/* ---- successive grids ---- */
 
-/* A study without a reference: each cell against the same scheme on the next finer mesh,
- * and with the next smaller time step (Richardson 1911; Roache 1998). The differences
- * of successive grids have the orders of the errors, and need no judge. */
+/* Each cell against the same scheme on the next finer mesh, and with the next smaller time step
+ * (Richardson 1911; Roache 1998). Such differences have the orders of the errors, and need no
+ * judge. */
 
 /* The differences of one grid in one norm: studies whose cells are compared with their
  * next finer neighbours, `against`. */
@@ -40,13 +40,12 @@ struct br_differences {
 };
 
 /* Marches a grid (the first of a chain of norms; scene, norm, method, and lists n and steps,
- * ascending) and measures its differences into out[0 .. norms); `tips` gets the tips of
- * all its cells; NULL: the grid may have one mesh or one time step, and there is nothing over that
- * axis. Fails with BR_BAD_INPUT where there are less than two meshes or two time steps, or one does
- * not nest in the next, or as br_study_run does. */
+ * ascending) and measures its differences into out[0 .. norms). A grid may have
+ * one mesh or one time step: there is nothing over that axis. Fails with BR_BAD_INPUT where it has
+ * one of both, or one does not nest in the next, or as br_study_run does. */
 enum br_status br_differences_run(const struct br_study *grid, struct br_differences *out,
-                                  struct br_tips *tips, int threads,
-                                  const struct br_observer *observer, struct br_error *err);
+                                  int threads, const struct br_observer *observer,
+                                  struct br_error *err);
 
 /* ---- printed tables ---- */
 

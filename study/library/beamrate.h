@@ -79,7 +79,7 @@ struct beamrate_observer {
 /* A method is a list of keys and values, which ends with NULL:
  *     const char *const method[] = {"scheme", "bdf2", "axial_degree", "2", NULL};
  * Keys and values are those of a scene's `verify` part: scheme, tolerance, axial_degree, solver,
- * kernel, scaling, refinement, contact, friction, friction_parameter, friction_tolerance.
+ * kernel, contact, friction, friction_parameter, friction_tolerance.
  * The default of all keys, and of a list that is NULL, is the paper's scheme:
  * implicit Euler with lagged contact, (16) and (17). Unknown keys and keys that the method does not
  * use are refused (BEAMRATE_BAD_INPUT). */

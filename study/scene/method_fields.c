@@ -36,7 +36,6 @@ CHOICE(friction, br_friction_rules)
         m->member = (type)value;                              \
     }
 NUMBER(tolerance, tolerance, double)
-NUMBER(refinement, linear.refinement, int)
 NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
 
@@ -49,8 +48,6 @@ NUMBER(friction_tolerance, iteration.tolerance, double)
     }                                                             \
     static const struct br_words list##_words = {list##_name, NULL, NULL};
 LIST(degree, "1", "2")
-LIST(scaling, "none", "sum", "max")
-enum { BY_SUMS = 1 }; /* the row */
 
 static double get_degree(const struct br_method *m)
 {
@@ -60,19 +57,6 @@ static double get_degree(const struct br_method *m)
 static void set_degree(struct br_method *m, double row)
 {
     m->axial_degree = (int)row + 1;
-}
-
-static double get_scaling(const struct br_method *m)
-{
-    size_t row = 0;
-    while (scaling_list[row] && strcmp(scaling_list[row], m->linear.scaling) != 0)
-        row++;
-    return (double)row;
-}
-
-static void set_scaling(struct br_method *m, double row)
-{
-    m->linear.scaling = scaling_list[(size_t)row];
 }
 
 static const char *kernel_name(size_t row)
@@ -89,7 +73,7 @@ static const struct br_words kernels = {kernel_name, NULL, kernel_available};
 /* If no kernel is chosen: the best one, which is then used. */
 static double get_kernel(const struct br_method *m)
 {
-    const struct br_kernel *kernel = m->linear.kernel ? m->linear.kernel : br_kernel_best();
+    const struct br_kernel *kernel = m->kernel ? m->kernel : br_kernel_best();
     size_t row = 0;
     while (br_kernels[row] && br_kernels[row] != kernel)
         row++;
@@ -98,7 +82,7 @@ static double get_kernel(const struct br_method *m)
 
 static void set_kernel(struct br_method *m, double row)
 {
-    m->linear.kernel = br_kernels[(size_t)row];
+    m->kernel = br_kernels[(size_t)row];
 }
 
 /* ---- what a scene models ---- */
@@ -126,8 +110,6 @@ static bool has_friction(const struct br_scene *scene)
 /* ---- the table ---- */
 
 static const struct br_method_word degree_names[] = {{"p1", 0}, {"p2", 1}, {NULL, 0}};
-static const struct br_method_word scaling_names[] = {{"scaled", BY_SUMS}, {NULL, 0}};
-static const struct br_method_word refinement_names[] = {{"refined", 2}, {NULL, 0}};
 
 #define VALUE(name) .get = get_##name, .set = set_##name
 
@@ -156,16 +138,6 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
                           .more = "The results record it; those of two kernels agree to round-off.",
                           .standard = "the best", .words = &kernels, .by = BR_METHOD_SOLVER,
                           .before = " on ", .unsaid = true},
-    [BR_METHOD_SCALING] = {"scaling", "scaling", NULL, "umfpack's row scaling: none, sum or max",
-                           VALUE(scaling), .words = &scaling_words, .by = BR_METHOD_SOLVER,
-                           .before = ", scaling ", .quiet = true, .word = scaling_names,
-                           .words_title = "rows scaled by their sums"},
-    [BR_METHOD_REFINEMENT] = {"refinement", "refinement", NULL,
-                              "refinement steps a solve of assembled solvers, at most",
-                              VALUE(refinement), .range = {0, 100, true}, .by = BR_METHOD_SOLVER,
-                              .before = ", refinement steps ", .quiet = true,
-                              .word = refinement_names,
-                              .words_title = "two refinement steps a solve"},
     [BR_METHOD_CONTACT] = {"contact", "contact", "NAME", "where contact takes its force",
                            VALUE(contact),
                            .more = "lagged, the paper's, is for the scheme euler alone.",
@@ -212,12 +184,10 @@ bool br_method_field_depends(const struct br_method_field *f)
 
 bool br_method_field_used(const struct br_method_field *f, const struct br_method *m)
 {
-    char option[BR_METHOD_VALUE];
-    snprintf(option, sizeof option, "--%s", f->name);
     return !br_method_field_depends(f)   ? true
            : f->by == BR_METHOD_SCHEME   ? m->scheme->adaptive
            : f->by == BR_METHOD_FRICTION ? m->friction->iterates
-                                         : br_linear_solver_accepts(m->solver, option);
+                                         : m->solver->takes_kernel;
 }
 
 bool br_method_field_reported(const struct br_method_field *f, const struct br_method *m)
@@ -407,15 +377,6 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
             br_append(text, BR_METHOD_TEXT, ": %s", taken);
     }
     return text;
-}
-
-bool br_method_has_options(const struct br_method *m)
-{
-    for (const struct br_method_field *f = br_method_fields;
-         f < br_method_fields + BR_METHOD_FIELDS; f++)
-        if (!f->argument && br_method_field_used(f, m) && !is_default(f, m))
-            return false;
-    return true;
 }
 
 const char *br_method_options(const struct br_scene *scene, const struct br_method *m,

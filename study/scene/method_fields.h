@@ -13,8 +13,6 @@ enum br_method_key {
     BR_METHOD_DEGREE,
     BR_METHOD_SOLVER,
     BR_METHOD_KERNEL,
-    BR_METHOD_SCALING,
-    BR_METHOD_REFINEMENT,
     BR_METHOD_CONTACT,
     BR_METHOD_FRICTION,
     BR_METHOD_FRICTION_PARAMETER,
@@ -112,9 +110,7 @@ const char *br_method_text(const struct br_meshes *on, const struct br_method *m
                            char text[BR_METHOD_TEXT]);
 
 /* Writes " --scheme bdf2 --tolerance 1e-06": the options that are not the default and have an
- * effect in the scene, each after a blank. Returns text (out). br_method_has_options: whether the
- * options say all of the method. */
-bool br_method_has_options(const struct br_method *m);
+ * effect in the scene, each after a blank. Returns text (out). */
 const char *br_method_options(const struct br_scene *scene, const struct br_method *m,
                               char text[BR_METHOD_TEXT]);
 

@@ -11,10 +11,9 @@
 
 /* The fields of a method whose words may stand in a name. */
 static const struct br_method_field *const kinds[] = {
-    &br_method_fields[BR_METHOD_SCHEME],    &br_method_fields[BR_METHOD_CONTACT],
-    &br_method_fields[BR_METHOD_FRICTION],  &br_method_fields[BR_METHOD_SOLVER],
-    &br_method_fields[BR_METHOD_DEGREE],    &br_method_fields[BR_METHOD_SCALING],
-    &br_method_fields[BR_METHOD_REFINEMENT]};
+    &br_method_fields[BR_METHOD_SCHEME], &br_method_fields[BR_METHOD_CONTACT],
+    &br_method_fields[BR_METHOD_FRICTION], &br_method_fields[BR_METHOD_SOLVER],
+    &br_method_fields[BR_METHOD_DEGREE]};
 enum { CONTACT = 1, KINDS = sizeof kinds / sizeof *kinds };
 
 /* Word i of a kind and its value (out); NULL: i is behind the last word. */
@@ -65,24 +64,13 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     if (i == KINDS)
         return br_fail(err, BR_BAD_INPUT,
                        "found '%s', expected a time scheme, a contact rule, a friction rule, a "
-                       "linear solver, p1, p2, scaled or refined",
+                       "linear solver, p1 or p2",
                        word);
     if (taken[i])
         return br_fail(err, BR_BAD_INPUT, "found '%s', but the %s is given already", word,
                        title_of(kinds[i]));
     taken[i] = true;
     return BR_OK;
-}
-
-/* Refuses a word that the method would not use. */
-static enum br_status check(const struct br_method *m, const bool taken[KINDS],
-                            struct br_error *err)
-{
-    for (size_t i = 0; i < KINDS; i++)
-        if (taken[i] && kinds[i]->word && !br_method_field_used(kinds[i], m))
-            return br_fail(err, BR_BAD_INPUT, "solver %s does not use '%s'", m->solver->name,
-                           kinds[i]->word[0].word);
-    return br_method_check(m, err);
 }
 
 enum br_status br_named_method_read(const char *name, struct br_named_method *c,
@@ -100,7 +88,7 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
         status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
-    return status ? status : check(&c->method, taken, err);
+    return status ? status : br_method_check(&c->method, err);
 }
 
 /* ---- lists ---- */
@@ -200,10 +188,6 @@ void br_named_methods_default(const struct br_scene *scene, struct br_named_meth
             add(scene, all, "%s+p2", (*s)->name);
     for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
         add(scene, all, "%s+%s", base, br_friction_rules[i]->name);
-    for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++) {
+    for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++)
         add(scene, all, "%s+%s", base, (*s)->name);
-        if (br_linear_solver_accepts(*s, "--scaling") &&
-            br_linear_solver_accepts(*s, "--refinement"))
-            add(scene, all, "%s+%s+scaled+refined", base, (*s)->name);
-    }
 }

@@ -5,8 +5,6 @@
 
 #include "tests/bench/bench.h"
 
-enum { REFINEMENT = 4 };
-
 static double predicted(const struct br_scene *scene, const struct br_test_golden *row,
                         const struct br_method *method)
 {
@@ -23,27 +21,14 @@ static void run_row(const struct br_test_golden *row, const struct br_method *me
     const double deviation = br_test_deviation(&end, &row->end);
     const double limit = predicted(&scene, row, method);
     const char *name = method->solver->name;
-    const int refinement = method->linear.refinement;
     br_scene_clear(&scene);
-    printf("%-8s %10d %8zu %12.1e %12.1e\n", name, refinement, row->n, deviation, limit);
+    printf("%-8s %8zu %12.1e %12.1e\n", name, row->n, deviation, limit);
     fflush(stdout);
-    json_t *made = refinement
-                       ? bench_row("%s refinement=%d round-off n=%zu", name, refinement, row->n)
-                       : bench_row("%s round-off n=%zu", name, row->n);
+    json_t *made = bench_row("%s round-off n=%zu", name, row->n);
     bench_put(made, "relative", deviation);
     if (!(deviation <= limit))
         fail_msg("%s, n = %zu: the round-off is %g, predicted were at most %g", name, row->n,
                  deviation, limit);
-}
-
-/* Runs the solver without refinement, and with it if the solver has it. */
-static void run_solver(const struct br_test_golden *row, const struct br_linear_solver *solver)
-{
-    struct br_method method = br_test_method(solver->name, "lagged", "exact");
-    run_row(row, &method);
-    method.linear.refinement = REFINEMENT;
-    if (br_linear_solver_accepts(solver, "--refinement"))
-        run_row(row, &method);
 }
 
 void bench_accuracy(void **state)
@@ -52,9 +37,11 @@ void bench_accuracy(void **state)
     (void)state;
     const size_t count = br_test_golden(rows);
     printf("\nRound-off of Example 2 with k = 1e-3 s, relative to quadruple precision\n");
-    printf("%-8s %10s %8s %12s %12s\n", "solver", "refinement", "n", "measured", "predicted");
+    printf("%-8s %8s %12s %12s\n", "solver", "n", "measured", "predicted");
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         for (size_t i = 0; i < count; i++)
-            if (strcmp(rows[i].scene, "example2") == 0)
-                run_solver(&rows[i], *s);
+            if (strcmp(rows[i].scene, "example2") == 0) {
+                const struct br_method method = br_test_method((*s)->name, "lagged", "exact");
+                run_row(&rows[i], &method);
+            }
 }

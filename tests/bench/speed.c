@@ -97,13 +97,13 @@ static void run_series(const struct series *s)
 static void run_solver(struct series *s)
 {
     s->kernel = "-";
-    if (!s->method.solver->cost || !br_linear_solver_accepts(s->method.solver, "--kernel")) {
+    if (!s->method.solver->cost || !s->method.solver->takes_kernel) {
         run_series(s);
         return;
     }
     for (const struct br_kernel *const *k = br_kernels; *k; k++) {
         s->kernel = (*k)->name;
-        s->method.linear.kernel = *k;
+        s->method.kernel = *k;
         if ((*k)->available())
             run_series(s);
         else

@@ -185,20 +185,22 @@ static const void *pick(struct br_random *r, const void *const *registry)
 
 static void draw_method(struct br_random *r, struct br_extreme_case *c)
 {
-    static const char *const scalings[] = {"none", "sum", "max"};
+    /* As many rows as there once were, so that a seed keeps its cases. */
+    static const struct br_linear_solver *const solvers[] = {
+        &br_auto, &br_riccati, &br_plain, &br_umfpack, &br_umfpack, &br_umfpack, NULL};
     struct br_method *m = &c->method;
     *m = br_method_default();
     const size_t schemes = rows((const void *const *)br_time_schemes);
     if (!br_random_once_in(r, 4))
         m->scheme = br_time_schemes[br_random_index(r, schemes)];
-    m->solver = pick(r, (const void *const *)br_linear_solvers);
+    m->solver = pick(r, (const void *const *)solvers);
     m->friction = pick(r, (const void *const *)br_friction_rules);
     m->contact = pick(r, (const void *const *)br_contact_rules);
     if (!m->scheme->may_lag)
         m->contact = br_contact_rule_of(m->scheme);
     m->tolerance = br_random_decades(r, -9, -3);
-    m->linear.refinement = (int)br_random_index(r, 3);
-    m->linear.scaling = scalings[br_random_index(r, 3)];
+    br_random_index(r, 3);
+    br_random_index(r, 3);
     m->axial_degree = br_random_once_in(r, 4) ? 2 : 1;
     c->regularisation = wild(r, -15, 0);
     if (c->natural) /* of the tip's mean speed */
@@ -470,7 +472,4 @@ void br_extreme_command(const struct br_extreme_case *c, const char *name,
              c->steps, br_method_options(&scene, &c->method, options));
     if (c->wanted)
         br_append(text, BR_EXTREME_COMMAND, " --fields axial,bending");
-    if (!br_method_has_options(&c->method))
-        br_append(text, BR_EXTREME_COMMAND, " # and, in a verify part, scaling: %s, refinement: %d",
-                  c->method.linear.scaling, c->method.linear.refinement);
 }

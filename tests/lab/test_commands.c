@@ -70,7 +70,7 @@ TEST(test_commands)
         br_extreme_draw(2, i, &one);
         assert_int_equal(br_extreme_judge(&one, &judging, &verdict, &err), BR_OK);
         /* What the map's limit ends goes on for a user. */
-        if (verdict.which == BR_EXTREME_UNJUDGED || !br_method_has_options(&one.method) ||
+        if (verdict.which == BR_EXTREME_UNJUDGED ||
             (!br_test_long() && seen[verdict.which] == FIRST_OF_EACH))
             continue;
         seen[verdict.which]++;

@@ -293,18 +293,15 @@ static enum br_status prepare(struct br_pieces *s, struct br_error *err)
     return BR_OK;
 }
 
-static enum br_status pieces_create(const struct br_linear_solver *row,
-                                    const struct br_field *field,
-                                    const struct br_linear_options *options, void **self,
-                                    struct br_error *err)
+static enum br_status pieces_create(const struct br_field *field, const struct br_kernel *kernel,
+                                    void **self, struct br_error *err)
 {
-    (void)row;
     struct br_pieces *s = br_allocate(1, sizeof *s);
     *self = s;
     if (!s)
         return br_no_memory(err, "a solver");
     s->field = *field;
-    const struct br_kernel *kernel = options->kernel ? options->kernel : br_kernel_best();
+    kernel = kernel ? kernel : br_kernel_best();
     if (!kernel->available())
         return br_fail(err, BR_BAD_INPUT, "kernel %s is not available on this machine",
                        kernel->name);

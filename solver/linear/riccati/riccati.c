@@ -102,11 +102,8 @@ static double most_excess(const struct br_field *f)
  * by the factor br_field_inertia. The joins add the round-off of their sums: where inertia
  * dominates, pieces that are free at one end respond by far more than the joined beam. Short beams
  * are one piece. */
-static double riccati_round_off(const struct br_linear_solver *row, const struct br_field *field,
-                                const struct br_linear_options *options)
+static double riccati_round_off(const struct br_field *field)
 {
-    (void)row;
-    (void)options;
     const double joined = field->n <= 20 ? 0 : field->kind == BR_AXIAL ? 0.25 : 4;
     const double excess = fmin(br_field_inertia(field), most_excess(field));
     return DBL_EPSILON * (8 * ((double)field->n + 1024) + joined * excess);
@@ -117,7 +114,7 @@ const struct br_linear_solver br_riccati = {
     .title = "flexibility form: Riccati recursions on pieces of the beam, side by side in vectors",
     .citation =
         "discrete linear-quadratic problem in substructures, see solver/linear/riccati/pieces.h",
-    .options = "--kernel",
+    .takes_kernel = true,
     .axial = &br_pieces,
     .axial_quadratic = &br_plain_form,
     .bending = &br_pieces,
