@@ -487,6 +487,14 @@ TEST(test_lines_are_sorted)
     assert_string_equal(of->line[2].at, "k = 0.25");
 }
 
+/* 1000 and 1001 elements are two lines over k. */
+TEST(test_near_sizes)
+{
+    find("n,k,l2\n1000,.4,4\n1000,.2,2\n1000,.1,1\n1001,.4,4\n1001,.2,2\n1001,.1,1\n", NULL);
+    assert_int_equal(found.orders.of[0].lines, 2);
+    assert_int_equal(found.orders.of[0].line[0].observed.points, 3);
+}
+
 TEST(test_tied)
 {
     find("h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
