@@ -145,18 +145,22 @@ TEST(test_left_out)
     point[0].error = 7; /* coarse: not asymptotic */
     find(point, ROWS, &found);
     assert_int_equal(found.first, 1);
+    assert_int_equal(br_line_order_flag(&found, point, 0), BR_FLAG_COARSE);
     assert_int_equal(found.last, ROWS - 1);
     make(power, 1, point);
     point[3].error *= 5; /* an outlier inside */
     point[5].error = NAN; /* missing */
     find(point, ROWS, &found);
     assert_int_equal(found.outlier, 3);
+    assert_int_equal(br_line_order_flag(&found, point, 3), BR_FLAG_OUTLIER);
+    assert_int_equal(br_line_order_flag(&found, point, 4), BR_FLAG_NONE);
     CLOSE(found.order.value, 2, 1e-3);
     make(power, 1, point);
     point[6].error = 0; /* below what can be told */
     point[7].error = 1;
     find(point, ROWS, &found);
     assert_int_equal(found.last, 5);
+    assert_int_equal(br_line_order_flag(&found, point, 7), BR_FLAG_STALLED);
     CLOSE(found.order.value, 2, 1e-3);
 }
 

@@ -256,6 +256,28 @@ TEST(test_sizes)
     reach(&m, BR_INCONCLUSIVE, "; expect it of n: 5, 10, 20, 40, 80, 160");
 }
 
+/* What the order does not say stands in the note. */
+TEST(test_notes)
+{
+    static const struct {
+        double error[6];
+        const char *note;
+    } rows[] = {
+        {{.6610623, .1602090, .03838335, .009168145, .002230114, .0005493928},
+         "from size to size the order still falls, the last is 2.02"},
+        {{1.01, .51, .26, .135, .0725, .04125}, "beside one power the errors show a floor"},
+        {{9, 5e-1, 2.5e-1, 1.25e-1, 6.25e-2, 3.12e-2}, "(not asymptotic, error 9.0e+00)"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct made m;
+        struct br_error err = {0};
+        make(&m, rows[i].error, 6);
+        MUST(br_verdict_reach(&m.it, &err));
+        if (!strstr(m.it.note, rows[i].note))
+            fail_msg("found '%s', expected '%s'", m.it.note, rows[i].note);
+    }
+}
+
 /* What is advised would do. */
 TEST(test_advice)
 {
