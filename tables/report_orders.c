@@ -40,17 +40,18 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
                     br_orders_in_dimension(o, order, 5 - assumed));
 }
 
-/* The rates between the last rows of a line. */
+/* The last rates between neighbours that count. */
 static void say_rates(struct br_document *d, const struct br_orders_line *line)
 {
     enum { LAST = 3 };
-    const size_t points = line->observed.points;
-    bool any = false;
-    for (size_t i = points > LAST ? points - LAST : 1; i < points; i++) {
-        const double rate = br_orders_rate(line, i);
+    const struct br_point *p = line->observed.point;
+    size_t from = line->observed.points, said = 0;
+    for (size_t found = 0; from > 1 && found < LAST; from--)
+        found += !p[from - 1].flag && !p[from - 2].flag && isfinite(br_orders_rate(line, from - 1));
+    for (size_t i = from; i < line->observed.points; i++) {
+        const double rate = p[i].flag || p[i - 1].flag ? (double)NAN : br_orders_rate(line, i);
         if (isfinite(rate))
-            br_put_more(d, "%s%.2f", any ? ", " : ", last rates ", rate);
-        any |= isfinite(rate);
+            br_put_more(d, "%s%.2f", said++ ? ", " : ", last rates ", rate);
     }
 }
 
