@@ -66,7 +66,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
     if (value && isnan(order->value))
         return; /* of three values, whose p is said */
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
-                none ? "not seen" : br_order_text(order, text, sizeof text),
+                none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)

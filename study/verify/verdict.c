@@ -235,14 +235,15 @@ static void judge_beyond(struct br_case *c, const struct br_point *first)
                      : "do not fall",
              first->error);
     if (small)
-        br_append(c->reason, sizeof c->reason, ": finer grids would tell whether terms cancel");
+        br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
     else if (!(c->duration > 0))
         br_append(c->reason, sizeof c->reason,
                   ": if that is the reference's own error, expect the order 'down to %.0e'",
                   4 * first->error);
     else
         br_append(c->reason, sizeof c->reason,
-                  ": another solution, or the reference's own error; coarser grids have larger ones");
+                  ": this is another solution, or the reference's own error; errors of coarser "
+                  "grids are larger");
 }
 
 /* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
