@@ -61,14 +61,14 @@ static const struct br_option rows[] = {
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
-     .more = "May be given several times. last:REGEX takes the last match of many. stderr: before it "
-             "reads standard error, file:PATH: a file that the run writes. A NAME h, n, dofs, cells, "
-             "level, k, dt or steps is a resolution that the run states itself.",
+     .more = "May be given several times. last:REGEX takes the last match of many. stderr: before "
+             "it reads standard error, file:PATH: a file that the run writes. The NAME h, n, dofs, "
+             "cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
-    {BR_OPT_REPEAT, "repeat", 0, "COUNT", "runs of each resolution, whose mean counts", "1",
-     BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
+    {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",
+     "1", BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
      .more = "For programs that draw random numbers: {repeat} in the command is 1, 2, ..., for "
-             "example a seed. Means count by their standard deviations."},
+             "example a seed. The standard deviations of the means give their weights."},
 
     /* what is marched, or run */
     {BR_OPT_N, "n", 'n', "LIST", "elements of the mesh", NULL, BR_TAKES_COUNTS,
@@ -78,7 +78,8 @@ static const struct br_option rows[] = {
          {BR_FOR_STUDY, .standard = "25,50,100,200", .more = nests},
          {BR_FOR_RUN, .standard = "100", .argument = "COUNT", .kind = BR_TAKES_NUMBER,
           .range = WHOLE(1, 1e9)},
-         {BR_FOR_ORDERS, .help = "elements along an edge; or h=LIST, level=LIST, dofs=LIST, cells=LIST",
+         {BR_FOR_ORDERS,
+          .help = "elements along an edge; or h=LIST, level=LIST, dofs=LIST, cells=LIST",
           .more = "The word replaces {n} in the command: {h}, {level}, {dofs}.",
           .kind = BR_TAKES_TEXT})},
     {BR_OPT_K, "k", 'k', "LIST", "time steps, s, or T/100, T: duration", NULL, BR_TAKES_TIMES,
@@ -90,8 +91,7 @@ static const struct br_option rows[] = {
          {BR_FOR_ORDERS, .help = "time steps; or dt=LIST, steps=LIST (numbers of steps)",
           .kind = BR_TAKES_TEXT})},
     {BR_OPT_STEPS, "steps", 0, "LIST", "numbers of time steps, instead of --k", NULL,
-     BR_TAKES_COUNTS,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
+     BR_TAKES_COUNTS, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
      OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
      "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
@@ -143,16 +143,18 @@ static const struct br_option rows[] = {
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
     {BR_OPT_COLUMN, "column", 0, "LIST", "what columns are, by heading or position: dx=h,3=l2",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
-     .more = "h, n, dofs, cells, level, k, dt and steps state the resolution; any other name is that "
-             "of an error, or with --value of a value. A table without a heading needs it."},
-    {BR_OPT_DIMENSION, "dimension", 0, "D", "dimension of the mesh, for numbers of unknowns or cells", NULL,
-     BR_TAKES_NUMBER, WHOLE(1, 16), .commands = BR_FOR_ORDERS,
-     .more = "Where it is not given, 2 is assumed for unknowns, and for cells that they are counted "
-             "along one side. The answer says so, and a verdict needs it."},
+     .more =
+         "h, n, dofs, cells, level, k, dt and steps state the resolution; any other name is that "
+         "of an error, or with --value of a value. A table without a heading needs it."},
+    {BR_OPT_DIMENSION, "dimension", 0, "D",
+     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
+     .commands = BR_FOR_ORDERS,
+     .more = "If it is not given, 2 is assumed for unknowns, and cells are assumed to be counted "
+             "along one side. The answer states what is assumed; a verdict needs this option."},
     {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
-     .more = "For the uncertainty of limits, 1 to 10. Where it is not given, 2 is assumed; the "
-             "answer says so, and what 1 would give."},
+     .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "
+             "states this, and the result for 1."},
     {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},

@@ -167,7 +167,8 @@ static bool has_orders(const struct br_report *r)
            r->seen[BR_PART_TOTAL][BR_AXIS_TIME].points > 0;
 }
 
-/* "total: order in h 2.00 [1.99, 2.01], in k not seen", and by what where it is not the total's. */
+/* "total: order in h 2.00 [1.99, 2.01], in k not measurable", and by what where it is not the
+ * total's. */
 static void say_orders(const struct br_report *r, enum br_part part, char text[256])
 {
     char number[64];

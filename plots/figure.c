@@ -156,7 +156,7 @@ struct br_range br_extent(const struct br_panel *p, bool along_y)
     for (size_t j = 0; j < p->count; j++)
         for (size_t k = 0; k < p->series[j]->count; k++) {
             const struct br_figure_point *at = &p->series[j]->point[k];
-            if (!br_is_drawn(p, at))
+            if (!br_is_drawn(p, at) || p->series[j]->pen == BR_PEN_AREA)
                 continue;
             r.low = fmin(r.low, along_y ? at->y : at->x);
             r.high = fmax(r.high, along_y ? at->y : at->x);

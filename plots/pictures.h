@@ -142,7 +142,8 @@ void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);
 
-/* The range of the points that are drawn; low > high: there are none. */
+/* The range of the points that are drawn, without areas, which may be wide; low > high: there are
+ * none. */
 struct br_range br_extent(const struct br_panel *panel, bool along_y);
 
 /* Fails with BR_NO_MEMORY if a part of the figure is missing, and with BR_BAD_INPUT if its stem

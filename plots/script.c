@@ -227,6 +227,8 @@ static struct br_range axis_range(const struct br_figure *f, const struct br_pan
         const double more = fmax(0.06 * decades(r), (1 - decades(r)) / 2);
         return (struct br_range){r.low * pow(10, -more), r.high * pow(10, more)};
     }
+    if (along_y && p->rows)
+        return (struct br_range){r.low - 0.7, r.high + 0.7};
     const double size = r.high > r.low ? r.high - r.low : fmax(fabs(r.high), 1);
     const double more = along_y || p->rows || !(r.high > r.low) ? 0.06 * size : 0;
     return (struct br_range){r.low == 0 ? 0 : r.low - more, r.high + more};
@@ -334,9 +336,10 @@ static void write_plot(FILE *out, const struct br_panel *p, size_t index)
 }
 
 /* Writes boxes, and the texts beside last points, one above the other; those of rows in place of
- * the numbers along y. width: of the panel. */
-static void write_ends(FILE *out, const struct br_panel *p, double width)
+ * the numbers along y. width: of the panel; row: from one to the next, about; pixels. */
+static void write_ends(FILE *out, const struct br_panel *p, double width, double row)
 {
+    const double half = fmin(0.3, 12 / row); /* of a box */
     size_t ends = 0, longest = 0, end = 0;
     for (size_t j = 0; j < p->count; j++) {
         const size_t length = strlen(p->series[j]->end);
@@ -353,7 +356,7 @@ static void write_ends(FILE *out, const struct br_panel *p, double width)
             fprintf(out,
                     "set object rectangle from %.9g,%.9g to %.9g,%.9g behind "
                     "fc rgb '#d4d4d4' fs solid noborder\n",
-                    s->point->x, last->y - 0.25, last->x, last->y + 0.25);
+                    s->point->x, last->y - half, last->x, last->y + half);
         if (!s->end[0] || !s->count)
             continue;
         fputs("set label ", out);
@@ -371,7 +374,7 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
                         const struct page *l)
 {
     const struct br_panel *p = &f->panel[i];
-    const struct br_range x = axis_range(f, p, false);
+    const struct br_range x = axis_range(f, p, false), y = axis_range(f, p, true);
     const double width = l->width / (double)l->across;
     const double height = (l->height - l->top - l->bottom) / (double)l->down;
     fprintf(out, "\nset origin %.4f,%.4f; set size %.4f,%.4f\nunset label; unset logscale xyx2\n",
@@ -384,10 +387,10 @@ static void write_panel(FILE *out, const struct br_figure *f, size_t i, size_t i
     write_text(out, "xlabel", p->x_label);
     write_text(out, "ylabel", p->y_label);
     write_axis(out, 'x', x, p->log_x, 0.75 * width);
-    write_axis(out, 'y', axis_range(f, p, true), p->log_y, 0.7 * height);
+    write_axis(out, 'y', y, p->log_y, 0.7 * height);
     write_top(out, p, x, 0.75 * width / decades(x));
     fputs("set grid xtics ytics ls 102\n", out);
-    write_ends(out, p, width);
+    write_ends(out, p, width, 0.75 * height / (y.high - y.low));
     write_plot(out, p, index);
     fputs(p->rows ? "set lmargin; unset object\n" : "", out);
 }

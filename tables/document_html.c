@@ -37,7 +37,7 @@ static const char style[] =
     "th { border-bottom: 2px solid var(--line); vertical-align: bottom; white-space: normal; }\n"
     ".text { text-align: left; }\n"
     ".detail { color: var(--quiet); list-style: none; margin-left: 1.5rem; }\n"
-    ".wrap { min-width: 18rem; white-space: normal; }\n"
+    ".wrap { min-width: 13rem; white-space: normal; }\n"
     "tr { background: var(--ground); }\n"
     "tr > :first-child { background: inherit; left: 0; position: sticky; }\n"
     "tbody tr:nth-child(even), pre { background: var(--shade); }\n"

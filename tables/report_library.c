@@ -5,7 +5,8 @@
 #include "study/library/library.h"
 #include "tables/reports.h"
 
-static enum br_status write_report(const struct br_orders *orders, char **text, struct br_error *err)
+static enum br_status write_report(const struct br_orders *orders, char **text,
+                                   struct br_error *err)
 {
     static const struct br_estimate not_timed[BR_AXES] = {{NAN, NAN, NAN}, {NAN, NAN, NAN}};
     struct br_document d = {0};

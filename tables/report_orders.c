@@ -40,17 +40,18 @@ static void say_dimension(struct br_document *d, const struct br_orders *o, doub
                     br_orders_in_dimension(o, order, 5 - assumed));
 }
 
-/* The rates between the last rows of a line. */
+/* The last rates between neighbours that count. */
 static void say_rates(struct br_document *d, const struct br_orders_line *line)
 {
     enum { LAST = 3 };
-    const size_t points = line->observed.points;
-    bool any = false;
-    for (size_t i = points > LAST ? points - LAST : 1; i < points; i++) {
-        const double rate = br_orders_rate(line, i);
+    const struct br_point *p = line->observed.point;
+    size_t from = line->observed.points, said = 0;
+    for (size_t found = 0; from > 1 && found < LAST; from--)
+        found += !p[from - 1].flag && !p[from - 2].flag && isfinite(br_orders_rate(line, from - 1));
+    for (size_t i = from; i < line->observed.points; i++) {
+        const double rate = p[i].flag || p[i - 1].flag ? (double)NAN : br_orders_rate(line, i);
         if (isfinite(rate))
-            br_put_more(d, "%s%.2f", any ? ", " : ", last rates ", rate);
-        any |= isfinite(rate);
+            br_put_more(d, "%s%.2f", said++ ? ", " : ", last rates ", rate);
     }
 }
 
@@ -65,7 +66,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
     if (value && isnan(order->value))
         return; /* of three values, whose p is said */
     br_put_more(d, "%sorder in %s %s%s%s%s", separator(first), br_axis_letters[axis],
-                none ? "not seen" : br_order_text(order, text, sizeof text),
+                none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
     if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)

@@ -75,11 +75,11 @@ says "error, or difference of values" "the picture"
 page=$BEAMRATE_DATA/docs/your-own-solver.md
 sed -n '/^title: Poisson/,/^```/p' "$page" | sed '$d' >printed
 grep -v '^#' poisson.yaml | diff printed - >output || complain "$page has another poisson.yaml"
-expect 0 "limit 24.9371129, between 24.9215676 and 24.9394632 (least squares" \
+expect 0 "drag: limit 24.9371 [24.9216, 24.9395], p = 1.91, GCI 0.03 %, asymptotic 1.001: monotone" \
     beamrate orders drag.csv --value drag
-expect 0 "l2: order in h 2.00 [2.00, 2.01]." beamrate orders errors.csv
+expect 0 "l2: order in h 2.00 [2.00, 2.01], last rates 1.99, 2.00, 2.00" beamrate orders errors.csv
 printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
-expect 0 "order in h not seen." beamrate orders units.tsv --value drag --out units
+expect 0 "drag: limit 3.450 [3.338, 3.463], p = 1.58, GCI 1.8 %" beamrate orders units.tsv --value drag --out units
 cp units/orders.gp whole
 says "mesh size h, m" "the picture"
 says "difference of values, N" "the picture"

@@ -35,6 +35,8 @@ class Page(html.parser.HTMLParser):
             self.cell = ""
         elif tag == "small":
             self.cell += "("
+        elif tag == "strong" and self.cell is not None:
+            self.cell += "**"
         elif re.fullmatch("h[1-6]", tag):
             self.headings.append(int(tag[1]))
         if tag not in VOID:
@@ -48,6 +50,8 @@ class Page(html.parser.HTMLParser):
         assert self.open and self.open.pop() == tag, (tag, self.getpos())
         if tag == "small":
             self.cell += ")"
+        elif tag == "strong" and self.cell is not None:
+            self.cell += "**"
         elif tag in ("th", "td"):
             self.tables[-1][-1].append(self.cell)
             self.cell = None

@@ -96,9 +96,12 @@ def check_arrays():
         found.assert_order(1.5)
         close(found["error"].order.value, 1.5)
         assert (found["error"].h is None) == (not {"k", "dt", "steps"}.isdisjoint(sizes)), sizes
-    assert "2 dimensions (assumed" in repr(br.orders(error, dofs=N ** 2))
-    frame = {"edge": 1 / N, "e": error, "i": N}
-    assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "i"]
+    close(br.orders(error, cells=N ** 3, dimension=3)["error"].order.value, 1.5)
+    assumed = br.orders(error, dofs=N ** 2)
+    assert "2-D assumed; --dimension 3 gives 2.25" in repr(assumed), assumed
+    refused("state the dimension of the mesh", lambda: assumed.assert_order(1.5))
+    frame = {"edge": 1 / N, "e": error, "more": 2 * error}
+    assert [q.name for q in br.orders(frame, h="edge").quantities] == ["e", "more"]
     close(br.orders(frame, h="edge", errors="e")["e"].order.value, 1.5)
     close(br.orders(frame, h="edge", errors=["e"])["e"].order.value, 1.5)
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:

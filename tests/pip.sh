@@ -32,7 +32,7 @@ rm -rf source
 [ -x new/bin/beamrate ] || { echo "FAILED: the wheel has no program" && exit 1; }
 check diff <("$BEAMRATE" --version | sed -n '1s/ (.*//p') <(new/bin/beamrate --version | sed -n '1s/ (.*//p')
 check new/bin/beamrate run example2 -n 4 --k 0.1 --quiet
-check new/bin/beamrate tables --help
+check new/bin/beamrate tables --n 5,10 --k 0.1,0.05 --reference fine:20,0.05 --no-plots --quiet --out tables
 check new/bin/python -W error library_orders.py
 check new/bin/python -c '
 import importlib.metadata, beamrate

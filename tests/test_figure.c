@@ -225,6 +225,23 @@ TEST(test_names)
     br_made_report_clear(&m);
 }
 
+/* Of more curves than hues, the first, the last and some evenly between them have one. */
+TEST(test_many_curves)
+{
+    static const size_t steps[] = {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1024};
+    struct br_made_report m;
+    br_made_report(&m, false);
+    m.study.n_count = 1;
+    m.study.k_count = 11;
+    m.study.steps = steps;
+    struct br_figure f = br_convergence_draw(br_convergence_pictures[1], &m.report);
+    assert_int_equal(f.panel[0].count, 11);
+    for (size_t i = 0; i < 11; i++)
+        assert_int_equal(f.panel[0].series[i]->pen, i % 2 ? BR_PEN_OTHERS : BR_PEN_CURVE);
+    br_figure_clear(&f);
+    br_made_report_clear(&m);
+}
+
 /* All pictures of a study in the norm of energy, whose joint fit describes it: slopes, residuals,
  * orders, printed errors. */
 static void print_study(FILE *out)
@@ -252,9 +269,12 @@ static void print_study(FILE *out)
             o->point[0].flag = BR_FLAG_COARSE;
             o->point[3].flag = part ? BR_FLAG_FAILED : BR_FLAG_OUTLIER;
         }
-    for (size_t i = 0; br_convergence_pictures[i]; i++)
-        (i == 0 ? print : print_data)(out,
-                                      br_convergence_draw(br_convergence_pictures[i], &m.report));
+    for (size_t i = 0; br_convergence_pictures[i]; i++) {
+        const struct br_figure f = br_convergence_draw(br_convergence_pictures[i], &m.report);
+        for (size_t j = 0; j < f.panels; j++) /* residuals may be below zero */
+            assert_true(f.panel[j].log_y == !strstr(f.panel[j].y_label, "joint fit"));
+        (i == 0 ? print : print_data)(out, f);
+    }
     br_made_report_clear(&m);
 }
 

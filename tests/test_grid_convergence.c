@@ -64,6 +64,29 @@ TEST(test_celik)
 
 /* "Examining Spatial (Grid) Convergence", NPARC Alliance. Its 0.997980 is r^p GCI_12/GCI_23, the
  * inverse of the ratio here. */
+/* The limits of Oberkampf and Roy: values 5 - h^p at h = 1, 1/2, 1/4, formal order 2. */
+TEST(test_limited_order)
+{
+    static const struct {
+        double p, safety, order;
+    } cases[] = {{2.1, 1.25, 2}, {1.81, 1.25, 2}, {1.5, 3, 1.5}, {3, 3, 2}, {0.2, 3, 0.5}};
+    static const double h[] = {1, 0.5, 0.25};
+    struct br_gci g;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        double value[3];
+        for (int j = 0; j < 3; j++)
+            value[j] = 5 - pow(h[j], cases[i].p);
+        MUST(br_gci(h, value, 3, &g, &err));
+        CLOSE(br_gci_limited(&g, 2),
+              cases[i].safety * (value[2] - value[1]) / value[2] / (pow(2, cases[i].order) - 1),
+              1e-12);
+        assert_true(br_gci_is_far(&g, 2) == (cases[i].safety > 2));
+    }
+    MUST(br_gci(h, (const double[]){1, 2, 4}, 3, &g, &err));
+    IS_NAN(br_gci_limited(&g, 2));
+    assert_false(br_gci_is_far(&g, 2));
+}
+
 TEST(test_nparc)
 {
     static const double h[] = {4, 2, 1}, value[] = {0.96178, 0.96854, 0.97050};

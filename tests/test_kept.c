@@ -364,7 +364,8 @@ static size_t taken_of(enum work work, struct br_kept *kept, const struct br_tri
                     trial.end == BR_TRIAL_DOUBTFUL);
     } else {
         static const struct br_resolution_column cells = {.name = "n", .axis = BR_AXIS_SPACE};
-        static const struct br_reading reading = {"err", "(.*)", BR_READING_REGEX};
+        static const struct br_reading reading = {
+            .name = "err", .what = "(.*)", .kind = BR_READING_REGEX};
         static const double one = 4;
         struct br_numbers numbers = {.rows = 0};
         const struct br_orders_request request = {.command = "/bin/echo {n}",

@@ -570,7 +570,7 @@ TEST(wrong_numbers_are_refused)
 }
 
 /* e = 3 h^2 and v = 7 + h on h = 1/n; the mesh of 5 has another error. */
-static const char two_columns[] = "Cells; e [m]; v\n5; 0,9; 7,2\n10; 0,03; 7,1\n20; 0,0075; 7,05\n"
+static const char two_columns[] = "N; e [m]; v\n5; 0,9; 7,2\n10; 0,03; 7,1\n20; 0,0075; 7,05\n"
                                   "40; 0,001875; 7,025\n80; 0,00046875; 7,0125\n";
 
 TEST(orders_of_a_table)
@@ -629,7 +629,8 @@ TEST(orders_of_a_table)
     } refused[] = {
         {{.text = NULL}, "table: found NULL"},
         {{.text = "h,e\n4,1\n2,1\n1,-1\n"}, "table:4: e: found -1"},
-        {{.text = "h,e\n4,1\n2,1\n1,1\n", .name = "a.csv", .errors = "f"}, "a.csv: --error: there is"},
+        {{.text = "h,e\n4,1\n2,1\n1,1\n", .name = "a.csv", .errors = "f"},
+         "a.csv: --error: there is"},
         {{.text = two_columns, .dimension = NAN}, "table: found dimension nan"},
         {{.text = two_columns, .dimension = INFINITY}, "table: found dimension inf"},
         {{.text = two_columns, .formal = -1}, "formal order -1"},
@@ -646,6 +647,8 @@ TEST(orders_of_a_table)
 TEST(dimensions_of_a_table)
 {
     static const char text[] = "dofs,e\n1,64\n64,4\n4096,0.25\n262144,0.015625\n";
+    const struct beamrate_expectation expected = {BEAMRATE_SPACE, 2, 0.1, 0};
+    struct beamrate_check *check;
     for (int dimension = 0; dimension < 4; dimension++) {
         const struct beamrate_table table = {.text = text, .dimension = dimension};
         struct beamrate_orders *orders;
@@ -656,6 +659,12 @@ TEST(dimensions_of_a_table)
         beamrate_orders_answer(orders, 0, BEAMRATE_SPACE, &answer);
         CLOSE(answer.order.value, 2 * (dimension ? dimension : 2) / 3., 1e-6);
         assert_int_equal(!!strstr(json, "assumed"), !dimension);
+        if (dimension)
+            WORKS(beamrate_orders_check(&check, orders, &expected, 1, &failure));
+        else
+            ENDS(beamrate_orders_check(&check, orders, &expected, 1, &failure), BEAMRATE_BAD_INPUT,
+                 "state the dimension of the mesh");
+        beamrate_check_free(check);
         beamrate_orders_free(orders);
     }
 }
@@ -686,7 +695,8 @@ TEST(used_numbers_are_counted)
     beamrate_orders_free(orders);
 }
 
-/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2. */
+/* Values of order 3: the interval of their limit is wider where theory says less. 0 stands for 2.
+ */
 TEST(formal_order_widens_the_limit)
 {
     static const double h[] = {16, 8, 4, 2, 1}, formal[] = {2, 4, 0};

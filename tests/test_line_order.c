@@ -145,18 +145,22 @@ TEST(test_left_out)
     point[0].error = 7; /* coarse: not asymptotic */
     find(point, ROWS, &found);
     assert_int_equal(found.first, 1);
+    assert_int_equal(br_line_order_flag(&found, point, 0), BR_FLAG_COARSE);
     assert_int_equal(found.last, ROWS - 1);
     make(power, 1, point);
     point[3].error *= 5; /* an outlier inside */
     point[5].error = NAN; /* missing */
     find(point, ROWS, &found);
     assert_int_equal(found.outlier, 3);
+    assert_int_equal(br_line_order_flag(&found, point, 3), BR_FLAG_OUTLIER);
+    assert_int_equal(br_line_order_flag(&found, point, 4), BR_FLAG_NONE);
     CLOSE(found.order.value, 2, 1e-3);
     make(power, 1, point);
     point[6].error = 0; /* below what can be told */
     point[7].error = 1;
     find(point, ROWS, &found);
     assert_int_equal(found.last, 5);
+    assert_int_equal(br_line_order_flag(&found, point, 7), BR_FLAG_STALLED);
     CLOSE(found.order.value, 2, 1e-3);
 }
 
@@ -221,6 +225,41 @@ static void draw(struct br_test_random *random, double p, double floor, double s
         const double noise = exp(scatter * br_test_uniform(random, -1, 1));
         point[i] = (struct br_order_point){z, 0, (pow(z, p) + floor) * noise};
     }
+}
+
+/* Errors whose scatter is known weigh by it: coarse ones are scattered ten times as much here. Equal
+ * scatter, or one that is not known, changes nothing. */
+TEST(test_means)
+{
+    struct br_test_random random = {9};
+    double width = 0, plain = 0;
+    size_t covered = 0;
+    enum { SETS = 100 };
+    for (size_t set = 0; set < SETS; set++) {
+        struct br_order_point point[SOME];
+        double scatter[SOME], even[SOME];
+        struct br_line_order a, b, c;
+        for (size_t i = 0; i < SOME; i++) {
+            const double z = pow(0.5, (double)i);
+            scatter[i] = i < SOME / 2 ? 0.05 : 0.005;
+            even[i] = 0.05;
+            const double noise = br_test_uniform(&random, -1, 1) +
+                                 br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1);
+            point[i] = (struct br_order_point){z, 0, z * exp(scatter[i] * noise)};
+        }
+        MUST(br_line_order_of_means(point, scatter, SOME, &a, &err));
+        MUST(br_line_order_find(point, SOME, &b, &err));
+        covered += a.order.low <= 1 && a.order.high >= 1;
+        width += a.order.high - a.order.low;
+        plain += b.order.high - b.order.low;
+        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        CLOSE(c.order.value, b.order.value, 0);
+        even[3] = set % 2 ? 0 : NAN;
+        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        CLOSE(c.order.high, b.order.high, 0);
+    }
+    if (!(covered >= 90 && width < 0.85 * plain))
+        fail_msg("%zu of %d covered, width %g of %g", covered, SETS, width, plain);
 }
 
 /* Other units of error and of length: the same order, rows, and law; the floor has the unit. */

@@ -31,7 +31,7 @@ static const struct {
     size_t n, steps;
     const char *in_time, *in_space; /* what is said; NULL: nothing */
 } rows[] = {
-    {"exp(-((t - 0.4567)/0.001)^2)", 20, 100, "the bending load does between", NULL},
+    {"exp(-((t - 0.4567)/0.001)^2)", 20, 100, "load changes faster than the time steps", NULL},
     {"exp(-((t - 0.4567)/0.001)^2)", 20, 100, "near t = 0.455 s", NULL},
     {"exp(-((t - 0.4567)/0.001)^2)", 20, 10000, NULL, NULL},
     {"exp(-((t - 0.4567)/1e-5)^2)", 3, 40000, "", NULL},           /* 2 samples a step */
@@ -59,12 +59,12 @@ static const struct {
     {"t", 1, 10, NULL, NULL},
     {"x^9", 1, 10, NULL, NULL},
     {"exp(x)*t", 2, 10, NULL, NULL},
-    {"exp(-((x - 0.53)/0.004)^2)", 10, 10, NULL, "the bending load does inside of elements"},
+    {"exp(-((x - 0.53)/0.004)^2)", 10, 10, NULL, "faster in x than the quadrature"},
     {"exp(-((x - 0.53)/0.004)^2)", 400, 10, NULL, NULL},
     {"100*(x > 0.5 && x < 0.501)", 20, 10, NULL, ""},
     {"100*(x > 0.5 && x < 0.501)", 20000, 10, NULL, NULL},
     {"1 + 500*(x > 0.7009 && x < 0.7029)", 10, 10, NULL, /* half of the force */
-     "with n = 10 50 % of it, most of it near x = 0.7 m"},
+     "with n = 10 the error is 50 % of it, most of it near x = 0.7 m"},
     {"x < 0.37 ? 1 : 0", 1, 10, NULL, ""}, /* jumps */
     {"x < 0.37 ? 1 : 0", 100, 10, NULL, NULL},
     {"x < 0.4 ? 1 : 0", 10, 10, NULL, NULL},
@@ -78,7 +78,7 @@ static const struct {
     {"(x > 0.531 && x < 0.5310001)*t", 1000, 10, NULL, ""},
     {"exp(-((x - 0.2)/1e-3)^2 - ((t - 0.456)/1e-6)^2)", 100, 10, "", ""},
     {"exp(-((x - 0.2)/1e-3)^2 - ((t - 0.456)/1e-6)^2)", 4000, 10, "", NULL},
-    {"sin(1e7*x)", 100, 10, NULL, "it is not known how much"},
+    {"sin(1e7*x)", 100, 10, NULL, "so often in x that the error of"},
 };
 
 TEST(test_rows)

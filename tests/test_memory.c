@@ -73,23 +73,24 @@ TEST(test_sweep)
         long every; /* by default; 0: only where everything is tested */
         bool timed;
     } runs[] = {
-        {"scenes --new set.json", 1},
-        {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23},
-        {"run small.yaml --n 4 --k 0.1 --quiet --out set", 97},
+        {"scenes --new set.json", 1, false},
+        {"run small.yaml --n 4 --k 0.1 --quiet --json set.json", 23, false},
+        {"run small.yaml --n 4 --k 0.1 --quiet --out set", 97, false},
         {"study small.yaml --n 2,4 --k 0.1,0.05 --reference fine:8,0.025 --format csv --no-plots --quiet --out set",
-         7}, /* lists of sets */
-        {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37},
-        {"check small.yaml --quiet --json set.json", 37},
-        {"check small.yaml --quiet --compare old.json", 37},
-        {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0},
+         7, false}, /* lists of sets */
+        {"study small.yaml --n 2,4 --k 0.1,0.05 --no-plots --quiet --out set", 37, false},
+        {"check small.yaml --quiet --json set.json", 37, false},
+        {"check small.yaml --quiet --compare old.json", 37, false},
+        {"tables --n 2,4 --k 0.5,0.25 --reference fine:8,0.25 --no-plots --quiet --out set", 0, false},
         {"plan small.yaml --error 1e-1 --methods euler --quiet --out set", 397, true},
-        {"trade small.yaml --methods euler,bdf2 --n 4 --k 0.1 --no-plots --quiet --out set", 311, true},
+        {"trade small.yaml --methods euler,bdf2 --n 4 --k 0.1 --no-plots --quiet --out set", 311,
+         true},
         {"trade small.yaml --split --n 4 --k 0.1 --no-plots --quiet --out set", 293, true},
-        {"extremes stability small.yaml --n 4 --k 0.5,0.1 --no-plots --quiet --out set", 83},
-        {"extremes steps small.yaml --k 0.1 --no-plots --quiet --out set", 79},
-        {"extremes floors small.yaml --n 4 --k 0.1 --no-plots --quiet --out set", 73},
-        {"orders table.csv --value drag --no-plots --quiet --out set", 29},
-        {"orders run.yaml --trust --no-plots --quiet --out set", 113},
+        {"extremes stability small.yaml --n 4 --k 0.5,0.1 --no-plots --quiet --out set", 83, false},
+        {"extremes steps small.yaml --k 0.1 --no-plots --quiet --out set", 79, false},
+        {"extremes floors small.yaml --n 4 --k 0.1 --no-plots --quiet --out set", 73, false},
+        {"orders table.csv --value drag --no-plots --quiet --out set", 29, false},
+        {"orders run.yaml --trust --no-plots --quiet --out set", 113, false},
     };
     cli_write_file("small.yaml", small);
     cli_write_file("table.csv", "n,l2,drag\n10,1,3\n20,.25,2\n40,.0625,1.7\n80,.015625,1.6\n");
@@ -99,7 +100,8 @@ TEST(test_sweep)
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
         if (!runs[i].every && !br_test_long())
             continue;
-        const size_t failures = sweep(runs[i].line, br_test_long() ? 1 : runs[i].every, runs[i].timed);
+        const size_t failures =
+            sweep(runs[i].line, br_test_long() ? 1 : runs[i].every, runs[i].timed);
         print_message("# %s: %zu failures\n", runs[i].line, failures);
     }
 }

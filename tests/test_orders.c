@@ -487,6 +487,14 @@ TEST(test_lines_are_sorted)
     assert_string_equal(of->line[2].at, "k = 0.25");
 }
 
+/* 1000 and 1001 elements are two lines over k. */
+TEST(test_near_sizes)
+{
+    find("n,k,l2\n1000,.4,4\n1000,.2,2\n1000,.1,1\n1001,.4,4\n1001,.2,2\n1001,.1,1\n", NULL);
+    assert_int_equal(found.orders.of[0].lines, 2);
+    assert_int_equal(found.orders.of[0].line[0].observed.points, 3);
+}
+
 TEST(test_tied)
 {
     find("h,k,l2\n1,1,1\n.5,.25,.25\n.25,.0625,.0625\n.125,.015625,.015625\n", NULL);
@@ -638,8 +646,44 @@ TEST(test_values)
             CLOSE(line->gci.order, p, 1e-8);
             CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
             CLOSE(line->gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->triples; i++) {
+                CLOSE(line->triple[i].order, p, 1e-8);
+                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+                CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
+            }
             assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
         }
+}
+
+/* What finer sizes would give, of errors and of values; not at a floor, nor where a run failed. */
+TEST(test_finer)
+{
+    double given;
+    find("n,e\n8,.04\n16,.01\n32,.0025\n", NULL);
+    struct br_orders_forecast f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    CLOSE(br_orders_next(&found.orders, &f, &given), .000625, 1e-12);
+    CLOSE(given, 64, 0);
+    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 51, 0); /* 50.6 */
+    find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n", "u"); /* 5 - 2 h^2 */
+    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    CLOSE(f.number, 1.25 * (5 - 4.96875) / 4.96875, 1e-12);
+    CLOSE(br_orders_next(&found.orders, &f, &given), f.number / 4, 1e-12);
+    CLOSE(given, 0.0625, 0);
+    CLOSE(br_orders_needed(&found.orders, &f, f.number / 16), 0.03125, 1e-12);
+    find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n.0625,\n", "u");
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find("h,e\n1,1.01\n.5,.26\n.25,.0725\n.125,.025625\n.0625,.01390625\n", NULL); /* h^2 + .01 */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find(floor_table(12, pow(4, -7)), NULL); /* its rows are left out */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find(table_of(4, 4, 2, 1), NULL); /* a grid */
+    assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
+    find("dofs,e\n64,.04\n256,.01\n1024,.0025\n", NULL);
+    CLOSE(br_orders_in_dimension(&found.orders, 2, 3), 3, 1e-12);
+    f = br_orders_foresee(&found.orders, &found.orders.of[0]);
+    br_orders_next(&found.orders, &f, &given);
+    CLOSE(given, 4096, 0);
 }
 
 /* A difference without its finer value names that one. */
@@ -681,6 +725,10 @@ TEST(test_growth)
         CLOSE(growth.value, 3, 1e-9);
         assert_true(growth.low < 3 + 1e-9 && growth.high > 3 - 1e-9 && growth.low < growth.high);
         MUST(br_orders_growth(&orders, BR_AXIS_TIME, &growth, &err));
+        assert_true(isnan(growth.value));
+        for (int i = 0; i < 5; i++)
+            numbers.row[i].seconds = 1e-6 * pow(8, i);
+        MUST(br_orders_growth(&orders, BR_AXIS_SPACE, &growth, &err));
         assert_true(isnan(growth.value));
         br_orders_clear(&orders);
         br_numbers_clear(&numbers);

@@ -25,7 +25,7 @@ static const struct br_resolution_column step = {.name = "k", .axis = BR_AXIS_TI
 
 static char folder[] = "/tmp/beamrate-test-XXXXXX";
 static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};
-static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX};
+static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX, NULL, false, false};
 
 /* n in {4, 8, 16}, one run at once. */
 static struct br_orders_request program(const char *command)
@@ -168,7 +168,7 @@ TEST(test_words)
     write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
                           "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
     struct br_orders_request p = program(command_of(
-        "words", "a\\ b 'c  d' \"e \\\"f\\\" \\g\" ; | '' x\"y\"'z' $(touch PWN) `touch PWN` "
+        "words", "a\\ b 'c  d' \"e \\\"f\\\" \\g\" \\; '|' '' x\"y\"'z' '$(touch' PWN) \"`touch\" PWN\\` "
                  "'; touch PWN' {n}/{k} '{{n} {n}' }"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
     p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, dt, 1};
@@ -188,7 +188,7 @@ TEST(test_words)
 TEST(test_environment)
 {
     static char language[] = "language";
-    const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX};
+    const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX, NULL, false, false};
     struct br_orders_request p = program("/usr/bin/env err={n}");
     p.reading = &reading;
     p.values = language;
@@ -265,6 +265,118 @@ TEST(test_refused)
     refuse(&nobody, BR_BAD_INPUT, "(its interpreter?)");
     const struct br_orders_request p = program(command_of("noshell", "{n}"));
     refuse(&p, BR_BAD_INPUT, "cannot be run");
+}
+
+/* What only a shell understands is refused, with a command that works. */
+TEST(test_shell_lines)
+{
+    static const char *const lines[][2] = {
+        {"p {n} | tail -1", "has '|', and no shell is used; to use one: sh -c 'cd "},
+        {"p {n} && q", "has '&&', and"},
+        {"p {n} > out", "has '>', and"},
+        {"p {n}; q", "has ';', and"},
+        {"p `q` {n}", "has '`', and"},
+        {"p $(q) {n}", "has '$', and"},
+        {"p $HOME {n}", "has '$', and"},
+        {"A=1 p {n}", "has 'A=', and"},
+        {"cd x {n}", "has 'cd', and"},
+        {"p 'a b' {n} | q", "put the command into a script, or '|' into quotes"},
+    };
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        const struct br_orders_request p = program(lines[i][0]);
+        refuse(&p, BR_BAD_INPUT, lines[i][1]);
+    }
+    write_script("good", good);
+    char line[256], said[sizeof err.message];
+    snprintf(line, sizeof line, "%s {n} 0 | tail -1", path_of("good"));
+    struct br_orders_request p = program(line);
+    refuse(&p, BR_BAD_INPUT, "to use one: ");
+    strcpy(said, strstr(err.message, "to use one: ") + strlen("to use one: "));
+    p.command = said;
+    run(&p);
+    CLOSE(numbers.row[0].number[0], 1. / 16, 1e-15);
+}
+
+/* ---- where numbers are read, and how often ---- */
+
+static const char talking[] =
+    "echo \"err=9 dofs $(($1 * $1 + 1))\"; echo err=$1; echo err=-$1 >&2\n"
+    "mkdir d; echo \"{\\\"e\\\": 0.$1}\" > d/out.json; test $1 -ne 16 || exit 3";
+
+TEST(test_places)
+{
+    static const double list[] = {4, 8, 16, 32};
+    const char *const read[][2] = {{"last", "last:err=(.*)"},
+                                   {"complaint", "stderr:err=(.*)"},
+                                   {"file", "file:d/out.json:json:/e"},
+                                   {"dofs", "dofs (.*)"}};
+    write_script("talking", talking);
+    struct br_orders_request p = br_orders_request_default();
+    for (size_t i = 0; i < 4; i++)
+        MUST(br_orders_request_reading(&p, read[i][0], read[i][1], &err));
+    p.command = strdup(command_of("talking", "{level}"));
+    p.values = strdup("complaint");
+    p.axis[BR_AXIS_SPACE].column = br_resolution_column_find("level");
+    p.axis[BR_AXIS_SPACE].given = memcpy(malloc(sizeof list), list, sizeof list);
+    p.axis[BR_AXIS_SPACE].count = 4;
+    run(&p);
+    assert_int_equal(numbers.quantities, 3);
+    assert_true(numbers.assumed);
+    assert_string_equal(numbers.column[BR_AXIS_SPACE]->name, "dofs");
+    for (int i = 0; i < 4; i++) {
+        const struct br_numbers_row *row = &numbers.row[i];
+        if (i == 2) { /* placed beside its neighbours: the size of its level, times theirs */
+            assert_non_null(strstr(row->failure, "exit code 3"));
+            CLOSE(row->z[0], ldexp(numbers.row[1].z[0], -8), 1e-15);
+            continue;
+        }
+        CLOSE(row->given[0], list[i] * list[i] + 1, 0);
+        CLOSE(row->z[0], 1 / sqrt(list[i] * list[i] + 1), 1e-15);
+        CLOSE(row->number[0], list[i], 0);
+        CLOSE(row->number[1], -list[i], 0);
+        CLOSE(row->number[2], i == 3 ? 0.32 : list[i] / 10, 1e-15);
+    }
+    br_orders_request_clear(&p);
+    static const char *const refused[] = {"file:x", "file::(.)", "file:/etc/passwd:(.)",
+                                          "file:../x:(.)", "file:a/../../x:(.)"};
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        REFUSED(br_orders_request_reading(&p, "q", refused[i], &err), BR_BAD_INPUT,
+                "expected file:PATH:REGEX, with a PATH in the folder");
+        br_orders_request_clear(&p);
+    }
+}
+
+/* The mean of 4 runs and its deviation; runs are kept one by one; one that fails fails its cell. */
+TEST(test_repeated)
+{
+    char kept[128];
+    snprintf(kept, sizeof kept, "%s", path_of("kept-repeated"));
+    write_script("drawn", "test $1$2 != 83 || test ! -e $0.fail && echo err=$(($1 + $2 * $2))");
+    struct br_orders_request p = program(command_of("drawn", "{n} {repeat}"));
+    p.repeat = 4;
+    p.kept = kept;
+    run(&p);
+    assert_int_equal(numbers.rows, 3);
+    for (int i = 0; i < 3; i++) {
+        CLOSE(numbers.row[i].number[0], (4 << i) + 7.5, 1e-12); /* of 1, 4, 9, 16 */
+        CLOSE(numbers.row[i].deviation[0], sqrt((42.25 + 12.25 + 2.25 + 72.25) / 3 / 4), 1e-12);
+        assert_false(numbers.row[i].kept);
+    }
+    has_entries(kept, 12);
+    run(&p);
+    assert_true(numbers.row[2].kept);
+    CLOSE(numbers.row[2].number[0], 23.5, 1e-12);
+    p.command = (char *)command_of("drawn", "{n} 1"); /* the same words each time */
+    run(&p);
+    has_entries(kept, 21); /* the first of each is there */
+    p.command = (char *)command_of("drawn", "{n} {repeat}");
+    shell("touch drawn.fail");
+    p.kept = NULL;
+    run(&p);
+    assert_null(numbers.row[0].failure);
+    assert_non_null(numbers.row[1].failure);
+    assert_non_null(strstr(numbers.row[1].failure, "exit code 1"));
+    assert_true(isnan(numbers.row[1].number[0]));
 }
 
 TEST(test_refused_lists)
@@ -444,7 +556,7 @@ TEST(test_kept)
     has_entries(kept, 3);
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, four, 4};
     expect_run(&p, 1, 1);
-    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX};
+    const struct br_reading other = {"err", "err=0*([0-9]+)", BR_READING_REGEX, NULL, false, false};
     p.reading = &other;
     expect_run(&p, 4, 1);
     p.reading = &err_reading;
@@ -717,7 +829,7 @@ TEST(test_readings)
         {CSV, "x", "n,x\n1,2\"", NAN, "found '2\"'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind};
+        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind, NULL, false, false};
         const struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 10};
         const char *output = cases[i].output;
         double number = 0;
@@ -738,14 +850,14 @@ TEST(test_refused_readings)
         struct br_reading reading;
         const char *message;
     } cases[] = {
-        {{"", "(.)", BR_READING_REGEX}, "no name"},
-        {{"q", "(", BR_READING_REGEX}, "q: '(' is no extended regular expression"},
-        {{"q", "a", BR_READING_REGEX}, "has 0 groups, expected one"},
-        {{"q", "(a)(b)", BR_READING_REGEX}, "has 2 groups"},
-        {{"q", "a", BR_READING_JSON}, "'a' is no JSON pointer"},
-        {{"q", "/a~2", BR_READING_JSON}, "is no JSON pointer"},
-        {{"q", "/a~", BR_READING_JSON}, "is no JSON pointer"},
-        {{"q", "", BR_READING_CSV}, "no column"},
+        {{"", "(.)", BR_READING_REGEX, NULL, false, false}, "no name"},
+        {{"q", "(", BR_READING_REGEX, NULL, false, false}, "q: '(' is no extended regular expression"},
+        {{"q", "a", BR_READING_REGEX, NULL, false, false}, "has 0 groups, expected one"},
+        {{"q", "(a)(b)", BR_READING_REGEX, NULL, false, false}, "has 2 groups"},
+        {{"q", "a", BR_READING_JSON, NULL, false, false}, "'a' is no JSON pointer"},
+        {{"q", "/a~2", BR_READING_JSON, NULL, false, false}, "is no JSON pointer"},
+        {{"q", "/a~", BR_READING_JSON, NULL, false, false}, "is no JSON pointer"},
+        {{"q", "", BR_READING_CSV, NULL, false, false}, "no column"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct br_orders_request p = program("true {n}");
@@ -784,7 +896,7 @@ TEST(test_hostile_expressions)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static char text[1 << 15];
-        const struct br_reading reading = {"q", text, BR_READING_REGEX};
+        const struct br_reading reading = {"q", text, BR_READING_REGEX, NULL, false, false};
         strcpy(text, cases[i].begin);
         for (int j = 0; j < cases[i].times; j++)
             strcat(text, cases[i].repeated);
@@ -806,7 +918,7 @@ static bool always(void *self)
 TEST(test_long_searches)
 {
     static const struct br_observer stops = {.stop = always};
-    static const struct br_reading reading = {"q", "(.*)a.{900}b", BR_READING_REGEX};
+    static const struct br_reading reading = {"q", "(.*)a.{900}b", BR_READING_REGEX, NULL, false, false};
     static char output[8200] = "\n1234\n";
     struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 1e-9};
     double number;
@@ -866,7 +978,7 @@ TEST(test_without_memory)
 {
     static const double list[] = {4};
     struct br_orders_request p = program("/usr/bin/printf '{{\"a\": {n}}'");
-    const struct br_reading reading = {"a", "/a", BR_READING_JSON};
+    const struct br_reading reading = {"a", "/a", BR_READING_JSON, NULL, false, false};
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
     p.reading = &reading;
     br_test_without_memory(attempt, &p, 10);

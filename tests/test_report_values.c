@@ -223,13 +223,13 @@ static struct br_case made_case(enum br_verify_kind kind, enum br_verdict verdic
 static void print_check(FILE *out)
 {
     struct br_point point[] = {
-        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, "", {NAN, NAN, NAN}},
+        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, "", {NAN, NAN, NAN}, 0},
         {{8, 16}, {0, 0}, 0.125, 0, 0.25, 1.25, "n = 8", BR_FLAG_ROUND_OFF, false, "",
-         {NAN, NAN, NAN}},
+         {NAN, NAN, NAN}, 0},
         {{0, 0}, {0, 0}, 0.5, 0.25, 0.125, 1.125, "h = 1", BR_FLAG_NONE, true, "",
-         {NAN, NAN, NAN}},
+         {NAN, NAN, NAN}, 0},
         {{16, 32}, {0, 0}, 0.5, 0, NAN, NAN, "n = 16", BR_FLAG_FAILED, false, "it blew up",
-         {NAN, NAN, NAN}},
+         {NAN, NAN, NAN}, 0},
     };
     struct br_case cases[2][5], other[2], *now = cases[0], *was = cases[1];
     const enum br_verdict verdict[] = {BR_PASS, BR_FAIL, BR_INCONCLUSIVE, BR_FAIL, BR_PASS};
@@ -243,6 +243,7 @@ static void print_check(FILE *out)
     for (size_t i = 3; i < 5; i++)
         now[i].measure = was[i].measure = "tip";
     was[0].constant = 3.3;           /* a warning: 9 % */
+    now[0].expected.highest = 3;     /* looser now, 2 to 3: a warning */
     was[1].expected.floor = 1;       /* looser now: a warning */
     was[1].expected.tolerance = 0.5; /* narrower now: 0.1 is 0.4 of the tolerance now: a warning */
     was[1].order.value = 2.4;
@@ -274,8 +275,7 @@ static void print_check(FILE *out)
     struct br_comparison comparison;
     MUST(br_compare(checks, 3, true, &old, &comparison, &err));
     struct br_document d = {0};
-    br_report_check(&(struct br_check_findings){checks, 3, 4.5, &comparison, &provenance},
-                    &d);
+    br_report_check(&(struct br_check_findings){checks, 3, 4.5, &comparison, &provenance}, &d);
     br_put_verdict(&d, &(struct br_document_verdict){.outcome = BR_OUTCOME_SKIPPED,
                                                      .group = "e",
                                                      .name = "not there",
@@ -440,6 +440,35 @@ TEST(certificate_is_printed)
                                .gaining = {43, 44},
                                .gained = {45, 46}};
     br_test_stored("certificate", print_certificate, 1e-13);
+}
+
+/* Processor time that grows or falls by less than a tenth of an order is not said. */
+TEST(growth_of_time_is_said)
+{
+    static const struct {
+        double growth;
+        const char *said;
+    } cases[] = {{0.3, "time grows like h^-0.3"}, {-0.3, "time falls like h^0.3"}, {0.05, NULL}};
+    struct br_orders_request q = br_orders_request_default();
+    struct br_numbers numbers;
+    struct br_orders orders;
+    q.path = (char[]){"made"};
+    q.table = (char[]){"h,l2\n1,1\n.5,.5\n.25,.25\n"};
+    MUST(br_orders_read(&q, &numbers, &err));
+    MUST(br_orders_find(&numbers, 2, &orders, &err));
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double g = cases[i].growth;
+        const struct br_estimate growth[BR_AXES] = {{g, g - 0.01, g + 0.01}, {NAN, NAN, NAN}};
+        struct br_document d = {0};
+        br_report_orders(&orders, growth, "made", &d);
+        char *text = printed(&br_document_text, &d);
+        assert_true(!strstr(text, "Processor time") == !cases[i].said);
+        assert_true(!cases[i].said || strstr(text, cases[i].said));
+        free(text);
+        br_document_clear(&d);
+    }
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
 }
 
 /* Of the printed errors one is by a ratio off; the others are ours. */

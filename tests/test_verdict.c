@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Verdicts on errors that are made up, so that what they should be is known. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -172,6 +173,109 @@ TEST(test_many_points)
     reach(&m, BR_PASS, "");
     assert_int_equal(m.it.used, 9);
     assert_false(m.point[9].used);
+}
+
+/* A finest error that is far too small shows terms that cancel, or a reference that is the solution
+ * itself: the others do not make it pass. */
+TEST(test_far_too_small)
+{
+    struct made m;
+    make_power(&m, 1, 7);
+    m.point[6].error /= 1000;
+    reach(&m, BR_INCONCLUSIVE,
+          "from (n = 640, k = T/6400) on the errors are far smaller than that");
+    m.it.down_to = m.point[6].error;
+    m.point[6].flag = BR_FLAG_STALLED; /* as is expected */
+    reach(&m, BR_PASS, "");
+    make_power(&m, 1, 7);
+    m.point[6].error *= 0.8;
+    reach(&m, BR_PASS, "");
+}
+
+/* Takes the numbers out of a text. */
+static void keep_words(char *text)
+{
+    char *to = text;
+    for (const char *at = text; *at; at++)
+        if (!strchr("0123456789.+-e", *at) ||
+            (*at == 'e' && at > text && isalpha((unsigned char)at[-1])))
+            *to++ = *at;
+    *to = '\0';
+}
+
+/* No word depends on the unit of the errors. */
+TEST(test_any_unit)
+{
+    static const double error[][8] = {
+        {1, .5, .25, .126, .063, .05, .05, .05},
+        {9, 4, .25, .125, .0625, .03125, 1e-7, 1e-7},
+        {1, .52, .3, .2, .15, .125, .1125, .10625},
+        {1, .5, .25, .125, .3, .031, .0156, .0078},
+        {1, 2, 4, 8, 16, 32, 64, 128},
+        {1, .5, .25, .125, .0625, .03125, .0156, 1e-6},
+        {1, .5, .2, .1, .01, .016, .0178, .0172},
+        {1, .9, 1.1, .95, 1, 1.02, .97, 1},
+    };
+    for (size_t l = 0; l < sizeof error / sizeof *error; l++) {
+        struct made a, b;
+        struct br_error err = {0};
+        make(&a, error[l], 8);
+        make(&b, error[l], 8);
+        for (size_t i = 0; i < 8; i++)
+            b.point[i].error *= 1e-9;
+        MUST(br_verdict_reach(&a.it, &err));
+        MUST(br_verdict_reach(&b.it, &err));
+        assert_int_equal(a.it.verdict, b.it.verdict);
+        assert_true(a.it.law == b.it.law);
+        keep_words(a.it.reason), keep_words(b.it.reason);
+        keep_words(a.it.note), keep_words(b.it.note);
+        assert_string_equal(a.it.reason, b.it.reason);
+        assert_string_equal(a.it.note, b.it.note);
+        for (size_t i = 0; i < 8; i++)
+            if (a.point[i].flag != b.point[i].flag)
+                fail_msg("line %zu, error %zu: %s, and %s in another unit", l, i,
+                         br_flag_name(a.point[i].flag), br_flag_name(b.point[i].flag));
+    }
+}
+
+/* What would settle a verdict is a line for the part `verify` of a scene, or the row to add. */
+TEST(test_sizes)
+{
+    static const double error[] = {1, .52, .27, .143};
+    struct made m;
+    make(&m, error, 4);
+    reach(&m, BR_INCONCLUSIVE, "; add a row finer than (n = 80, k = T/800)");
+    m.it.duration = 2;
+    reach(&m, BR_INCONCLUSIVE,
+          "; expect it of n: 10, 20, 40, 80, 160 k: 0.02, 0.01, 0.005, 0.0025, 0.00125 s");
+    for (size_t i = 0; i < 4; i++)
+        m.point[i].against = (struct br_resolution){m.point[i].at.n * 2, m.point[i].at.steps};
+    m.it.kind = BR_VERIFY_SPACE;
+    reach(&m, BR_INCONCLUSIVE, "; expect it of n: 10, 20, 40, 80, 160, 320");
+    m.point[2].flag = m.point[3].flag = BR_FLAG_ROUND_OFF;
+    reach(&m, BR_INCONCLUSIVE, "; expect it of n: 5, 10, 20, 40, 80, 160");
+}
+
+/* What the order does not say stands in the note. */
+TEST(test_notes)
+{
+    static const struct {
+        double error[6];
+        const char *note;
+    } rows[] = {
+        {{.6610623, .1602090, .03838335, .009168145, .002230114, .0005493928},
+         "from size to size the order still falls, the last is 2.02"},
+        {{1.01, .51, .26, .135, .0725, .04125}, "beside one power the errors show a floor"},
+        {{9, 5e-1, 2.5e-1, 1.25e-1, 6.25e-2, 3.12e-2}, "(not asymptotic, error 9.0e+00)"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct made m;
+        struct br_error err = {0};
+        make(&m, rows[i].error, 6);
+        MUST(br_verdict_reach(&m.it, &err));
+        if (!strstr(m.it.note, rows[i].note))
+            fail_msg("found '%s', expected '%s'", m.it.note, rows[i].note);
+    }
 }
 
 /* What is advised would do. */

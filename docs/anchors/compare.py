@@ -71,7 +71,7 @@ def rounded(value, printed):
 def triples():
     who = [CELIK, VERIFY, PYGCS, CONVERGENCE]
     lines = ["| example | number | " + " | ".join(who) + " | beamrate |", "|---" * 7 + "|"]
-    reports = {row[0]: ours(row[0])["tables"]["limits"][0] for row in TRIPLES}
+    reports = {name: ours(name)["tables"]["limits"][0] for name in {row[0] for row in TRIPLES}}
     for example, number, key, factor, printed in TRIPLES:
         value, cells, most = factor * reports[example][key], [], ""
         for name in who:

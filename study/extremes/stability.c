@@ -95,8 +95,7 @@ static enum br_status try_steps(struct work *w, struct br_stability_point *p, st
     enum br_status status = march(w, method, p->steps, err);
     p->share = NAN;
     p->outcome = status ? BR_REFUSED : BR_UNSTABLE;
-    if (status == BR_BAD_INPUT || status == BR_SINGULAR ||
-        (!status && w->report->failure.status)) {
+    if (status == BR_BAD_INPUT || status == BR_SINGULAR || (!status && w->report->failure.status)) {
         const char *why = status ? err->message : w->report->failure.message;
         snprintf(p->why, sizeof p->why, "%.150s", why);
         return BR_OK;

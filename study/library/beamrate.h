@@ -304,7 +304,7 @@ enum beamrate_verdict {
 /* One expectation. */
 struct beamrate_case {
     const char *study;          /* "space", "time" or "joint" (h and k together) */
-    const char *measure;        /* the norm of the errors; of numbers "error", "value", or the column */
+    const char *measure;        /* the norm; of numbers "error", "value", or their column */
     const char *part;           /* "total", "axial", "bending"; "": of numbers */
     double expected, tolerance; /* the interval must lie within expected -+ tolerance */
     struct beamrate_estimate order;
@@ -381,31 +381,31 @@ struct beamrate_expectation {
     double down_to;          /* the errors are expected to stop falling there; 0: nowhere */
 };
 
-/* A table, as `beamrate orders FILE` reads it: it finds out the separator, knows the usual headings,
- * and takes each column of numbers for errors, but columns like rate or time. */
+/* A table, as `beamrate orders FILE` reads it: it finds out the separator, knows the usual
+ * headings, and takes each column of numbers for errors, but columns like rate or time. */
 struct beamrate_table {
-    const char *name;    /* of the file, for messages; NULL: "table" */
-    const char *text;    /* UTF-8 */
-    const char *errors;  /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
-    const char *values;  /* columns of values whose limit is not known; NULL: none */
-    double dimension;    /* of the mesh whose unknowns a column counts; 0: 2, and the report says so */
-    double formal;       /* theoretical order of values; 0: 2 */
+    const char *name;   /* of the file, for messages; NULL: "table" */
+    const char *text;   /* UTF-8 */
+    const char *errors; /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
+    const char *values; /* columns of values whose limit is not known; NULL: none */
+    double dimension; /* of the mesh whose unknowns a column counts; 0: 2, and the report says so */
+    double formal;    /* theoretical order of values; 0: 2 */
 };
 
-/* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by the
- * caller. Fails as beamrate_orders_find; the message names table, line and column. */
+/* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by
+ * the caller. Fails as beamrate_orders_find; the message names table, line and column. */
 enum beamrate_status beamrate_orders_read(struct beamrate_orders **orders,
                                           const struct beamrate_table *table,
                                           struct beamrate_error *err);
 
 /* What the numbers show of one column's order. */
 struct beamrate_answer {
-    const char *quantity;           /* the column's name */
-    int values;                     /* 1: values; 0: errors */
-    int refined;                    /* 1: there is a line along the axis; else 0, and order is NaN */
-    struct beamrate_estimate order; /* by the joint fit if it describes the errors, else by the line at
-                                       the finest size of the other axis */
-    const char *open;               /* why the order is not settled, and what settles it; "": it is */
+    const char *quantity; /* the column's name */
+    int values;           /* 1: values; 0: errors */
+    int refined;          /* 1: there is a line along the axis; else 0, and order is NaN */
+    struct beamrate_estimate order; /* by the joint fit if it describes the errors, else by the line
+                                       at the finest size of the other axis */
+    const char *open; /* why the order is not settled, and what settles it; "": it is */
 };
 
 /* The answer (out) for column `quantity`, from 0 on, along an axis. Returns 1, or 0 with NaN and ""
@@ -418,7 +418,7 @@ struct beamrate_order_point {
     double size;                  /* h or k */
     double error;                 /* or the difference of a value from the next finer one */
     double rate;                  /* the order from the point before it to this one; NaN: none */
-    struct beamrate_estimate fit; /* the line of the order there, and its band; NaN: there is none */
+    struct beamrate_estimate fit; /* the order's line there, and its band; NaN: none */
     const char *left_out;         /* why the order does not rest on it; "": it does */
 };
 
@@ -443,7 +443,8 @@ enum beamrate_status beamrate_orders_check(struct beamrate_check **check,
                                            const struct beamrate_expectation *expectation,
                                            size_t count, struct beamrate_error *err);
 
-/* The same of column `quantity`, from 0 on. */
+/* The same of column `quantity`, from 0 on. Refuses an order in h of a table where the dimension of the
+ * mesh is assumed. */
 enum beamrate_status beamrate_orders_check_quantity(struct beamrate_check **check,
                                                     const struct beamrate_orders *orders,
                                                     size_t quantity,

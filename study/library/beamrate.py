@@ -89,9 +89,9 @@ def _plain(value):
 
 def _load():
     here = Path(__file__).resolve()
-    prefix = here.parents[3]  # of PREFIX/share/beamrate/python
-    found = [*here.parent.glob("libbeamrate.so"), *prefix.glob("lib*/libbeamrate.so.0"),
-             *prefix.glob("lib/*/libbeamrate.so.0")]
+    found = [*here.parent.glob("libbeamrate.so")]
+    for prefix in list(here.parents)[3:4]:  # of PREFIX/share/beamrate/python
+        found += [*prefix.glob("lib*/libbeamrate.so.0"), *prefix.glob("lib/*/libbeamrate.so.0")]
     return ctypes.CDLL(os.environ.get("BEAMRATE_LIBRARY") or str((found or ["libbeamrate.so.0"])[0]))
 
 
@@ -510,7 +510,7 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, **sizes):
 
     data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
     of numbers. The headings tell the mesh and the time step, as those of a file do; else name them:
-    h=, n=, level=, dofs= with dimension=, k=, dt=, steps=: a list of numbers, or the name of a column.
+    h=, n=, level=, dofs= or cells= with dimension=, k=, dt=, steps=: a list of numbers, or the name of a column.
     values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
     numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
     values (2). NaN is a missing number. A report says what was taken for what.
@@ -532,7 +532,7 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, **sizes):
 
 def _as_text(data, values, sizes):
     """The table of what Python has, as CSV; and `values`."""
-    known = ("h", "n", "level", "dofs", "k", "dt", "steps")
+    known = ("h", "n", "level", "dofs", "cells", "k", "dt", "steps")
     if wrong := sorted(set(sizes) - set(known)):
         _refuse(TypeError, "sizes", wrong, f"some of {', '.join(known)}")
     if hasattr(data, "to_frame") and not hasattr(data, "columns"):  # a Series of pandas

@@ -328,8 +328,7 @@ static enum br_status find_orders(struct beamrate_orders *o, const struct beamra
                                   struct br_error *err)
 {
     const enum br_status status = copy_numbers(from, &o->numbers, err);
-    const double formal = !status && from->formal != 0 ? from->formal : 2;
-    return status ? status : br_orders_find(&o->numbers, formal, &o->orders, err);
+    return status ? status : br_orders_find(&o->numbers, from->formal, &o->orders, err);
 }
 
 enum beamrate_status beamrate_orders_find(struct beamrate_orders **orders,
@@ -348,19 +347,22 @@ static enum br_status read_orders(struct beamrate_orders *o, const struct beamra
         return br_fail(err, BR_BAD_INPUT, "table: found NULL, expected a table");
     if (!(table->dimension >= 0 && isfinite(table->dimension) && table->formal >= 0 &&
           isfinite(table->formal)))
-        return br_fail(err, BR_BAD_INPUT,
-                       "table: found dimension %g and formal order %g, expected numbers above 0, or "
-                       "0: not stated",
-                       table->dimension, table->formal);
-    q.path = (char *)(table->name ? table->name : "table"); /* all borrowed: the request is not cleared */
+        return br_fail(
+            err, BR_BAD_INPUT,
+            "table: found dimension %g and formal order %g, expected numbers above 0, or "
+            "0: not stated",
+            table->dimension, table->formal);
+    q.path = (char *)(table->name ? table->name
+                                  : "table"); /* all borrowed: the request is not cleared */
     q.table = (char *)table->text;
     q.errors = (char *)table->errors;
     q.values = (char *)table->values;
     q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
     q.assumed_dimension = !(table->dimension > 0);
     q.formal = table->formal > 0 ? table->formal : q.formal;
-    return br_orders_read(&q, &o->numbers, err) ? err->status
-                                                : br_orders_find(&o->numbers, q.formal, &o->orders, err);
+    return br_orders_read(&q, &o->numbers, err)
+               ? err->status
+               : br_orders_find(&o->numbers, q.formal, &o->orders, err);
 }
 
 enum beamrate_status beamrate_orders_read(struct beamrate_orders **orders,
@@ -388,8 +390,8 @@ static const struct br_quantity_orders *find_column(const struct beamrate_orders
                                                     size_t quantity, enum beamrate_axis axis,
                                                     const struct br_orders_line **line)
 {
-    const bool good = br_handle_is(orders, BR_HANDLE_ORDERS) && is_axis(axis) &&
-                      quantity < orders->orders.count;
+    const bool good =
+        br_handle_is(orders, BR_HANDLE_ORDERS) && is_axis(axis) && quantity < orders->orders.count;
     const struct br_quantity_orders *of = good ? &orders->orders.of[quantity] : NULL;
     *line = of ? br_orders_finest(of, (enum br_axis)axis) : NULL;
     return of;
@@ -492,9 +494,10 @@ static enum br_status copy_expectations(const struct beamrate_expectation *from,
     return BR_OK;
 }
 
-static enum br_status check_orders(struct beamrate_check *made, const struct beamrate_orders *orders,
-                                   size_t quantity, const struct beamrate_expectation *from,
-                                   size_t count, struct br_error *err)
+static enum br_status check_orders(struct beamrate_check *made,
+                                   const struct beamrate_orders *orders, size_t quantity,
+                                   const struct beamrate_expectation *from, size_t count,
+                                   struct br_error *err)
 {
     struct br_check *check = &made->check;
     struct br_order_expectation *e;
@@ -517,6 +520,12 @@ static enum br_status check_orders(struct beamrate_check *made, const struct bea
     for (size_t i = 0; i < count; i++)
         snprintf(e[i].quantity, sizeof e->quantity, "%s", numbers.quantity->name);
     enum br_status status = made->measure ? BR_OK : br_no_memory(err, "the verdicts");
+    for (size_t i = 0; i < count && !status; i++)
+        if (numbers.assumed && e[i].axis == BR_AXIS_SPACE)
+            status = br_fail(err, BR_BAD_INPUT,
+                             "an order of %.200s in h is expected, and h follows from numbers of %s: "
+                             "state the dimension of the mesh",
+                             made->measure, numbers.column[BR_AXIS_SPACE]->name);
     if (!status)
         status = br_orders_check(&alone, e, count, check, err);
     for (size_t i = 0; i < check->count && !status; i++)

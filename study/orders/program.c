@@ -74,7 +74,9 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                             struct br_error *err)
 {
     struct rusage own;
-    bool opened = r->copy && open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
+    if (!r->copy)
+        return br_no_memory(err, "a run");
+    bool opened = open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
     for (size_t i = 0; i < j->files && opened; i++)
         opened = open_printed(&r->copy[i]);
     if (!opened)
@@ -381,7 +383,8 @@ static size_t count_of(const struct br_program_axis *axis)
 static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
                                 size_t *rows, struct br_error *err)
 {
-    const size_t repeat = (size_t)p->repeat, inner = count_of(&p->axis[BR_AXIS_TIME]);
+    const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
+    const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
     *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
     const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
     for (size_t r = 0; r < *rows && !status; r++) {

@@ -221,7 +221,7 @@ static enum br_status search_regex(struct search *s)
     if (m.count == 0)
         return refuse(s, "'%s' matches nothing in %s", shown(buffer, s->reading->what),
                       place_of(s->reading));
-    return refuse(s, "'%s' matches %zu times, expected once, or last:REGEX; lines %s",
+    return refuse(s, "'%s' matches %zu times, expected once; lines %s (last:REGEX takes the last)",
                   shown(buffer, s->reading->what), m.count, m.lines);
 }
 

@@ -21,7 +21,6 @@ struct br_point {
     struct br_resolution at, against; /* against: zeros for the continuous problem */
     double z, z_against;              /* h/L or k/T, what the order is in; and that of `against` */
     double error;                     /* in the norm's unit */
-    double deviation;                 /* its standard deviation, where it is a mean; 0: it is none */
     double constant;                  /* C of e = C (z^order - z_against^order) */
     char label[64];                   /* "n = 40", for messages */
     enum br_flag flag;                /* why it is left out */
@@ -29,6 +28,7 @@ struct br_point {
     char failure[256];                /* of the march; "": it went well */
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
                                the order is that of a joint fit, which is no line */
+    double deviation;       /* the error's standard deviation, where it is a mean; 0: it is none */
 };
 
 /* An expectation and what was observed. */

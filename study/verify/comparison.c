@@ -152,8 +152,8 @@ static void compare_known(struct br_comparison *out, const char *subject, const 
     add(out, subject, "verdict", NAN, NAN, verdict, "%s before, %s now",
         br_verdict_names[old->verdict], br_verdict_names[c->verdict]);
     add(out, subject, "expectation", before->order, e->order,
-        expects_less(e, before) ? BR_WARNING : BR_SAME,
-        "looser: %s before, %s now", say_expectation(before, was), say_expectation(e, now));
+        expects_less(e, before) ? BR_WARNING : BR_SAME, "looser: %s before, %s now",
+        say_expectation(before, was), say_expectation(e, now));
     add(out, subject, "order", old->order.value, c->order.value, order,
         "%+.2g of a tolerance of %.2g", shift, e->tolerance);
     add(out, subject, "constant", old->constant, c->constant, constant, "%+.2g %%",

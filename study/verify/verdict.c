@@ -209,11 +209,16 @@ static void judge_too_few(struct br_case *c)
  * reference that is the solution itself. */
 static const struct br_point *first_beyond(const struct br_case *c)
 {
-    const struct br_point *first = NULL;
-    for (size_t i = c->points; i-- > 0 && !c->point[i].used;)
-        if ((c->point[i].flag == BR_FLAG_STALLED || c->point[i].flag == BR_FLAG_OUTLIER) &&
-            !(c->point[i].error <= c->down_to))
-            first = &c->point[i];
+    const struct br_point *first = NULL, *last = c->point + c->points - 1;
+    while (last > c->point && !last->used)
+        last--;
+    for (const struct br_point *p = c->point + c->points; p-- > last + 1;) {
+        const double falls_to = last->error * pow(p->z / last->z, c->order.value);
+        if ((p->flag == BR_FLAG_STALLED ||
+             (p->flag == BR_FLAG_OUTLIER && p->error < 0.5 * falls_to)) &&
+            !(p->error <= c->down_to))
+            first = p;
+    }
     return first;
 }
 
@@ -230,14 +235,15 @@ static void judge_beyond(struct br_case *c, const struct br_point *first)
                      : "do not fall",
              first->error);
     if (small)
-        br_append(c->reason, sizeof c->reason, ": finer grids would tell whether terms cancel");
+        br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
     else if (!(c->duration > 0))
         br_append(c->reason, sizeof c->reason,
                   ": if that is the reference's own error, expect the order 'down to %.0e'",
                   4 * first->error);
     else
         br_append(c->reason, sizeof c->reason,
-                  ": another solution, or the reference's own error; coarser grids have larger ones");
+                  ": this is another solution, or the reference's own error; errors of coarser "
+                  "grids are larger");
 }
 
 /* Elements or steps of size i; the last ones of neighbours that are compared are `against`. */
@@ -270,8 +276,8 @@ static void name_sizes(struct br_case *c)
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
     if (!(c->duration > 0) && !c->open)
-        br_append(c->reason, sizeof c->reason, "; a row %s %s would tell",
-                  lost ? "before" : "beyond", lost ? c->point[0].label : last->label);
+        br_append(c->reason, sizeof c->reason, "; add a row %s than %s",
+                  lost ? "coarser" : "finer", lost ? c->point[0].label : last->label);
     if (!(c->duration > 0) || c->points < 2)
         return;
     br_append(c->reason, sizeof c->reason, "; expect it of");

@@ -1,0 +1,94 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The answer, the table, the JSON and the verdict of the same data state the same order: of a line
+# with rows that do not count, a grid with a joint fit, a grid without one, and values.
+# usage: same_numbers.sh; $BEAMRATE is the program
+set -u
+: "${BEAMRATE:?is the program}"
+folder=$(mktemp -d) || exit 99
+trap 'rm -rf "$folder"' EXIT
+cd "$folder" || exit 99
+number=0
+
+report() { # NAME WHAT: fails if the file `why` has lines
+    number=$((number + 1))
+    [ -s why ] && { sed 's/^/# /' why; printf 'not '; failed=yes; }
+    echo "ok $number - $1: $2"
+}
+
+# "h 2.00 1.99 2.00" for each order of an answer; "-" where it states none.
+orders_of() {
+    tr '\n' ' ' <"$1" | tr -s ' ' | grep -oE 'order in [hk] -?[0-9.]+ \[-?[0-9.]+, -?[0-9.]+\]' |
+        sed -E 's/order in ([hk]) (\S+) \[(\S+), (\S+)\]/\1 \2 \3 \4/' | sort
+}
+
+# The same from lines "h ORDER LOW HIGH", rounded as the orders of $1 are, each to its own digits.
+as_printed() { # ANSWER NUMBERS
+    awk 'NR == FNR { printed[$1] = $2; next }
+        ($1 in printed) { d = length(printed[$1]) - index(printed[$1], ".")
+            printf "%s %.*f %.*f %.*f\n", $1, d, $2, d, $3, d, $4 }' "$1" "$2" | sort
+}
+
+# "h ORDER LOW HIGH VERDICT" of each case in the JSON of a verdict.
+cases_of() {
+    awk -F'[:,]' '/"tables"/ { on = 1 } /"points": \[/ { on = 0 }
+        on && /"study"/ { axis = /space/ ? "h" : "k" }
+        on && /"order"/ { order = $2 } on && /"low"/ { low = $2 } on && /"high"/ { high = $2 }
+        on && /"verdict"/ { gsub(/[" ]/, "", $2); print axis, order, low, high, $2 }' "$1"
+}
+
+compare() { # NAME EXPECTATION OPTION...
+    name=$1 expect=$2
+    shift 2
+    "$BEAMRATE" orders "$name.txt" "$@" >text 2>err || { cat err >why && report "$name" answer; }
+    "$BEAMRATE" orders "$name.txt" "$@" -q --json all.json
+    "$BEAMRATE" orders "$name.txt" "$@" --expect "$expect" --json case.json >verdict 2>err
+    orders_of text >answer
+    [ -s answer ] && : >why || echo "no order" >why
+    report "$name" "there is an answer"
+    sed -n '/"answer"/,/\]/p' all.json >json && orders_of json >from_json
+    diff answer from_json >why
+    report "$name" "the answer in JSON is that in the text"
+    cases_of case.json >cases && as_printed answer cases >from_cases
+    diff answer from_cases >why
+    report "$name" "the verdict is on the order of the answer"
+    : >why
+    while read -r _ order low high outcome; do
+        grep -qE " $outcome *$" verdict || echo "no row of $outcome" >>why
+        case $order in
+        null) [ "$outcome" = INCONCLUSIVE ] || echo "$outcome without an order" >>why ;;
+        *) awk -v o="$order" -v l="$low" -v h="$high" 'BEGIN { exit !(l <= o && o <= h) }' ||
+            echo "$order is not between $low and $high" >>why ;;
+        esac
+    done <cases
+    report "$name" "its row of the table has that verdict"
+}
+
+cat >line.txt <<'END'
+n l2
+5 9e-2
+10 1e-2
+20 2.52e-3
+40 6.26e-4
+80 1.57e-4
+160 3.93e-5
+320 4.0e-8
+END
+awk 'BEGIN { print "n k l2"; srand(7)
+    for (n = 10; n < 100; n *= 2) for (k = .1; k > .01; k /= 2) {
+        a = 2 / n ^ 2; b = .3 * k
+        printf "%d %g %.5e\n", n, k, sqrt(a * a + .6 * a * b + b * b) } }' >grid.txt
+awk 'BEGIN { print "n k l2"
+    for (n = 10; n < 100; n *= 2) for (k = .1; k > .01; k /= 2)
+        printf "%d %g %.5e\n", n, k, 1e-6 / n ^ 2 + .3 * k }' >hidden.txt
+awk 'BEGIN { print "n drag"
+    for (n = 10; n < 200; n *= 2) printf "%d %.9g\n", n, 1.5 + 3 / n ^ 2 * (1 + 3 / n) }' >values.txt
+
+echo 'TAP version 13'
+failed=
+compare line 'l2: h 2 +- 0.1'
+compare grid 'l2: h 2 +- 0.1, k 1 +- 0.1'
+compare hidden 'l2: h 2 +- 0.1, k 1 +- 0.1'
+compare values 'drag: h 2 +- 0.1' --value drag
+echo "1..$number"
+[ -z "$failed" ]
