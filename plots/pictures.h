@@ -268,7 +268,7 @@ struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
 #define BR_ROW(member) offsetof(struct br_history_row, member)
 
 /* Adds a line: a number of all rows, times `factor`, over time. */
-void br_rows_add(struct br_figure *figure, const char *title,
+void br_rows_add(struct br_figure *figure, enum br_pen pen, const char *title,
                  const struct br_history_record *record, size_t place, double factor);
 
 /* Its files are called history. */
