@@ -686,14 +686,19 @@ TEST(test_finer)
     CLOSE(given, 4096, 0);
 }
 
-/* A difference without its finer value names that one. */
+/* A difference goes over a missing value; without any finer value it names the finest row. */
 TEST(test_gap_in_values)
 {
-    find("h,u\n1,1\n.5,2\n.25,\n.125,3\n.0625,4\n", "u");
+    find("h,u\n1,1\n.5,2\n.25,\n.125,3.5\n.0625,4\n.03125,\n.015625,-\n", "u");
     const struct br_point *p = found.orders.of[0].line[0].observed.point;
-    assert_string_equal(p[0].label, "h = 1");
-    assert_string_equal(p[1].label, "h = 0.25");
-    assert_string_equal(p[2].label, "h = 0.25");
+    static const char *const label[] = {"h = 1",     "h = 0.5",      "h = 0.25",
+                                        "h = 0.125", "h = 0.015625", "h = 0.03125"};
+    for (size_t i = 0; i < 6; i++) {
+        assert_string_equal(p[i].label, label[i]);
+        assert_int_equal(p[i].flag == BR_FLAG_FAILED, i == 2 || i > 3);
+    }
+    CLOSE(p[1].error, 1.5, 0);
+    CLOSE(p[1].z_against, 0.125, 0);
 }
 
 /* Differences that fall or grow faster than any order: nothing is said of them. */
@@ -1161,6 +1166,24 @@ static enum br_status whole_study(const void *text, struct br_error *why)
     const enum br_status status = br_orders_request_read("s.yaml", text, &r, why);
     br_orders_request_clear(&r);
     return status;
+}
+
+/* A value that is missing spoils no difference of its neighbours: v = 7 + h^2, on every second mesh. */
+TEST(missing_values_hide_no_order)
+{
+    struct br_numbers n = read_with("h,v\n1,8\n.5,nan\n.25,7.0625\n.125,nan\n.0625,7.00390625\n"
+                                    ".03125,\n.015625,7.000244140625\n.0078125,-\n",
+                                    &(struct columns){.values = "v", .dimension = 2});
+    struct br_orders orders;
+    MUST(br_orders_find(&n, 2, &orders, &err));
+    const struct br_orders_line *line = br_orders_finest(&orders.of[0], BR_AXIS_SPACE);
+    CLOSE(line->observed.order.value, 2, 1e-6);
+    assert_int_equal(line->observed.points, 7);
+    assert_int_equal(line->observed.used, 3);
+    for (size_t i = 0; i < 7; i++)
+        assert_int_equal(line->observed.point[i].flag, i % 2 || i == 6 ? BR_FLAG_FAILED : BR_FLAG_NONE);
+    br_orders_clear(&orders);
+    br_numbers_clear(&n);
 }
 
 TEST(test_without_memory)
