@@ -18,6 +18,7 @@ plots/[fs]*.c (p|p->series\[j\])->title       # a panel's and a curve's; the fig
 plots/paper.c (figure|f)->title               # captions of the paper
 tables/document_*.c t->column\[c\]\.key       # a column's
 tables/document_latex.c b->what\.key          # a picture's file: br_is_name
+tables/scene_template.c (key|br_norms\[0\])->(name|unit) # of the rows of schema.c
 tables/sheet_text.c t->title                  # a table's
 tables/split_*.c line\.name                   # a source of error
 tables/run_text.c p->verdict\.message         # a certificate's: a limit and figures
