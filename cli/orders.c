@@ -224,7 +224,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         build_report(r, &r->session.document[0], err))
         return err->status;
     return judged ? br_verdicts_finish(&r->verdicts, &r->session, &findings, true, err)
-                  : br_verdicts_write(&r->verdicts, &r->session, err);
+                  : br_verdicts_write(&r->verdicts, &r->session, NULL, err);
 }
 
 /* A run without a number makes the command fail, after everything has been written. */

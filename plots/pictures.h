@@ -11,7 +11,6 @@
 #include <sys/types.h>
 
 #include "solver/status.h"
-#include "study/grid/observer.h"
 
 struct br_named_method;
 struct br_named_methods;
@@ -158,9 +157,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *figure);
 
 /* Writes the script that draws stem.svg, stem.png and, if gnuplot can, stem.pdf from stem.dat. */
 void br_figure_write_script(FILE *out, const struct br_figure *figure);
-
-/* Writes a script's beginning: comments, variables `stem` and `data`. pictures: what it draws. */
-void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures);
 
 /* ==== the fillers ====
  *

@@ -916,7 +916,7 @@ static const struct planted_bug planted_bugs[] = {
     {"band_ends_at_the_lower_order", "drawn", "plots/check.c", "tests/test_figure test_stored",
      "e->highest > 0 ? e->highest : e->order", "e->order"},
     {"every_order_has_a_row", "drawn", "plots/check.c", "tests/test_figure test_checks",
-     "const bool apart = orders <= ROWS || j == 0;", "const bool apart = true;"},
+     "rows += orders <= ROWS || j == 0;", "rows++;"},
     {"terminal_has_any_width", "lost", "tables/document_text.c", "tests/test_document test_width",
      "arrange(p->columns, l, l + last);", "arrange(0, l, l + last);"},
     {"mark_needs_no_room", "lost", "tables/document_text.c", "tests/test_document test_width",
