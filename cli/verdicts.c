@@ -106,8 +106,8 @@ static enum br_status write_files(struct br_verdicts *v, const struct br_documen
 }
 
 /* The folder has a picture of the verdicts. The files, which may stand anywhere, name none. */
-static enum br_status write_all(struct br_verdicts *v, struct br_session *session,
-                                const struct br_check_findings *findings, struct br_error *err)
+enum br_status br_verdicts_write(struct br_verdicts *v, struct br_session *session,
+                                 const struct br_check_findings *findings, struct br_error *err)
 {
     struct br_document *d = &session->document[session->documents - 1];
     for (size_t i = 1; br_check_formats[i]; i++)
@@ -121,12 +121,6 @@ static enum br_status write_all(struct br_verdicts *v, struct br_session *sessio
     if (findings)
         br_report_check(findings, d);
     return write_files(v, d, err);
-}
-
-enum br_status br_verdicts_write(struct br_verdicts *v, struct br_session *session,
-                                 struct br_error *err)
-{
-    return write_all(v, session, NULL, err);
 }
 
 static enum br_status conclude(const struct br_verdicts *v, const struct br_check *checks,
@@ -161,7 +155,8 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
     br_report_check(&all, d);
-    const bool failed = write_all(v, session, &all, err) || conclude(v, all.checks, all.count, err);
+    const bool failed =
+        br_verdicts_write(v, session, &all, err) || conclude(v, all.checks, all.count, err);
     return failed ? err->status : BR_OK;
 }
 

@@ -40,9 +40,9 @@ enum br_status br_verdicts_finish(struct br_verdicts *verdicts, struct br_sessio
                                   struct br_error *err);
 
 /* Finishes the session and writes its last report to the files; if one of them is standard output,
- * no report is shown there. */
+ * no report is shown there. findings: of that report, for its picture; NULL: it has none. */
 enum br_status br_verdicts_write(struct br_verdicts *verdicts, struct br_session *session,
-                                 struct br_error *err);
+                                 const struct br_check_findings *findings, struct br_error *err);
 
 void br_verdicts_clear(struct br_verdicts *verdicts);
 

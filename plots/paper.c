@@ -26,7 +26,7 @@ static void add_field(const struct br_example *e, enum br_field_kind kind, const
 
 static void add_stress(const struct br_example *e, struct br_figure *f)
 {
-    br_rows_add(f, stress, &e->record, BR_ROW(friction_force), -1);
+    br_rows_add(f, BR_PEN_LINE, stress, &e->record, BR_ROW(friction_force), -1);
 }
 
 /* The beam, and its contact node over time. */
@@ -36,7 +36,7 @@ static void add_beam(const struct br_example *e, enum br_field_kind kind, struct
     struct br_panel *p = br_panel_add(f, over_time, kind == BR_AXIAL ? horizontal : vertical);
     BR_SAY(p->title, "the contact node");
     br_rows_add(
-        f, "", &e->record,
+        f, BR_PEN_LINE, "", &e->record,
         kind == BR_AXIAL ? BR_ROW(displacement[BR_AXIAL]) : BR_ROW(displacement[BR_BENDING]), 1);
 }
 
@@ -65,7 +65,7 @@ static void fill3(const struct br_paper *paper, struct br_figure *f)
     p->log_y = true;
     BR_SAY(p->title, "the scheme");
     add_stress(&paper->example[0], f);
-    br_rows_add(f, bound, &paper->example[0].record, BR_ROW(friction_bound), 1);
+    br_rows_add(f, BR_PEN_LINE, bound, &paper->example[0].record, BR_ROW(friction_bound), 1);
     BR_SAY(br_panel_add(f, early_time, "force (N)")->title, "the first instants, exact");
     struct br_series *s[] = {br_series_add(f, BR_PEN_LINE, "%s", stress),
                              br_series_add(f, BR_PEN_LINE, "%s", bound)};
@@ -92,7 +92,7 @@ static void fill6(const struct br_paper *paper, struct br_figure *f)
     const struct br_example *e = &paper->example[2];
     br_panel_add(f, over_time, "force (N)");
     add_stress(e, f);
-    br_rows_add(f, "friction bound c_V", &e->record, BR_ROW(friction_bound), 1);
+    br_rows_add(f, BR_PEN_LINE, "friction bound c_V", &e->record, BR_ROW(friction_bound), 1);
 }
 
 /* When the exact tip begins to stick or to slip. */
@@ -108,10 +108,10 @@ static void fill9(const struct br_paper *paper, struct br_figure *f)
     static const char bound[] = "bound h(t) = c_V u(1,t), and -h(t)";
     const struct br_example *e = &paper->example[3];
     BR_SAY(br_panel_add(f, over_time, "force (N)")->title, "friction bound");
-    br_rows_add(f, bound, &e->record, BR_ROW(friction_bound), 1);
+    br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), 1);
     BR_SAY(br_panel_add(f, over_time, "force (N)")->title, "tangential stress");
-    br_rows_add(f, bound, &e->record, BR_ROW(friction_bound), 1);
-    br_rows_add(f, bound, &e->record, BR_ROW(friction_bound), -1);
+    br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), 1);
+    br_rows_add(f, BR_PEN_LINE, bound, &e->record, BR_ROW(friction_bound), -1);
     add_stress(e, f);
 }
 

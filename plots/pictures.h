@@ -11,7 +11,6 @@
 #include <sys/types.h>
 
 #include "solver/status.h"
-#include "study/grid/observer.h"
 
 struct br_named_method;
 struct br_named_methods;
@@ -159,9 +158,6 @@ void br_figure_write_data(FILE *out, const struct br_figure *figure);
 /* Writes the script that draws stem.svg, stem.png and, if gnuplot can, stem.pdf from stem.dat. */
 void br_figure_write_script(FILE *out, const struct br_figure *figure);
 
-/* Writes a script's beginning: comments, variables `stem` and `data`. pictures: what it draws. */
-void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures);
-
 /* ==== the fillers ====
  *
  * Each makes a figure of a result, and computes only the points' positions. Clear the figure;
@@ -268,7 +264,7 @@ struct br_figure br_paper_figure_draw(const struct br_paper_figure *row,
 #define BR_ROW(member) offsetof(struct br_history_row, member)
 
 /* Adds a line: a number of all rows, times `factor`, over time. */
-void br_rows_add(struct br_figure *figure, const char *title,
+void br_rows_add(struct br_figure *figure, enum br_pen pen, const char *title,
                  const struct br_history_record *record, size_t place, double factor);
 
 /* Its files are called history. */

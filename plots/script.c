@@ -157,20 +157,21 @@ static void write_titles(FILE *out, const struct br_figure *f, const struct page
     }
 }
 
-void br_script_head(FILE *out, const char *title, const char *stem, const char *pictures)
+/* Writes a comment for a person, and the variables `stem` and `data`. */
+static void write_head(FILE *out, const struct br_figure *f)
 {
     char name[512];
-    br_quoted(name, sizeof name, &br_for_text, stem);
+    br_quoted(name, sizeof name, &br_for_text, f->stem);
     fputs("# SPDX-License-Identifier: GPL-3.0-or-later\n# ", out);
-    br_write_comment(out, title);
+    br_write_comment(out, f->title);
     fprintf(out,
-            "# Draws %s from %s.dat;\n"
+            "# Draws %s.svg, .png and, where gnuplot can, .pdf from %s.dat;\n"
             "# edit it, and draw again, in this folder, with\n"
             "#     gnuplot %s.gp\n\n"
             "set encoding utf8\n"
             "stem = ",
-            pictures, name, name);
-    br_quote(out, &br_for_gnuplot, stem);
+            name, name, name);
+    br_quote(out, &br_for_gnuplot, f->stem);
     fputs("\ndata = stem.'.dat'\n", out);
 }
 
@@ -417,10 +418,7 @@ void br_figure_write_script(FILE *out, const struct br_figure *f)
 {
     const struct page l = lay_out(f);
     size_t index = 0;
-    char name[512], pictures[600];
-    br_quoted(name, sizeof name, &br_for_text, f->stem);
-    BR_SAY(pictures, "%s.svg, .png and, where gnuplot can, .pdf", name);
-    br_script_head(out, f->title, f->stem, pictures);
+    write_head(out, f);
     if (f->hollow[0])
         fprintf(out, "# A point with a flag (%s) has a hollow mark.\n", f->hollow);
     fputs("mark(filled, flag) = flag eq '-' ? filled : filled - 1\n"

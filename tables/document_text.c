@@ -115,18 +115,20 @@ static struct layout lay_out(const struct br_markup_page *p, const struct br_doc
         .left = flags & BR_TEXTUAL,
     };
     const char *heading = heading_of(p, l.column);
+    int word = 0; /* the longest */
     for (size_t r = 0; r < t->rows; r++) {
         const struct br_document_cell *cell = br_document_cell_at(t, r, c);
         const char *text = br_document_shown(l.column, cell, buffer);
         const int width = width_of(p, text);
         l.width = larger(l.width, width);
-        l.least = larger(l.least, flags & BR_WRAP ? width_of_word(text) : width);
+        word = larger(word, width_of_word(text));
         l.mark = larger(l.mark, cell->mark ? width_of(p, cell->mark) : 0);
     }
-    if (flags & BR_WRAP) {
-        l.least = larger(l.least, l.width < LEAST ? l.width : LEAST);
-        l.width = l.width < WRAPPED ? l.width : WRAPPED;
-    }
+    l.least = l.width;
+    if (flags & BR_WRAP || l.width > WRAPPED)
+        l.least = larger(word, l.width < LEAST ? l.width : LEAST);
+    if (flags & BR_WRAP && l.width > WRAPPED)
+        l.width = WRAPPED;
     l.width = larger(l.width, width_of(p, heading));
     l.least = larger(l.least, width_of_word(heading));
     return l;

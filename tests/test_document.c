@@ -227,6 +227,8 @@ static void build_wide(struct br_document *d)
         br_put_mark(d, i ? " R" : NULL);
         BR_PUT(d, br_text(i ? "no" : "a long text that finds no room on one line of a row"),
                .key = "text", .flags = BR_WRAP);
+        BR_PUT(d, br_text("a column that is not wrapped but where a terminal is narrow"),
+               .key = "long");
         BR_PUT(d, br_number(1e-9 / 3), .key = "last", .format = "%.4e");
     }
 }
@@ -309,16 +311,18 @@ TEST(test_width)
                                 "                            of    \n"
                                 "                        words,    \n"
                                 "                           m/s    \n"
-                                "          last\n"
+                                "    long                                      last\n"
                                 "PASS     a name of it     -1.5    a long text that\n"
                                 "                                  finds no room on\n"
                                 "                                  one line of a\n"
                                 "                                  row\n"
-                                "    3.3333e-10\n"
+                                "    a column that is not wrapped but    3.3333e-10\n"
+                                "    where a terminal is narrow                    \n"
                                 "FAIL     gr\xc3\xbc"
                                 "\xc3\x9f"
                                 "             -0.5 R  no\n"
-                                "    3.3333e-10\n";
+                                "    a column that is not wrapped but    3.3333e-10\n"
+                                "    where a terminal is narrow                    \n";
     show_on_terminal(50, text);
     assert_memory_equal(strstr(text, "T\n"), at_50, sizeof at_50 - 1);
 }

@@ -64,7 +64,7 @@ static double deviation_of(const struct br_numbers_row *row, size_t quantity)
     return row->deviation ? row->deviation[quantity] : NAN;
 }
 
-/* An error, or the difference of a value from the next finer one. */
+/* An error, or the difference of a value from the next finer one that there is. */
 static struct br_point point_of(const struct br_orders *o, size_t quantity,
                                 const struct br_orders_line *line, size_t i)
 {
@@ -76,9 +76,14 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     const char *failure = failure_of(row, p.error);
     size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
-        const struct br_numbers_row *finer = &numbers->row[line->row[i + 1]];
-        const char *of_finer = failure_of(finer, finer->number[quantity]);
-        named = !*failure && *of_finer ? line->row[i + 1] : named;
+        const struct br_numbers_row *finer;
+        const char *of_finer;
+        size_t next = i;
+        do {
+            finer = &numbers->row[line->row[++next]];
+            of_finer = failure_of(finer, finer->number[quantity]);
+        } while (*of_finer && next < line->observed.points);
+        named = !*failure && *of_finer ? line->row[next] : named;
         failure = *failure ? failure : of_finer;
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
@@ -542,8 +547,8 @@ struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
 
 double br_orders_next(const struct br_orders *o, const struct br_orders_forecast *f, double *given)
 {
-    *given = br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio,
-                              o->numbers->dimension);
+    *given =
+        br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio, o->numbers->dimension);
     return f->number * pow(f->ratio, f->order);
 }
 
