@@ -1173,7 +1173,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_report_values reports_are_as_stored",
      "if (isnan(row->number[quantity]) || row->failure)\n            continue;", ""},
     {"gap_names_the_wrong_row", "printed", "study/orders/orders.c", "tests/test_orders test_gap_in_values",
-     "!*failure && *of_finer ? line->row[i + 1] : named;", "!*failure && *of_finer ? line->row[i] : named;"},
+     "!*failure && *of_finer ? line->row[next] : named;", "!*failure && *of_finer ? line->row[i] : named;"},
     {"one_flag_is_enough_at_a_corner", "left out", "study/orders/orders.c",
      "tests/test_orders test_corners_of_a_floor", "a->flag = b->flag = BR_FLAG_NONE;", ";"},
     {"reference_of_values_forgotten", "lost", "study/orders/orders.c", "tests/test_orders test_values",

@@ -139,10 +139,7 @@ static char *split_unit(char *heading)
  * three digits; of LaTeX, $1.5 \times 10^{-3}$. Returns the end of what is copied. */
 static const char *with_exponent(const char *text, char *number, size_t size)
 {
-    static const char *const powers[] = {"\\times10^", "\\cdot10^",
-                                         "\xc3\x97"
-                                         "10^",
-                                         "x10^", "*10^"};
+    static const char *const powers[] = {"\\times10^", "\\cdot10^", "\u00d710^", "x10^", "*10^"};
     const char *const ignored = strchr(text, '\\') ? "${} " : "${}";
     size_t length = 0;
     char *const all = number;
