@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options, a row each, and what single commands have of their own: defaults, limits, words. */
-#include <fenv.h>
 #include <math.h>
 
 #include "cli/command.h"
@@ -19,29 +18,9 @@ static const char *judge_syntax(size_t row)
     return judge_name(row) ? br_judges[row]->syntax : NULL;
 }
 
-static const struct {
-    const char *name;
-    int mode;
-} roundings[] = {{"nearest", FE_TONEAREST},
-                 {"up", FE_UPWARD},
-                 {"down", FE_DOWNWARD},
-                 {"zero", FE_TOWARDZERO},
-                 {NULL, 0}};
-
-static const char *rounding_name(size_t row)
-{
-    return roundings[row].name;
-}
-
-int br_rounding_mode(size_t row)
-{
-    return roundings[row].mode;
-}
-
 const struct br_words br_norm_words = {norm_name, norm_title, NULL};
 const struct br_words br_format_words = {format_name, format_title, NULL};
 const struct br_words br_judge_words = {judge_syntax, judge_title, NULL};
-const struct br_words br_rounding_words = {rounding_name, NULL, NULL};
 
 /* ---- options ---- */
 
@@ -58,9 +37,9 @@ enum {
         low, high, false   \
     }
 
-static const char nests[] = "Each must divide a fine reference's.",
-                  divides[] = "Each must divide the duration, and be a multiple of a fine "
-                              "reference's.";
+static const char nests[] = "Each must divide the number of elements of a fine reference.",
+                  divides[] = "Each must divide the duration, and be a multiple of the time step "
+                              "of a fine reference.";
 static const char folder[] = "folder of the results";
 
 #define OWN(...)                   \
@@ -81,8 +60,15 @@ static const struct br_option rows[] = {
              "absolute paths."},
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS, .more = "May be given several times.",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+     .more = "May be given several times. last:REGEX takes the last match of many. stderr: before "
+             "it reads standard error, file:PATH: a file that the run writes. The NAME h, n, dofs, "
+             "cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
+    {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",
+     "1", BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
+     .more = "For programs that draw random numbers: {repeat} in the command is 1, 2, ..., for "
+             "example a seed. The standard deviations of the means give their weights."},
 
     /* what is marched, or run */
     {BR_OPT_N, "n", 'n', "LIST", "elements of the mesh", NULL, BR_TAKES_COUNTS,
@@ -92,91 +78,97 @@ static const struct br_option rows[] = {
          {BR_FOR_STUDY, .standard = "25,50,100,200", .more = nests},
          {BR_FOR_RUN, .standard = "100", .argument = "COUNT", .kind = BR_TAKES_NUMBER,
           .range = WHOLE(1, 1e9)},
-         {BR_FOR_ORDERS, .kind = BR_TAKES_TEXT})},
-    {BR_OPT_DOFS, "dofs", 0, "LIST", "numbers of unknowns, instead of --n", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_ORDERS},
+         {BR_FOR_ORDERS,
+          .help = "elements along an edge; or h=LIST, level=LIST, dofs=LIST, cells=LIST",
+          .more = "The word replaces {n} in the command: {h}, {level}, {dofs}.",
+          .kind = BR_TAKES_TEXT})},
     {BR_OPT_K, "k", 'k', "LIST", "time steps, s, or T/100, T: duration", NULL, BR_TAKES_TIMES,
      .commands =
          BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_EXTREMES | BR_FOR_ORDERS,
      OWN({BR_FOR_TABLES, .standard = "0.01,0.005,0.002,0.001,0.0005,0.0001", .more = divides},
          {BR_FOR_STUDY, .standard = "T/100,T/200,T/400,T/800", .more = divides},
          {BR_FOR_RUN, .standard = "T/1000", .argument = "TIME"},
-         {BR_FOR_ORDERS, .help = "time steps", .kind = BR_TAKES_TEXT})},
+         {BR_FOR_ORDERS, .help = "time steps; or dt=LIST, steps=LIST (numbers of steps)",
+          .kind = BR_TAKES_TEXT})},
     {BR_OPT_STEPS, "steps", 0, "LIST", "numbers of time steps, instead of --k", NULL,
-     BR_TAKES_COUNTS,
-     .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_ORDERS,
-     OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)},
-         {BR_FOR_ORDERS, .kind = BR_TAKES_TEXT})},
+     BR_TAKES_COUNTS, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_RUN | BR_FOR_TRADE,
+     OWN({BR_FOR_RUN, .argument = "COUNT", .kind = BR_TAKES_NUMBER, .range = WHOLE(1, 1e12)})},
     {BR_OPT_REFERENCE, "reference", 0, "NAME",
-     "what errors are measured against: exact, fine:N,K, mms or none", NULL, BR_TAKES_TEXT,
+     "what errors are measured against: exact, fine:N,K or mms", NULL, BR_TAKES_TEXT,
      .words = &br_judge_words,
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more =
-         "exact is the default; mms that of a scene which was manufactured from a solution. "
-         "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is then "
-         "measured against the exact solution. With none each cell is compared with the same scheme on "
-         "the next finer mesh and with the next smaller time step, which makes two reports, "
-         "NAME-meshes and NAME-steps.",
+         "exact is the default; for a scene that was manufactured from a solution, it is mms. "
+         "fine:N,K is a run of N elements and steps of K seconds (or T/100), whose own error is "
+         "then measured against the exact solution.",
      OWN({BR_FOR_TABLES, .standard = "fine:12800,1e-5",
-          .more = "The exact solution stands beside it."},
+          .more = "The errors against the exact solution are shown, too."},
          {BR_FOR_TRADE, .more = "exact is the default; fine:N,K marches the scheme of the highest "
-                                "order; none is not taken."},
-         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K and none are not taken."})},
+                                "order."},
+         {BR_FOR_PLAN, .more = "exact is the default; fine:N,K is not possible."})},
     {BR_OPT_NORM, "norm", 0, "LIST", "norms of the error", "l2", BR_TAKES_WORD_LIST,
      .words = &br_norm_words, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_PLAN,
      .more = "Reports in other norms than l2 are called NAME-energy, NAME-tip.",
-     OWN({BR_FOR_TRADE, .more = "One; several with --split."},
+     OWN({BR_FOR_TRADE, .more = "One norm; with --split, several."},
          {BR_FOR_PLAN, .argument = "NAME", .kind = BR_TAKES_WORD})},
     {BR_OPT_METHODS, "methods", 0, "LIST",
      "methods, by names like bdf2+implicit ('beamrate help methods')", NULL, BR_TAKES_TEXT,
      .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
      .more =
-         "A name is made of words joined by +, in any order, at most one of a kind: a time "
-         "scheme, a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the "
-         "axial elements), scaled and refined (for a solver that heeds it): euler+lagged, "
-         "bdf2+uzawa, bdf2+umfpack+scaled.",
+         "A name is made of words joined by +, in any order, at most one of a kind: a time scheme, "
+         "a contact rule, a friction rule, a linear solver, p1 or p2 (the degree of the axial "
+         "elements): euler+lagged, bdf2+uzawa, bdf2+umfpack.",
      OWN({BR_FOR_PLAN, .more = "By default all time schemes."})},
     {BR_OPT_TOLERANCES, "tolerance", 0, "LIST", "tolerances of schemes that choose their steps",
      NULL, BR_TAKES_NUMBERS, BETWEEN(1e-14, 1), .commands = BR_FOR_TRADE},
     {BR_OPT_SPLIT, "split", 0, NULL,
-     "where the error of each run comes from, instead (one run: n = 100, T/1000)", NULL,
+     "splits the error of each run by its sources instead (one run: n = 100, T/1000)", NULL,
      BR_TAKES_FLAG, .commands = BR_FOR_TRADE,
      .more =
          "The sources are round-off of the linear solver, tolerance of an iteration of friction, "
          "mu, contact force from the step before, time steps, and elements. A chain of marches "
-         "leads from the run to the exact solution, each with one source less than the one "
-         "before; the parts, norms of the differences, add up to the whole as functions, and at "
-         "the tip with their signs as numbers. A part below its floor cannot be told. One "
-         "scene; by default the first scheme. With several k or n a plot shows the parts over "
-         "them."},
+         "leads from the run to the exact solution; each has one source less than the one before. "
+         "A part is the norm of a difference. The differences add up to the whole error as "
+         "functions, and at the tip as numbers with signs. A part below its floor cannot be "
+         "determined. One scene; by default the first scheme. With several k or n a plot shows the "
+         "parts over them."},
 
     /* what is wanted of numbers, what a march may take */
     {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all columns of numbers)",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
-     OWN({BR_FOR_PLAN, .argument = "E", .help = "relative error that is wanted, at most",
-          .more = "The norm of the error over the norm of the solution.", .kind = BR_TAKES_NUMBER,
-          .range = BETWEEN(0, 1)})},
+     OWN({BR_FOR_PLAN, .argument = "E", .help = "largest relative error that is wanted",
+          .more = "The norm of the error, divided by the norm of the solution.",
+          .kind = BR_TAKES_NUMBER, .range = BETWEEN(0, 1)})},
     {BR_OPT_VALUE, "value", 0, "LIST", "columns, or readings, whose limit is not known", NULL,
      BR_TAKES_TEXT, .commands = BR_FOR_ORDERS},
-    {BR_OPT_DIMENSION, "dimension", 0, "D", "of the mesh, for numbers of unknowns", "2",
-     BR_TAKES_NUMBER, WHOLE(1, 16), .commands = BR_FOR_ORDERS},
-    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", "2", BR_TAKES_NUMBER,
+    {BR_OPT_COLUMN, "column", 0, "LIST", "what columns are, by heading or position: dx=h,3=l2",
+     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+     .more =
+         "h, n, dofs, cells, level, k, dt and steps state the resolution; any other name is that "
+         "of an error, or with --value of a value. A table without a heading needs it."},
+    {BR_OPT_DIMENSION, "dimension", 0, "D",
+     "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
+     .commands = BR_FOR_ORDERS,
+     .more = "If it is not given, 2 is assumed for unknowns, and cells are assumed to be counted "
+             "along one side. The answer states what is assumed; a verdict needs this option."},
+    {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
-     .more = "For the least squares of Eca and Hoekstra, 1 to 10."},
+     .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "
+             "states this, and the result for 1."},
     {BR_OPT_EXPECT, "expect", 0, "TEXT", "verdicts: 'l2: h 2 +- 0.1, k 1 +- 0.05; h1: h 1 +- 0.1'",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
-    {BR_OPT_SECONDS, "seconds", 0, "S", "seconds of a march, set-up included, at most", NULL,
+    {BR_OPT_SECONDS, "seconds", 0, "S", "longest time of a march, set-up included, s", NULL,
      BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE | BR_FOR_PLAN,
-     OWN({BR_FOR_TRADE, .standard = "10",
-          .help = "seconds that the trials of a scene may take, about",
-          .more = "The dearest are left out. Where -n, -k, --steps or --tolerance say what is "
-                  "tried, nothing is left out unless it is given."})},
+     OWN({BR_FOR_TRADE, .standard = "10", .help = "seconds for all trials of a scene, about",
+          .more = "The most expensive trials are left out. If -n, -k, --steps or --tolerance "
+                  "choose the trials, nothing is left out unless this option is given."})},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",
      NULL, BR_TAKES_NUMBER, BETWEEN(0, 1e10),
      .commands = BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_ORDERS,
      OWN({BR_FOR_TRADE, .standard = "10",
-          .more = "One that will surely take longer is ended early, and is shown as such."},
+          .more = "A run or march that will surely take longer is stopped early, and the report "
+                  "says so."},
          {BR_FOR_PLAN, .standard = "60"}, {BR_FOR_ORDERS, .standard = "600"})},
 
     /* what `run` shows */
@@ -196,65 +188,54 @@ static const struct br_option rows[] = {
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_RUN, .more = "By default about every T/10."},
     {BR_OPT_ROWS, "rows", 0, "COUNT", "rows of history.csv, at most", "10000", BR_TAKES_NUMBER,
      WHOLE(2, 1e9), .commands = BR_FOR_RUN},
-    {BR_OPT_ANIMATE, "animate", 0, "FILE", "a moving picture, a .gif", NULL, BR_TAKES_FILE,
-     .commands = BR_FOR_RUN,
-     .more = "Beam, obstacle, contact and friction force with its bound, at most about 120 frames, "
-             "with script and data beside it. Where it cannot be drawn, the exit code is 3; the "
-             "results are written before."},
 
     /* what `check` takes and writes: the formats but for the text */
-    {BR_OPT_TRUST, "trust", 0, NULL, "run the commands of the study files, and remember that", NULL,
-     BR_TAKES_FLAG, .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
+    {BR_OPT_TRUST, "trust", 0, NULL,
+     "run the commands of the study files, and remember this permission", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_ORDERS | BR_FOR_CHECK,
      .more = "Needed once for each study file with a command, and again when it has changed."},
     {BR_OPT_ALL, "all", 0, NULL, "all bundled scenes", NULL, BR_TAKES_FLAG,
      .commands = BR_FOR_CHECK},
     {BR_OPT_JUNIT, "junit", 0, "FILE", "JUnit's XML, for CI systems", NULL, BR_TAKES_FILE,
      .commands = BR_FOR_CHECK | BR_FOR_ORDERS},
-    {BR_OPT_JSON, "json", 0, "FILE", "everything, for programs and for --compare", NULL,
+    {BR_OPT_JSON, "json", 0, "FILE", "all results, for programs and for --compare", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS | BR_FOR_RUN,
-     OWN({BR_FOR_RUN, .help = "everything, for programs; - is standard output"})},
+     OWN({BR_FOR_RUN, .help = "all results, for programs; - is standard output"})},
     {BR_OPT_GITHUB, "github", 0, "FILE", "annotations of what did not pass, for GitHub's pages",
      NULL, BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
-     .more = "GitHub reads them from a job's output: /dev/stderr leaves the report where it is."},
+     .more = "GitHub reads them from a job's output: with /dev/stderr the report stays on standard "
+             "output."},
     {BR_OPT_MARKDOWN, "markdown", 0, "FILE", "a summary for the page of a CI job", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
      .more = "Reports are written whole or not at all; - is standard output, and then no table is "
              "printed."},
     {BR_OPT_COMPARE, "compare", 0, "FILE",
-     "an earlier check's JSON: what has moved since, and how serious that is", NULL, BR_TAKES_FILE,
-     .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "Serious differences fail the check."},
+     "JSON of an earlier check: shows what has changed since, and how serious it is", NULL,
+     BR_TAKES_FILE, .commands = BR_FOR_CHECK | BR_FOR_ORDERS,
+     .more = "Serious differences fail the check."},
     {BR_OPT_UPDATE_BASELINE, "update-baseline", 0, NULL,
-     "write what was found into the file of --compare", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not be there yet."},
-
-    /* extremes */
-    {BR_OPT_ROUNDING, "rounding", 0, "MODE",
-     "rounding mode of the marches: nearest, up, down or zero", "nearest", BR_TAKES_WORD,
-     .words = &br_rounding_words, .commands = BR_FOR_EXTREMES | BR_FOR_CHECK,
-     .more = "Not of their judges."},
+     "write the results into the file of --compare", NULL, BR_TAKES_FLAG,
+     .commands = BR_FOR_CHECK | BR_FOR_ORDERS, .more = "The file need not exist."},
 
     /* scenes */
     {BR_OPT_NEW, "new", 0, "FILE", "write a template with every key; - is standard output", NULL,
      BR_TAKES_FILE, .commands = BR_FOR_SCENES,
      .more =
-         "A valid scene, with the meaning, unit and default of each key. A file that is there is "
-         "not replaced."},
-    {BR_OPT_SCHEMA, "schema", 0, NULL,
-     "print the JSON schema by which an editor completes and checks scenes", NULL, BR_TAKES_FLAG,
-     .commands = BR_FOR_SCENES},
+         "A valid scene, with the meaning, unit and default of each key. An existing file is not "
+         "replaced."},
 
     /* what is kept */
-    {BR_OPT_RESUME, "resume", 0, NULL, "take finished work that is kept in the folder of --out",
+    {BR_OPT_RESUME, "resume", 0, NULL, "use finished work that is kept in the folder of --out",
      NULL, BR_TAKES_FLAG, .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_TRADE | BR_FOR_ORDERS,
-     .more = "After an interruption, or for a larger grid: finished cells and trials are "
-             "kept in DIR/.kept, and only the others are marched. What another version of the "
-             "program or another machine has kept is not taken.",
+     .more = "After an interruption, or for a larger grid: finished cells and trials are kept in "
+             "DIR/.kept, and only the others are marched. Work that another version of the program "
+             "or another machine has kept is not used.",
      OWN({BR_FOR_ORDERS,
           .more =
               "After an interruption, or for a larger grid. Finished runs are kept in DIR/.kept, "
-              "or in orders-kept without --out. A run is the same where its words, its program "
-              "and the files that its words name are. What the program reads or starts besides "
-              "is not seen: do not give it when that has changed."})},
+              "or in orders-kept without --out. A run is used again if its words, its program and "
+              "the files that its words name are the same. Other files that the program reads or "
+              "starts are not checked: do not give this option if they have changed."})},
 
     /* what varies */
     {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
@@ -263,8 +244,9 @@ static const struct br_option rows[] = {
      .more =
          "KEY is a key of the scene whose value is a number, with its section: length, "
          "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
-         "separated by commas, in the key's unit or in one that stands behind them, 1000 at "
-         "most. Each value is read as if it stood in the scene. Out come a table and a picture over the values."},
+         "separated by commas, in the key's unit or in one that stands behind them, 1000 at most. "
+         "Each value is read as if it stood in the scene. The result is a table and a picture over "
+         "the values."},
 
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,
@@ -286,7 +268,7 @@ static const struct br_option rows[] = {
      WHOLE(0, 4096),
      .commands = BR_FOR_TABLES | BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_TRADE | BR_FOR_PLAN |
                  BR_FOR_EXTREMES | BR_FOR_FIGURES | BR_FOR_ORDERS,
-     .more = "The results have the same bits on any number."},
+     .more = "The results are the same for any number, to the bit."},
     {BR_OPT_QUIET, "quiet", 'q', NULL, "no progress, no report on the terminal", NULL,
      BR_TAKES_FLAG,
      .commands =

@@ -25,7 +25,7 @@ double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
 /* Whether the costs do not know how often such a method solves: its pace is its own. */
 static bool has_own_pace(const struct br_trial *t)
 {
-    return t->named->method.scheme->adaptive || t->named->method.linear.refinement > 0;
+    return t->named->method.scheme->adaptive;
 }
 
 /* Measured seconds over br_trial_work, by at most `longest` seconds of steps on a coarse mesh. A
