@@ -510,7 +510,8 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
         take_rows(&r, point, scatter, count);
         if (r.count >= 3 && isfinite(r.order))
             add_laws(&all, &r);
-        normalise(&all);
+        if (all.count)
+            normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
