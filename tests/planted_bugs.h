@@ -938,6 +938,8 @@ static const struct planted_bug planted_bugs[] = {
     {"line_of_orders_is_its_band", "drawn", "plots/orders.c",
      "tests/test_report_values reports_are_as_stored",
      "flag, p->fit.value, p->fit.low);", "flag, p->fit.low, p->fit.low);"},
+    {"dimension_of_p_is_not_said", "lost", "tables/report_orders.c", "golden orders_cells",
+     "if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)", "if (0)"},
     {"orders_of_zero_are_claimed", "order", "study/fit/report.c", "tests/test_seen_orders",
      "if (falls && br_order_determined(&order) && (settled || order.value > o->theory.formal / 2)) {",
      "if (true) {"},

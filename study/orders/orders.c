@@ -571,7 +571,7 @@ bool br_orders_stays(const struct br_orders_line *line)
         least = fmin(least, line->observed.point[i].error);
         most = fmax(most, line->observed.point[i].error);
     }
-    return most < 2 * least;
+    return most > 0 && most < 2 * least; /* 0: no row has a number */
 }
 
 /* ---- costs ---- */
