@@ -5,6 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "study/base/text.h"
 #include "study/scene/expression.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
@@ -12,7 +13,7 @@
 void br_statement_begin(struct br_statement *s)
 {
     *s = (struct br_statement){0};
-    s->file = open_memstream(&s->text, &s->size);
+    s->file = br_text_open(&s->text, &s->size);
     s->failed = !s->file;
 }
 
