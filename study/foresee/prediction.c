@@ -26,7 +26,7 @@ enum cell {
     TIME,  /* the steps of RUN on the elements of R: the error of time */
     SPACE, /* the elements of RUN with the steps of CHECK: the error of space */
     STEPS, /* the elements of R with the steps of CHECK */
-    HALF,  /* half of RUN in what R refines, if RUN is not the run: shows the order */
+    HALF,  /* half of RUN in what R refines, if the error is extrapolated: shows the order */
     CELLS
 };
 
@@ -206,7 +206,9 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->at[TIME] = place(c, &on_fine, fine, s->steps);
     c->at[SPACE] = place(c, s->check, s->n, some);
     c->at[STEPS] = place(c, s->check, fine, some);
-    const bool halves = !itself && !chosen && (s->finer > 1 ? s->n : s->steps) % 2 == 0;
+    const bool halves =
+        s->finer > 1 ? which == IN_SPACE && s->n < m->run->n && s->n % 2 == 0
+                     : which == IN_TIME && s->steps < m->run->steps && !chosen && s->steps % 2 == 0;
     c->at[HALF] = !halves        ? -1
                   : s->finer > 1 ? place(c, s->own, s->n / 2, s->steps)
                                  : place(c, s->own, s->n, s->steps / 2);
