@@ -147,7 +147,10 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
                        strerror(end.failure));
     if (end.failure)
         return cannot_run(&r->process, end.failure, err);
-    return end.known ? BR_OK : br_fail(err, BR_IO, "what watched a program was killed");
+    if (end.known)
+        return BR_OK;
+    br_remove_folder(end.folder);
+    return br_fail(err, BR_IO, "what watched a program was killed");
 }
 
 /* ---- its output ---- */
