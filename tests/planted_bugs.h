@@ -1146,6 +1146,8 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_program test_killed_keeper", "prctl(PR_SET_PDEATHSIG, SIGKILL) == 0 && ", ""},
     {"folder_outlives_its_keeper", "lost", "study/orders/program.c",
      "tests/test_program test_killed_keeper", "    br_remove_folder(end.folder);\n", ""},
+    {"two_sizes_are_one", "lost", "study/orders/program.c", "tests/test_program test_refused_sizes",
+     "if (other && !status)", "if (false)"},
     {"lost_writes_are_forgotten", "lost", "study/base/text.c",
      "tests/test_whole test_texts_without_memory", "    m->lost |= !text;\n    if (m->lost)\n",
      "    if (!text)\n"},

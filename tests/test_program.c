@@ -382,6 +382,19 @@ TEST(test_repeated)
     assert_true(isnan(numbers.row[1].number[0]));
 }
 
+/* Two readings may not state one resolution. */
+TEST(test_refused_sizes)
+{
+    static const struct br_reading both[] = {
+        {"dofs", "dofs=(.*)", BR_READING_REGEX, NULL, false, false},
+        {"h", "h=(.*)", BR_READING_REGEX, NULL, false, false},
+        {"err", "err=(.*)", BR_READING_REGEX, NULL, false, false}};
+    struct br_orders_request p = program("true {n}");
+    p.reading = both;
+    p.readings = 3;
+    refuse(&p, BR_BAD_INPUT, "h is read beside dofs, expected one resolution of an axis");
+}
+
 TEST(test_refused_lists)
 {
     static const char *const lists[][2] = {
@@ -502,6 +515,21 @@ TEST(test_hanging)
     expect_dead("hang.4");
     expect_dead("hang.8");
     expect_dead("hang.16");
+}
+
+/* A program that stops its keeper, which then watches nothing, ends in time, too. */
+TEST(test_stopped_keeper)
+{
+    static const double one[] = {4};
+    write_script("stops", "echo $$ > $0.pid; kill -STOP $PPID; exec sleep 60");
+    struct br_orders_request p = program(command_of("stops", "{n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    p.seconds = 1;
+    const double start = br_seconds();
+    run(&p);
+    AT_MOST(br_seconds() - start, 20);
+    assert_non_null(strstr(numbers.row[0].failure, "it did not end within 1 s"));
+    expect_dead("stops.pid");
 }
 
 /* ---- cost ---- */
