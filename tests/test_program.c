@@ -773,8 +773,9 @@ TEST(test_no_survivors)
             _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
         }
         if (deadly[i]) {
-            shell("for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
-                  "done; exit 1");
+            shell(
+                "for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
+                "done; exit 1");
             kill(child, deadly[i]);
         }
         int status;
@@ -797,7 +798,8 @@ TEST(test_usual_signals)
     static const double one[] = {4};
     void (*old[6])(int);
     unsigned long long ignored = ~0ull;
-    write_script("usual", "sed -n 's/^SigIgn:[^0-9a-f]*//p' /proc/self/status > $0.ignored; echo err=1");
+    write_script("usual",
+                 "sed -n 's/^SigIgn:[^0-9a-f]*//p' /proc/self/status > $0.ignored; echo err=1");
     struct br_orders_request p = program(command_of("usual", "{n}"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
     for (int i = 0; i < 6; i++)
