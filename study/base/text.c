@@ -48,8 +48,9 @@ FILE *br_text_open(char **text, size_t *size)
     struct memory *m = malloc(sizeof *m);
     *text = calloc(1, 1);
     *size = 0;
-    FILE *file = m && *text ? fopencookie(m, "w", (cookie_io_functions_t){.write = add, .close = end})
-                            : NULL;
+    FILE *file = m && *text
+                     ? fopencookie(m, "w", (cookie_io_functions_t){.write = add, .close = end})
+                     : NULL;
     if (file)
         *m = (struct memory){.text = text, .size = size, .room = 1};
     else {
