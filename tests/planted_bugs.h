@@ -1426,6 +1426,8 @@ static const struct planted_bug planted_bugs[] = {
      ".n = n[over_stiffness ? n_count - 1 : i],"},
     {"levels_too_lax", "tolerance", "study/extremes/floors.c", "tests/test_floors test_drift",
      "if (!(f->time_error <= DBL_EPSILON))", "if (!(f->time_error <= 1e-9))"},
+    {"floors_leave_out_a_listed_mesh", "lost", "study/extremes/floors.c",
+     "tests/test_floors test_meshes", "(chosen || usual) && ", "usual && "},
     {"any_solver_may_refuse", "verdict", "study/extremes/floors.c", "tests/test_floors test_floors",
      "(assembled || f->refused.status == BR_BAD_INPUT)", "f->refused.status"},
     {"formal_order_ignored", "lost", "study/library/study.c",
