@@ -1044,6 +1044,8 @@ static const struct planted_bug planted_bugs[] = {
      "angular * k > 1 &&", "angular * k > INFINITY &&"},
     {"narrow_layers_converge", "bound", "study/foresee/prediction.c",
      "tests/test_prediction test_hard", "(low > lowest_order ? 1 : unseen)", "1"},
+    {"jumps_are_smooth", "bound", "study/foresee/prediction.c", "tests/test_prediction test_jumps",
+     "m->jumps || can_switch", "can_switch"},
     {"check_does_not_widen", "bound", "study/foresee/prediction.c",
      "tests/test_prediction test_hard", "factor * (e + unsure), NAN}", "factor * e, NAN}"},
     {"tip_error_of_the_field", "units", "study/foresee/prediction.c", "golden run",
