@@ -11,7 +11,7 @@
 
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 /* No result can have this name: those begin with no dot. */
 static const char list_name[] = ".beamrate-set", first_line[] = "beamrate-set 2\n";

@@ -9,7 +9,7 @@
 #include "cli/session.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum { MOST_PARTS = 16 };
 

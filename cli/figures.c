@@ -7,7 +7,7 @@
 #include "cli/session.h"
 #include "plots/pictures.h"
 #include "study/paper/paper.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 #include "tables/reports.h"
 
 struct run {

@@ -21,7 +21,7 @@
 
 #include "cli/provenance.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };
 

@@ -9,7 +9,7 @@
 
 #include "cli/command.h"
 #include "study/grid/study.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- what is refused ---- */
 

@@ -9,7 +9,7 @@
 #include "plots/pictures.h"
 #include "solver/clock.h"
 #include "study/scene/file.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 struct run {
     struct br_session session;

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "build_info.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 static char *command_line, machine[512], date[32];
 

@@ -9,7 +9,7 @@
 #include "cli/output.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 #include "tables/scene_format.h"
 
 /* ---- the list ---- */

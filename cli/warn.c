@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "study/paper/paper.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 /* ---- printing ---- */
 

@@ -6,7 +6,7 @@
 
 #include "plots/pictures.h"
 #include "study/orders/orders.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. */

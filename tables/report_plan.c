@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "study/scene/method_fields.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 #include "study/trade/plan.h"
 #include "tables/report_parts.h"
 

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/file.h"
 
 /* As the program and the library do. */

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
 #include "lab/energy.h"

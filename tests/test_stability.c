@@ -7,7 +7,7 @@
 
 #include "solver/laws.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "support.h"

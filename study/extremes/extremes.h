@@ -7,7 +7,7 @@
 #include <math.h>
 
 #include "solver/march.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 #include "study/trade/named_method.h"
 

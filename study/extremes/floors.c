@@ -8,7 +8,7 @@
 
 #include "reference/long_plain.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 

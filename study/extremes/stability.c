@@ -4,7 +4,7 @@
 
 #include "solver/laws.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/run/run.h"
 
 const char *const br_stability_words[] = {"stable", "unstable", "refused"};

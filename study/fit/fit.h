@@ -3,7 +3,7 @@
 #ifndef BR_STUDY_FIT_FIT_H
 #define BR_STUDY_FIT_FIT_H
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 
 /* What is refined. */

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "study/fit/line_order.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum { LEAST = 3 }; /* errors for an order */
 /* An error of space above this share of the error of time hides its order. */

@@ -12,7 +12,7 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/grid/sweep.h"
 
 /* ---- measuring ---- */

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
 

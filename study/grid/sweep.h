@@ -4,7 +4,7 @@
 #define BR_STUDY_GRID_SWEEP_H
 
 #include "study/fit/fit.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 
 /* Runs studies on `threads` threads (0: all cores), all at once: the reference and

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 static const double usual_slice = 2, usual_reference = 0.1;
 

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 #include "study/base/sha256.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/statement.h"
 
 struct br_kept {

@@ -9,7 +9,7 @@
 
 #include "solver/clock.h"
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 enum {
     SHOWN = 80,          /* bytes of foreign text in a message */

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 enum {
     NUMBER = 32, /* bytes of a resolution's text, with the zero at the end */

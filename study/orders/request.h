@@ -8,7 +8,7 @@
 #include <jansson.h>
 
 #include "study/base/sha256.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/statement.h"
 #include "study/orders/orders.h"
 

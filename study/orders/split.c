@@ -7,7 +7,7 @@
 #include <strings.h>
 
 #include "study/orders/request.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* The position in a text. */
 struct cursor {

@@ -7,7 +7,7 @@
 #include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* A value of the study file. */
 struct entry {

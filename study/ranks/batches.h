@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 
 /* Which batch each cell belongs to; batches of lower numbers begin first. */

@@ -27,7 +27,7 @@
 #include "study/grid/sweep.h"
 #include "study/ranks/batches.h"
 #include "study/ranks/ranks.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 static const double beat_every = 0.25;    /* s */
 static const double default_timeout = 60; /* s without a heartbeat; $BEAMRATE_SILENCE replaces it */

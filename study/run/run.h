@@ -7,7 +7,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "solver/march.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 #include "study/run/history.h"
 

@@ -11,11 +11,11 @@
 #include <unistd.h>
 #include <yaml.h>
 
-#include "study/scene/expression.h"
-#include "study/scene/quote.h"
+#include "study/known/expression.h"
+#include "study/base/quote.h"
 #include "study/scene/schema.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- paths and files of scenes ---- */
 

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 static enum br_status fail_with_errno(const char *path, struct br_error *err)
 {

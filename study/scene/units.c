@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- tables ---- */
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/units.h"
 
 /* "path:line: key: ..." */

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "study/scene/file.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- what is varied ---- */
 

@@ -6,7 +6,7 @@
 
 #include "solver/clock.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */

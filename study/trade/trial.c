@@ -8,7 +8,7 @@
 #include "solver/clock.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 

@@ -5,7 +5,7 @@
 #define BR_STUDY_VERIFY_CHECK_H
 
 #include "study/fit/fit.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/verify/verify.h"
 
 enum br_verdict {

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "study/fit/theory.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
 

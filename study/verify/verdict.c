@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "study/fit/line_order.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
 

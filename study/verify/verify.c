@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 #include "study/fit/theory.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
 

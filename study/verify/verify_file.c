@@ -7,7 +7,7 @@
 
 #include "study/scene/method_fields.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum { MESHES, STEPS, FIELDS, KEYS = FIELDS + BR_METHOD_FIELDS };
 

@@ -8,7 +8,7 @@
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 #include "tests/lab/map.h"
 #include "tests/lab/random.h"
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/scene/file.h"
 #include "tests/lab/energy.h"
 
