@@ -43,7 +43,7 @@ static void prepare(struct br_study s[BR_TEST_NORMS], const struct br_scene *sce
                     struct br_kept *kept)
 {
     s[0] = br_test_study(scene, br_judge_best(scene), n, grid_n, STEPS, grid_steps);
-    s[0].kept = kept;
+    s[0].engine = br_kept_engine(kept);
     br_test_all_norms(s);
 }
 
@@ -351,7 +351,7 @@ static size_t taken_of(enum work work, struct br_kept *kept, const struct br_tri
     size_t taken = 0;
     if (work == STUDY_WORK) {
         struct br_study s = br_test_study(&small, br_judge_best(&small), 1, &n, 1, &steps);
-        s.kept = kept;
+        s.engine = br_kept_engine(kept);
         MUST(br_study_run(&s, 1, 1, NULL, &err));
         br_study_clear(&s);
     } else if (work == TRIAL_WORK) {

@@ -34,8 +34,7 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_scene_parse("scene.yaml", with(part), &(struct br_scene_asked){.verify = verify},
-                          scene, err);
+    return br_verify_read("scene.yaml", with(part), scene, verify, err);
 }
 
 TEST(test_whole)

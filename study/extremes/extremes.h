@@ -8,8 +8,7 @@
 
 #include "solver/march.h"
 #include "study/base/observer.h"
-#include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 /* The request to an experiment. All borrowed; 0 or NULL: its default. */
 struct br_extremes_job {

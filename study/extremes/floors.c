@@ -7,8 +7,9 @@
 #include <string.h>
 
 #include "reference/long_plain.h"
-#include "study/extremes/extremes.h"
 #include "study/base/each.h"
+#include "study/extremes/extremes.h"
+#include "study/scene/resolution.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 

@@ -131,7 +131,7 @@ static void set_study(struct br_probe *p, const struct br_planned_march *o,
         .reference = fine,
         .n_count = 1,
         .k_count = 1,
-        .alone = true, /* only the first rank predicts */
+        .engine = {br_lockstep, NULL}, /* only the first rank predicts */
         .n = p->n,
         .steps = p->steps,
     };

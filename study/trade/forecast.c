@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "solver/clock.h"
-#include "study/foresee/warnings.h"
 #include "study/base/each.h"
+#include "study/foresee/warnings.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */

@@ -9,7 +9,7 @@
 
 #include "study/base/observer.h"
 #include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 enum { BR_MOST_SOURCES = 8 };
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Methods that are compared, each with a name: "euler+lagged", "bdf2+uzawa", "bdf3+p2". A name is
  * the time scheme and the choices that are not the default for that scheme. */
-#ifndef BR_STUDY_TRADE_NAMED_METHOD_H
-#define BR_STUDY_TRADE_NAMED_METHOD_H
+#ifndef BR_STUDY_SCENE_NAMED_METHOD_H
+#define BR_STUDY_SCENE_NAMED_METHOD_H
 
 #include "solver/march.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 #include <stdarg.h>
 #include <stdio.h>
