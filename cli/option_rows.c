@@ -160,7 +160,7 @@ static const struct br_option rows[] = {
      .more = "'h 2 +- 0.1 down to 1e-9': errors that stop falling below that are expected."},
     {BR_OPT_SECONDS, "seconds", 0, "S", "longest time of a march, set-up included, s", NULL,
      BR_TAKES_NUMBER, BETWEEN(0, INFINITY), .commands = BR_FOR_TRADE | BR_FOR_PLAN,
-     OWN({BR_FOR_TRADE, .standard = "30", .help = "seconds for all trials of a scene, about",
+     OWN({BR_FOR_TRADE, .standard = "10", .help = "seconds for all trials of a scene, about",
           .more = "The most expensive trials are left out. If -n, -k, --steps or --tolerance "
                   "choose the trials, nothing is left out unless this option is given."})},
     {BR_OPT_TIME_LIMIT, "time-limit", 0, "SECONDS", "longest run or march, set-up included, s",

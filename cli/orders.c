@@ -79,7 +79,7 @@ static enum br_status read_list(const char *list, const char *usual, struct br_o
 static enum br_status read_options(const struct br_options *o, struct br_orders_request *q,
                                    struct br_error *err)
 {
-    static const enum br_option_id of_runs[] = {BR_OPT_N, BR_OPT_K, BR_OPT_TIME_LIMIT,
+    static const enum br_option_id of_runs[] = {BR_OPT_N,      BR_OPT_K,      BR_OPT_TIME_LIMIT,
                                                 BR_OPT_RESUME, BR_OPT_REPEAT, BR_OPTIONS};
     const char *unused = q->command ? NULL : br_first_given(o, of_runs);
     q->dimension = br_option_number(o, BR_OPT_DIMENSION, q->dimension);
@@ -126,9 +126,10 @@ static enum br_status read_beside(const char *path, const struct br_options *o,
 static enum br_status read_study(const char *path, const struct br_options *o,
                                  struct br_study_file *study, struct br_error *err)
 {
-    static const enum br_option_id refused[] = {
-        BR_OPT_N,         BR_OPT_K,      BR_OPT_COLUMN, BR_OPT_ERROR, BR_OPT_VALUE,
-        BR_OPT_DIMENSION, BR_OPT_FORMAL, BR_OPT_READ, BR_OPT_TIME_LIMIT, BR_OPT_REPEAT, BR_OPTIONS};
+    static const enum br_option_id refused[] = {BR_OPT_N,      BR_OPT_K,     BR_OPT_COLUMN,
+                                                BR_OPT_ERROR,  BR_OPT_VALUE, BR_OPT_DIMENSION,
+                                                BR_OPT_FORMAL, BR_OPT_READ,  BR_OPT_TIME_LIMIT,
+                                                BR_OPT_REPEAT, BR_OPTIONS};
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,

@@ -146,8 +146,7 @@ static void say_left_out(struct br_document *d, const struct br_quantity_orders 
 }
 
 /* The limit of a value. On a line also its grid convergence index. */
-static void say_limit(struct br_document *d,
-                      const struct br_quantity_orders *of, bool *first)
+static void say_limit(struct br_document *d, const struct br_quantity_orders *of, bool *first)
 {
     const struct br_grid_limit *limit = &of->limit;
     const struct br_gci *g = &of->line[of->lines - 1].gci;
@@ -183,10 +182,11 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     br_interval_text(other, text, sizeof text));
 }
 
+/* Where costs differ, and grow by more than a tenth of an order. */
 static void say_growth(struct br_document *d, const struct br_estimate *growth, enum br_axis axis,
                        bool differ)
 {
-    if (differ && growth->low > 0 && br_order_determined(growth))
+    if (differ && growth->value >= 0.1 && growth->low > 0 && br_order_determined(growth))
         br_put_answer(d, "Processor time grows like %s^-%s.", br_axis_letters[axis],
                       br_order_text(growth, (char[64]){0}, 64));
 }
@@ -465,7 +465,9 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "of_three", .flags = BR_FOR_PROGRAMS},
-        {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e",
+        {.key = "gci_limited",
+         .heading = "GCI, p limited",
+         .format = "%.3e",
          .flags = BR_FILES_ONLY},
     };
     BR_TABLE(d, "limits", "Limits of values, and the grid convergence index", 0, limits_columns);
@@ -478,13 +480,12 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
-            BR_PUT_CELLS(d, br_number(g->order),
-                       br_number(g->fine.ratio), br_number(g->coarse.ratio),
-                       br_number(g->fine.limit), br_number(g->fine.relative),
-                       br_number(g->fine.relative_extrapolated), br_number(g->fine.index),
-                       br_number(g->coarse.index), br_number(g->asymptotic),
-                       br_text(br_sequence_text(g->sequence)),
-                       br_number(br_gci_limited(g, o->formal)));
+            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.ratio),
+                         br_number(g->coarse.ratio), br_number(g->fine.limit),
+                         br_number(g->fine.relative), br_number(g->fine.relative_extrapolated),
+                         br_number(g->fine.index), br_number(g->coarse.index),
+                         br_number(g->asymptotic), br_text(br_sequence_text(g->sequence)),
+                         br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
         if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {

@@ -106,10 +106,10 @@ chmod +x bad.sh
 
 fails() { # HOW MESSAGE
     local words=(orders --run "./bad.sh $1 {n}" --n 4,8,16,32,64 --read 'err=err=(.+)' --time-limit 1)
-    expect 3 "1 of 5 runs failed; the first: $2" beamrate "${words[@]}"
+    expect 3 "1 of 5 runs failed; the first, n = 8: $2" beamrate "${words[@]}"
     says "err: order in h 2.0" "orders, bad.sh $1"
     says "1 of 5 left out, the first at n = 8 (failed)" "orders, bad.sh $1"
-    expect 3 "1 of 5 runs failed; the first: $2" beamrate "${words[@]}" --expect 'err: h 2 +- 0.1'
+    expect 3 "1 of 5 runs failed; the first, n = 8: $2" beamrate "${words[@]}" --expect 'err: h 2 +- 0.1'
     says "PASS" "orders, bad.sh $1, with an expectation"
 }
 

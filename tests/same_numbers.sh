@@ -34,7 +34,8 @@ cases_of() {
     awk -F'[:,]' '/"tables"/ { on = 1 } /"points": \[/ { on = 0 }
         on && /"study"/ { axis = /space/ ? "h" : "k" }
         on && /"order"/ { order = $2 } on && /"low"/ { low = $2 } on && /"high"/ { high = $2 }
-        on && /"verdict"/ { gsub(/[" ]/, "", $2); print axis, order, low, high, $2 }' "$1"
+        on && /"verdict"/ { gsub(/[" ]/, "", $2); verdict = $2 }
+        on && /"ceiling"/ { print axis, order, low, high, verdict }' "$1"
 }
 
 compare() { # NAME EXPECTATION OPTION...
@@ -54,7 +55,7 @@ compare() { # NAME EXPECTATION OPTION...
     report "$name" "the verdict is on the order of the answer"
     : >why
     while read -r _ order low high outcome; do
-        grep -qE " $outcome *$" verdict || echo "no row of $outcome" >>why
+        grep -qE "(^| )$outcome( |\$)" verdict || echo "no row of $outcome" >>why
         case $order in
         null) [ "$outcome" = INCONCLUSIVE ] || echo "$outcome without an order" >>why ;;
         *) awk -v o="$order" -v l="$low" -v h="$high" 'BEGIN { exit !(l <= o && o <= h) }' ||

@@ -132,11 +132,14 @@ TEST(test_lists)
     refuse_with(text, &plain,
                 "t.csv:2: drag: found -7, expected an error of at least 0; is it a "
                 "value? (--value drag)");
-    refuse_with(text, &(struct columns){"l3", NULL, 2, NULL}, "t.csv: --error: there is no column 'l3'");
+    refuse_with(text, &(struct columns){"l3", NULL, 2, NULL},
+                "t.csv: --error: there is no column 'l3'");
     refuse_with(text, &(struct columns){NULL, "drag,l3", 2, NULL},
                 "t.csv: --value: there is no column 'l3'");
-    refuse_with(text, &(struct columns){"l2", "l2", 2, NULL}, "'l2' is given as an error and as a value");
-    refuse_with(text, &(struct columns){"h,l2", NULL, 2, NULL}, "t.csv: --error: 'h' is a resolution");
+    refuse_with(text, &(struct columns){"l2", "l2", 2, NULL},
+                "'l2' is given as an error and as a value");
+    refuse_with(text, &(struct columns){"h,l2", NULL, 2, NULL},
+                "t.csv: --error: 'h' is a resolution");
     assert_true(br_lists("a, b ,c d", "c d"));
     assert_false(br_lists("a, b ,c d", "c"));
     assert_false(br_lists(NULL, "c"));
@@ -183,7 +186,8 @@ static const struct {
     {"-----\n Errors: 1\n-----\n ref.level     h      || u_h - u ||    rate\n 0  5.0e-01  4e-2  0\n"
      " 1  2.5e-01  1e-2  2.00\n 2  1.25e-01  2.5e-3  2.00\n",
      "|| u_h - u ||", 2, "h from column h; errors: || u_h - u ||; left aside: rate", NULL},
-    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n.25,1\n", "e", 2, "h from column h; errors: e", NULL},
+    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n.25,1\n", "e", 2, "h from column h; errors: e",
+     NULL},
     {"Solving on 3 meshes\nn= 1 e= 16\nn= 2 e= 4\nn= 4 e= 1\n", "e", 2,
      "h = 1/n from column n; errors: e", NULL},
     {"time,dofs,h,e\n0,0,0,0\n1,8,.5,16\n1,16,.25,4\n1,32,.125,1\n", "e", 2,
@@ -209,8 +213,9 @@ static const struct {
     {"8 1.6\n16 .4\n32 .1\n", "l2", 2, "h = 1/n from column 1; errors: l2", "1=n, 2=l2"},
     {"# name: A\n# rows: 3\n# columns: 2\n 1 16\n .5 4\n .25 1\n", "2", 2,
      "h from column 1; errors: 2", "1=h"},
-    {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97" "32,.1\n", "e", 2,
-     "h = 1/n from column mesh; errors: e", "mesh=n"},
+    {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97"
+     "32,.1\n",
+     "e", 2, "h = 1/n from column mesh; errors: e", "mesh=n"},
     {"h,cells,order,e\n1,8,1.6,3\n1,32,.4,3\n1,128,.1,3\n", "order", 1,
      "h = 1/n from column cells; errors: order, e; left aside: h", "cells=n,order=order"},
     {"h,L2=u-u_h\n1,1.6\n.5,.4\n.25,.1\n", "e", 2, "h from column h; errors: e", "L2=u-u_h=e"},
@@ -664,7 +669,7 @@ TEST(test_finer)
     struct br_orders_forecast f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     CLOSE(br_orders_next(&found.orders, &f, &given), .000625, 1e-12);
     CLOSE(given, 64, 0);
-    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 51, 0); /* 50.6 */
+    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 51, 0);  /* 50.6 */
     find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n", "u"); /* 5 - 2 h^2 */
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     CLOSE(f.number, 1.25 * (5 - 4.96875) / 4.96875, 1e-12);
@@ -719,8 +724,9 @@ TEST(test_steep_values)
 TEST(test_growth)
 {
     for (int is_value = 0; is_value < 2; is_value++) {
-        struct br_numbers numbers = read_with("h,u\n1,1\n.5,.2\n.25,4\n.125,8\n.0625,16\n",
-                                              &(struct columns){NULL, is_value ? "u" : NULL, 2, NULL});
+        struct br_numbers numbers =
+            read_with("h,u\n1,1\n.5,.2\n.25,4\n.125,8\n.0625,16\n",
+                      &(struct columns){NULL, is_value ? "u" : NULL, 2, NULL});
         struct br_orders orders;
         struct br_estimate growth;
         for (int i = 0; i < 5; i++)
@@ -904,7 +910,8 @@ TEST(test_verdicts)
         {few, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "has 3 errors, expected at least 4"},
         {gap, NULL, "l2: h 2 +- 0.1", BR_PASS, ""},
         {gap, NULL, "l2: h 3 +- 0.1", BR_FAIL, ""},
-        {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "3 of 5 errors can be used, an order needs 4"},
+        {gaps, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE,
+         "3 of 5 errors can be used, an order needs 4"},
         {floor, NULL, "l2: h 2 +- 0.1", BR_INCONCLUSIVE, "the errors do not fall"},
         {floor, NULL, "l2: h 2 +- 0.1 down to 1e-3", BR_PASS, ""},
         {floor, NULL, "l2: h 3 +- 0.1 down to 1e-3", BR_FAIL, ""},

@@ -128,9 +128,9 @@ TEST(test_extrapolated)
     const struct tally t = measure_bundled(1e6, "bundled scenes, extrapolated");
     assert_true(t.all >= (br_test_quick() ? 10 : 60));
     AT_MOST(0.85 * t.all, t.known);
-    AT_MOST(0.75 * t.known, t.within_3);
-    AT_MOST(0.95 * t.known, t.within_10);
-    AT_MOST(0.98 * t.known, t.below);
+    AT_MOST(0.95 * t.known, t.within_3);
+    assert_int_equal(t.within_10, t.known);
+    assert_int_equal(t.below, t.known);
     assert_int_equal(t.far_too_low, 0);
 }
 
@@ -377,6 +377,23 @@ static const struct {
      "  viscosity: 0.003 N m^2 s\n  tip_force: -1000 [N]\n  displacement: -0.33*x^2 [m]\n"
      "  displacement_slope: -0.66*x [1]\nfriction:\n  law: tresca\n  bound: 1000 N",
      "euler", 91, 1, .why = "t = 0", .kind = BR_WARN_UNKNOWN},
+
+    /* All that happens is that the velocity of t = 0 dies away within 1e-8 of T: no step of any march
+     * is so short, and the marches that are not agree among themselves. */
+    {"a velocity that dies away",
+     "length: 0.4 m\nduration: 0.01 s\ndensity: 2e-5 kg/m\nbending:\n  stiffness: 0 N m^2\n"
+     "  viscosity: 40 N m^2 s\n  velocity: 0.005*x^2 [m/s]\n  velocity_slope: 0.01*x [1/s]\n"
+     "friction:\n  law: tresca\n  bound: 20 N",
+     "trbdf2", 15, 48, .why = "dies away", .kind = BR_WARN_UNKNOWN},
+
+    /* A light beam swings undamped at the length of a step: its error is 0.11. */
+    {"a light beam",
+     "length: 10 m\nduration: 0.1166 s\ndensity: 2.3355e-6 kg/m\nbending:\n"
+     "  stiffness: 274303 N m^2\n  viscosity: 0.0407 N m^2 s\n"
+     "  load: -0.01147*sin(pi*x/10) [N/m]\n  displacement: 0.000338853*(x/10)^2 [m]\n"
+     "  displacement_slope: 2*0.000338853*x/100 [1]\nfriction:\n  law: tresca\n"
+     "  bound: 0.111581 N",
+     "trbdf2", 1, 11778, 0.115, 0, NULL, BR_WARN_UNKNOWN},
 
     /* A beam without mass and viscosity follows its load at once. The load just tops the bound at
      * t = 0, less than a hundredth of T: steps that do not see that slip agree among themselves.

@@ -25,7 +25,8 @@ static const struct br_resolution_column step = {.name = "k", .axis = BR_AXIS_TI
 
 static char folder[] = "/tmp/beamrate-test-XXXXXX";
 static const double three[] = {16, 4, 8}, two[] = {0.05, 0.1};
-static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX, NULL, false, false};
+static const struct br_reading err_reading = {"err", "err=(.*)", BR_READING_REGEX,
+                                              NULL,  false,      false};
 
 /* n in {4, 8, 16}, one run at once. */
 static struct br_orders_request program(const char *command)
@@ -168,8 +169,9 @@ TEST(test_words)
     write_script("words", "{ printf '[%s]' \"$@\"; printf ' %s %s %s\\n' \"$LC_ALL\" \"$(ls -A)\" "
                           "\"$(cat)\"; } > $0.out; pwd > $0.where; echo err=1");
     struct br_orders_request p = program(command_of(
-        "words", "a\\ b 'c  d' \"e \\\"f\\\" \\g\" \\; '|' '' x\"y\"'z' '$(touch' PWN) \"`touch\" PWN\\` "
-                 "'; touch PWN' {n}/{k} '{{n} {n}' }"));
+        "words",
+        "a\\ b 'c  d' \"e \\\"f\\\" \\g\" \\; '|' '' x\"y\"'z' '$(touch' PWN) \"`touch\" PWN\\` "
+        "'; touch PWN' {n}/{k} '{{n} {n}' }"));
     p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, list, 1};
     p.axis[BR_AXIS_TIME] = (struct br_program_axis){&step, dt, 1};
     run(&p);
@@ -188,7 +190,8 @@ TEST(test_words)
 TEST(test_environment)
 {
     static char language[] = "language";
-    const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX, NULL, false, false};
+    const struct br_reading reading = {language, "^LC_ALL=(.*)", BR_READING_REGEX,
+                                       NULL,     false,          false};
     struct br_orders_request p = program("/usr/bin/env err={n}");
     p.reading = &reading;
     p.values = language;
@@ -829,7 +832,8 @@ TEST(test_readings)
         {CSV, "x", "n,x\n1,2\"", NAN, "found '2\"'"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const struct br_reading reading = {"q", cases[i].what, (enum br_reading_kind)cases[i].kind, NULL, false, false};
+        const struct br_reading reading = {"q",  cases[i].what, (enum br_reading_kind)cases[i].kind,
+                                           NULL, false,         false};
         const struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 10};
         const char *output = cases[i].output;
         double number = 0;
@@ -851,7 +855,8 @@ TEST(test_refused_readings)
         const char *message;
     } cases[] = {
         {{"", "(.)", BR_READING_REGEX, NULL, false, false}, "no name"},
-        {{"q", "(", BR_READING_REGEX, NULL, false, false}, "q: '(' is no extended regular expression"},
+        {{"q", "(", BR_READING_REGEX, NULL, false, false},
+         "q: '(' is no extended regular expression"},
         {{"q", "a", BR_READING_REGEX, NULL, false, false}, "has 0 groups, expected one"},
         {{"q", "(a)(b)", BR_READING_REGEX, NULL, false, false}, "has 2 groups"},
         {{"q", "a", BR_READING_JSON, NULL, false, false}, "'a' is no JSON pointer"},
@@ -918,7 +923,8 @@ static bool always(void *self)
 TEST(test_long_searches)
 {
     static const struct br_observer stops = {.stop = always};
-    static const struct br_reading reading = {"q", "(.*)a.{900}b", BR_READING_REGEX, NULL, false, false};
+    static const struct br_reading reading = {"q",  "(.*)a.{900}b", BR_READING_REGEX,
+                                              NULL, false,          false};
     static char output[8200] = "\n1234\n";
     struct br_orders_request q = {.reading = &reading, .readings = 1, .seconds = 1e-9};
     double number;

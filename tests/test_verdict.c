@@ -264,7 +264,7 @@ TEST(test_notes)
         const char *note;
     } rows[] = {
         {{.6610623, .1602090, .03838335, .009168145, .002230114, .0005493928},
-         "from size to size the order still falls, the last is 2.02"},
+         "the order from row to row still falls, the last is 2.02"},
         {{1.01, .51, .26, .135, .0725, .04125}, "beside one power the errors show a floor"},
         {{9, 5e-1, 2.5e-1, 1.25e-1, 6.25e-2, 3.12e-2}, "(not asymptotic, error 9.0e+00)"},
     };

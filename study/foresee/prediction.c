@@ -6,14 +6,383 @@
 
 #include "solver/clock.h"
 #include "solver/laws.h"
-#include "study/foresee/prediction_probes.h"
+#include "study/grid/sweep.h"
 
-/* The uncertainty of an extrapolated error: a factor. */
-static const double doubt = 3;
+/* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
 
-/* The same of a distance from a surer reference: the norm samples only the levels and elements of
- * the run. */
-static const double measured_doubt = 2;
+enum {
+    TIGHT,    /* the run against steps by a tolerance on more elements */
+    EQUAL,    /* the run against more elements and steps */
+    IN_TIME,  /* its steps, or fewer, on a coarse mesh against more steps */
+    IN_SPACE, /* its elements, or fewer, with few steps against more elements */
+    START,    /* its first steps on a coarse mesh against steps by a tolerance, or more steps */
+    COMPARISONS
+};
+
+/* The marches of a comparison. Those that are the same are made once. */
+enum cell {
+    RUN,   /* elements and steps of the run, or fewer */
+    CHECK, /* R with half its elements, and half its steps or a larger tolerance */
+    TIME,  /* the steps of RUN on the elements of R: the error of time */
+    SPACE, /* the elements of RUN with the steps of CHECK: the error of space */
+    STEPS, /* the elements of R with the steps of CHECK */
+    HALF,  /* half of RUN in what R refines, if RUN is not the run: shows the order */
+    CELLS
+};
+
+/* Must not be moved: the study points into it. */
+struct comparison {
+    bool active;
+    double beyond; /* the run's elements, steps or 1/tolerance over RUN's; 0: it is the run */
+    struct br_scene scene; /* borrows; its duration may be shorter */
+    int at[CELLS];         /* of each cell in the study; -1: it is R, or not marched */
+    size_t n[CELLS], steps[CELLS];
+    struct br_method method[CELLS];
+    struct br_study study;
+};
+
+struct marches {
+    const struct br_planned_march *run;
+    struct comparison by[COMPARISONS];
+    char why[200]; /* why the last failed comparison failed */
+};
+
+/* What is compared: RUN, the factors of elements and steps of R, and methods. */
+struct setting {
+    size_t n, steps, finer, shorter;
+    const struct br_method *own, *check, *reference;
+};
+
+/* The cost of a solve, and of an element whose load is a function of x and t that is evaluated at
+ * each time level, in elements: both measured. A scheme that chooses its steps makes some 12 solves
+ * a step, with those that it takes back. */
+static const double overhead = 700, evaluated = 30, chosen_stages = 12;
+
+/* Work of each comparison, elements times solves: some ten milliseconds at least, a share of the
+ * run's own work at most. The work of an adaptive run is not known. */
+static const double least_work = 1e7, most_work = 5e7, most_share = 0.06, adaptive_work = 6e7;
+
+enum {
+    COARSE_N = 32,   /* so many elements resolve what is slower than a step */
+    SPACE_N = 128,   /* from so many elements on, errors of space follow their order */
+    MANY_N = 1000,   /* the check of so many elements may have the run's mesh */
+    LEVELS = 24,     /* of adaptive runs: levels say nothing about their steps */
+    LEAST_STEPS = 40 /* by a tolerance beside the levels, or the levels choose the steps */
+};
+
+/* R is sure enough if its check is off by at most these shares of the run's error or the solution.
+ */
+static const double sure = 0.2, negligible = 1e-5;
+
+/* R divides the run's tolerance by `tighter`, its check by the root of it: with errors like
+ * tolerance^0.9, R is then 18 times as accurate. Errors are extrapolated from `loosest` at most.
+ * For equal steps R has `tight`; `tightest` is near round-off. */
+static const double tighter = 25, loosest = 1e-4, tight = 1e-6, tightest = 1e-12;
+
+static bool is_modelled(const struct br_scene *scene, int kind)
+{
+    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+}
+
+static double stages(const struct br_method *m)
+{
+    return m->scheme->adaptive ? chosen_stages : br_time_scheme_stages(m->scheme);
+}
+
+/* The work of a solve on n elements. */
+static double solve(const struct br_planned_march *o, size_t n)
+{
+    double cost = 1;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_load *load = kind ? &o->scene->bending.load : &o->scene->axial.load;
+        for (size_t i = 0; i < BR_LOAD_TERMS && is_modelled(o->scene, kind); i++)
+            if (load->term[i].space.uses_x && load->term[i].space.uses_t)
+                cost = evaluated;
+    }
+    return (double)n * cost + overhead;
+}
+
+static double budget(const struct br_planned_march *o)
+{
+    const double own = solve(o, o->n) * (double)o->steps * stages(o->method);
+    return o->budget > 0                 ? o->budget
+           : o->method->scheme->adaptive ? adaptive_work
+                                         : fmin(fmax(most_share * own, least_work), most_work);
+}
+
+bool br_follows_at_once(const struct br_scene *s, double k)
+{
+    return s->bending.modelled && s->density == 0 &&
+           s->bending.viscosity <= k * s->bending.stiffness && s->friction.law != BR_FRICTIONLESS;
+}
+
+static bool at_once(const struct br_planned_march *o)
+{
+    return br_follows_at_once(o->scene, br_time_step(o->scene, o->steps));
+}
+
+struct br_method br_accurate_method(const struct br_method *own, const char *scheme)
+{
+    struct br_method m = *own;
+    m.scheme = br_time_scheme_find(scheme);
+    m.solver = br_linear_solvers[0];
+    m.contact = br_contact_rule_find("implicit");
+    if (m.friction->iterates)
+        m.friction = br_friction_rules[0];
+    m.most_steps = 0;
+    return m;
+}
+
+static struct br_method best_method(const struct br_planned_march *o)
+{
+    return br_accurate_method(o->method, at_once(o) ? "euler" : "esdirk4");
+}
+
+/* The place of a cell in the study, where an equal one is used again; -1: it is R. */
+static int place(struct comparison *c, const struct br_method *method, size_t n, size_t steps)
+{
+    struct br_study *s = &c->study;
+    const struct br_method *r = &s->reference_method;
+    if (n == s->reference.n && steps == s->reference.steps && method->scheme == r->scheme &&
+        method->tolerance == r->tolerance && method->contact == r->contact)
+        return -1;
+    for (size_t i = 0; i < s->n_count; i++)
+        if (n == c->n[i] && steps == c->steps[i] && method->scheme == c->method[i].scheme &&
+            method->tolerance == c->method[i].tolerance &&
+            method->contact == c->method[i].contact && method->friction == c->method[i].friction)
+            return (int)i;
+    c->n[s->n_count] = n;
+    c->steps[s->n_count] = steps;
+    c->method[s->n_count] = *method;
+    c->method[s->n_count].most_steps = r->most_steps;
+    s->k_count = s->n_count + 1;
+    return (int)s->n_count++;
+}
+
+/* Whether a comparison failed, and why. TIME and SPACE only split the error of the run itself. */
+static bool failed(const struct comparison *c, bool longer_steps, char why[200])
+{
+    const struct br_error *failure = &c->study.failure;
+    for (int i = 0; !failure->status && i < CELLS; i++) {
+        if (c->at[i] < 0 || (c->beyond == 0 && (i == TIME || i == SPACE)))
+            continue;
+        if (c->study.cell[c->at[i]].unstable) {
+            snprintf(why, 200, "the lagged contact is beyond its stability limit%s",
+                     longer_steps ? " at the steps of a cheap march" : "");
+            return true;
+        }
+        failure = &c->study.cell[c->at[i]].failure;
+    }
+    if (failure->status)
+        snprintf(why, 200, "a march that predicts it failed: %.150s", failure->message);
+    return failure->status;
+}
+
+/* Marches a comparison, and clears it if it fails. */
+static enum br_status march(struct marches *m, int which, const struct setting *s,
+                            struct br_error *err)
+{
+    struct comparison *c = &m->by[which];
+    const bool chosen = s->reference->scheme->adaptive, itself = which <= EQUAL;
+    const size_t fine = s->n * s->finer, many = s->steps * s->shorter;
+    const size_t coarse = s->finer > 1 ? fine / 2 : fine, some = s->shorter > 1 ? many / 2 : many;
+    struct br_error failure = {0};
+    struct br_method on_fine = *s->own;
+    on_fine.solver = s->finer > 1 ? br_linear_solvers[0] : on_fine.solver;
+    br_study_clear(&c->study);
+    *c = (struct comparison){.active = true, .scene = *m->run->scene, .beyond = itself ? 0 : 1};
+    if (which == START)
+        c->scene.duration *= (double)s->steps / (double)m->run->steps;
+    c->study = (struct br_study){.scene = &c->scene, .norm = &br_norm_l2, .method = *s->own};
+    c->study.judge = &br_judge_fine;
+    c->study.reference_method = *s->reference;
+    c->study.reference = (struct br_resolution){fine, many};
+    c->study.path = true;
+    c->study.engine = (struct br_engine){br_lockstep, NULL}; /* only the first rank predicts */
+    c->study.n = c->n;
+    c->study.steps = c->steps;
+    c->study.cell_method = c->method;
+    c->at[RUN] = place(c, s->own, s->n, s->steps);
+    c->at[CHECK] = place(c, s->check, coarse, some);
+    c->at[TIME] = place(c, &on_fine, fine, s->steps);
+    c->at[SPACE] = place(c, s->check, s->n, some);
+    c->at[STEPS] = place(c, s->check, fine, some);
+    const bool halves = !itself && !chosen && (s->finer > 1 ? s->n : s->steps) % 2 == 0;
+    c->at[HALF] = !halves        ? -1
+                  : s->finer > 1 ? place(c, s->own, s->n / 2, s->steps)
+                                 : place(c, s->own, s->n, s->steps / 2);
+    if (br_study_run_each(&c->study, 1, 1, NULL, &failure)) {
+        if (failure.status != BR_INTERRUPTED) /* by itself, for its many steps */
+            return br_fail(err, failure.status, "%s", failure.message);
+        c->study.failure = failure;
+    }
+    c->active = !failed(c, which == IN_TIME && s->steps < m->run->steps, m->why);
+    return BR_OK;
+}
+
+static double off(const struct comparison *c, enum cell cell, int kind)
+{
+    const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+    return c->at[cell] < 0 ? 0 : c->study.cell[c->at[cell]].error[part];
+}
+
+/* Whether the check is near enough to R. */
+static bool is_sure(const struct comparison *c)
+{
+    bool all = c->active;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++)
+        all = off(c, CHECK, kind) <=
+              fmax(sure * off(c, RUN, kind), negligible * c->study.reference_size[kind]);
+    return all;
+}
+
+/* The least power of two, 2 or 4 at least, that makes n elements so many. */
+static size_t refinement(size_t n, size_t most)
+{
+    size_t ratio = n < MANY_N ? 4 : 2;
+    while (n * ratio < most)
+        ratio *= 2;
+    return ratio;
+}
+
+/* R by a tolerance: not for friction that follows the load at once, where stages overshoot. */
+static enum br_status march_tight(struct marches *m, int which, const struct br_method *own,
+                                  size_t n, size_t steps, struct br_error *err)
+{
+    const struct br_planned_march *o = m->run;
+    struct br_method r = br_accurate_method(own, "adaptive"), check;
+    const bool adaptive = own->scheme->adaptive;
+    const size_t finer = which == TIGHT ? refinement(n, COARSE_N) : 1;
+    r.most_steps = 1 + (size_t)(budget(o) / 4 / (solve(o, n * finer) * chosen_stages));
+    r.tolerance = fmax(adaptive ? own->tolerance / tighter : tight, tightest);
+    check = r;
+    check.tolerance =
+        fmax(adaptive ? own->tolerance / sqrt(tighter) : tight * sqrt(tighter), tightest);
+    if ((which == TIGHT && steps + LEAST_STEPS > r.most_steps) || (!adaptive && at_once(o)))
+        return BR_OK;
+    return march(m, which, &(struct setting){n, steps, finer, 1, own, &check, &r}, err);
+}
+
+/* The work of a comparison with R of equal steps. */
+static double work_of(const struct br_planned_march *o, const struct setting *s)
+{
+    const double own = solve(o, s->n), fine = solve(o, s->n * s->finer);
+    const double others = 1.5 * fine + (solve(o, s->n * s->finer / 2) + own) / 2;
+    return ((own + fine) * stages(s->own) + (double)s->shorter * others * stages(s->check)) *
+           (double)s->steps;
+}
+
+/* R of equal steps, as fine as the budget allows: elements and steps, then steps alone. Two of them
+ * that both step over a peak of the load agree, but friction keeps the effect of the peak: a beam
+ * that follows its load at once gets steps alone. */
+static enum br_status march_equal(struct marches *m, struct br_error *err)
+{
+    const struct br_planned_march *o = m->run;
+    const struct br_method best = best_method(o);
+    struct setting s = {o->n, o->steps, refinement(o->n, COARSE_N), 4, o->method, &best, &best};
+    if (work_of(o, &s) > budget(o))
+        return BR_OK;
+    for (int both = !at_once(o); both >= 0; both--)
+        for (struct setting t = s; work_of(o, &t) <= budget(o); t.shorter *= 4) {
+            s = t;
+            t.finer *= both ? 4 : 1;
+        }
+    return march(m, EQUAL, &s, err);
+}
+
+/* An even number: half of it is odd, so that not all levels are where a periodic load is zero. */
+static size_t twice_odd(double count)
+{
+    return 2 * ((size_t)(count / 2) | 1);
+}
+
+/* For a run that is too dear: its steps on a coarse mesh, its elements with few steps. */
+static enum br_status march_apart(struct marches *m, size_t n, struct br_error *err)
+{
+    const struct br_planned_march *o = m->run;
+    const struct br_method best = best_method(o);
+    struct br_method own = *o->method;
+    const double most = budget(o) / solve(o, n), r = 1.5 * stages(&best), steps = (double)o->steps;
+    struct setting time = {n, o->steps, 1, 16, &own, &best, &best};
+    enum br_status status;
+    if (own.scheme->adaptive) {
+        own.tolerance = fmax(own.tolerance, loosest);
+        status = march_tight(m, IN_TIME, &own, n, LEVELS, err);
+        m->by[IN_TIME].beyond = own.tolerance / o->method->tolerance;
+    } else {
+        while (time.shorter > 4 && steps * (stages(&own) + (double)time.shorter * r) > most)
+            time.shorter /= 2;
+        if (steps * (stages(&own) + 4 * r) > most)
+            time.steps = twice_odd(most / (1.5 * stages(&own) + 4 * r));
+        status = march(m, IN_TIME, &time, err);
+        m->by[IN_TIME].beyond = steps / (double)time.steps;
+    }
+    struct setting space = {o->n < SPACE_N ? o->n : SPACE_N, 1, 4, 1, &best, &best, &best};
+    space.finer = refinement(space.n, SPACE_N);
+    const double a_step = 2 * solve(o, space.n * space.finer) * stages(&best);
+    const double few = budget(o) / 3 / a_step + 1;
+    space.steps = own.scheme->adaptive || steps > few ? (size_t)few : o->steps;
+    if (!status)
+        status = march(m, IN_SPACE, &space, err);
+    m->by[IN_SPACE].beyond = (double)o->n / (double)space.n;
+    return status;
+}
+
+/* The first steps by a tolerance or, where that fails and nothing else has as many, by more steps.
+ */
+static enum br_status march_start(struct marches *m, size_t n, struct br_error *err)
+{
+    enum { FIRST = 4 };
+    const struct br_planned_march *o = m->run;
+    const struct br_method best = best_method(o);
+    const double most = budget(o) / 5 / solve(o, n) / (stages(o->method) + 6 * stages(&best)) + 1;
+    struct setting s = {n, o->steps < FIRST ? o->steps : FIRST, 1, 4, o->method, &best, &best};
+    const enum br_status status = march_tight(m, START, o->method, n, s.steps, err);
+    if (status || m->by[START].active || m->by[EQUAL].active)
+        return status;
+    s.steps = (double)o->steps < most ? o->steps : (size_t)most;
+    return march(m, START, &s, err);
+}
+
+static enum br_status march_all(struct marches *m, struct br_error *err)
+{
+    const struct br_planned_march *o = m->run;
+    const bool adaptive = o->method->scheme->adaptive;
+    const size_t levels = adaptive && o->steps > LEVELS ? LEVELS : o->steps;
+    const size_t coarse = o->n < COARSE_N ? o->n : COARSE_N;
+    enum br_status status = march_tight(m, TIGHT, o->method, o->n, levels, err);
+    if (!status && !adaptive && !is_sure(&m->by[TIGHT]))
+        status = march_equal(m, err);
+    if (!status && !m->by[TIGHT].active && !m->by[EQUAL].active)
+        status = march_apart(m, coarse, err);
+    if (!status && !m->by[TIGHT].active && !adaptive)
+        status = march_start(m, coarse, err);
+    return status;
+}
+
+/* ---- from distances to an error ---- */
+
+/* An error is uncertain by a factor: where the tip can switch, a finer R does not show how far off
+ * the point is where it comes to rest; else the norm samples only the run's levels and elements. */
+static const double doubt = 3, measured_doubt = 2;
+
+/* The error of a reference of order one over its distance from its check, at most; and the orders
+ * that reference_error distinguishes. */
+static const double of_check = 1.5, lowest_order = 0.25, highest_order = 1;
+
+/* The accumulated error of steps by a tolerance without switches, in tolerances: measured. Errors
+ * are like tolerance^p: the least, the expected, the highest p. */
+static const double gathered = 10, by_tolerance[] = {0.6, 0.9, 1.2};
+
+/* A lower observed order counts as no convergence. */
+static const double least_order = 0.5;
+
+/* An interval is useful if its ends differ by at most the factor `widest`, or if its upper end is
+ * below the solution (`all`) or within the factor `near` of the expected error. */
+static const double widest = 300, all = 1, near = 10;
+
+/* The largest ratio of true to predicted round-off: measured. */
+static const double of_round_off = 4;
 
 static bool can_switch(const struct br_scene *scene)
 {
@@ -21,375 +390,230 @@ static bool can_switch(const struct br_scene *scene)
            scene->friction.law != BR_FRICTIONLESS;
 }
 
-/* The error of a reference of order one over its distance from its check, at most. */
-static const double of_check = 1.5;
-
-/* The range of orders that reference_error distinguishes. */
-static const double lowest_order = 0.25, highest_order = 1;
-
-/* The largest ratio of true to predicted round-off. */
-static const double of_round_off = 4;
-
-/* An interval is useful if its ends differ by at most the factor `widest`, or if its upper end is
- * below the solution (`all`) or within the factor `near` of the expected error. */
-static const double widest = 300, all = 1, near = 10;
-
-/* Exponents of the tolerance: least, expected, most. */
-static const double by_tolerance[] = {0.6, 0.9, 1.2};
-
-/* A lower observed order counts as no convergence. */
-static const double least_order = 0.5;
-
-/* The references sample loads and initial data with so many times the levels and elements of the
- * run. A share below `least_share` that they miss is ignored. */
-enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
-static const double least_share = 1e-3;
-
-static const enum br_part part_of[2] = {BR_PART_AXIAL, BR_PART_BENDING};
-
-/* The smallest and the largest size of a field's solution, among the marches up to t = T: a coarse
- * mesh may move far more than a fine one. If the field is at rest in a march, the size of the other
- * field counts. */
-struct size {
-    double least, most;
-};
-
-static struct size solution_size(const struct br_probe_set *s, int kind)
-{
-    struct size size = {INFINITY, 0};
-    for (int i = 0; i < BR_PROBES; i++) {
-        const double *seen = s->probe[i].study.reference_size;
-        if (!s->probe[i].active || i == BR_PROBE_START)
-            continue;
-        const double one = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
-        size.least = fmin(size.least, one);
-        size.most = fmax(size.most, one);
-    }
-    return size;
-}
-
-static double cell_error(const struct br_probe *p, size_t cell, int kind)
-{
-    return p->study.cell[cell].error[part_of[kind]];
-}
-
-/* Extrapolates the error e of a cell to a resolution that is `beyond` times finer, by the least,
- * the expected and the highest order. */
-static struct br_predicted by_orders(double e, double beyond, const double order[3])
-{
-    return (struct br_predicted){
-        .error = e * pow(beyond, -order[1]),
-        .low = e * pow(beyond, -order[2]) / doubt,
-        .high = e * pow(beyond, -order[0]) * doubt,
-        .order = NAN,
-    };
-}
-
-/* The least, the expected and the highest order of the run, from the observed order and the order q
- * of theory; the least is at most `spoilt`. */
-static void bracket(double observed, double q, double spoilt, double order[3])
-{
-    const bool trusted = observed >= least_order;
-    order[1] = trusted ? fmin(observed, q) : fmin(q, 1);
-    order[0] = trusted ? fmin(order[1], spoilt) : 0;
-    order[2] = fmax(q, order[1]);
-}
-
-/* ---- the run itself ---- */
-
-/* The depth to which an event at an end reaches by t = T, by waves and by diffusion, m. */
-static double layer(const struct br_scene *s, int kind)
-{
-    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, s->duration);
-    if (s->density == 0)
-        return INFINITY;
-    const double waves = sqrt(f.stiffness / s->density) * s->duration;
-    const double spread = f.viscosity * s->duration / s->density;
-    return kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + pow(spread, 0.25);
-}
-
-/* A factor, in L2, by which a layer at the tip moves more than elements that are wider than the
- * layer: these move the mass of a whole element. The worst cases are a force on a rod, whose tip
- * moves by 1/h, and a moment on a beam, by 1/h^2. */
+/* A factor, in L2, by which a layer at the tip moves more than n elements that are wider than the
+ * layer. Waves and diffusion make it so deep until t = T. The worst cases are a force on a rod,
+ * whose tip moves by 1/h, and a moment on a beam, by 1/h^2. */
 static double unresolved(const struct br_scene *s, int kind, size_t n)
 {
-    const double wide = br_mesh_size(s, n) / layer(s, kind);
-    return pow(fmax(1, wide), kind == BR_AXIAL ? 0.5 : 1.5);
+    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, n, s->duration);
+    const double waves = sqrt(f.stiffness / s->density) * s->duration;
+    const double spread = f.viscosity * s->duration / s->density;
+    const double depth = kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + sqrt(sqrt(spread));
+    return pow(fmax(1, br_mesh_size(s, n) / depth),
+               kind == BR_AXIAL ? 0.5 : 1.5); /* NaN: no mass */
 }
 
-/* A bound of the error of a reference. Two cells have 1/a and 1/b of its elements or steps, and the
- * distances `coarse` and `finer` from it; the order q solves coarse/finer = (a^q - 1)/(b^q - 1).
- * If a layer is narrower than all elements, nothing converges: then the bound is `unseen` times
- * larger. */
-static double reference_error(double coarse, double a, double finer, double b, double unseen)
+/* A bound of the error of R. Two cells have 1/a and 1/2 of its elements or steps, and the distances
+ * `coarse` and `finer` from it; the order q solves coarse/finer = (a^q - 1)/(2^q - 1). Where
+ * nothing converges, it is `unseen` times as large. */
+static double reference_error(double coarse, double a, double finer, double unseen)
 {
     double low = lowest_order, high = highest_order;
     for (int i = 0; i < 30; i++) {
         const double q = (low + high) / 2;
-        if ((pow(a, q) - 1) * finer < coarse * (pow(b, q) - 1))
+        if ((pow(a, q) - 1) * finer < coarse * (pow(2, q) - 1))
             low = q;
         else
             high = q;
     }
-    return of_check * finer / (pow(b, low) - 1) * (low > lowest_order ? 1 : unseen);
+    return of_check * finer / (pow(2, low) - 1) * (low > lowest_order ? 1 : unseen);
 }
 
-/* The accumulated error of steps by a tolerance, in tolerances, without switching. */
-static const double gathered = 10;
-
-/* A bound of the error of the run's own reference: in time from the steps of its check and of the
- * run, in space from three meshes. Two tolerances may choose the same steps, with no difference: so
- * the bound is at least the accumulated error of steps by a tolerance. */
-static double whole_reference_error(const struct br_probe *p, int kind)
+/* A cell's error from its distance to R. Two tolerances may choose the same steps: the bound in
+ * time is at least the accumulated error of steps by a tolerance. */
+static struct br_predicted distance(const struct comparison *c, enum cell cell, int kind)
 {
-    const double steps = cell_error(p, BR_WHOLE_STEPS, kind);
-    const double shorter = (double)p->study.reference.steps / (double)p->steps[BR_WHOLE_RUN];
-    const double tolerance = p->study.reference_method.tolerance;
+    const struct br_study *s = &c->study;
+    const double steps = off(c, STEPS, kind), size = s->reference_size[kind];
+    const double check = fmax(0, off(c, CHECK, kind) - steps), e = off(c, cell, kind);
+    const double shorter = (double)s->reference.steps / (double)c->steps[c->at[RUN]];
+    const double finer = (double)s->reference.n / (double)c->n[c->at[RUN]];
     const double in_time =
-        p->study.reference_method.scheme->adaptive
-            ? fmax(of_check * steps, gathered * tolerance * p->study.reference_size[kind])
-            : reference_error(cell_error(p, BR_WHOLE_TIME, kind), shorter, steps, 2, 1);
-    const double finer = fmax(0, cell_error(p, BR_WHOLE_CHECK, kind) - steps);
-    const double coarse = fmax(0, cell_error(p, BR_WHOLE_SPACE, kind) - steps);
-    const double a = (double)p->study.reference.n / (double)p->n[BR_WHOLE_RUN];
-    return in_time +
-           reference_error(coarse, a, finer, 2, unresolved(&p->scene, kind, p->study.reference.n));
+        s->reference_method.scheme->adaptive
+            ? fmax(of_check * steps, gathered * s->reference_method.tolerance * size)
+            : reference_error(off(c, TIME, kind), shorter, steps, 1);
+    const double in_space = reference_error(fmax(0, off(c, SPACE, kind) - steps), finer, check,
+                                            unresolved(&c->scene, kind, s->reference.n));
+    const double unsure = in_time + in_space;
+    const double factor = can_switch(&c->scene) || c->beyond > 0 ? doubt : measured_doubt;
+    return (struct br_predicted){e, fmax(0, (e - unsure) / factor), factor * (e + unsure), NAN};
 }
 
-/* An error from a distance e to a reference with an error of at most `unsure`; `factor` widens the
- * interval. */
-static struct br_predicted around(double e, double unsure, double factor)
+/* The error of RUN, extrapolated to the run by the observed order or, if it is higher or not
+ * plausible, that of theory. Switches spoil orders above one, which coarse marches do not show;
+ * errors of friction that iterates grow with the steps. */
+static struct br_predicted extrapolated(const struct marches *m, int which, int kind)
 {
-    return (struct br_predicted){
-        .error = e,
-        .low = fmax(0, (e - unsure) / factor),
-        .high = factor * (e + unsure),
-        .order = NAN,
-    };
+    const struct comparison *c = &m->by[which];
+    const struct br_method *own = m->run->method;
+    const bool time = which == IN_TIME, rubs = m->run->scene->friction.law != BR_FRICTIONLESS;
+    const double theory = !time ? (kind == BR_AXIAL ? own->axial_degree + 1 : 4)
+                          : own->contact->at_new_step ? own->scheme->order
+                                                      : 1;
+    const double observed = log2(off(c, HALF, kind) / off(c, RUN, kind));
+    const bool plausible = observed >= least_order;
+    const double expected = fmin(plausible ? observed : 1, theory);
+    double order[] = {plausible ? expected : 0, expected, theory};
+    if (time && can_switch(m->run->scene))
+        order[0] = fmin(order[0], 1);
+    if (time && rubs && own->friction->iterates)
+        order[0] = -1;
+    const double *p = time && own->scheme->adaptive ? by_tolerance : order;
+    const struct br_predicted e = distance(c, RUN, kind);
+    if (!(c->beyond > 1))
+        return e;
+    return (struct br_predicted){e.error * pow(c->beyond, -p[1]), e.low * pow(c->beyond, -p[2]),
+                                 e.high * pow(c->beyond, -p[0]), observed};
 }
 
-/* A cell's error from its distance to the reference. The interval is wider if the tip can switch: a
- * finer reference does not show how far off the point is where the tip comes to rest. */
-static struct br_predicted distance(const struct br_probe *p, enum br_whole_cell cell, int kind)
+/* The error of time (TIME), of space (SPACE) or of both (RUN), which may have opposite signs. Equal
+ * steps may miss what decays within a step: they do not count where steps by a tolerance contradict
+ * them. Where time counts, the error is at least that of the first steps. */
+static struct br_predicted error_of(const struct marches *m, enum cell cell, int kind)
 {
-    return around(cell_error(p, cell, kind), whole_reference_error(p, kind),
-                  can_switch(&p->scene) ? doubt : measured_doubt);
-}
-
-/* The probe with the surer reference for the run's error. Equal steps may miss what decays within a
- * step: their probe is not used if BR_PROBE_TIGHT contradicts it. NULL: the run itself was not
- * marched. */
-static const struct br_probe *whole_probe(const struct br_probe_set *s, int kind)
-{
-    const struct br_probe *tight = &s->probe[BR_PROBE_TIGHT], *whole = &s->probe[BR_PROBE_WHOLE];
-    if (!whole->active || !tight->active)
-        return whole->active ? whole : tight->active ? tight : NULL;
-    const struct br_predicted a = distance(tight, BR_WHOLE_RUN, kind);
-    const struct br_predicted b = distance(whole, BR_WHOLE_RUN, kind);
-    return b.high < a.low || a.high <= b.high ? tight : whole;
-}
-
-/* ---- time ---- */
-
-static struct br_predicted measured_time(const struct br_probe *p, int kind)
-{
-    const double e = cell_error(p, 0, kind);
-    const double finer = p->study.k_count > 1 ? cell_error(p, 1, kind) : e / 2;
-    return around(e, reference_error(e, p->ratio, finer, 3, 1), doubt);
-}
-
-/* Adds the error of an iteration: it accumulates over the steps if its sign stays the same. */
-static struct br_predicted extrapolated_time(const struct br_probe_set *s, int kind)
-{
-    const struct br_planned_march *o = s->planned;
-    const struct br_probe *p = &s->probe[BR_PROBE_TIME], *iterated = &s->probe[BR_PROBE_ITERATION];
-    const double q = o->method->contact->at_new_step ? o->method->scheme->order : 1;
-    const double fine = cell_error(p, 1, kind), observed = log2(cell_error(p, 0, kind) / fine);
-    const double left = iterated->active ? iterated->beyond * cell_error(iterated, 0, kind) : 0;
-    double order[3];
-    bracket(observed, q, can_switch(o->scene) ? fmin(1, q) : q, order);
-    struct br_predicted e = by_orders(fine, p->beyond, order);
-    e.order = observed;
-    e.error += left;
-    e.high += doubt * left;
+    const struct comparison *tolerance = &m->by[TIGHT], *equal = &m->by[EQUAL], *c = equal;
+    if (tolerance->active && equal->active) {
+        const struct br_predicted a = distance(tolerance, RUN, kind),
+                                  b = distance(equal, RUN, kind);
+        c = b.high < a.error || a.high <= b.high ? tolerance : equal;
+    } else if (tolerance->active)
+        c = tolerance;
+    struct br_predicted e = c->active ? distance(c, cell, kind)
+                                      : extrapolated(m, cell == SPACE ? IN_SPACE : IN_TIME, kind);
+    if (cell != SPACE && m->by[START].active) {
+        const double first = off(&m->by[START], RUN, kind);
+        e.error = fmax(e.error, first);
+        e.low = fmax(e.low, first / doubt);
+        e.high = fmax(e.high, first * doubt);
+    }
+    if (cell == RUN && !c->active) {
+        const struct br_predicted space = extrapolated(m, IN_SPACE, kind);
+        e.error += space.error;
+        e.low = fmax(e.low, space.low);
+        e.high += space.high;
+    }
     return e;
 }
 
-/* The error of the run is at least that of its first steps. */
-static struct br_predicted and_at_start(const struct br_probe_set *s, struct br_predicted e,
-                                        int kind)
+/* ---- what no march follows ---- */
+
+/* What happens within one step of k, s, of the finest march, unless steps by a tolerance have
+ * followed the start; NULL: nothing. A field's first mode, clamped and free, is compared with k:
+ * its frequency, and the decay of its velocity. */
+static const char *unseen_start(const struct marches *m, double k)
 {
-    const struct br_probe *start = &s->probe[BR_PROBE_START];
-    const double first = start->active ? cell_error(start, 0, kind) : 0;
-    e.error = fmax(e.error, first);
-    e.low = fmax(e.low, first / doubt);
-    e.high = fmax(e.high, first * doubt);
-    return e;
+    const struct br_scene *s = m->run->scene;
+    const struct comparison *start = &m->by[START];
+    if (m->by[TIGHT].active || (start->active && start->study.reference_method.scheme->adaptive))
+        return NULL;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const bool rod = kind == BR_AXIAL;
+        const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, m->run->n, k);
+        const double curved = rod ? pow(1.5708 / s->length, 2) : pow(1.8751 / s->length, 4);
+        const double angular = sqrt(f.stiffness * curved / s->density);
+        double tip = 0;
+        if (!is_modelled(s, kind) || s->density == 0)
+            continue;
+        if (rod)
+            br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
+        if (rod && s->contact.modelled && tip > s->contact.gap &&
+            s->contact.stiffness > br_contact_limit_stiffness(&f))
+            return "how the contact, closed at t = 0, pushes the tip back";
+        if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
+            return "the oscillations after t = 0, in which the tip may switch";
+        if (!br_function_is_zero(rod ? &s->axial.velocity : &s->bending.velocity) &&
+            f.viscosity * curved * k > s->density)
+            return "how the velocity of t = 0 dies away";
+    }
+    return NULL;
 }
 
-static struct br_predicted time_error(const struct br_probe_set *s, int kind)
+/* Loads or initial data that are too short even for R, which samples them with so many times the
+ * levels and elements of the run; *name (out): NULL: none. Fails with BR_NO_MEMORY. */
+static enum br_status find_too_short(const struct br_planned_march *o, const char **name,
+                                     struct br_error *err)
 {
-    const struct br_probe *p = &s->probe[BR_PROBE_TIME], *whole = whole_probe(s, kind);
-    const struct br_predicted e = whole ? distance(whole, BR_WHOLE_TIME, kind)
-                                  : s->planned->method->scheme->adaptive
-                                      ? by_orders(cell_error(p, 0, kind), p->beyond, by_tolerance)
-                                  : p->measured ? measured_time(p, kind)
-                                                : extrapolated_time(s, kind);
-    return and_at_start(s, e, kind);
+    enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
+    static const double least = 1e-3; /* a smaller share of a load is ignored */
+    struct br_planned_march finer = *o;
+    struct br_warnings w = {0};
+    finer.steps *= FINER_LEVELS;
+    finer.n *= FINER_ELEMENTS;
+    *name = NULL;
+    if (br_check_loads(&finer, &w, err))
+        return err->status;
+    if (fmax(w.unseen[BR_WARN_LOAD_TIME], w.unseen[BR_WARN_LOAD_SPACE]) > least)
+        *name = "a load is";
+    if (w.unseen[BR_WARN_INITIAL] > least)
+        *name = "the initial data are";
+    return BR_OK;
 }
 
-/* ---- space ---- */
+/* ---- the verdict ---- */
 
-static struct br_predicted space_error(const struct br_probe_set *s, int kind)
+/* An error relative to the solution, whose size differs among the marches: a coarse mesh may move
+ * far more than a fine one. If a field is at rest, the size of the other one counts. */
+static struct br_predicted relative(const struct marches *m, struct br_predicted e, int kind,
+                                    double *largest)
 {
-    const struct br_probe *p = &s->probe[BR_PROBE_SPACE], *whole = whole_probe(s, kind);
-    if (whole)
-        return distance(whole, BR_WHOLE_SPACE, kind);
-    const double q = kind == BR_AXIAL ? s->planned->method->axial_degree + 1 : 4;
-    const double fine = cell_error(p, p->study.n_count - 1, kind);
-    const double unseen = unresolved(s->planned->scene, kind, p->study.reference.n);
-    if (fine == 0) /* not modelled, or at rest */
-        return (struct br_predicted){.order = NAN};
-    if (p->measured)
-        return around(cell_error(p, 0, kind),
-                      reference_error(cell_error(p, 0, kind), p->ratio, fine, 2, unseen), doubt);
-    double order[3]; /* with errors C h^q of cells h and h/2 against h/4 their ratio is 2^q + 1 */
-    bracket(log2(cell_error(p, 0, kind) / fine - 1), q, q, order);
-    struct br_predicted e =
-        by_orders(fine / (1 - pow(p->ratio, -fmax(order[1], least_order))), p->beyond, order);
-    e.high *= order[0] > 0 ? 1 : unseen;
-    return e;
-}
-
-/* ---- both ---- */
-
-static struct br_predicted whole_error(const struct br_probe_set *s, int kind)
-{
-    const struct br_probe *whole = whole_probe(s, kind);
-    if (whole)
-        return and_at_start(s, distance(whole, BR_WHOLE_RUN, kind), kind);
-    const struct br_predicted time = time_error(s, kind), space = space_error(s, kind);
-    return (struct br_predicted){
-        .error = time.error + space.error,
-        .low = fmax(time.low, space.low), /* they may have opposite signs */
-        .high = time.high + space.high,
-        .order = NAN,
-    };
-}
-
-/* An error relative to the solution; 0 if the field is at rest in every march. */
-static struct br_predicted relative(struct br_predicted e, struct size size)
-{
+    double least = INFINITY;
+    *largest = 0;
+    for (int i = TIGHT; i < START; i++) {
+        const double *seen = m->by[i].study.reference_size;
+        const double size = seen[kind] > 0 ? seen[kind] : seen[1 - kind];
+        least = m->by[i].active ? fmin(least, size) : least;
+        *largest = m->by[i].active ? fmax(*largest, size) : *largest;
+    }
     if (e.high == 0)
         return (struct br_predicted){.order = e.order};
-    return (struct br_predicted){e.error / size.least, e.low / size.most, e.high / size.least,
-                                 e.order};
+    return (struct br_predicted){e.error / least, e.low / *largest, e.high / least, e.order};
 }
 
-static bool is_modelled(const struct br_scene *scene, int kind)
-{
-    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
-}
-
-/* Whether a march with a tolerance has resolved the start, however quick it is. */
-static bool start_is_seen(const struct br_probe_set *s)
-{
-    const struct br_probe *start = &s->probe[BR_PROBE_START];
-    return s->probe[BR_PROBE_TIGHT].active ||
-           (start->active && start->study.reference_method.scheme->adaptive);
-}
-
-/* Whether the slowest vibration of a field, the first clamped-free mode, is quicker than steps of
- * k, s, and is not overdamped. */
-static bool swings_within(const struct br_scene *s, int kind, double k)
-{
-    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, 1, k);
-    const double wave = (kind == BR_AXIAL ? 1.5708 : 1.8751) / s->length;
-    const double angular = sqrt(f.stiffness / s->density) * (kind == BR_AXIAL ? wave : wave * wave);
-    return s->density > 0 && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness;
-}
-
-static double finest_step(const struct br_probe_set *s)
-{
-    const enum br_probe_kind finest =
-        s->probe[BR_PROBE_WHOLE].active ? BR_PROBE_WHOLE : BR_PROBE_TIME;
-    return s->planned->scene->duration / (double)s->probe[finest].study.reference.steps;
-}
-
-/* Whether the tip starts pressed into a contact that releases it within one step of every march: no
- * march then resolves the energy that the rod receives. */
-static bool release_unseen(const struct br_probe_set *s)
-{
-    const struct br_scene *scene = s->planned->scene;
-    if (!scene->axial.modelled || !scene->contact.modelled || start_is_seen(s))
-        return false;
-    double tip;
-    br_function_evaluate(&scene->axial.displacement, 1, &scene->length, 0, &tip);
-    const struct br_field field = br_field_of_scene(scene, BR_AXIAL, s->planned->n, finest_step(s));
-    return tip > scene->contact.gap &&
-           scene->contact.stiffness > br_contact_limit_stiffness(&field);
-}
-
-/* Whether vibrations that no march resolves may open or close the contact, or slip. */
-static bool switches_unseen(const struct br_probe_set *s)
-{
-    const struct br_scene *scene = s->planned->scene;
-    const double k = finest_step(s);
-    return can_switch(scene) && !start_is_seen(s) &&
-           ((scene->axial.modelled && swings_within(scene, BR_AXIAL, k)) ||
-            (scene->bending.modelled && swings_within(scene, BR_BENDING, k)));
-}
-
-/* The error by a peak of the load between two steps of the finest march, relative to the solution:
- * friction keeps the largest displacement, and steps over a peak miss a share of (k/T)^2 of it. */
-static double unseen_peak(const struct br_probe_set *s)
+static void judge(struct br_prediction *p, const struct marches *m)
 {
     static const double curved = 10; /* a peak: how much more than the load's mean curvature */
-    const struct br_planned_march *o = s->planned;
-    if (o->method->scheme->adaptive || /* its steps are as short as peaks ask for */
-        !br_follows_at_once(o->scene, br_time_step(o->scene, o->steps)))
-        return 0;
-    const double share = finest_step(s) / o->scene->duration;
-    return curved * share * share;
-}
-
-static void judge(struct br_prediction *p, const struct br_probe_set *s)
-{
-    for (int i = BR_PROBE_TIME; i < BR_PROBES; i++)
-        if (br_probe_failed(&s->probe[i], p->why))
-            return;
-    bool useful = true;
-    p->bounded = true;
+    const struct comparison *by = m->by;
+    const size_t finest = by[by[EQUAL].active   ? EQUAL
+                             : by[TIGHT].active ? TIGHT
+                                                : IN_TIME]
+                              .study.reference.steps;
+    /* Steps over a peak of the load miss a share of (k/T)^2 of it, which friction keeps. */
+    const bool keeps = !m->run->method->scheme->adaptive && at_once(m->run);
+    const double peak = keeps ? curved / ((double)finest * (double)finest) : 0;
+    bool useful = true, finite = true;
+    snprintf(p->why, sizeof p->why, "%s", m->why);
     p->whole.high = -1;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct size size = solution_size(s, kind);
-        if (!is_modelled(s->planned->scene, kind))
+    p->bounded =
+        by[TIGHT].active || by[EQUAL].active || (by[IN_TIME].active && by[IN_SPACE].active);
+    for (int kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
+        double size;
+        if (!is_modelled(m->run->scene, kind))
             continue;
-        p->size[kind] = size.most;
-        struct br_predicted e = relative(whole_error(s, kind), size);
-        e.high += unseen_peak(s);
+        struct br_predicted e = relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
+        e.high += peak;
         p->field[kind] = e;
-        p->bounded = p->bounded && isfinite(e.high);
+        finite = finite && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
-        if (e.high <= p->whole.high)
+        if (!(e.high > p->whole.high))
             continue;
         p->whole = e;
-        p->time = relative(time_error(s, kind), size);
-        p->space = relative(space_error(s, kind), size);
+        p->time = relative(m, error_of(m, TIME, kind), kind, &size);
+        p->space = relative(m, error_of(m, SPACE, kind), kind, &size);
     }
-    p->known = p->bounded && useful && !release_unseen(s) && !switches_unseen(s);
-    if (!(p->bounded && useful))
-        snprintf(p->why, sizeof p->why,
-                 "the marches that predict it differ too much from each other");
-    else if (!p->known)
-        snprintf(p->why, sizeof p->why, "no march that predicts it resolves %s",
-                 release_unseen(s) ? "how the contact, closed at t = 0, pushes the tip back"
-                                   : "the oscillations after t = 0, in which the tip may switch");
+    if (!p->bounded)
+        return;
+    const char *unseen = unseen_start(m, br_time_step(m->run->scene, finest));
+    p->bounded = finite && !unseen;
+    p->known = p->bounded && useful;
+    snprintf(p->why, sizeof p->why, "%s%s", unseen ? "no march that predicts it resolves " : "",
+             p->known ? ""
+             : unseen ? unseen
+                      : "the marches that predict it differ too much from each other");
     /* If an error may be as large as the solution, the marches may be as wrong, too: they give no
      * upper bound. */
     struct br_predicted *const each[] = {&p->field[0], &p->field[1], &p->space, &p->time,
                                          &p->whole};
-    for (size_t i = 0; i < sizeof each / sizeof *each && p->bounded && useful; i++)
+    for (size_t i = 0; i < sizeof each / sizeof *each && p->known; i++)
         if (each[i]->high > all)
             each[i]->high = INFINITY;
 }
@@ -428,43 +652,24 @@ double br_predict_round_off(const struct br_planned_march *o)
     return largest;
 }
 
-/* Names loads or initial data that are too short even for the references; *name (out): NULL: none.
- * Fails with BR_NO_MEMORY. */
-static enum br_status find_too_short(const struct br_planned_march *o, const char **name,
-                                     struct br_error *err)
-{
-    struct br_planned_march finer = *o;
-    struct br_warnings unseen = {0};
-    finer.steps *= FINER_LEVELS;
-    finer.n *= FINER_ELEMENTS;
-    *name = NULL;
-    if (br_check_loads(&finer, &unseen, err))
-        return err->status;
-    const double of_load =
-        fmax(unseen.unseen[BR_WARN_LOAD_TIME], unseen.unseen[BR_WARN_LOAD_SPACE]);
-    *name = unseen.unseen[BR_WARN_INITIAL] > least_share ? "the initial data are"
-            : of_load > least_share                      ? "a load is"
-                                                         : NULL;
-    return BR_OK;
-}
-
 enum br_status br_predict(const struct br_planned_march *planned, struct br_prediction *p,
                           struct br_error *err)
 {
     const double begun = br_seconds();
-    struct br_probe_set set;
-    *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
-    enum br_status status = br_probes_march(&set, planned, err);
-    if (!status)
-        judge(p, &set);
+    struct marches m = {.run = planned};
     const char *unseen = NULL;
+    *p = (struct br_prediction){.round_off = br_predict_round_off(planned)};
+    enum br_status status = march_all(&m, err);
+    if (!status)
+        judge(p, &m);
     if (!status && p->known)
         status = find_too_short(planned, &unseen, err);
     if (unseen) {
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for the marches that predict it", unseen);
     }
-    br_probes_clear(&set);
+    for (int i = 0; i < COMPARISONS; i++)
+        br_study_clear(&m.by[i].study);
     p->seconds = br_seconds() - begun;
     return status;
 }

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Predicts the error of a run before the run: of each field the largest L2 norm over all time
- * levels, relative to the largest L2 norm of that field's solution.
+ * levels, relative to the largest L2 norm of that field's solution. docs/error.md explains it, with
+ * the formula and a picture.
  *
- * A short run is marched twice: as it is, and by the most accurate method on a finer mesh with
- * smaller steps, the reference. Their distance is the error. A check, with half the elements and
- * half the steps of the reference, shows how sure the reference is, and widens the interval. For a
- * long run, cheaper marches give the error: as many steps as are cheap, on a coarse mesh; the first
- * steps of the run, for the start; and the mesh of the run, or one of 128 elements, with few steps.
- * Their errors are extrapolated by the observed order if it is plausible, else by the order of
- * theory. Switching (stick and slip, contact) lowers orders above one, but coarse marches do not
- * show this: the upper bound then assumes order one.
+ * The run is marched beside a reference R, a more accurate march: by a tolerance and, if that is not
+ * sure enough, by equal steps. Their distance is the error; the distance of a check, with half of
+ * R's elements and steps, bounds the error of R, and widens the interval. If the run is too dear for
+ * that, time and space go apart, on a coarse mesh and with few steps, and are extrapolated by the
+ * observed order if it is plausible. What no march follows makes the error not known.
  *
  * tests/test_prediction.c and each case of `tests/lab/map.c` compare predictions with the exact
  * solution. */

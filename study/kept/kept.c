@@ -215,7 +215,8 @@ bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, 
         pass_bytes(&record, (char *)text, strlen(text) + 1);
         if (!record.wrong)
             pass_all(&record, self);
-        kept = fclose(record.to) == 0 && (record.wrong || put_in_place(k, text, bytes, size));
+        kept =
+            fclose(record.to) == 0 && bytes && (record.wrong || put_in_place(k, text, bytes, size));
     }
     free(bytes);
     if (!kept)

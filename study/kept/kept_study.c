@@ -228,7 +228,7 @@ static enum br_status march(struct work *w, int threads, struct br_error *err)
         if (!status)
             keep_cells(w, i);
     }
-    const bool lost = fclose(w->results) != 0;
+    const bool lost = fclose(w->results) != 0 || !w->bytes; /* of which fclose says nothing */
     return lost && !status ? br_no_memory(err, "what is kept") : status;
 }
 

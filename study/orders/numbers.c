@@ -75,12 +75,13 @@ enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, siz
     numbers->row = br_allocate(rows + 1, sizeof *numbers->row);
     for (; numbers->row && numbers->rows < rows; numbers->rows++) {
         struct br_numbers_row *row = &numbers->row[numbers->rows];
-        *row = (struct br_numbers_row){.given = {NAN, NAN},
-                                       .z = {NAN, NAN},
-                                       .number = br_allocate(2 * quantities + 2, sizeof *row->number),
-                                       .seconds = NAN,
-                                       .wall = NAN,
-                                       .bytes = NAN};
+        *row =
+            (struct br_numbers_row){.given = {NAN, NAN},
+                                    .z = {NAN, NAN},
+                                    .number = br_allocate(2 * quantities + 2, sizeof *row->number),
+                                    .seconds = NAN,
+                                    .wall = NAN,
+                                    .bytes = NAN};
         if (!row->number)
             return br_no_memory(err, "the numbers");
         row->deviation = row->number + quantities + 1;

@@ -547,8 +547,8 @@ struct br_orders_forecast br_orders_foresee(const struct br_orders *o,
 
 double br_orders_next(const struct br_orders *o, const struct br_orders_forecast *f, double *given)
 {
-    *given = br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio,
-                              o->numbers->dimension);
+    *given =
+        br_numbers_given(o->numbers->column[f->line->axis], f->z * f->ratio, o->numbers->dimension);
     return f->number * pow(f->ratio, f->order);
 }
 

@@ -150,7 +150,8 @@ struct br_orders {
 
 /* Finds all orders. Rows without a number, at a floor or beyond stagnation are left out, with a
  * flag. formal: the order of theory for values, for the intervals of their limits; 0: nobody stated
- * it, and it is 2. The numbers are borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it even then. */
+ * it, and it is 2. The numbers are borrowed. Fails with BR_NO_MEMORY or BR_INTERRUPTED; clear it
+ * even then. */
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);

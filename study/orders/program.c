@@ -210,8 +210,7 @@ static enum br_status load(int file, char **text, size_t *length, struct br_erro
         return br_no_memory(why, "a program's output");
     for (ssize_t got = 1; *length < size && got > 0; *length += got > 0 ? (size_t)got : 0)
         got = pread(file, *text + *length, size - *length, (off_t)*length);
-    return *length == size ? BR_OK
-                           : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
+    return *length == size ? BR_OK : br_fail(why, BR_IO, "a program's output: %s", strerror(errno));
 }
 
 /* Reads the numbers of a run: its quantities, and the resolutions that it states itself. */
@@ -227,9 +226,8 @@ static enum br_status read_numbers(const struct br_orders_request *p, const stru
         status = load(reading->file ? r->copy[file++] : r->printed[reading->complaints], &text,
                       &length, why);
         if (!status)
-            status = br_reading_take(p, i, text, length,
-                                     size ? &row->given[size->axis] : &row->number[quantity++],
-                                     why);
+            status = br_reading_take(
+                p, i, text, length, size ? &row->given[size->axis] : &row->number[quantity++], why);
         if (!status && size && !(row->given[size->axis] > 0))
             status = br_fail(why, BR_BAD_INPUT, "%s: found %g, expected a number above 0",
                              reading->name, row->given[size->axis]);
@@ -300,7 +298,9 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
         br_state(&s, kinds[reading->kind], "%s", reading->what);
         if (reading->file || reading->complaints || reading->last)
             br_state(&s, "from", "%s%s%s", reading->last ? "the last of " : "",
-                     reading->file ? "file " : reading->complaints ? "stderr" : "stdout",
+                     reading->file         ? "file "
+                     : reading->complaints ? "stderr"
+                                           : "stdout",
                      reading->file ? reading->file : "");
     }
     if (repeat)
@@ -388,8 +388,8 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
     *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
     const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
     for (size_t r = 0; r < *rows && !status; r++) {
-        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = r / repeat / inner,
-                                    [BR_AXIS_TIME] = r / repeat % inner};
+        const size_t at[BR_AXES] = {
+            [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
         struct br_numbers_row *row = &numbers->row[r];
         row->repeat = repeat > 1 ? r % repeat + 1 : 0;
         for (int i = 0; i < BR_AXES; i++) {
@@ -427,7 +427,8 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
         numbers->assumed = mesh->is_volume && p->assumed_dimension;
     }
     if (!status && !numbers->quantities)
-        status = br_fail(err, BR_BAD_INPUT, "found no reading but of resolutions, expected a number");
+        status =
+            br_fail(err, BR_BAD_INPUT, "found no reading but of resolutions, expected a number");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
@@ -565,8 +566,8 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
     const bool failed = make_rows(program, numbers, &each.count, err) ||
                         make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                        make_environment(&j, err) || list_files(&j, err) || (program->kept && open_kept(&j, err)) ||
-                        br_each(&each, err);
+                        make_environment(&j, err) || list_files(&j, err) ||
+                        (program->kept && open_kept(&j, err)) || br_each(&each, err);
     free(j.environment);
     free(j.file);
     if (failed)

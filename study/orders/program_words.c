@@ -93,7 +93,9 @@ static enum br_status take_word(struct split *s, const char *here, char *to, str
         const char c = *s->rest, next = s->rest[1];
         const bool escape =
             c == '\\' && next && (!quote || (quote == '"' && strchr("\"\\$`", next)));
-        const bool shell = !quote && (strchr("|&;<>`", c) || (c == '$' && (isalpha((unsigned char)next) || next == '(' || next == '{')));
+        const bool shell =
+            !quote && (strchr("|&;<>`", c) ||
+                       (c == '$' && (isalpha((unsigned char)next) || next == '(' || next == '{')));
         if (shell)
             return refuse_shell(s, here, s->rest, 1 + (c == next), err);
         if (c == '{') {

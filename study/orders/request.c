@@ -201,9 +201,8 @@ enum br_status br_orders_request_reading(struct br_orders_request *r, const char
     free((struct br_reading *)r->reading);
     r->reading = more;
     reading.complaints = takes(&what, "stderr:");
-    enum br_status status = !reading.complaints && takes(&what, "file:")
-                                ? take_file(&what, &reading.file, err)
-                                : BR_OK;
+    enum br_status status =
+        !reading.complaints && takes(&what, "file:") ? take_file(&what, &reading.file, err) : BR_OK;
     reading.last = takes(&what, "last:");
     if (!reading.last)
         reading.kind = takes(&what, "json:")  ? BR_READING_JSON

@@ -46,7 +46,7 @@ struct br_orders_request {
     char *columns;         /* of a table, "dx=h, 3=l2": heading or position, and name; NULL: none */
     double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
-    double formal;         /* the order of theory for values; 0: nobody stated it */
+    double formal;          /* the order of theory for values; 0: nobody stated it */
     struct br_order_expectation *expectation; /* expectations */
     size_t expectations;
     char *table;      /* text of a table; NULL: none */
@@ -90,8 +90,8 @@ enum br_status br_orders_check_lists(const struct br_orders_request *request,
                                      const struct br_numbers *numbers, const char *const *known,
                                      size_t count, struct br_error *err);
 
-/* The dimension of the mesh whose unknowns or cells a column counts: where nobody stated it, 2, but 1
- * for cells, which many count along one side. */
+/* The dimension of the mesh whose unknowns or cells a column counts: where nobody stated it, 2, but
+ * 1 for cells, which many count along one side. */
 double br_orders_dimension(const struct br_orders_request *request,
                            const struct br_resolution_column *column);
 

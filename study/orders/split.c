@@ -15,8 +15,8 @@ struct cursor {
     char separator;     /* ' ': any number of blanks */
     size_t blanks;      /* how many, at least, where the separator is a blank */
     char mark;          /* of decimals, as the first number has it; zero: none has it yet */
-    size_t doubtful;    /* the line of "1,089", which may be 1089; 0: there is none, or 0,5 is there */
-    bool commas;        /* a number can only have a decimal comma */
+    size_t doubtful; /* the line of "1,089", which may be 1089; 0: there is none, or 0,5 is there */
+    bool commas;     /* a number can only have a decimal comma */
     size_t line;
     char *field; /* a buffer for the longest one; owned */
 };
@@ -403,7 +403,8 @@ static char find_separator(const char *line)
     static const char separators[] = "\t|&;,";
     for (int quotes = 1; quotes >= 0; quotes--)
         for (const char *s = separators; *s; s++)
-            if (stands_in_line(line, *s, quotes) && (*s != '|' || line[strspn(line, " ")] == '|' || has_bars(line)) &&
+            if (stands_in_line(line, *s, quotes) &&
+                (*s != '|' || line[strspn(line, " ")] == '|' || has_bars(line)) &&
                 (*s != '&' || stands_in_line(line, '\\', quotes)))
                 return *s;
     return ' ';
@@ -444,8 +445,8 @@ static char *without_boxes(const char *text)
         const bool box = strncmp(text, "\xe2\x94", 2) == 0 || strncmp(text, "\xe2\x95", 2) == 0;
         if (box && text[2]) { /* U+2500 to 257F; upright: 2502, 2503, 2506, 250A, 2551 */
             const char code = text[2];
-            const bool upright = text[1] == '\x94' ? strchr("\x82\x83\x86\x8a", code) != NULL
-                                                   : code == '\x91';
+            const bool upright =
+                text[1] == '\x94' ? strchr("\x82\x83\x86\x8a", code) != NULL : code == '\x91';
             *to++ = upright ? '|' : '-';
             text += 2;
         } else
@@ -470,8 +471,7 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
         }
         const size_t above = fields(lines, 0), below = fields(lines, 1);
         title = !has_pairs(lines, 0) &&
-                (has_pairs(lines, 1) ||
-                 (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                (has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
                  ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
                   has_data(lines, 2) && !has_groups(lines, 0)));
         json_decref(lines);

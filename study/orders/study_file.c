@@ -178,8 +178,8 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
                              : take_scalar(r, &keys[i], name, value, request);
     }
     const char *nearest = br_nearest(text, names, KEYS);
-    return nearest ? br_scene_refuse(r, br_yaml_line(name), text,
-                                     "unknown key; did you mean '%s'?", nearest)
+    return nearest ? br_scene_refuse(r, br_yaml_line(name), text, "unknown key; did you mean '%s'?",
+                                     nearest)
                    : br_scene_refuse(r, br_yaml_line(name), text,
                                      "unknown key, expected one of: %s", known);
 }

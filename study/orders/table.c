@@ -51,7 +51,8 @@ static const struct {
     const char *column, *names;
     int rank;
 } synonyms[] = {
-    {"h", " h dx \xce\x94x deltax meshsize elementsize cellsize gridsize gridspacing spacing hmax ", 0},
+    {"h", " h dx \xce\x94x deltax meshsize elementsize cellsize gridsize gridspacing spacing hmax ",
+     0},
     {"n", " n nx nel nelements resolution cellsperside elementsperside intervals ", 1},
     {"level", " level lvl reflevel refinement refinements ", 1},
     {"dofs", " dofs dof ndofs ndof numdofs unknowns degreesoffreedom ", OF_UNKNOWNS},
@@ -138,7 +139,7 @@ static char *split_unit(char *heading)
  * three digits; of LaTeX, $1.5 \times 10^{-3}$. Returns the end of what is copied. */
 static const char *with_exponent(const char *text, char *number, size_t size)
 {
-    static const char *const powers[] = {"\\times10^", "\\cdot10^", "\xc3\x97" "10^", "x10^", "*10^"};
+    static const char *const powers[] = {"\\times10^", "\\cdot10^", "\u00d710^", "x10^", "*10^"};
     const char *const ignored = strchr(text, '\\') ? "${} " : "${}";
     size_t length = 0;
     char *const all = number;
@@ -169,7 +170,8 @@ bool br_table_number(const char *text, double *value)
 {
     char number[72];
     double second;
-    const char *end = *with_exponent(text, number, sizeof number - 4) ? NULL : br_read_number(number, value);
+    const char *end =
+        *with_exponent(text, number, sizeof number - 4) ? NULL : br_read_number(number, value);
     if (!end || !*end)
         return end;
     if (strcmp(end, "%") == 0 || strcmp(end, " %") == 0) {
@@ -532,7 +534,8 @@ enum br_status br_table_read(const struct br_orders_request *q, struct br_number
     static const char byte_order_mark[] = "\xef\xbb\xbf"; /* spreadsheet programs write it first */
     const bool marked = strncmp(q->table, byte_order_mark, strlen(byte_order_mark)) == 0;
     const char *text = q->table + (marked ? strlen(byte_order_mark) : 0);
-    struct source s = {.request = q, .path = br_orders_path(q), .table = json_array(), .numbers = numbers};
+    struct source s = {
+        .request = q, .path = br_orders_path(q), .table = json_array(), .numbers = numbers};
     err->status = BR_OK;
     enum br_status status =
         text[strspn(text, " \t\r\n")] == '{'

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The seconds that trials will take. Each method marches a few steps on two meshes, and the judge
- * samples a few time levels on one mesh. Costs are assumed linear in elements and in time levels.
- */
+/* The seconds that trials will take: the costs of the registry (solver/method.h), times the pace of
+ * this machine, which a few steps show. The judge samples a few time levels on one mesh. */
 #include <math.h>
 
 #include "solver/clock.h"
@@ -11,57 +10,54 @@
 
 /* ---- a method ---- */
 
-static const size_t probe_mesh[2] = {25, 400};
-enum { LEVELS = 100 };                    /* time levels of a probe with equal steps */
-static const double longest_probe = 0.02; /* s of steps */
+/* An adaptive scheme is taken to need so many steps at a tolerance of 1e-4. They grow as the
+ * inverse of the tolerance to 1/4 (order 4). */
+static const double usual_steps = 30;
 
-/* Seconds of a march on the two meshes: of its set-up, and of one time level. */
-struct pace {
-    double set_up[2], level[2];
-};
-
-/* Marches until that has taken `longest_probe`. A march that fails costs nothing more; only
- * BR_NO_MEMORY and BR_INTERRUPTED fail the call. Trials with the same method and the same tolerance
- * have the same pace. */
-static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
-                                size_t i, struct pace *pace, struct br_error *err)
+double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
 {
+    const struct br_method *m = &t->named->method;
+    const double steps =
+        m->scheme->adaptive ? usual_steps * pow(1e4 * t->tolerance, -0.25) : (double)t->at.steps;
+    return 1e-9 * steps * br_method_cost(m, scene, t->at.n);
+}
+
+/* Whether the costs do not know how often such a method solves: its pace is its own. */
+static bool has_own_pace(const struct br_trial *t)
+{
+    return t->named->method.scheme->adaptive;
+}
+
+/* Measured seconds over br_trial_work, by at most `longest` seconds of steps on a coarse mesh. A
+ * march that fails costs nothing more; only BR_NO_MEMORY and BR_INTERRUPTED fail the call. */
+static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
+                                size_t i, double *pace, struct br_error *err)
+{
+    enum { MESH = 100, STEPS = 100 };
+    static const double longest = 0.02;
     struct br_trial_request little = *r;
-    little.time_limit = longest_probe;
+    struct br_trial probe = trial[i];
+    struct br_trial_cost cost;
     for (size_t j = 0; j < i; j++)
-        if (trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance) {
+        if (has_own_pace(&trial[i])
+                ? trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance
+                : !has_own_pace(&trial[j])) {
             pace[i] = pace[j];
             return BR_OK;
         }
-    for (int mesh = 0; mesh < 2; mesh++) {
-        struct br_trial probe = trial[i];
-        struct br_trial_cost cost;
-        probe.at.n = probe_mesh[mesh];
-        probe.at.steps = probe.named->method.scheme->adaptive ? probe.at.steps : LEVELS;
-        const enum br_status status = br_trial_march(&probe, &little, &cost, err);
-        if (status == BR_INTERRUPTED)
-            return status;
-        if (status == BR_NO_MEMORY)
-            return br_fail(err, status, "%s", probe.failure.message);
-        pace[i].set_up[mesh] = isnan(cost.set_up) ? 0 : cost.set_up;
-        pace[i].level[mesh] = 0;
-        if (!status || status == BR_VERDICT) /* an unfinished first level counts as half of one */
-            pace[i].level[mesh] = cost.march / fmax(0.5, (double)cost.levels);
-    }
+    little.time_limit = longest;
+    probe.at.n = MESH;
+    probe.at.steps = probe.named->method.scheme->adaptive ? probe.at.steps : STEPS;
+    const enum br_status status = br_trial_march(&probe, &little, &cost, err);
+    if (status == BR_INTERRUPTED)
+        return status;
+    if (status == BR_NO_MEMORY)
+        return br_fail(err, status, "%s", probe.failure.message);
+    /* an unfinished first level counts as half of one */
+    const double done = fmax(0.5, (double)cost.levels) / (double)probe.at.steps;
+    pace[i] =
+        status && status != BR_VERDICT ? 0 : cost.march / done / br_trial_work(r->scene, &probe);
     return BR_OK;
-}
-
-/* The value at n elements, linear in n; it never decreases and is never negative. */
-static double at_mesh(const double on[2], size_t n)
-{
-    const double slope = (on[1] - on[0]) / (double)(probe_mesh[1] - probe_mesh[0]);
-    return fmax(0, on[0] + fmax(0, slope) * ((double)n - (double)probe_mesh[0]));
-}
-
-/* s of one march. */
-static double march_seconds(const struct br_trial *t, const struct pace *pace)
-{
-    return at_mesh(pace->set_up, t->at.n) + (double)t->at.steps * at_mesh(pace->level, t->at.n);
 }
 
 /* ---- the judge ---- */
@@ -211,11 +207,11 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
 {
     *forecast = (struct br_trial_forecast){.planned = count};
     struct judging judging;
-    struct pace *pace = br_allocate(count, sizeof *pace);
+    double *pace = br_allocate(count, sizeof *pace);
     enum br_status status = pace ? time_judge(r, &judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
         status = find_pace(r, trial, i, pace, err);
-        trial[i].foreseen = marches(r, &trial[i], march_seconds(&trial[i], &pace[i])) +
+        trial[i].foreseen = marches(r, &trial[i], pace[i] * br_trial_work(r->scene, &trial[i])) +
                             judged(trial, i, &judging) / br_threads(r->threads);
         forecast->seconds += trial[i].foreseen;
     }

@@ -67,18 +67,9 @@ static struct br_trial at_place(const struct br_named_method *named, size_t mesh
 
 /* ---- what a trial will cost ---- */
 
-/* The work of a trial in elements times solves: a solve has the overhead of so many elements, and
- * an adaptive scheme is taken to need so many solves at a tolerance of 1e-4. Its solves grow as the
- * inverse of the tolerance to 1/4 (order 4). */
-static const double overhead = 700, usual_solves = 150;
-
-static double work_of(const struct br_trial *t)
+static double work_of(const struct br_plan *p, const struct br_trial *t)
 {
-    const struct br_time_scheme *scheme = t->named->method.scheme;
-    const double solves = scheme->adaptive
-                              ? usual_solves * pow(1e4 * t->tolerance, -0.25)
-                              : (double)t->at.steps * (double)br_time_scheme_stages(scheme);
-    return ((double)t->at.n + overhead) * solves;
+    return br_trial_work(p->request.scene, t);
 }
 
 /* Expected seconds: those of the complete trial of the same method that has the nearest work, times
@@ -87,7 +78,7 @@ static double expected_seconds(const struct br_plan *p, const struct br_trial *t
 {
     double nearest = INFINITY, seconds = 0;
     for (const struct br_trial *t = p->trial; t < p->trial + p->count; t++) {
-        const double ratio = work_of(trial) / work_of(t), distance = fabs(log(ratio));
+        const double ratio = work_of(p, trial) / work_of(p, t), distance = fabs(log(ratio));
         if (t->named == trial->named && p->seconds(t) > 0 && distance < nearest) {
             nearest = distance;
             seconds = p->seconds(t) * ratio;
@@ -206,7 +197,7 @@ static enum br_status add_front(struct br_plan *p, double work, bool *left, stru
             if (find(p, &trial) || !may_help(p, m, place) || expected_seconds(p, &trial) > allowed)
                 continue;
             *left = true;
-            if (work_of(&trial) <= work)
+            if (work_of(p, &trial) <= work)
                 status = add(p, &trial, err);
         }
     }
@@ -220,7 +211,7 @@ static enum br_status run_grid(struct br_plan *p, struct br_error *err)
     enum br_status status = BR_OK;
     bool left = true;
     p->request.repeats = 1;
-    for (double work = 1e4; left && !status; work *= p->grid == p->count ? 3 : 1) {
+    for (double work = 1.5e-5; left && !status; work *= p->grid == p->count ? 3 : 1) {
         p->grid = p->count;
         status = add_front(p, work, &left, err);
         if (!status && p->count > p->grid)

@@ -34,7 +34,7 @@ struct br_trial_request br_trial_request_default(const struct br_scene *scene)
         .reference_method = br_method_default(),
         .norm = br_norms[0],
         .repeats = 3,
-        .repeat_seconds = 0.1,
+        .repeat_seconds = 0.01,
         .time_limit = 10,
     };
 }
@@ -312,10 +312,7 @@ static double work_of(const void *self, size_t i)
     const struct br_trial *t = &batch->trial[i];
     if (t->end == BR_TRIAL_LEFT)
         return 0;
-    if (t->foreseen > 0)
-        return t->foreseen;
-    return (double)t->at.n * (double)t->at.steps * br_time_scheme_stages(t->named->method.scheme) +
-           1e5;
+    return t->foreseen > 0 ? t->foreseen : br_trial_work(batch->request->scene, t);
 }
 
 static void begin(struct br_trial *t)

@@ -69,7 +69,7 @@ struct br_trial_request {
     struct br_kept *kept;               /* where trials are kept; NULL: nowhere */
 };
 
-/* The default request: l2, 3 repeats within 0.1 s, 10 s a march. */
+/* The default request: l2, 3 repeats within 0.01 s, 10 s a march. */
 struct br_trial_request br_trial_request_default(const struct br_scene *scene);
 
 /* Estimated seconds of all trials on an idle machine: marches, repeats and the judge. */
@@ -79,7 +79,11 @@ struct br_trial_forecast {
     size_t planned, left;
 };
 
-/* Forecasts the seconds of trials from a few steps of each method. Where they exceed
+/* The work of a trial, s on the machine of the registry's costs: what `trade` and `plan` forecast by.
+ * Of an adaptive scheme its growth with n and the tolerance alone is right. */
+double br_trial_work(const struct br_scene *scene, const struct br_trial *trial);
+
+/* Forecasts the seconds of trials by their work and a few steps. Where they exceed
  * request->seconds, the dearest trials end as BR_TRIAL_LEFT, and br_trials_run does not run them.
  * Fails with BR_NO_MEMORY, BR_INTERRUPTED, or as the judge does. */
 enum br_status br_trials_foresee(struct br_trial *trial, size_t count,

@@ -26,7 +26,6 @@ struct trial {
     struct br_prediction prediction;
     double judge_error[2]; /* of the judging march, by br_field_kind, relative; 0: not known */
     double beyond;         /* an error over the stated one, if it is larger; otherwise 0 */
-    double error;          /* that error, or the largest */
     struct br_warnings warnings;
     bool done;
 };
@@ -83,8 +82,8 @@ static const double of_distance = 1.5;  /* from a judge to a finer one, times th
 static void compare(struct trial *t)
 {
     struct br_extreme_verdict *v = t->verdict;
-    v->error = v->stated = 0;
-    t->beyond = t->error = 0;
+    v->error = v->stated = v->nearest = 0;
+    t->beyond = 0;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
         const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
@@ -92,9 +91,9 @@ static void compare(struct trial *t)
         const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / divisor;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
-        if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= t->error))) {
+        if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= v->nearest))) {
             v->stated = stated;
-            t->error = e;
+            v->nearest = e;
         }
         v->error = br_worst(v->error, e);
         t->beyond = br_worst(t->beyond, beyond);
@@ -188,7 +187,7 @@ static void decide_accuracy(struct trial *t)
     else if (t->beyond <= 0 || v->warned & helps)
         decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
     else
-        decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", t->error,
+        decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", v->nearest,
                br_extreme_judges[v->by], v->stated);
 }
 
@@ -281,7 +280,7 @@ enum br_status br_extreme_judge(const struct br_extreme_case *one,
                                 const struct br_extreme_judging *judging,
                                 struct br_extreme_verdict *verdict, struct br_error *err)
 {
-    *verdict = (struct br_extreme_verdict){.error = NAN, .stated = NAN};
+    *verdict = (struct br_extreme_verdict){.error = NAN, .nearest = NAN, .stated = NAN};
     struct trial t = {.one = one, .judging = judging, .verdict = verdict, .method = one->method};
     t.method.most_steps = MOST_STEPS;
     t.samples = br_track_samples(one->n, one->steps);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The map of extremes: are random scenes, drawn to break the program, right or refused? As a test,
  * the first cases of seeds 1 to 10: prints each seed's tally, and what is silently wrong.
- * usage: map [SEED CASES]   the first cases of one seed, with the class of each */
+ * usage: map [SEED CASES]   the first cases of one seed: of each its class and, of an answer, the
+ *                           error and the stated bound of the field that is nearest to its bound */
 #include <gsl/gsl_cdf.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -51,7 +52,8 @@ static size_t try_seed(uint64_t seed, size_t cases, bool all)
         const struct br_extreme_verdict *v = &m.verdict[i];
         count[v->which]++;
         if (all || v->which == BR_EXTREME_WRONG)
-            printf("# %llu %zu %s %s\n", (unsigned long long)seed, i, br_extreme_words[v->which],
+            printf("# %llu %zu %s %.3g %.3g %s %s\n", (unsigned long long)seed, i,
+                   br_extreme_words[v->which], v->nearest, v->stated, v->known ? "known" : "-",
                    v->why);
     }
     free(m.verdict);

@@ -85,15 +85,17 @@ TEST(test_sound_cases)
  * without contact stiffness, which the exact solution missed, too (3, 101; 1, 212), where two
  * tolerances choose the same steps (2, 284; 4, 71), where chosen steps have few levels (4, 145);
  * where a contact throws a pressed tip back within a step (7, 430), a layer lies between the
- * judge's places (7, 813), and a beam follows its load at once (6, 459). Those that take long are
- * for long tests.
+ * judge's places (7, 813), and a beam follows its load at once (6, 459); where a velocity dies
+ * away within a step of every march (20261123, 613), and a light beam swings as fast as it is
+ * marched (73, 534). Those that take long are for long tests.
  */
 TEST(test_hard_cases)
 {
-    static const struct named hard[] = {{1, 1012}, {1, 1248}, {3, 20},  {3, 101}, {1, 212},
-                                        {2, 284},  {4, 71},   {4, 145}, {5, 229}, {7, 430},
-                                        {7, 813},  {6, 459},  {4, 175}, {5, 45},  {3, 186}};
-    check_sound(hard, br_test_long() ? sizeof hard / sizeof *hard : 12, false);
+    static const struct named hard[] = {{20261123, 613}, {73, 534}, {1, 1012}, {1, 1248}, {3, 20},
+                                        {3, 101},        {1, 212},  {2, 284},  {4, 71},   {4, 145},
+                                        {5, 229},        {7, 430},  {7, 813},  {6, 459},  {4, 175},
+                                        {5, 45},         {3, 186}};
+    check_sound(hard, br_test_long() ? sizeof hard / sizeof *hard : 14, false);
 }
 
 /* Who states less than is true is silently wrong: right ones that boast are, and one that says that
