@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Who includes whom: a folder includes itself and folders below it, nothing includes tests/, and no
 # file includes itself through others. Rooms of study/ include what `rooms` says and no more, and
-# docs/architecture.md shows this list. It first tries small trees with mistakes, which it must find.
+# docs/architecture.md shows this list. No tag br_... is defined twice, in tests/ neither. It first tries small trees with mistakes, which it must find.
 # usage: includes.sh ROOT [--draw]    --draw: prints the list for the docs, and does nothing else
 set -u
 
@@ -136,6 +136,13 @@ END {
 }'
 }
 
+# Prints each tag br_... of the tree in ROOT that two files, or two places of one, define.
+twice() { # ROOT
+    (cd "$1" && find solver reference study tables plots cli tests -name '*.[ch]' 2>/dev/null |
+        xargs sed -n -E 's/^ *(static |const |typedef )*(struct|union|enum) (br_[a-z0-9_]+) *\{.*/\3/p' |
+        sort | uniq -d)
+}
+
 # ---- the small trees ----
 
 tree=$(mktemp -d) || exit 1
@@ -198,6 +205,12 @@ plant study/attic/a.c study/base/a.h
 expect 'study/attic/a.c: study/attic/ is no room of the list
 1 files'
 
+mkdir -p "$tree/solver" "$tree/tests"
+printf 'struct br_a {\nstruct br_b *b;\nenum br_c { C };\n' > "$tree/solver/a.h"
+printf 'static const struct br_c { int c; } one;\nstruct br_a;\n' > "$tree/tests/b.c"
+[ "$(twice "$tree")" = br_c ] || { echo "a tag with two meanings was not found" >&2; failures=$((failures + 1)); }
+rm -rf "${tree:?}"/*
+
 right=$rooms
 rooms=$(echo "$rooms" | sed 's/^scene: .*/& grid/')
 plant study/scene/a.c study/grid/a.h
@@ -243,4 +256,6 @@ if [ "$shown" != "$graph" ]; then
     printf '%s\n' "$graph" >&2
     failures=$((failures + 1))
 fi
+tags=$(twice "$1")
+[ -z "$tags" ] || { echo "tags with two meanings:" $tags >&2; failures=$((failures + 1)); }
 [ -z "$mistakes" ] && [ "$files" -gt 280 ] && [ "$failures" -eq 0 ]
