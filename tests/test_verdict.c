@@ -133,8 +133,12 @@ TEST(test_errors)
     } rows[] = {
         /* towards order 1, about 1, and away from it */
         {{1e-2, 6.0e-3, 3.3e-3, 1.7e-3, 8.6e-4}, BR_INCONCLUSIVE, "are not asymptotic"},
-        {{1e-2, 5.9e-3, 2.2e-3, 1.4e-3, 6.0e-4}, BR_INCONCLUSIVE, "the interval is wider than the band"},
-        {{1e-2, 5.0e-3, 2.6e-3, 1.5e-3, 1.0e-3}, BR_INCONCLUSIVE, "the errors fall more slowly, 1.00e-03"},
+        {{1e-2, 5.9e-3, 2.2e-3, 1.4e-3, 6.0e-4},
+         BR_INCONCLUSIVE,
+         "the interval is wider than the band"},
+        {{1e-2, 5.0e-3, 2.6e-3, 1.5e-3, 1.0e-3},
+         BR_INCONCLUSIVE,
+         "the errors fall more slowly, 1.00e-03"},
         /* that do not fall */
         {{0, 0, 0, 0, 0}, BR_FAIL, ""},
         {{1e-3, 1e-3, 1e-3, 1e-3, 1e-3}, BR_FAIL, ""},
@@ -265,7 +269,7 @@ TEST(test_notes)
     } rows[] = {
         {{.6610623, .1602090, .03838335, .009168145, .002230114, .0005493928},
          "the order from row to row still falls, the last is 2.02"},
-        {{1.01, .51, .26, .135, .0725, .04125}, "beside one power the errors show a floor"},
+        {{1.01, .51, .26, .135, .0725, .04125}, "the errors also show a floor"},
         {{9, 5e-1, 2.5e-1, 1.25e-1, 6.25e-2, 3.12e-2}, "(not asymptotic, error 9.0e+00)"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {

@@ -22,14 +22,10 @@ double br_trial_work(const struct br_scene *scene, const struct br_trial *t)
     return 1e-9 * steps * br_method_cost(m, scene, t->at.n);
 }
 
-/* Whether the costs do not know how often such a method solves: its pace is its own. */
-static bool has_own_pace(const struct br_trial *t)
-{
-    return t->named->method.scheme->adaptive;
-}
-
-/* Measured seconds over br_trial_work, by at most `longest` seconds of steps on a coarse mesh. A
- * march that fails costs nothing more; only BR_NO_MEMORY and BR_INTERRUPTED fail the call. */
+/* Measured seconds over br_trial_work: once for all equal steps, and for each adaptive method and
+ * tolerance, since the costs do not know how many steps these make. By at most `longest` seconds of
+ * steps on a coarse mesh. A march that fails costs nothing more; only BR_NO_MEMORY and
+ * BR_INTERRUPTED fail the call. */
 static enum br_status find_pace(const struct br_trial_request *r, const struct br_trial *trial,
                                 size_t i, double *pace, struct br_error *err)
 {
@@ -39,9 +35,8 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
     struct br_trial probe = trial[i];
     struct br_trial_cost cost;
     for (size_t j = 0; j < i; j++)
-        if (has_own_pace(&trial[i])
-                ? trial[j].named == trial[i].named && trial[j].tolerance == trial[i].tolerance
-                : !has_own_pace(&trial[j])) {
+        if (trial[j].tolerance == trial[i].tolerance &&
+            (trial[i].tolerance == 0 || trial[j].named == trial[i].named)) {
             pace[i] = pace[j];
             return BR_OK;
         }

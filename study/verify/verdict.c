@@ -85,8 +85,7 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
         scatter[i] = p->deviation / p->error;
     }
-    const enum br_status status =
-        br_line_order_of_means(all, scatter, c->points, &found, err);
+    const enum br_status status = br_line_order_of_means(all, scatter, c->points, &found, err);
     free(scatter);
     c->order = found.order;
     c->low99 = found.low99;
@@ -204,9 +203,9 @@ static void judge_too_few(struct br_case *c)
                        : "use coarser grids, whose errors are above the limits");
 }
 
-/* An error at the fine end that does not fall with the order shows another solution, or the error of
- * a reference or tolerance; one that is far smaller than the order makes it, terms that cancel, or a
- * reference that is the solution itself. */
+/* An error at the fine end that does not fall with the order shows another solution, or the error
+ * of a reference or tolerance; one that is far smaller than the order makes it, terms that cancel,
+ * or a reference that is the solution itself. */
 static const struct br_point *first_beyond(const struct br_case *c)
 {
     const struct br_point *first = NULL, *last = c->point + c->points - 1;
@@ -276,8 +275,8 @@ static void name_sizes(struct br_case *c)
     const struct br_point *last = &c->point[c->points - 1];
     const bool lost = last->flag == BR_FLAG_ROUND_OFF || last->flag == BR_FLAG_REFERENCE;
     if (!(c->duration > 0) && !c->open)
-        br_append(c->reason, sizeof c->reason, "; add a row %s than %s",
-                  lost ? "coarser" : "finer", lost ? c->point[0].label : last->label);
+        br_append(c->reason, sizeof c->reason, "; add a row %s than %s", lost ? "coarser" : "finer",
+                  lost ? c->point[0].label : last->label);
     if (!(c->duration > 0) || c->points < 2)
         return;
     br_append(c->reason, sizeof c->reason, "; expect it of");
