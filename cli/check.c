@@ -74,9 +74,10 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         br_scene_load(item->path, &text, err))
         return err->status;
     const bool foreign = br_is_study_file(text);
-    const bool failed = foreign ? read_study(r, item, text, err)
-                                : br_verify_read(item->path, text, &item->scene, &item->verify, err) ||
-                                      choose_method(r, item, err);
+    const bool failed = foreign
+                            ? read_study(r, item, text, err)
+                            : br_verify_read(item->path, text, &item->scene, &item->verify, err) ||
+                                  choose_method(r, item, err);
     free(text);
     if (failed || foreign)
         return failed ? err->status : BR_OK;

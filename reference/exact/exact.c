@@ -366,7 +366,7 @@ static bool is_modelled(const struct br_scene *s, enum br_exact_field which)
 }
 
 static struct br_exact_law law_of(const struct br_scene *s, enum br_exact_field which,
-                            const struct br_history *axial)
+                                  const struct br_history *axial)
 {
     const struct br_friction *f = &s->friction;
     if (which == BR_EXACT_AXIAL)

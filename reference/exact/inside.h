@@ -355,7 +355,8 @@ struct br_law_state {
     double guard;       /* distance to the end of the phase: negative when it is over */
     enum br_phase next; /* the phase that follows when the guard ends it */
 };
-struct br_law_state br_law_at(const struct br_exact_law *law, double t, const struct br_tip_state *tip);
+struct br_law_state br_law_at(const struct br_exact_law *law, double t,
+                              const struct br_tip_state *tip);
 
 /* The phase at t of a tip with this displacement (less the gap) and velocity;
  * `now` is the phase before t, BR_FREE at t = 0. */
@@ -368,7 +369,7 @@ enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_pha
  * them: a sum over modes would lose values that are small just after an event. */
 struct br_stepper {
     const struct br_oscillators *field; /* borrowed */
-    const struct br_exact_law *law;           /* borrowed */
+    const struct br_exact_law *law;     /* borrowed */
     struct br_radau radau;
 
     double time;     /* s */

@@ -193,7 +193,8 @@ static enum br_status stick(const double z[S][S], struct br_tip_step *tip, struc
     return status;
 }
 
-static void slip(const struct br_exact_law *law, const struct br_radau *radau, struct br_tip_step *tip)
+static void slip(const struct br_exact_law *law, const struct br_radau *radau,
+                 struct br_tip_step *tip)
 {
     const double sign = tip->phase == BR_SLIP_UP ? 1 : -1;
     double bound[S];

@@ -36,7 +36,8 @@ enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_pha
     return velocity > 0 ? BR_SLIP_UP : velocity < 0 ? BR_SLIP_DOWN : BR_STICK;
 }
 
-struct br_law_state br_law_at(const struct br_exact_law *law, double t, const struct br_tip_state *tip)
+struct br_law_state br_law_at(const struct br_exact_law *law, double t,
+                              const struct br_tip_state *tip)
 {
     const double force = tip->force, pressed = fmax(tip->displacement, 0);
     /* a force beyond the bound opposes the slip that follows */

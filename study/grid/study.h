@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A convergence study: a grid of cells (n, k) against one reference, with the error in one norm over
- * all the time levels of each cell. */
+/* A convergence study: a grid of cells (n, k) against one reference, with the error in one norm
+ * over all the time levels of each cell. */
 #ifndef BR_STUDY_GRID_STUDY_H
 #define BR_STUDY_GRID_STUDY_H
 

@@ -24,8 +24,8 @@ typedef enum br_status br_scene_take(const struct br_scene_reader *r,
 
 /* Further requests to br_scene_parse; zeros: none. */
 struct br_scene_asked {
-    br_scene_take *take_verify; /* reads the part `verify` */
-    void *self;                 /* its own */
+    br_scene_take *take_verify;        /* reads the part `verify` */
+    void *self;                        /* its own */
     const struct br_scene_key *varied; /* a key of a section that exists, ... */
     const char *value;                 /* and its new value */
 };

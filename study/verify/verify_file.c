@@ -174,7 +174,8 @@ static bool parse_expectation(const char *text, struct br_expectation *e)
     return end && parse_range(end, e);
 }
 
-static enum br_status read_expectation(struct study_part *b, const char *what, const yaml_node_t *node)
+static enum br_status read_expectation(struct study_part *b, const char *what,
+                                       const yaml_node_t *node)
 {
     const size_t line = br_yaml_line(node);
     struct br_expectation e = {.line = line};
@@ -196,7 +197,8 @@ static enum br_status read_expectation(struct study_part *b, const char *what, c
 
 /* ---- a study ---- */
 
-static enum br_status read_key(struct study_part *b, const yaml_node_t *name, const yaml_node_t *value)
+static enum br_status read_key(struct study_part *b, const yaml_node_t *name,
+                               const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_scene_refuse(b->r, br_yaml_line(name), br_verify_names[b->kind],
@@ -274,7 +276,8 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
         if (kind == BR_VERIFY_KINDS)
             return br_scene_refuse(r, br_yaml_line(name), key,
                                    "unknown key in verify, expected space, time or joint");
-        struct study_part b = {.r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
+        struct study_part b = {
+            .r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
         const enum br_status status = read_block(&b, yaml_document_get_node(r->document, p->value));
         free(b.n);
         free(b.k);

@@ -133,7 +133,7 @@ struct trial {
     struct br_beam_mode mode;
     struct br_field field;
     double nodal[BR_MODE_UNKNOWNS + 2]; /* of the mode */
-    struct br_nodal_shape shape[2];           /* values, slopes */
+    struct br_nodal_shape shape[2];     /* values, slopes */
     struct br_march *march;
     struct br_energy_meter *meter;
     double k;
