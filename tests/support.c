@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/known/expression.h"
 #include "study/scene/file.h"
 

@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 #include "study/orders/process.h"

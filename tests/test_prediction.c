@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "reference/long_plain.h"
+#include "solver/linear/linear_solver.h"
 #include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/resolution.h"

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/scene/method_fields.h"
 
 /* ---- the words of a name ---- */

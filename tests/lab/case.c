@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/base/words.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
