@@ -12,6 +12,7 @@
 #include "solver/linear/linear_solver.h"
 #include "study/known/expression.h"
 #include "study/scene/file.h"
+#include "study/verify/verify.h"
 
 /* As the program and the library do. */
 __attribute__((constructor)) static void let_gsl_return(void)

@@ -194,20 +194,19 @@ TEST(test_stopped_and_resumed)
             X(NONE, contact, contact, contact)                                                     \
                 X(NONE, friction, friction, friction) /* those lists */                            \
         X(NONE, derived, {{0}}, )
-#define STUDY(X)                                                                                  \
-    X(NONE, scene, &scene, &scene)                                                                \
-    /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) X(                                    \
-        NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart)              \
-        X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0]) \
-            X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact)             \
-                X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true)          \
-                    X(NONE, alone, false, true) X(CELL, n, grid_n, grid_n + 1)                    \
-                        X(CELL, steps, grid_steps, grid_steps + 1) X(NONE, next_norm, NULL, NULL) \
-                            X(NONE, kept, NULL, NULL) X(NONE, cell, NULL, NULL)                   \
-                                X(NONE, judged_by, unjudged, ) X(NONE, events, NULL, NULL)        \
-                                    X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
-                                        X(NONE, reference_error, {0}, )                           \
-                                            X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
+#define STUDY(X)                                                                                   \
+    X(NONE, scene, &scene, &scene)                                                                 \
+    /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) X(                                     \
+        NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart)               \
+        X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0])  \
+            X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact)              \
+                X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true)           \
+                    X(CELL, n, grid_n, grid_n + 1) X(CELL, steps, grid_steps, grid_steps + 1)      \
+                        X(NONE, next_norm, NULL, NULL) X(NONE, engine, {0}, )                      \
+                            X(NONE, cell, NULL, NULL) X(NONE, judged_by, unjudged, )               \
+                                X(NONE, events, NULL, NULL) X(NONE, reference_scale, 0, 0)         \
+                                    X(NONE, reference_size, {0}, ) X(NONE, reference_error, {0}, ) \
+                                        X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
 
 static char *text_of(const struct br_study *s, size_t cell)
 {

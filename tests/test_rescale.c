@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "rescale.h"
+#include "study/fit/fit.h"
 #include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/run/run.h"

@@ -7,6 +7,7 @@
 
 #include "solver/linear/linear_solver.h"
 #include "study/scene/file.h"
+#include "study/verify/verify.h"
 #include "support.h"
 
 /* A scene of 1 s; its verify part begins on line 14. */
