@@ -73,11 +73,11 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
     if (br_scene_find(name, item->path, sizeof item->path, err) ||
         br_scene_load(item->path, &text, err))
         return err->status;
-    const struct br_scene_asked asked = {.verify = &item->verify};
     const bool foreign = br_is_study_file(text);
-    const bool failed = foreign ? read_study(r, item, text, err)
-                                : br_scene_parse(item->path, text, &asked, &item->scene, err) ||
-                                      choose_method(r, item, err);
+    const bool failed = foreign
+                            ? read_study(r, item, text, err)
+                            : br_verify_read(item->path, text, &item->scene, &item->verify, err) ||
+                                  choose_method(r, item, err);
     free(text);
     if (failed || foreign)
         return failed ? err->status : BR_OK;

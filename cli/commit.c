@@ -11,8 +11,8 @@
 
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "study/base/quote.h"
 #include "study/base/text.h"
-#include "study/scene/quote.h"
 
 /* No result can have this name: those begin with no dot. */
 static const char list_name[] = ".beamrate-set", first_line[] = "beamrate-set 2\n";

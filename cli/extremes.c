@@ -7,9 +7,9 @@
 #include "cli/extremes_experiment.h"
 #include "cli/progress.h"
 #include "cli/session.h"
+#include "study/base/words.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/words.h"
 
 enum { MOST_PARTS = 16 };
 

@@ -6,8 +6,8 @@
 #include "cli/progress.h"
 #include "cli/session.h"
 #include "plots/pictures.h"
+#include "study/base/words.h"
 #include "study/paper/paper.h"
-#include "study/scene/words.h"
 #include "tables/reports.h"
 
 struct run {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/command.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 enum { WIDTH = 98, COLUMN = 34 };
 

@@ -20,8 +20,8 @@
 #include <string.h>
 
 #include "cli/provenance.h"
+#include "study/base/quote.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
 
 enum { MOST_SCENES = 8192, MOST_WORDS = 512, MOST_OPTIONS = 1024 };
 

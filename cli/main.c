@@ -11,9 +11,9 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "plots/pictures.h"
+#include "study/base/quote.h"
+#include "study/base/words.h"
 #include "study/ranks/ranks.h"
-#include "study/scene/quote.h"
-#include "study/scene/words.h"
 #include "tables/json_value.h"
 
 extern const struct br_command br_command_check, br_command_completions, br_command_extremes,

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "study/base/words.h"
 #include "study/grid/study.h"
-#include "study/scene/words.h"
 
 /* ---- what is refused ---- */
 

@@ -8,8 +8,8 @@
 #include "cli/verdicts.h"
 #include "plots/pictures.h"
 #include "solver/clock.h"
+#include "study/base/words.h"
 #include "study/scene/file.h"
-#include "study/scene/words.h"
 
 struct run {
     struct br_session session;

@@ -8,8 +8,8 @@
 #include <unistd.h>
 
 #include "build_info.h"
+#include "study/base/quote.h"
 #include "study/base/text.h"
-#include "study/scene/quote.h"
 
 static char *command_line, machine[512], date[32];
 

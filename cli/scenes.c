@@ -7,9 +7,9 @@
 
 #include "cli/command.h"
 #include "cli/output.h"
+#include "study/base/quote.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
 #include "tables/scene_format.h"
 
 /* ---- the list ---- */

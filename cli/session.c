@@ -5,10 +5,10 @@
 
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
+#include "study/base/quote.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
 #include "tables/reports.h"
 
 enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,

@@ -14,6 +14,7 @@
 #include "solver/clock.h"
 #include "study/fit/report.h"
 #include "study/foresee/warnings.h"
+#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
@@ -241,7 +242,7 @@ static enum br_status keep(struct run *r, struct br_error *err)
             return err->status;
     for (size_t h = 0; h < r->heads && *r->work->kept.folder; h++)
         for (struct br_study *s = study_of(r, h, 0); s; s = s->next_norm)
-            s->kept = &r->work[h % r->jobs].kept;
+            s->engine = br_kept_engine(&r->work[h % r->jobs].kept);
     return BR_OK;
 }
 

@@ -5,7 +5,7 @@
 
 #include "cli/option.h"
 #include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 struct br_study_request {
     const struct br_judge *judge; /* NULL: not given */

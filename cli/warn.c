@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/quote.h"
 #include "study/paper/paper.h"
-#include "study/scene/quote.h"
 
 /* ---- printing ---- */
 

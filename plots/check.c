@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "plots/pictures.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 #include "study/verify/check.h"
 
 enum { ROWS = 30, MOST = 100 }; /* with more orders a row is a check; no more rows are drawn */

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "study/base/words.h"
 #include "study/fit/report.h"
-#include "study/scene/words.h"
 
 /* Entry i of the study's list for an axis: n over h, steps over k. */
 static size_t entry_of(const struct br_report *r, int axis, size_t i)

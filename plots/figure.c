@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <string.h>
 
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 /* Makes room for one more element in an array (in/out: *array, *room); false: no memory. */
 static bool grow(void *array, size_t count, size_t *room, size_t size)

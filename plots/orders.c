@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "study/base/quote.h"
 #include "study/orders/orders.h"
-#include "study/scene/quote.h"
 
 /* The errors, with the line of their order and its band; those of a joint fit, which is no line,
  * are joined. */

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 enum {
     FONT = 24,

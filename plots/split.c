@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "plots/pictures.h"
+#include "solver/linear/linear_solver.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/split.h"
 

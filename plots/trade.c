@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "plots/pictures.h"
+#include "solver/linear/linear_solver.h"
 #include "study/trade/trade.h"
 
 /* Whether a method has the exact law and the default solver: such methods differ in scheme, contact

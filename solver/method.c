@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
+
 struct br_method br_method_default(void)
 {
     return (struct br_method){

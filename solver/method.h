@@ -4,8 +4,10 @@
 #define BR_SOLVER_METHOD_H
 
 #include "solver/laws.h"
-#include "solver/linear/linear_solver.h"
 #include "solver/scheme.h"
+
+struct br_kernel;
+struct br_linear_solver;
 
 /* How a scene is marched. */
 struct br_method {

@@ -85,8 +85,8 @@ void *br_allocate_aligned(size_t count, size_t size)
 
 /* ---- memory with one owner ---- */
 
-struct br_block {
-    struct br_block *before;
+struct br_store_block {
+    struct br_store_block *before;
 };
 
 enum { LINE = 64 }; /* bytes from a block's start to its data */
@@ -94,7 +94,7 @@ enum { LINE = 64 }; /* bytes from a block's start to its data */
 void *br_store_take(struct br_store *store, size_t count, size_t size)
 {
     const bool fits = !store->failed && count <= (SIZE_MAX - LINE) / size;
-    struct br_block *block = fits ? br_allocate_aligned(LINE + count * size, 1) : NULL;
+    struct br_store_block *block = fits ? br_allocate_aligned(LINE + count * size, 1) : NULL;
     store->failed = !block;
     if (!block)
         return NULL;
@@ -120,7 +120,7 @@ void *br_store_grow(struct br_store *store, void *array, size_t count, size_t *r
 void br_store_clear(struct br_store *store)
 {
     while (store->last) {
-        struct br_block *block = store->last;
+        struct br_store_block *block = store->last;
         store->last = block->before;
         free(block);
     }

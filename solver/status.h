@@ -53,7 +53,7 @@ void br_allocation_fails_at(long i);
 /* ---- memory with one owner: taken piece by piece, released at once ---- */
 
 struct br_store {
-    struct br_block *last; /* each block points to the one before it */
+    struct br_store_block *last; /* each block points to the one before it */
     bool failed;           /* there was no memory for a piece */
 };
 

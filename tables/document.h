@@ -23,7 +23,7 @@
  * a key that no column has), ignores all later calls, and reports the failure when it is printed.
  *
  * A number stays a number until a format prints it: people get the digits of the column's format,
- * programs (CSV, JSON) all 17. The formats quote foreign text (study/scene/quote.h). */
+ * programs (CSV, JSON) all 17. The formats quote foreign text (study/base/quote.h). */
 #ifndef BR_TABLES_DOCUMENT_H
 #define BR_TABLES_DOCUMENT_H
 

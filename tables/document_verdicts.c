@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 #include "tables/document.h"
 
 /* Prints "key: value", a line for each column of the verdict's row. */

@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 static atomic_bool lacked, parsing;
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include "study/base/quote.h"
 #include "study/scene/method_fields.h"
-#include "study/scene/quote.h"
 #include "study/trade/plan.h"
 #include "tables/report_parts.h"
 

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Who includes whom: a room includes itself and rooms below it, nothing includes tests/, and no file
-# includes itself through others. It first draws small trees with one mistake each, which it must
-# find. usage: includes.sh ROOT
+# Who includes whom: a folder includes itself and folders below it, nothing includes tests/, and no
+# file includes itself through others. Rooms of study/ include what `rooms` says and no more, and
+# docs/architecture.md shows this list. No tag br_... is defined twice, in tests/ neither. It first tries small trees with mistakes, which it must find.
+# usage: includes.sh ROOT [--draw]    --draw: prints the list for the docs, and does nothing else
 set -u
 
 # A folder: what its files may include. The exact solution judges the solver, so it takes only the
@@ -18,10 +19,37 @@ reference/exact: solver/clock.h solver/function.h solver/modes.h solver/proof.h 
 reference/exact: solver/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
-# Prints each mistake of the tree in ROOT; at the end, how many files it has read.
-draw() { # ROOT
+# The rooms of study/. Each includes only rooms that stand above it here.
+rooms='
+base:
+known: base
+scene: base known
+grid: base scene
+fit: base grid
+kept: base grid
+ranks: base grid
+run: base
+foresee: grid run
+verify: base fit grid scene
+orders: base fit kept scene verify
+trade: base fit foresee grid kept scene
+extremes: base run scene
+paper: base grid run scene
+library: base fit foresee grid orders scene verify
+'
+
+# The list as docs/architecture.md has it.
+graph=$(echo "$rooms" | awk -F ': *' '$1 != "" { printf "    %-9s %s\n", $1, $2 }' | sed 's/ *$//')
+if [ "${2-}" = --draw ]; then
+    echo "$graph"
+    exit 0
+fi
+
+# Prints each mistake of the tree in ROOT; at the end, how many files it has read. WHOLE: each arrow
+# of `rooms` must have an include.
+draw() { # ROOT [WHOLE]
     (cd "$1" && find solver reference study tables plots cli -name '*.[ch]' 2>/dev/null | sort) |
-        awk -v root="$1/" -v rules="$rules" '
+        awk -v root="$1/" -v rules="$rules" -v rooms="$rooms" -v whole="${2-}" '
 function allows(folder, target,    i) {
     for (i = 1; i <= allowed[folder]; i++)
         if (index(target, may[folder, i]) == 1)
@@ -29,8 +57,22 @@ function allows(folder, target,    i) {
     return 0
 }
 
+# Between two rooms of study/ there must be an arrow.
+function check_rooms(file, target,    from, to) {
+    split(file, from, "/")
+    split(target, to, "/")
+    if (from[1] != "study" || to[1] != "study" || from[2] == to[2])
+        return
+    if (!(from[2] in place))
+        print file ": study/" from[2] "/ is no room of the list"
+    else if (!((from[2], to[2]) in arrow))
+        print file " -> " target ": study/" from[2] "/ may not include this"
+    used[from[2], to[2]] = 1
+}
+
 # Each folder above the file that has a rule must allow the target.
 function check(file, target,    folder) {
+    check_rooms(file, target)
     folder = file
     while (sub("/[^/]*$", "", folder))
         if (folder in allowed && !allows(folder, target))
@@ -68,14 +110,37 @@ BEGIN {
         for (i = 2; i <= words; i++)
             may[word[1], ++allowed[word[1]]] = word[i]
     }
+    count = split(rooms, line_of, "\n")
+    for (l = 1; l <= count; l++) {
+        words = split(line_of[l], word, /:? /)
+        sub(":", "", word[1])
+        for (i = 2; i <= words; i++) {
+            if (!(word[i] in place))
+                print "the list: " word[i] " does not stand above " word[1]
+            arrow[word[1], word[i]] = 1
+        }
+        place[word[1]] = l
+    }
 }
 { file_of[NR] = $0; read_includes($0) }
 END {
     for (f = 1; f <= NR; f++)
         if (!seen[file_of[f]])
             follow(file_of[f], " " file_of[f] " ")
+    for (pair in arrow)
+        if (whole && !(pair in used)) {
+            split(pair, word, SUBSEP)
+            print "the list: no file of study/" word[1] "/ includes study/" word[2] "/ any more"
+        }
     print NR " files"
 }'
+}
+
+# Prints each tag br_... of the tree in ROOT that two files, or two places of one, define.
+twice() { # ROOT
+    (cd "$1" && find solver reference study tables plots cli tests -name '*.[ch]' 2>/dev/null |
+        xargs sed -n -E 's/^ *(static |const |typedef )*(struct|union|enum) (br_[a-z0-9_]+) *\{.*/\3/p' |
+        sort | uniq -d)
 }
 
 # ---- the small trees ----
@@ -118,6 +183,51 @@ for upward in 'solver/a.c reference/a.h' 'reference/a.h study/a.h' 'study/x/a.c 
 1 files"
 done
 
+# Every arrow between rooms that points up the list, and every one of the list.
+above=
+upward=
+for room in $(echo "$rooms" | sed 's/:.*//'); do
+    for other in $above; do
+        plant "study/$other/to_$room.c" "study/$room/a.h"
+        upward="$upward
+study/$other/to_$room.c -> study/$room/a.h: study/$other/ may not include this"
+    done
+    above="$above $room"
+done
+expect "$(echo "$upward" | sed 1d | sort)
+105 files"
+for arrow in $(echo "$rooms" | awk -F ': *' '{ split($2, to, " "); for (i in to) print $1 "/" to[i] }'); do
+    plant "study/${arrow%/*}/to_${arrow#*/}.c" "study/${arrow#*/}/a.h"
+done
+expect "$(echo "$rooms" | sed 's/.*://' | wc -w) files"
+
+plant study/attic/a.c study/base/a.h
+expect 'study/attic/a.c: study/attic/ is no room of the list
+1 files'
+
+mkdir -p "$tree/solver" "$tree/tests"
+printf 'struct br_a {\nstruct br_b *b;\nenum br_c { C };\n' > "$tree/solver/a.h"
+printf 'static const struct br_c { int c; } one;\nstruct br_a;\n' > "$tree/tests/b.c"
+[ "$(twice "$tree")" = br_c ] || { echo "a tag with two meanings was not found" >&2; failures=$((failures + 1)); }
+rm -rf "${tree:?}"/*
+
+right=$rooms
+rooms=$(echo "$rooms" | sed 's/^scene: .*/& grid/')
+plant study/scene/a.c study/grid/a.h
+expect 'the list: grid does not stand above scene
+1 files'
+rooms='
+base:
+known: base
+'
+plant study/known/a.c solver/a.h
+plant study/known/b.c study/known/a.h
+found=$(draw "$tree" whole)
+expect '2 files'
+[ "$found" = 'the list: no file of study/known/ includes study/base/ any more
+2 files' ] || { echo "an arrow without an include was not found: $found" >&2; failures=$((failures + 1)); }
+rooms=$right
+
 plant reference/exact/a.c solver/field.h
 expect 'reference/exact/a.c -> solver/field.h: reference/exact/ may not include this
 1 files'
@@ -135,9 +245,17 @@ expect 'circle: solver/a.h -> solver/a.h
 
 # ---- the tree ----
 
-found=$(draw "$1")
+found=$(draw "$1" whole)
 mistakes=$(echo "$found" | sed '$d')
 files=$(echo "$found" | sed '$!d; s/ files//')
 [ -z "$mistakes" ] || echo "$mistakes" >&2
 [ "$files" -gt 280 ] || echo "only $files files in $1" >&2
+shown=$(awk '/^    base$/ { on = 1 } on && !NF { exit } on' "$1/docs/architecture.md")
+if [ "$shown" != "$graph" ]; then
+    echo "docs/architecture.md: the rooms of study/ differ from tests/includes.sh --draw:" >&2
+    printf '%s\n' "$graph" >&2
+    failures=$((failures + 1))
+fi
+tags=$(twice "$1")
+[ -z "$tags" ] || { echo "tags with two meanings:" $tags >&2; failures=$((failures + 1)); }
 [ -z "$mistakes" ] && [ "$files" -gt 280 ] && [ "$failures" -eq 0 ]

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "solver/linear/linear_solver.h"
 #include "solver/linear/riccati/kernel.h"
 
 static const size_t meshes[BR_MADE_N] = {10, 20, 40}, steps[BR_MADE_K] = {25, 50, 100, 200};

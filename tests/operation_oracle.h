@@ -4,7 +4,7 @@
 #ifndef BR_TESTS_OPERATION_ORACLE_H
 #define BR_TESTS_OPERATION_ORACLE_H
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 
 /* One operation with arguments. */
 long double oracle_operation(enum br_operation operation, const long double a[3]);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/schema.h"
 #include "study/scene/units.h"
 

@@ -9,8 +9,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "study/scene/expression.h"
+#include "solver/linear/linear_solver.h"
+#include "study/known/expression.h"
 #include "study/scene/file.h"
+#include "study/verify/verify.h"
 
 /* As the program and the library do. */
 __attribute__((constructor)) static void let_gsl_return(void)
@@ -274,8 +276,8 @@ void br_test_scene_refused(const char *text, bool verify, const char *message)
     struct br_scene scene;
     struct br_verify v = {0};
     const char *path = br_test_scene_file(text);
-    const struct br_scene_asked asked = {.verify = verify ? &v : NULL};
-    const enum br_status status = br_scene_parse(path, text, &asked, &scene, &err);
+    const enum br_status status = verify ? br_verify_read(path, text, &scene, &v, &err)
+                                         : br_scene_read_text(path, text, &scene, &err);
     br_verify_clear(&v);
     br_scene_clear(&scene);
     if (status != BR_BAD_INPUT || err.status != BR_BAD_INPUT || !strstr(err.message, message) ||

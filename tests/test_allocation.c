@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/run/run.h"

@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
+#include "study/grid/batches.h"
 #include "study/grid/sweep.h"
-#include "study/ranks/batches.h"
 #include "study/ranks/ranks.h"
 #include "support.h"
 

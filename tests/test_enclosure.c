@@ -2,14 +2,14 @@
 /* Enclosures of operations and of random trees over random boxes, judged by long
  * double: its value at a point of the box, and what evaluation gives there, lie inside; and they
  * are not much wider than what is seen there. Taylor coefficients against Cauchy's integral. */
-#include "study/scene/operations.h"
+#include "study/known/operations.h"
 
 #include <complex.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "support.h"
 #include "tests/operation_oracle.h"
 

@@ -12,6 +12,7 @@
 
 #include "reference/certificate/certificate.h"
 #include "rescale.h"
+#include "solver/linear/linear_solver.h"
 #include "study/scene/file.h"
 #include "support.h"
 

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "solver/linear/linear_solver.h"
 #include "support.h"
 
 /* The scheme as printed, to 1e-11 by the default solver whatever the mesh. */

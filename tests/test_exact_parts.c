@@ -108,9 +108,9 @@ enum { PIECES = 4 };
 static const double piece_end[] = {0, 0.75, 0.75 + 2.5e-8, 1.9, 2.5};
 static const size_t piece_terms[] = {12, 4, 12, 12};
 
-static struct br_pieces new_pieces(bool one, struct br_store *store)
+static struct br_exact_pieces new_pieces(bool one, struct br_store *store)
 {
-    struct br_pieces pieces;
+    struct br_exact_pieces pieces;
     if (one)
         br_pieces_init(&pieces, 1, 1, (const double[]){0, 1}, (const size_t[]){30}, store);
     else
@@ -144,7 +144,7 @@ TEST(test_modes)
 enum { LENGTH = 64 };
 
 /* The integral from 0 in x / L of -1 on the pieces before `kink` and 1 on the others. */
-static void fill_kink(const struct br_pieces *pieces, size_t kink, double *series)
+static void fill_kink(const struct br_exact_pieces *pieces, size_t kink, double *series)
 {
     memset(series, 0, LENGTH * sizeof *series);
     for (size_t e = 0; e < PIECES; e++)
@@ -159,7 +159,7 @@ TEST(test_projection_of_pieces)
     struct br_error err = {0};
     static const size_t elements[] = {1, 3, 10, 97};
     struct br_store store = {0};
-    const struct br_pieces pieces = new_pieces(false, &store);
+    const struct br_exact_pieces pieces = new_pieces(false, &store);
     double series[LENGTH];
     fill_kink(&pieces, 3, series);
     const double a = piece_end[3] / 2.5, b = 1 - a;
@@ -190,7 +190,7 @@ enum { TERMS = 4, THREE = 3, MOST = THREE * (TERMS + 1) };
 static const double beam = 2.5;
 
 /* Its series, c; cut at a front or not, it is the same. */
-static void project_square(struct br_pieces *pieces, size_t fronts, struct br_store *store,
+static void project_square(struct br_exact_pieces *pieces, size_t fronts, struct br_store *store,
                            double c[MOST])
 {
     static const double end[] = {0, 0.4, 1.7, 2.5};
@@ -220,7 +220,7 @@ TEST(test_pieces)
 {
     for (size_t fronts = 0; fronts < 2; fronts++) {
         struct br_store store = {0};
-        struct br_pieces pieces;
+        struct br_exact_pieces pieces;
         double c[MOST];
         project_square(&pieces, fronts, &store, c);
         assert_near(squares(THREE * TERMS, c), pow(beam, 4) / 5, 1e-13);

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "solver/march.h"
-#include "study/scene/expression.h"
-#include "study/scene/operations.h"
+#include "study/known/expression.h"
+#include "study/known/operations.h"
 #include "support.h"
 
 static double value_of(const char *text, double x, double t)

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "solver/method.h"
 #include "support.h"
 #include "tests/dense_march.h"

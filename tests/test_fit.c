@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/fit/fit.h"
 #include "support.h"
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/extremes/extremes.h"
 #include "support.h"
 

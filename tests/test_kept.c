@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
 #include "study/orders/process.h"
@@ -43,7 +44,7 @@ static void prepare(struct br_study s[BR_TEST_NORMS], const struct br_scene *sce
                     struct br_kept *kept)
 {
     s[0] = br_test_study(scene, br_judge_best(scene), n, grid_n, STEPS, grid_steps);
-    s[0].kept = kept;
+    s[0].engine = br_kept_engine(kept);
     br_test_all_norms(s);
 }
 
@@ -193,20 +194,19 @@ TEST(test_stopped_and_resumed)
             X(NONE, contact, contact, contact)                                                     \
                 X(NONE, friction, friction, friction) /* those lists */                            \
         X(NONE, derived, {{0}}, )
-#define STUDY(X)                                                                                  \
-    X(NONE, scene, &scene, &scene)                                                                \
-    /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) X(                                    \
-        NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart)              \
-        X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0]) \
-            X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact)             \
-                X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true)          \
-                    X(NONE, alone, false, true) X(CELL, n, grid_n, grid_n + 1)                    \
-                        X(CELL, steps, grid_steps, grid_steps + 1) X(NONE, next_norm, NULL, NULL) \
-                            X(NONE, kept, NULL, NULL) X(NONE, cell, NULL, NULL)                   \
-                                X(NONE, judged_by, unjudged, ) X(NONE, events, NULL, NULL)        \
-                                    X(NONE, reference_scale, 0, 0) X(NONE, reference_size, {0}, ) \
-                                        X(NONE, reference_error, {0}, )                           \
-                                            X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
+#define STUDY(X)                                                                                   \
+    X(NONE, scene, &scene, &scene)                                                                 \
+    /* SCENE */ X(CELL, norm, &br_norm_l2, &br_norm_energy) X(                                     \
+        NONE, method, method, method) /* METHOD */ X(CELL, cell_method, NULL, apart)               \
+        X(CELL, judge, &br_judge_fine, &br_judge_mms) X(CELL, reference_method, method, apart[0])  \
+            X(CELL, reference, finer, finest) X(GRID, auditor, NULL, &br_judge_exact)              \
+                X(GRID, n_count, 2, 1) X(GRID, k_count, 2, 1) X(GRID, path, false, true)           \
+                    X(CELL, n, grid_n, grid_n + 1) X(CELL, steps, grid_steps, grid_steps + 1)      \
+                        X(NONE, next_norm, NULL, NULL) X(NONE, engine, {0}, )                      \
+                            X(NONE, cell, NULL, NULL) X(NONE, judged_by, unjudged, )               \
+                                X(NONE, events, NULL, NULL) X(NONE, reference_scale, 0, 0)         \
+                                    X(NONE, reference_size, {0}, ) X(NONE, reference_error, {0}, ) \
+                                        X(NONE, reference_tip, {0}, ) X(NONE, failure, {0}, )
 
 static char *text_of(const struct br_study *s, size_t cell)
 {
@@ -351,7 +351,7 @@ static size_t taken_of(enum work work, struct br_kept *kept, const struct br_tri
     size_t taken = 0;
     if (work == STUDY_WORK) {
         struct br_study s = br_test_study(&small, br_judge_best(&small), 1, &n, 1, &steps);
-        s.kept = kept;
+        s.engine = br_kept_engine(kept);
         MUST(br_study_run(&s, 1, 1, NULL, &err));
         br_study_clear(&s);
     } else if (work == TRIAL_WORK) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/ladder.h"
 #include "support.h"
 

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "solver/method.h"
 #include "support.h"
 

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/fit/fit.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 #include "study/library/beamrate.h"

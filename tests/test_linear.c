@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "support.h"
 
 enum { STEPS = 30, MOST_N = 60, MOST_SIZE = 2 * (MOST_N + 1) };

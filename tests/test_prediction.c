@@ -7,10 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 #include "support.h"
 
 /* ---- predicted over measured ---- */

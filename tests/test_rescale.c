@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "rescale.h"
+#include "study/fit/fit.h"
+#include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "study/run/run.h"
-#include "rescale.h"
 #include "support.h"
 
 enum { NORMS = BR_TEST_NORMS, MESHES = 3, STEPS = 3 };

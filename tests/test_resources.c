@@ -6,6 +6,7 @@
 #include <malloc.h>
 #include <math.h>
 
+#include "solver/linear/linear_solver.h"
 #include "support.h"
 
 /* Valgrind's and the sanitizers' allocators tell nothing. */

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "lab/energy.h"
+#include "study/known/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
-#include "lab/energy.h"
 #include "support.h"
 
 static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)

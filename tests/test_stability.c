@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "solver/laws.h"
+#include "study/base/observer.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/observer.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "support.h"

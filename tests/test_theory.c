@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/fit/theory.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
-#include "study/scene/words.h"
 #include "study/verify/check.h"
 #include "support.h"
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "solver/linear/linear_solver.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
 #include "support.h"

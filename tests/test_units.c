@@ -24,7 +24,7 @@ static struct br_unit must_read(const char *text)
 static double convert(const char *number, const char *text)
 {
     const struct br_unit unit = must_read(text);
-    struct br_quantity q;
+    struct br_si_number q;
     assert_true(br_unit_convert(&unit, number, strlen(number), &q));
     assert_true(q.value == (double)q.wide || nextafter(q.value, (double)q.wide) == (double)q.wide);
     return q.value;
@@ -158,7 +158,7 @@ TEST(test_odd_numbers)
     assert_true(convert(".5e+1", "mm") == 0.005);
     char digits[500];
     memset(digits, '1', sizeof digits);
-    struct br_quantity q;
+    struct br_si_number q;
     const struct br_unit unit = must_read("m");
     assert_false(br_unit_convert(&unit, digits, sizeof digits, &q));
 }

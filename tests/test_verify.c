@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/scene/file.h"
+#include "study/verify/verify.h"
 #include "support.h"
 
 /* A scene of 1 s; its verify part begins on line 14. */
@@ -34,8 +36,7 @@ static const char *with(const char *part)
 static enum br_status read_part(const char *part, struct br_scene *scene, struct br_verify *verify,
                                 struct br_error *err)
 {
-    return br_scene_parse("scene.yaml", with(part), &(struct br_scene_asked){.verify = verify},
-                          scene, err);
+    return br_verify_read("scene.yaml", with(part), scene, verify, err);
 }
 
 TEST(test_whole)

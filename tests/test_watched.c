@@ -12,6 +12,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "reference/textbook.h"
+#include "solver/linear/linear_solver.h"
 #include "solver/march_state.h"
 #include "study/scene/file.h"
 #include "support.h"

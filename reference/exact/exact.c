@@ -27,7 +27,7 @@ enum { INSTANTS = sizeof inside / sizeof *inside };
 struct pair {
     const struct br_outline *outline;
     const struct br_oscillators *field[2];
-    const struct br_law *law[2];
+    const struct br_exact_law *law[2];
     const struct br_history *track[2];
     double *bridge;         /* modes of the other one x those of the finer one */
     struct br_history step; /* one step of the other one, in the finer one's modes */
@@ -365,17 +365,17 @@ static bool is_modelled(const struct br_scene *s, enum br_exact_field which)
     return which == BR_EXACT_AXIAL ? s->axial.modelled : s->bending.modelled;
 }
 
-static struct br_law law_of(const struct br_scene *s, enum br_exact_field which,
-                            const struct br_history *axial)
+static struct br_exact_law law_of(const struct br_scene *s, enum br_exact_field which,
+                                  const struct br_history *axial)
 {
     const struct br_friction *f = &s->friction;
     if (which == BR_EXACT_AXIAL)
-        return (struct br_law){
+        return (struct br_exact_law){
             .contact = true,
             .obstacle = s->contact.modelled,
             .stiffness = s->contact.modelled ? s->contact.stiffness : 0,
         };
-    return (struct br_law){
+    return (struct br_exact_law){
         .friction = f->law,
         .coefficient = f->coefficient,
         .axial = f->law == BR_COULOMB ? axial : NULL,
@@ -407,7 +407,7 @@ static enum br_status solve(struct search *s, enum br_exact_field which,
     const bool finer = s->round % 2;
     const struct br_scene *scene = s->scene;
     const struct br_outline *outline = &s->outline[which];
-    struct br_law *law = &into->law[which];
+    struct br_exact_law *law = &into->law[which];
     *law = law_of(scene, which, into->track[BR_EXACT_AXIAL]);
     const struct br_march_options options = {
         .duration = scene->duration,

@@ -17,7 +17,7 @@
  * xi in [0, 1]: these are orthonormal in x / L. A series has terms[e] + extra coefficients there,
  * where `extra` counts how often functions of terms[e] coefficients were integrated. */
 
-struct br_pieces {
+struct br_exact_pieces {
     double length; /* L, m */
     size_t count;  /* elements, 1 or more */
     double *end;   /* count + 1, m: 0 = end[0] < ... < end[count] = L */
@@ -26,34 +26,34 @@ struct br_pieces {
 };
 
 /* Copies end and terms. After a failure, which the store keeps, the pieces are of no use. */
-void br_pieces_init(struct br_pieces *pieces, double length, size_t count, const double *end,
+void br_pieces_init(struct br_exact_pieces *pieces, double length, size_t count, const double *end,
                     const size_t *terms, struct br_store *store);
 
 /* Where element e's coefficients begin; with e = count, their number. */
-static inline size_t br_pieces_at(const struct br_pieces *p, size_t e, size_t extra)
+static inline size_t br_pieces_at(const struct br_exact_pieces *p, size_t e, size_t extra)
 {
     return p->first[e] + e * extra;
 }
 
 /* h of element e, in units of L. */
-static inline double br_pieces_width(const struct br_pieces *p, size_t e)
+static inline double br_pieces_width(const struct br_exact_pieces *p, size_t e)
 {
     return (p->end[e + 1] - p->end[e]) / p->length;
 }
 
 /* The element that contains x, m; where two meet the left one. */
-size_t br_pieces_find(const struct br_pieces *pieces, double x);
+size_t br_pieces_find(const struct br_exact_pieces *pieces, double x);
 
 /* Integral over all x / L of a series. */
-double br_pieces_integral(const struct br_pieces *pieces, size_t extra, const double *c);
+double br_pieces_integral(const struct br_exact_pieces *pieces, size_t extra, const double *c);
 
 /* c: in, a series with `extra`; out, its integral from x = 0 in x / L, with extra + 1. */
-void br_pieces_integrate(const struct br_pieces *pieces, size_t extra, double *c);
+void br_pieces_integrate(const struct br_exact_pieces *pieces, size_t extra, double *c);
 
 /* ---- quadrature ---- */
 
 struct br_quadrature {
-    const struct br_pieces *pieces; /* borrowed */
+    const struct br_exact_pieces *pieces; /* borrowed */
     size_t extra;                   /* of the series */
     size_t *points;                 /* elements: of its rule */
     size_t count;                   /* all points */
@@ -64,7 +64,7 @@ struct br_quadrature {
 };
 
 /* After a failure, which the store keeps, the quadrature is of no use. */
-void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+void br_quadrature_init(struct br_quadrature *q, const struct br_exact_pieces *pieces, size_t extra,
                         struct br_store *store);
 
 /* c (out, with extra): coefficients of the function f(x, t)'s projection: its integrals over x / L
@@ -85,7 +85,7 @@ struct br_piecewise;
 
 /* *out (owned by the store). Series have `extra` more terms. Fails with BR_NO_MEMORY or
  * BR_SINGULAR. */
-enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_exact_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
                                    struct br_store *store, struct br_error *err);
 
@@ -209,7 +209,7 @@ double br_outline_reach(const struct br_outline *outline, double t);
  * in the mass and in the energy: mode i is s_i times the unit function with the
  * coefficients Y_i, and its derivative of order `degree` has the coefficients U_i. */
 struct br_modes {
-    struct br_pieces pieces;
+    struct br_exact_pieces pieces;
     size_t count;     /* m, the pieces' terms */
     size_t width;     /* m, and zeros up to a multiple of BR_STAGE_LANES */
     size_t degree;    /* 1: axial, 2: bending */
@@ -337,7 +337,7 @@ struct br_tip_state br_tip_at(const struct br_tip_step *tip, double theta);
  * velocity at t. Returns the tip's values. */
 struct br_tip_state br_history_at(const struct br_history *track, double t, double *q, double *v);
 
-struct br_law {
+struct br_exact_law {
     bool contact;                   /* (10), on the axial field; else (12), on the bending field */
     bool obstacle;                  /* whether there is one to be in contact with */
     double stiffness;               /* c_H, N/m; 0 without a contact */
@@ -347,7 +347,7 @@ struct br_law {
 };
 
 /* The friction bound b(t), N. */
-double br_law_bound(const struct br_law *law, double t);
+double br_law_bound(const struct br_exact_law *law, double t);
 
 /* The law at a tip in its phase. */
 struct br_law_state {
@@ -355,11 +355,12 @@ struct br_law_state {
     double guard;       /* distance to the end of the phase: negative when it is over */
     enum br_phase next; /* the phase that follows when the guard ends it */
 };
-struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip);
+struct br_law_state br_law_at(const struct br_exact_law *law, double t,
+                              const struct br_tip_state *tip);
 
 /* The phase at t of a tip with this displacement (less the gap) and velocity;
  * `now` is the phase before t, BR_FREE at t = 0. */
-enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
+enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_phase now,
                            double displacement, double velocity);
 
 /* ---- one step (step.c) ---- */
@@ -368,7 +369,7 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
  * them: a sum over modes would lose values that are small just after an event. */
 struct br_stepper {
     const struct br_oscillators *field; /* borrowed */
-    const struct br_law *law;           /* borrowed */
+    const struct br_exact_law *law;     /* borrowed */
     struct br_radau radau;
 
     double time;     /* s */
@@ -430,7 +431,7 @@ struct br_march_options {
  * which are only read. Fails with BR_NO_MEMORY, BR_SINGULAR, BR_INTERRUPTED, or BR_NOT_FINITE
  * where the solution blows up, asks for too many steps, or has phases that
  * follow each other without end. */
-enum br_status br_march(const struct br_oscillators *field, const struct br_law *law,
+enum br_status br_march(const struct br_oscillators *field, const struct br_exact_law *law,
                         const struct br_march_options *options, struct br_store *store,
                         struct br_history **out, struct br_error *err);
 
@@ -439,7 +440,7 @@ enum br_status br_march(const struct br_oscillators *field, const struct br_law 
 /* One march of each modelled field; the others are NULL. */
 struct br_exact_solution {
     struct br_oscillators *field[BR_EXACT_FIELDS];
-    struct br_law law[BR_EXACT_FIELDS];
+    struct br_exact_law law[BR_EXACT_FIELDS];
     struct br_history *track[BR_EXACT_FIELDS];
     struct br_store store; /* of the fields */
 };

@@ -402,7 +402,7 @@ static void march_all(struct march *m)
     free(change);
 }
 
-enum br_status br_march(const struct br_oscillators *field, const struct br_law *law,
+enum br_status br_march(const struct br_oscillators *field, const struct br_exact_law *law,
                         const struct br_march_options *options, struct br_store *store,
                         struct br_history **out, struct br_error *err)
 {

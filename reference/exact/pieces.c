@@ -5,10 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-void br_pieces_init(struct br_pieces *p, double length, size_t count, const double *end,
+void br_pieces_init(struct br_exact_pieces *p, double length, size_t count, const double *end,
                     const size_t *terms, struct br_store *store)
 {
-    *p = (struct br_pieces){.length = length, .count = count};
+    *p = (struct br_exact_pieces){.length = length, .count = count};
     p->end = br_store_take(store, count + 1, sizeof *p->end);
     p->terms = br_store_take(store, count, sizeof *p->terms);
     p->first = br_store_take(store, count + 1, sizeof *p->first);
@@ -20,7 +20,7 @@ void br_pieces_init(struct br_pieces *p, double length, size_t count, const doub
         p->first[e + 1] = p->first[e] + terms[e];
 }
 
-size_t br_pieces_find(const struct br_pieces *p, double x)
+size_t br_pieces_find(const struct br_exact_pieces *p, double x)
 {
     size_t low = 0, high = p->count; /* end[low] < x <= end[high], but at the ends */
     while (high - low > 1) {
@@ -33,7 +33,7 @@ size_t br_pieces_find(const struct br_pieces *p, double x)
     return low;
 }
 
-double br_pieces_integral(const struct br_pieces *p, size_t extra, const double *c)
+double br_pieces_integral(const struct br_exact_pieces *p, size_t extra, const double *c)
 {
     double sum = 0;
     for (size_t e = 0; e < p->count; e++)
@@ -43,7 +43,7 @@ double br_pieces_integral(const struct br_pieces *p, size_t extra, const double 
 
 /* Integrates each element by Legendre's recurrence; its integral is a constant in all elements to
  * its right. */
-void br_pieces_integrate(const struct br_pieces *p, size_t extra, double *c)
+void br_pieces_integrate(const struct br_exact_pieces *p, size_t extra, double *c)
 {
     for (size_t e = p->count; e-- > 1;)
         memmove(&c[br_pieces_at(p, e, extra + 1)], &c[br_pieces_at(p, e, extra)],
@@ -81,7 +81,7 @@ static double inside(double low, double high, double xi)
 
 static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br_store *store)
 {
-    const struct br_pieces *p = q->pieces;
+    const struct br_exact_pieces *p = q->pieces;
     const size_t points = q->points[e], terms = p->terms[e] + q->extra;
     gsl_integration_glfixed_table *gauss = gsl_integration_glfixed_table_alloc(points);
     q->table[e] = br_store_take(store, points * terms, sizeof **q->table);
@@ -95,7 +95,7 @@ static void fill_rule(struct br_quadrature *q, size_t e, size_t start, struct br
     gsl_integration_glfixed_table_free(gauss);
 }
 
-void br_quadrature_init(struct br_quadrature *q, const struct br_pieces *pieces, size_t extra,
+void br_quadrature_init(struct br_quadrature *q, const struct br_exact_pieces *pieces, size_t extra,
                         struct br_store *store)
 {
     *q = (struct br_quadrature){.pieces = pieces, .extra = extra};
@@ -139,7 +139,7 @@ static enum br_status add_part(const struct br_quadrature *q, const struct br_fu
                                size_t e, size_t start, const double part[2], double *c,
                                struct br_error *err)
 {
-    const struct br_pieces *p = q->pieces;
+    const struct br_exact_pieces *p = q->pieces;
     const size_t points = q->points[e]; /* a multiple of 32 */
     const double a = p->end[e], h = p->end[e + 1] - a;
     double *at = br_allocate(3 * points, sizeof *at), *here = at + points, *before = here + points;
@@ -180,7 +180,7 @@ enum br_status br_quadrature_project(const struct br_quadrature *q, const struct
                                      double t, const struct br_breaks *fronts, double *c,
                                      struct br_error *err)
 {
-    const struct br_pieces *p = q->pieces;
+    const struct br_exact_pieces *p = q->pieces;
     const size_t count = fronts ? fronts->count : 0;
     enum br_status status = BR_OK;
     br_function_evaluate(f, q->count, q->x, t, q->value);
@@ -212,7 +212,7 @@ enum br_status br_quadrature_project_slope(const struct br_quadrature *q,
                                            const struct br_function *f, double *c,
                                            struct br_error *err)
 {
-    const struct br_pieces *p = q->pieces;
+    const struct br_exact_pieces *p = q->pieces;
     double *all = br_allocate(br_pieces_at(p, p->count, q->extra), sizeof *all);
     if (!all)
         return br_no_memory(err, "a quadrature");

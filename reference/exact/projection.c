@@ -115,7 +115,7 @@ struct run {
 };
 
 struct br_piecewise {
-    const struct br_pieces *pieces; /* borrowed */
+    const struct br_exact_pieces *pieces; /* borrowed */
     size_t extra, kept;             /* degree + 1 */
     size_t elements;
     struct run *run;
@@ -398,7 +398,7 @@ static enum br_status fill_pieces(struct br_piecewise *w, struct br_error *err)
     return status;
 }
 
-enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_pieces *pieces,
+enum br_status br_piecewise_create(struct br_piecewise **out, const struct br_exact_pieces *pieces,
                                    size_t extra, const struct br_exact_mesh *mesh,
                                    struct br_store *store, struct br_error *err)
 {

@@ -100,7 +100,7 @@ enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_e
     if (status)
         return status;
     const struct br_oscillators *field = exact->solution->field[quantity->field];
-    const struct br_pieces *pieces = &field->modes.pieces;
+    const struct br_exact_pieces *pieces = &field->modes.pieces;
     const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
     const bool derive = quantity->order > degree;
     const size_t extra = derive ? 0 : degree - quantity->order;

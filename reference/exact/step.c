@@ -165,7 +165,7 @@ static enum br_status solve(double a[S][S], double x[S], struct br_error *err)
 }
 
 /* force = c_H (d + h X (velocity - Z force)), d the tip less the gap */
-static enum br_status close(const struct br_law *law, const struct br_radau *radau,
+static enum br_status close(const struct br_exact_law *law, const struct br_radau *radau,
                             const double z[S][S], struct br_tip_step *tip, struct br_error *err)
 {
     const double rate = law->stiffness * tip->length;
@@ -193,7 +193,8 @@ static enum br_status stick(const double z[S][S], struct br_tip_step *tip, struc
     return status;
 }
 
-static void slip(const struct br_law *law, const struct br_radau *radau, struct br_tip_step *tip)
+static void slip(const struct br_exact_law *law, const struct br_radau *radau,
+                 struct br_tip_step *tip)
 {
     const double sign = tip->phase == BR_SLIP_UP ? 1 : -1;
     double bound[S];
@@ -207,7 +208,7 @@ static void slip(const struct br_law *law, const struct br_radau *radau, struct 
  * by row) to the force's coefficients. While the tip sticks, a second call with
  * the velocity that is left improves the force. Fails with BR_SINGULAR
  * or BR_NOT_FINITE. */
-static enum br_status set_force(const struct br_law *law, const struct br_radau *radau,
+static enum br_status set_force(const struct br_exact_law *law, const struct br_radau *radau,
                                 const double z[S][S], struct br_tip_step *tip, struct br_error *err)
 {
     switch (tip->phase) {

@@ -5,7 +5,7 @@
 
 enum { S = BR_STAGES };
 
-double br_law_bound(const struct br_law *law, double t)
+double br_law_bound(const struct br_exact_law *law, double t)
 {
     switch (law->friction) {
     case BR_TRESCA:
@@ -18,7 +18,7 @@ double br_law_bound(const struct br_law *law, double t)
     return 0;
 }
 
-enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now,
+enum br_phase br_law_phase(const struct br_exact_law *law, double t, enum br_phase now,
                            double displacement, double velocity)
 {
     if (law->contact) {
@@ -36,7 +36,8 @@ enum br_phase br_law_phase(const struct br_law *law, double t, enum br_phase now
     return velocity > 0 ? BR_SLIP_UP : velocity < 0 ? BR_SLIP_DOWN : BR_STICK;
 }
 
-struct br_law_state br_law_at(const struct br_law *law, double t, const struct br_tip_state *tip)
+struct br_law_state br_law_at(const struct br_exact_law *law, double t,
+                              const struct br_tip_state *tip)
 {
     const double force = tip->force, pressed = fmax(tip->displacement, 0);
     /* a force beyond the bound opposes the slip that follows */

@@ -7,9 +7,8 @@
 #include <math.h>
 
 #include "solver/march.h"
-#include "study/grid/observer.h"
-#include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/base/observer.h"
+#include "study/scene/named_method.h"
 
 /* The request to an experiment. All borrowed; 0 or NULL: its default. */
 struct br_extremes_job {

@@ -7,8 +7,10 @@
 #include <string.h>
 
 #include "reference/long_plain.h"
+#include "solver/linear/linear_solver.h"
+#include "study/base/each.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
+#include "study/scene/resolution.h"
 
 #define COUNT(list) (sizeof(list) / sizeof *(list))
 

@@ -3,9 +3,10 @@
 #include <stdio.h>
 
 #include "solver/laws.h"
+#include "study/base/each.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
 #include "study/run/run.h"
+#include "study/scene/resolution.h"
 
 const char *const br_stability_words[] = {"stable", "unstable", "refused"};
 

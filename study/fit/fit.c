@@ -9,23 +9,6 @@
 
 const double br_flag_margin = 3;
 
-const char *const br_axis_letters[] = {"h", "k"};
-
-size_t br_axis_count(const struct br_study *s, int axis)
-{
-    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
-}
-
-double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
-{
-    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
-}
-
-size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
-{
-    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
-}
-
 bool br_order_determined(const struct br_estimate *order)
 {
     return order->high - order->low <= 1 && order->low > 0; /* false for NaN */

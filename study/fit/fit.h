@@ -3,18 +3,8 @@
 #ifndef BR_STUDY_FIT_FIT_H
 #define BR_STUDY_FIT_FIT_H
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
-
-/* What is refined. */
-enum br_axis { BR_AXIS_SPACE, BR_AXIS_TIME, BR_AXES };
-extern const char *const br_axis_letters[BR_AXES]; /* "h", "k" */
-
-/* The number of meshes, or of time steps, of a study; the size of one, m or s (0: the continuous
- * problem); and the index of a cell from its indices along an axis and along the other axis. */
-size_t br_axis_count(const struct br_study *study, int axis);
-double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at);
-size_t br_axis_cell(const struct br_study *study, int axis, size_t along, size_t at);
 
 /* A number with its 95 % interval; NaN: not known. */
 struct br_estimate {

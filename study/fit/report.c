@@ -12,8 +12,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/fit/line_order.h"
-#include "study/scene/words.h"
 
 enum { LEAST = 3 }; /* errors for an order */
 /* An error of space above this share of the error of time hides its order. */

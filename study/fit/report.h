@@ -4,7 +4,7 @@
 #define BR_STUDY_FIT_REPORT_H
 
 #include "study/fit/theory.h"
-#include "study/grid/sweep.h"
+#include "study/fit/triangle.h"
 
 enum { BR_MOST_TRIANGLES = 4, BR_MOST_SEEN = 12 };
 

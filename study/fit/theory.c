@@ -27,7 +27,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum { DERIVATIVES = 4 };
 static const double beside = 1e-9; /* of a cell: what lies nearer to its end is at its end */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "study/ranks/batches.h"
+#include "study/grid/batches.h"
 
 static const double nanosecond = 1e-9;
 

@@ -6,6 +6,7 @@
 
 #include "solver/clock.h"
 #include "solver/laws.h"
+#include "solver/linear/linear_solver.h"
 #include "solver/proof.h"
 #include "study/grid/sweep.h"
 
@@ -199,7 +200,8 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->study.judge = &br_judge_fine;
     c->study.reference_method = *s->reference;
     c->study.reference = (struct br_resolution){fine, many};
-    c->study.path = c->study.alone = true; /* only the first rank predicts */
+    c->study.path = true;
+    c->study.engine = (struct br_engine){br_lockstep, NULL}; /* only the first rank predicts */
     c->study.n = c->n;
     c->study.steps = c->steps;
     c->study.cell_method = c->method;

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/linear/linear_solver.h"
 #include "study/foresee/warnings.h"
 
 #include <math.h>

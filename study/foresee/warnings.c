@@ -8,6 +8,7 @@
 
 #include "reference/energy/energy.h"
 #include "solver/laws.h"
+#include "solver/linear/linear_solver.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/study.h"
 #include "study/run/run.h"

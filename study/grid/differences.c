@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/sweep.h"
+#include "study/grid/differences.h"
 
 #include <math.h>
+
+#include "study/grid/sweep.h"
 
 /* Each pair of neighbouring cells is a study of one cell, in a chain of as many norms as the grid
  * has; all pairs run at once. */

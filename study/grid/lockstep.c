@@ -12,8 +12,8 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
+#include "study/base/each.h"
 #include "study/base/text.h"
-#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 
 /* ---- measuring ---- */

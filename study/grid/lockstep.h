@@ -6,8 +6,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "study/base/observer.h"
 #include "study/grid/ladder.h"
-#include "study/grid/observer.h"
 #include "study/grid/study.h"
 
 enum { BR_LOCKSTEP_BUFFERS = 4, BR_MEASURED = 2 * BR_MEASURES };

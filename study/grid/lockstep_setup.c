@@ -2,6 +2,7 @@
 #include <stdint.h>
 
 #include "solver/clock.h"
+#include "solver/linear/linear_solver.h"
 #include "study/grid/lockstep.h"
 
 static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */

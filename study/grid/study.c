@@ -2,7 +2,10 @@
 #include "study/grid/study.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
+
+#include "study/scene/statement.h"
 
 const char *br_flag_name(enum br_flag flag)
 {
@@ -38,27 +41,6 @@ const struct br_cell *br_study_cell(const struct br_study *study, size_t i, size
     return &study->cell[i * study->k_count + j];
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const size_t x = *(const size_t *)a, y = *(const size_t *)b;
-    return (x > y) - (x < y);
-}
-
-void br_sort_counts(size_t *counts, size_t count)
-{
-    qsort(counts, count, sizeof *counts, ascending);
-}
-
-double br_time_step(const struct br_scene *scene, size_t steps)
-{
-    return steps ? scene->duration / (double)steps : 0;
-}
-
-double br_mesh_size(const struct br_scene *scene, size_t n)
-{
-    return n ? scene->length / (double)n : 0;
-}
-
 double br_reference_step(const struct br_study *s)
 {
     return s->judge->nests ? br_time_step(s->scene, s->reference.steps) : 0;
@@ -77,139 +59,49 @@ void br_study_clear(struct br_study *study)
     study->events = NULL;
 }
 
-enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
-                           struct br_error *err)
+/* ---- in words ---- */
+
+static void state_resolution(struct br_statement *s, struct br_resolution at)
 {
-    const double ratio = scene->duration / k;
-    if (!(k > 0 && isfinite(k)))
-        return br_fail(err, BR_BAD_INPUT, "k is %g s, expected a finite number > 0", k);
-    if (!(ratio >= 1 - 1e-9))
-        return br_fail(err, BR_BAD_INPUT, "k = %g s is longer than the duration, %g s", k,
-                       scene->duration);
-    if (!(ratio <= 1e12))
-        return br_fail(err, BR_BAD_INPUT, "k = %g s makes %g steps, expected at most 1e12", k,
-                       ratio);
-    const double whole = round(ratio);
-    if (!(fabs(ratio - whole) <= 1e-9 * whole))
-        return br_fail(err, BR_BAD_INPUT,
-                       "k = %.10g s does not divide the duration of %g s; the nearest that do are "
-                       "%.10g and %.10g",
-                       k, scene->duration, scene->duration / floor(ratio),
-                       scene->duration / ceil(ratio));
-    *steps = (size_t)whole;
-    return BR_OK;
+    br_state(s, "n", "%zu", at.n);
+    br_state(s, "steps", "%zu", at.steps);
 }
 
-/* ---- norms ---- */
-
-const char *const br_part_names[BR_PARTS] = {"total", "axial", "bending"};
-
-const struct br_norm br_norm_l2 = {
-    .name = "l2",
-    .title = "Error (31): the largest |u - u_hk| + |w - w_hk| over all time levels of a cell, L2 "
-             "norms, m^(3/2).",
-    .symbol = "error (31)",
-    .unit = "m^(3/2)",
-    .unit_markup = "m^{3/2}",
-    .unit_tex = "m$^{3/2}$",
-    .theory = "(26) bounds the error by c (h^(1/2) + k), Remark 2.5 by c (h + k).",
-    .level = BR_DISPLACEMENT,
-    .printed = true,
-};
-
-const struct br_norm br_norm_energy = {
-    .name = "energy",
-    .title = "Error (25), the root of its left side: the largest |u_t - v_hk|^2 + |w_t - v_hk|^2 "
-             "over all time levels of a cell, plus the sum over them of k (L^2 |u_xt - v_hk,x|^2 + "
-             "L^4 |w_xxt - v_hk,xx|^2) / T, L2 norms, m^(3/2)/s. (The paper has L = T = 1.)",
-    .symbol = "error (25)",
-    .unit = "m^(3/2)/s",
-    .unit_markup = "m^{3/2}/s",
-    .unit_tex = "m$^{3/2}$/s",
-    .theory = "Theorem 2.3 is about this norm: (26) bounds it by c (h^(1/2) + k), Remark 2.5 by "
-              "c (h + k).",
-    .level = BR_VELOCITY,
-    .energy = true,
-};
-
-const struct br_norm br_norm_tip = {
-    .name = "tip",
-    .title = "Error at the tip: the largest |u - u_hk| + |w - w_hk| at x = L over all time levels "
-             "of a cell, m.",
-    .symbol = "error at the tip",
-    .unit = "m",
-    .unit_markup = "m",
-    .unit_tex = "m",
-    .theory = "What (25) bounds also bounds the error at the tip: (26) gives c (h^(1/2) + k), "
-              "Remark 2.5 c (h + k).",
-    .level = BR_TIP,
-};
-
-const struct br_norm *const br_norms[] = {&br_norm_l2, &br_norm_energy, &br_norm_tip, NULL};
-
-const struct br_norm *br_norm_find(const char *name)
+void br_state_study(struct br_statement *s, const struct br_study *study, size_t cell)
 {
-    for (const struct br_norm *const *norm = br_norms; *norm; norm++)
-        if (strcmp((*norm)->name, name) == 0)
-            return *norm;
-    return NULL;
-}
-
-bool br_norm_needs(const struct br_norm *norm, enum br_measure measure)
-{
-    return measure == norm->level || (norm->energy && measure == BR_STRAIN_RATE);
-}
-
-/* Weights that give all terms of (25) one unit: |v_x|^2 L^2/T, |v_xx|^2 L^4/T. */
-static double energy_weight(const struct br_scene *scene, enum br_field_kind kind)
-{
-    const double square = scene->length * scene->length;
-    return (kind == BR_AXIAL ? square : square * square) / scene->duration;
-}
-
-static void spread(const double by_kind[2], double part[BR_PARTS])
-{
-    part[BR_PART_AXIAL] = by_kind[BR_AXIAL];
-    part[BR_PART_BENDING] = by_kind[BR_BENDING];
-    part[BR_PART_TOTAL] = by_kind[BR_AXIAL] + by_kind[BR_BENDING];
-}
-
-void br_norm_add(const struct br_norm *norm, const struct br_scene *scene,
-                 const struct br_sample *sample, struct br_norm_sum *sum)
-{
-    double level[2], rate[2], part[BR_PARTS];
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double size = sample->size[kind][norm->level];
-        const double strain = norm->energy ? sample->size[kind][BR_STRAIN_RATE] : 0;
-        level[kind] = norm->energy ? size * size : size;
-        rate[kind] =
-            sample->weight * energy_weight(scene, (enum br_field_kind)kind) * (strain * strain);
+    const bool all = cell == SIZE_MAX;
+    br_state_scene(s, study->scene);
+    br_state(s, "norm", "%s", study->norm->name);
+    br_state(s, "judge", "%s", study->judge->name);
+    if (study->judge->nests) { /* else they need not be set */
+        state_resolution(s, study->reference);
+        br_state_method(s, &study->reference_method);
     }
-    spread(level, part);
-    for (int p = 0; p < BR_PARTS; p++)
-        if (!(part[p] <= sum->most[p]) && !isnan(sum->most[p])) {
-            sum->most[p] = part[p];
-            sum->time[p] = sample->time;
-        }
-    spread(rate, part);
-    for (int p = 0; p < BR_PARTS; p++)
-        sum->sum[p] += part[p];
+    if (all)
+        br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
+    for (size_t c = all ? 0 : cell; c < (all ? br_study_cells(study) : cell + 1); c++) {
+        br_state(s, "cell", "%s", "");
+        state_resolution(s, br_study_resolution(study, c));
+        if (!all || c == 0 || study->cell_method)
+            br_state_method(s, br_study_method(study, c));
+    }
 }
 
-double br_norm_value(const struct br_norm *norm, const struct br_norm_sum *sum, enum br_part part)
+/* ---- over h and over k ---- */
+
+const char *const br_axis_letters[] = {"h", "k"};
+
+size_t br_axis_count(const struct br_study *s, int axis)
 {
-    return norm->energy ? sqrt(sum->most[part] + sum->sum[part]) : sum->most[part];
+    return axis == BR_AXIS_SPACE ? s->n_count : s->k_count;
 }
 
-double br_norm_of_constant(const struct br_norm *norm, const struct br_scene *scene,
-                           const double size[2][BR_MEASURES], enum br_part part)
+double br_axis_size(const struct br_scene *scene, int axis, struct br_resolution at)
 {
-    struct br_sample sample = {.weight = scene->duration};
-    const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES && modelled[kind]; measure++)
-            sample.size[kind][measure] = size[kind][measure];
-    struct br_norm_sum sum = {0};
-    br_norm_add(norm, scene, &sample, &sum);
-    return br_norm_value(norm, &sum, part);
+    return axis == BR_AXIS_SPACE ? br_mesh_size(scene, at.n) : br_time_step(scene, at.steps);
+}
+
+size_t br_axis_cell(const struct br_study *s, int axis, size_t along, size_t at)
+{
+    return axis == BR_AXIS_SPACE ? along * s->k_count + at : at * s->k_count + along;
 }

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/sweep.h"
 
-#include "study/kept/kept.h"
-#include "study/ranks/ranks.h"
+static struct br_engine usual = {br_lockstep, NULL};
+
+void br_engine_set(struct br_engine engine)
+{
+    usual = engine;
+}
 
 /* The largest divisor of `of` that is <= a, and the smallest that is >= a. */
 static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
@@ -115,11 +119,9 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
     for (size_t i = 0; i < count && !status; i++)
         if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
+    const struct br_engine *engine = count && studies->engine.march ? &studies->engine : &usual;
     if (!status)
-        status =
-            (count && studies->kept    ? br_kept_lockstep
-             : count && studies->alone ? br_lockstep
-                                       : br_ranks_lockstep)(studies, count, threads, observer, err);
+        status = engine->march(studies, count, threads, observer, err);
     for (size_t i = 0; i < count && status; i++)
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             br_study_clear(s);

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "study/base/quote.h"
 #include "study/base/text.h"
-#include "study/scene/quote.h"
 
 static const double usual_slice = 2, usual_reference = 0.1;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finished work that is kept in a folder, one file per entry, so that it is not done again.
  *
- * An entry belongs to one text, which states the whole request (study/grid/statement.h). Its name
+ * An entry belongs to one text, which states the whole request (study/base/statement.h). Its name
  * is the SHA-256 of that text, and its file has the text, the numbers, and a sum of both. It is
  * written whole or not at all (a rename). What is damaged, stands under another's name, or has a
  * number out of its range is not taken, and is counted. */
@@ -11,9 +11,10 @@
 #include <stdatomic.h>
 #include <stdbool.h>
 
+#include "study/base/observer.h"
 #include "study/base/sha256.h"
-#include "study/grid/observer.h"
-#include "study/grid/statement.h"
+#include "study/base/statement.h"
+#include "study/grid/study.h"
 
 struct br_kept {
     char folder[1100]; /* "": nothing is kept */
@@ -64,12 +65,11 @@ bool br_kept_put(struct br_kept *kept, const char *text, br_record_pass *pass, v
 
 /* ---- studies ---- */
 
-/* Like br_lockstep, for prepared studies with study->kept: kept cells are not marched again, and
- * the others are written as soon as their slice is done. Results have the bits of the whole study
- * in one run, if the kept cells are of studies with the same lists of n and k; else they differ by
- * the round-off of the reference, whose meshes and time levels these lists determine. Fails also
- * with BR_IO, where an entry disappears meanwhile. */
-enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int threads,
-                                const struct br_observer *observer, struct br_error *err);
+/* The engine of studies whose cells are kept: kept cells are not marched again, and the others are
+ * written as soon as their slice is done. Results have the bits of the whole study in one run, if
+ * the kept cells are of studies with the same lists of n and k; else they differ by the round-off
+ * of the reference, whose meshes and time levels these lists determine. Fails also with BR_IO,
+ * where an entry disappears meanwhile. `kept` is borrowed; NULL: the usual engine. */
+struct br_engine br_kept_engine(struct br_kept *kept);
 
 #endif

@@ -7,17 +7,22 @@
 
 #include "reference/exact/exact.h"
 #include "study/base/text.h"
+#include "study/grid/batches.h"
 #include "study/kept/kept.h"
-#include "study/ranks/batches.h"
 
 enum { MOST_EVENTS = 1 << 20 }; /* bytes of the lines that a reference prints */
+
+static struct br_kept *kept_of(const struct br_study *study)
+{
+    return study->engine.self;
+}
 
 /* ---- the entries: of a cell, and (SIZE_MAX) of a study itself ---- */
 
 static char *text_of(const struct br_study *s, size_t cell)
 {
     struct br_statement text;
-    br_kept_begin(s->kept, cell == SIZE_MAX ? "study" : "cell", &text);
+    br_kept_begin(kept_of(s), cell == SIZE_MAX ? "study" : "cell", &text);
     br_state_study(&text, s, cell);
     return br_statement_end(&text);
 }
@@ -96,8 +101,8 @@ static bool read_entry(struct br_study *s, size_t cell)
     struct br_cell one = {.at = br_study_resolution(s, cell == SIZE_MAX ? 0 : cell)};
     struct reference all = {&found, br_study_cells(s), false};
     found.events = NULL;
-    const bool taken = cell == SIZE_MAX ? br_kept_take(s->kept, text, pass_reference, &all)
-                                        : br_kept_take(s->kept, text, pass_cell, &one);
+    const bool taken = cell == SIZE_MAX ? br_kept_take(kept_of(s), text, pass_reference, &all)
+                                        : br_kept_take(kept_of(s), text, pass_cell, &one);
     free(text);
     if (taken && cell == SIZE_MAX) {
         free(s->events);
@@ -128,9 +133,9 @@ static void write_entry(struct br_study *s, size_t cell, const struct br_judge *
     asked.auditor = auditor;
     char *text = text_of(&asked, cell);
     if (cell == SIZE_MAX)
-        br_kept_put(s->kept, text, pass_reference, &all);
+        br_kept_put(kept_of(s), text, pass_reference, &all);
     else
-        br_kept_put(s->kept, text, pass_cell, &s->cell[cell]);
+        br_kept_put(kept_of(s), text, pass_cell, &s->cell[cell]);
     free(text);
 }
 
@@ -158,7 +163,7 @@ static size_t cut(const struct br_study *s, size_t *of)
             cells += br_cell_cost(s, c);
             missing++;
         }
-    const double least = fmax(1e9 * s->kept->slice, reference / s->kept->most_reference);
+    const double least = fmax(1e9 * kept_of(s)->slice, reference / kept_of(s)->most_reference);
     const double slices = fmax(1, fmin(floor(cells / least), (double)missing));
     for (size_t c = 0; c < br_study_cells(s); c++)
         if (of[c] != SIZE_MAX) {
@@ -186,7 +191,7 @@ static enum br_status find_missing(struct work *w, struct br_error *err)
         for (size_t c = 0; c < br_study_cells(study); c++) {
             of[c] = study->failure.status || is_kept(study, c) ? SIZE_MAX : 0;
             missing |= of[c] == 0;
-            atomic_fetch_add(&study->kept->taken, of[c] == 0 || study->failure.status ? 0 : 1);
+            atomic_fetch_add(&kept_of(study)->taken, of[c] == 0 || study->failure.status ? 0 : 1);
         }
         if (!missing && !study->failure.status && !is_kept(study, SIZE_MAX))
             of[0] = 0;
@@ -242,7 +247,7 @@ static enum br_status put_together(struct work *w, struct br_error *err)
             marched |= of[c] != SIZE_MAX;
             if (of[c] == SIZE_MAX && !is_kept(first, c))
                 status = br_fail(err, BR_IO, "%s: an entry was removed in the meantime",
-                                 first->kept->folder);
+                                 kept_of(first)->folder);
         }
         for (struct br_study *norm = first; norm && marched && !status; norm = norm->next_norm)
             if (!norm->failure.status)
@@ -251,8 +256,8 @@ static enum br_status put_together(struct work *w, struct br_error *err)
     return status;
 }
 
-enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int threads,
-                                const struct br_observer *observer, struct br_error *err)
+static enum br_status march_missing(struct br_study *studies, size_t count, int threads,
+                                    const struct br_observer *observer, struct br_error *err)
 {
     struct work w = {.studies = studies, .count = count, .share.whole = observer};
     enum br_status status = find_missing(&w, err);
@@ -264,4 +269,9 @@ enum br_status br_kept_lockstep(struct br_study *studies, size_t count, int thre
     free(w.auditor);
     br_batches_clear(&w.slices);
     return status;
+}
+
+struct br_engine br_kept_engine(struct br_kept *kept)
+{
+    return kept ? (struct br_engine){march_missing, kept} : (struct br_engine){NULL, NULL};
 }

@@ -7,8 +7,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "study/base/observer.h"
 #include "study/fit/fit.h"
-#include "study/grid/observer.h"
 #include "study/library/beamrate.h"
 #include "study/orders/orders.h"
 #include "study/verify/verify.h"

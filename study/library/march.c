@@ -25,8 +25,7 @@ static enum br_status read_scene(struct beamrate_scene *s, const char *path, con
         return br_fail(err, BR_BAD_INPUT, "%s: found NULL, expected a text",
                        path ? "text" : "name");
     s->path = strdup(path);
-    return s->path ? br_scene_parse(s->path, text, &(struct br_scene_asked){.verify = &s->verify},
-                                    &s->scene, err)
+    return s->path ? br_verify_read(s->path, text, &s->scene, &s->verify, err)
                    : br_no_memory(err, "the scene");
 }
 

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/base/each.h"
 #include "study/foresee/foreseen.h"
-#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/library/library.h"
 #include "study/orders/request.h"

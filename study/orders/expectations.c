@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- the text ---- */
 

@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
+#include "study/base/quote.h"
 #include "study/kept/kept.h"
 #include "study/orders/process.h"
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
 
 enum {
     TAIL = 301,             /* bytes of a failed run's last lines, with the zero at the end */

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "study/grid/statement.h"
+#include "study/base/statement.h"
 #include "study/orders/request.h"
 
 enum { LARGEST_WORD_FILE = 1 << 26 }; /* bytes; of a larger one the contents are not read */

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "study/base/quote.h"
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
 
 enum {
     SHOWN = 80,          /* bytes of foreign text in a message */

@@ -8,8 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "study/base/quote.h"
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
 
 enum {
     NUMBER = 32, /* bytes of a resolution's text, with the zero at the end */

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/quote.h"
-#include "study/scene/words.h"
+#include "study/base/quote.h"
+#include "study/base/words.h"
 
 struct br_orders_request br_orders_request_default(void)
 {

@@ -7,9 +7,9 @@
 
 #include <jansson.h>
 
+#include "study/base/observer.h"
 #include "study/base/sha256.h"
-#include "study/grid/observer.h"
-#include "study/grid/statement.h"
+#include "study/base/statement.h"
 #include "study/orders/orders.h"
 
 /* How a number is found in what a run prints, or in a file that it writes. */

@@ -6,8 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include "study/base/words.h"
 #include "study/orders/request.h"
-#include "study/scene/words.h"
 
 /* The position in a text. */
 struct cursor {

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/orders/request.h"
 #include "study/scene/file.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
 
 /* A value of the study file. */
 struct entry {

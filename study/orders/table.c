@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/quote.h"
+#include "study/base/words.h"
 #include "study/orders/request.h"
-#include "study/scene/quote.h"
-#include "study/scene/words.h"
 
 struct column {
     const char *shown; /* the heading in the file; NULL: there is none */

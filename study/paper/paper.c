@@ -7,7 +7,7 @@
 
 #include "reference/printed.h"
 #include "reference/textbook.h"
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "study/grid/sweep.h"
 #include "study/scene/file.h"
 

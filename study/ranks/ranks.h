@@ -5,7 +5,7 @@
 #ifndef BR_STUDY_RANKS_RANKS_H
 #define BR_STUDY_RANKS_RANKS_H
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 
 /* A job of several processes, as the environment of each describes it. */
@@ -16,8 +16,9 @@ struct br_launch {
 };
 struct br_launch br_launch_read(void);
 
-/* Joins the other ranks, if a launcher started more than one process; else does nothing, so that a
- * process that was started alone starts fast. Fails with BR_UNSUPPORTED where there are others but
+/* Joins the other ranks, if a launcher started more than one process: they then march all studies
+ * together that name no engine (below). Else does nothing, so that a process that was started alone
+ * starts fast. Fails with BR_UNSUPPORTED where there are others but
  * this build has no MPI, or BR_BAD_INPUT where MPI does not know of them: each process would then
  * run the whole, and all would write the same files. Also BR_IO, BR_NO_MEMORY. */
 enum br_status br_ranks_start(struct br_error *err);
@@ -28,14 +29,12 @@ int br_ranks_size(void);
 /* Whether this rank prints and writes files. */
 bool br_ranks_first(void);
 
-/* As br_lockstep, on all ranks: to be called by each of them, in the same order; the work is
- * shared, and all get the results of all, so that all continue alike. threads: of each rank; 0: the
- * cores that it is bound to, divided by the ranks of its machine that are bound to the same ones,
- * since launchers often bind to none. What ends the call on one (BR_NO_MEMORY, BR_INTERRUPTED) ends
- * it on all. Besides fails with BR_BAD_INPUT where the ranks have not read the same, and BR_IO
- * where one is not heard from any more. */
-enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int threads,
-                                 const struct br_observer *observer, struct br_error *err);
+/* The engine of all ranks: each of them calls br_study_run in the same order; the work is shared,
+ * and all get the results of all, so that all continue alike. threads: of each rank; 0: the cores
+ * that it is bound to, divided by the ranks of its machine that are bound to the same ones, since
+ * launchers often bind to none. What ends the call on one (BR_NO_MEMORY, BR_INTERRUPTED) ends it on
+ * all. Besides fails with BR_BAD_INPUT where the ranks have not read the same, and BR_IO where one
+ * is not heard from any more. */
 
 /* The end of the program on this rank, with its status (in) and error (in, out). Returns what the
  * whole job has come to on rank 0, and BR_OK on the others, whose failures rank 0 reports. Does not

@@ -24,11 +24,11 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
+#include "study/base/quote.h"
 #include "study/base/text.h"
+#include "study/grid/batches.h"
 #include "study/grid/sweep.h"
-#include "study/ranks/batches.h"
 #include "study/ranks/ranks.h"
-#include "study/scene/quote.h"
 
 static const double beat_every = 0.25;    /* s */
 static const double default_timeout = 60; /* s without a heartbeat; $BEAMRATE_SILENCE replaces it */
@@ -390,13 +390,11 @@ static enum br_status share(struct call *c, struct br_error *err)
     return status;
 }
 
-enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int threads,
-                                 const struct br_observer *observer, struct br_error *err)
+static enum br_status march_together(struct br_study *studies, size_t count, int threads,
+                                     const struct br_observer *observer, struct br_error *err)
 {
     struct call c = {.studies = studies, .count = count};
     const int each = threads > 0 ? threads : job.most_threads;
-    if (job.size == 1)
-        return br_lockstep(studies, count, threads, observer, err);
     if (job.over)
         return br_fail(err, BR_IO, "the ranks share no work after a failure");
     c.threads = threads > 0 ? threads : job.threads;
@@ -528,8 +526,10 @@ static enum br_status join(const struct br_launch *launch, struct br_error *err)
     MPI_Comm_set_errhandler(MPI_COMM_WORLD, handler);
     MPI_Errhandler_free(&handler);
     MPI_Comm_dup(MPI_COMM_WORLD, &job.comm); /* of this program's own, with the same handler */
-    const enum br_status status = count_threads(err);
-    return status ? status : create_window(err);
+    enum br_status status = count_threads(err);
+    if (!status && !(status = create_window(err)))
+        br_engine_set((struct br_engine){march_together, NULL});
+    return status;
 }
 
 enum br_status br_ranks_start(struct br_error *err)

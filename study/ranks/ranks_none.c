@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A build without MPI: there are no other ranks. */
-#include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
 
 static struct br_launch launch = {.size = 1};
@@ -24,12 +23,6 @@ int br_ranks_size(void)
 bool br_ranks_first(void)
 {
     return launch.rank == 0; /* so that only one of them prints why they end */
-}
-
-enum br_status br_ranks_lockstep(struct br_study *studies, size_t count, int threads,
-                                 const struct br_observer *observer, struct br_error *err)
-{
-    return br_lockstep(studies, count, threads, observer, err);
 }
 
 enum br_status br_ranks_end(enum br_status status, struct br_error *err)

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "solver/clock.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 struct run {
     const struct br_history_request *request;

@@ -7,8 +7,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "solver/march.h"
-#include "study/grid/observer.h"
-#include "study/grid/study.h"
+#include "study/base/observer.h"
 #include "study/run/history.h"
 
 /* Fields that are asked for, as bits; 0: those that the scene needs. */

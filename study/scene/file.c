@@ -11,12 +11,12 @@
 #include <unistd.h>
 #include <yaml.h>
 
+#include "study/base/quote.h"
 #include "study/base/text.h"
-#include "study/scene/expression.h"
-#include "study/scene/quote.h"
+#include "study/base/words.h"
+#include "study/known/expression.h"
 #include "study/scene/schema.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
 
 /* ---- paths and files of scenes ---- */
 
@@ -281,7 +281,7 @@ static const yaml_node_t *top_value(const struct br_scene_reader *r, const char 
     return value_in(r, yaml_document_get_root_node(r->document), key);
 }
 
-/* One line of br_verify's data: a number in the unit of its key, however the file writes it; other
+/* One line of br_scene_data: a number in the unit of its key, however the file writes it; other
  * values as they are. */
 static void print_value(const struct br_scene_reader *r, const struct br_scene_key *k, FILE *out)
 {
@@ -299,8 +299,7 @@ static void print_value(const struct br_scene_reader *r, const struct br_scene_k
     fputc('\n', out);
 }
 
-/* What the file says of the problem; numbers that were derived are the scene's. */
-static enum br_status print_data(const struct br_scene_reader *r, char **data)
+enum br_status br_scene_data(const struct br_scene_reader *r, char **data)
 {
     size_t size;
     FILE *out = br_text_open(data, &size);
@@ -309,14 +308,6 @@ static enum br_status print_data(const struct br_scene_reader *r, char **data)
             k->kind != BR_KEY_TEXT && k->kind != BR_KEY_VERIFY)
             print_value(r, k, out);
     return out && fclose(out) == 0 ? BR_OK : br_no_memory(r->err, "the scene's data");
-}
-
-static enum br_status read_verify(const struct br_scene_reader *r, struct br_verify *verify)
-{
-    const yaml_node_t *node = top_value(r, "verify");
-    const enum br_status status =
-        node ? br_verify_read(r, node, verify) : br_verify_default(r->scene, verify, r->err);
-    return status ? status : print_data(r, &verify->data);
 }
 
 /* Checks that every given function is finite and that initial data respect the clamp. */
@@ -335,7 +326,8 @@ static enum br_status check_functions(const struct br_scene_reader *r, size_t li
     return br_scene_pass_on(r, line, "scene", &inner); /* derived from a solution */
 }
 
-static enum br_status read_document(const struct br_scene_reader *r, struct br_verify *verify)
+static enum br_status read_document(const struct br_scene_reader *r,
+                                    const struct br_scene_asked *asked)
 {
     const yaml_node_t *root = yaml_document_get_root_node(r->document);
     if (!root)
@@ -356,8 +348,8 @@ static enum br_status read_document(const struct br_scene_reader *r, struct br_v
         status = apply_solutions(r);
     if (!status)
         status = check_functions(r, br_yaml_line(root));
-    if (!status && verify)
-        status = read_verify(r, verify);
+    if (!status && asked->take_verify)
+        status = asked->take_verify(r, top_value(r, "verify"), asked->self);
     return status;
 }
 
@@ -451,7 +443,7 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     r.given = &given;
     r.varied = to->asked->varied;
     r.text = to->asked->value;
-    return read_document(&r, to->asked->verify);
+    return read_document(&r, to->asked);
 }
 
 enum br_status br_scene_parse(const char *name, const char *text,
@@ -460,8 +452,6 @@ enum br_status br_scene_parse(const char *name, const char *text,
 {
     struct target to = {scene, asked};
     *scene = (struct br_scene){0};
-    if (asked->verify)
-        *asked->verify = (struct br_verify){0};
     return br_yaml_read(name, text, take_scene, &to, err);
 }
 

@@ -4,7 +4,6 @@
 #define BR_STUDY_SCENE_FILE_H
 
 #include "study/scene/schema.h"
-#include "study/verify/verify.h"
 
 /* Reads and checks a scene. Every refusal (BR_BAD_INPUT) names file, line, key,
  * what was found and what was expected. The caller clears the scene with
@@ -15,10 +14,18 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 enum br_status br_scene_read_text(const char *name, const char *text, struct br_scene *scene,
                                   struct br_error *err);
 
+struct br_scene_reader;
+struct yaml_node_s;
+
+/* Reads a part of a scene's file that the scene itself does not need, when the scene is whole
+ * (study/scene/value.h). node: the part's; NULL: the file has none. */
+typedef enum br_status br_scene_take(const struct br_scene_reader *r,
+                                     const struct yaml_node_s *node, void *self);
+
 /* Further requests to br_scene_parse; zeros: none. */
 struct br_scene_asked {
-    struct br_verify *verify; /* out: the expectations of the scene: its `verify` part, or else the
-                                 default; to be cleared, even after a failure */
+    br_scene_take *take_verify;        /* reads the part `verify` */
+    void *self;                        /* its own */
     const struct br_scene_key *varied; /* a key of a section that exists, ... */
     const char *value;                 /* and its new value */
 };

@@ -7,8 +7,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "study/base/quote.h"
 #include "study/scene/file.h"
-#include "study/scene/quote.h"
 
 static enum br_status fail_with_errno(const char *path, struct br_error *err)
 {

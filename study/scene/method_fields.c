@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
+
 /* ---- values: rows of a registry, and numbers ---- */
 
 #define CHOICE(member, registry)                                                         \

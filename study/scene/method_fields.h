@@ -5,7 +5,7 @@
 #define BR_STUDY_SCENE_METHOD_FIELDS_H
 
 #include "solver/method.h"
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 enum br_method_key {
     BR_METHOD_SCHEME,

@@ -17,7 +17,7 @@ enum br_key_kind {
     BR_KEY_SOLUTION,     /* "expression in x and t [unit]", kept as text */
     BR_KEY_LAW,          /* tresca or coulomb */
     BR_KEY_SHAPE,        /* "rectangle 20 mm x 5 mm": a cross-section */
-    BR_KEY_VERIFY,       /* read by verify_file.c, and only on request */
+    BR_KEY_VERIFY,       /* whoever asks for it reads it: br_scene_asked */
 };
 
 /* Whether a key must be given if its section is given. */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* ---- tables ---- */
 
@@ -181,7 +181,7 @@ bool br_unit_read(const char *text, struct br_unit *unit)
 /* ---- converting ---- */
 
 bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length,
-                     struct br_quantity *q)
+                     struct br_si_number *q)
 {
     enum { MOST = 400, FARTHEST = 100000 /* beyond it a number is 0 or infinite */ };
     char moved[MOST + 16];

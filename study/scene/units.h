@@ -37,14 +37,14 @@ const char *br_unit_words(char text[BR_UNIT_WORDS]);
 
 /* A number in m, s and kg. For a decimal multiple, the double is what strtod reads after the
  * decimal point is moved. For another unit it is the rounded long double. */
-struct br_quantity {
+struct br_si_number {
     double value;
     long double wide;
 };
 
 /* Converts the number in the first `length` characters of text. Returns false if it is too long. */
 bool br_unit_convert(const struct br_unit *unit, const char *text, size_t length,
-                     struct br_quantity *quantity);
+                     struct br_si_number *quantity);
 
 /* Writes the expression in m, s and kg to out, for kilo- "(expression)*1000". Returns false if it
  * does not fit. */

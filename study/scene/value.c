@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/units.h"
 
 /* "path:line: key: ..." */
@@ -98,7 +98,7 @@ static enum br_status read_unit(struct value *v, const char *text, struct br_uni
 
 /* Reads "value unit", as far as `end`, which points into the text; NULL: to the end of the text. */
 static enum br_status read_quantity(struct value *v, const char *text, const char *end,
-                                    struct br_quantity *q)
+                                    struct br_si_number *q)
 {
     enum { MOST_UNIT = 64 };
     char *behind, word[MOST_UNIT];
@@ -123,7 +123,7 @@ static enum br_status read_number(struct value *v)
 {
     const struct br_scene_key *key = v->key;
     const bool positive = key->kind == BR_KEY_POSITIVE;
-    struct br_quantity q;
+    struct br_si_number q;
     const enum br_status status = read_quantity(v, br_yaml_text(v->node), NULL, &q);
     if (status)
         return status;
@@ -156,7 +156,7 @@ static enum br_status read_shape(struct value *v)
 {
     static const char *const words[] = {"rectangle ", "circle ", "tube "};
     const char *text = br_yaml_text(v->node), *cross = strstr(text, " x ");
-    struct br_quantity a, b = {0, 0};
+    struct br_si_number a, b = {0, 0};
     size_t shape = 0;
     while (shape < 3 && strncmp(text, words[shape], strlen(words[shape])) != 0)
         shape++;

@@ -44,6 +44,10 @@ const char *br_yaml_text(const yaml_node_t *node);
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
                                    const yaml_node_t *node);
 
+/* What the file of a whole scene says of the problem, a line a key ("density: 1 kg/m"); numbers that
+ * were derived are the scene's. *data (out): owned by the caller. Fails with BR_NO_MEMORY. */
+enum br_status br_scene_data(const struct br_scene_reader *r, char **data);
+
 /* ---- derived numbers ---- */
 
 /* Derives the numbers that a file does not give itself: stiffnesses from a material and a

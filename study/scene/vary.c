@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/scene/file.h"
-#include "study/scene/words.h"
 
 /* ---- what is varied ---- */
 

@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "study/base/each.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/each.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */

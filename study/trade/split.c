@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 

@@ -7,9 +7,9 @@
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 enum { BR_MOST_SOURCES = 8 };
 

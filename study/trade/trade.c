@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "solver/linear/linear_solver.h"
 
 double br_trade_target(size_t digit)
 {

@@ -6,11 +6,12 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "study/base/each.h"
 #include "study/fit/fit.h"
 #include "study/foresee/warnings.h"
-#include "study/grid/each.h"
 #include "study/grid/sweep.h"
 #include "study/kept/kept.h"
+#include "study/scene/statement.h"
 
 const char *const br_trial_end_names[BR_TRIAL_ENDS] = {
     [BR_TRIAL_DONE] = "done",         [BR_TRIAL_DOUBTFUL] = "doubtful",
@@ -370,7 +371,7 @@ static void lay_out(struct groups *g, struct br_trial *trial, size_t count,
                                    .n_count = 1,
                                    .n = &t->at.n,
                                    .steps = &g->steps[c],
-                                   .kept = r->kept};
+                                   .engine = br_kept_engine(r->kept)};
             s->reference_method.axial_degree = s->method.axial_degree;
         }
         s->k_count++;

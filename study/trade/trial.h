@@ -7,9 +7,9 @@
 #ifndef BR_STUDY_TRADE_TRIAL_H
 #define BR_STUDY_TRADE_TRIAL_H
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 /* How a trial ended. */
 enum br_trial_end {

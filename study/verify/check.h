@@ -4,8 +4,8 @@
 #ifndef BR_STUDY_VERIFY_CHECK_H
 #define BR_STUDY_VERIFY_CHECK_H
 
+#include "study/base/observer.h"
 #include "study/fit/fit.h"
-#include "study/grid/observer.h"
 #include "study/verify/verify.h"
 
 enum br_verdict {

@@ -7,8 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/fit/theory.h"
-#include "study/scene/words.h"
 
 enum { SUBJECT = 192 }; /* characters of a difference's subject */
 

@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/fit/line_order.h"
-#include "study/scene/words.h"
 
 const char *const br_verdict_names[] = {"PASS", "FAIL", "INCONCLUSIVE"};
 

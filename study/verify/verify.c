@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "study/base/words.h"
 #include "study/fit/theory.h"
-#include "study/scene/words.h"
 
 const char *const br_verify_names[BR_VERIFY_KINDS] = {"space", "time", "joint"};
 

@@ -48,8 +48,7 @@ struct br_verify_study {
 
 struct br_verify {
     bool by_default; /* the scene has no section `verify` */
-    char *
-        data; /* what the scene's file says, a line a key: "bending.stiffness: 1000 N m^2"; owned */
+    char *data;      /* what the scene's file says (br_scene_data); owned */
     struct br_verify_study study[BR_VERIFY_KINDS];
 };
 
@@ -73,13 +72,10 @@ enum br_status br_verify_check(const struct br_scene *scene, const struct br_ver
 
 void br_verify_clear(struct br_verify *verify);
 
-struct br_scene_reader;
-struct yaml_node_s;
-
-/* Reads and checks the section `verify` of a scene's file (an example is in
- * study/scenes/example1.yaml); the reader's scene is whole. Fails with BR_BAD_INPUT, naming file,
- * line and key, or BR_NO_MEMORY; the caller clears `verify` even then. */
-enum br_status br_verify_read(const struct br_scene_reader *r, const struct yaml_node_s *node,
-                              struct br_verify *verify);
+/* Reads a scene as br_scene_read_text does, and its expectations: its part `verify`
+ * (an example is in study/scenes/example1.yaml), or else the default. The caller clears both, even
+ * after a failure. */
+enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
+                              struct br_verify *verify, struct br_error *err);
 
 #endif

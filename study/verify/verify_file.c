@@ -5,14 +5,15 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
+#include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/value.h"
-#include "study/scene/words.h"
 
 enum { MESHES, STEPS, FIELDS, KEYS = FIELDS + BR_METHOD_FIELDS };
 
 /* One study while it is read. */
-struct block {
+struct study_part {
     const struct br_scene_reader *r;
     enum br_verify_kind kind;
     struct br_verify_study *study;
@@ -34,7 +35,7 @@ static const char *name_of(size_t key)
 }
 
 /* The keys of a study. */
-static const char *expected_study(struct block *b)
+static const char *expected_study(struct study_part *b)
 {
     b->keys[0] = '\0';
     for (size_t i = 0; i < KEYS; i++)
@@ -48,7 +49,7 @@ static const char *expected_study(struct block *b)
 /* ---- n and k ---- */
 
 /* "8e-3, 4e-3 s" */
-static enum br_status read_steps(struct block *b, struct br_error *err)
+static enum br_status read_steps(struct study_part *b, struct br_error *err)
 {
     const char *text = b->text[STEPS];
     const size_t length = strlen(text);
@@ -60,7 +61,7 @@ static enum br_status read_steps(struct block *b, struct br_error *err)
     return br_read_numbers("the list", numbers, &b->k, &b->k_count, err);
 }
 
-static enum br_status read_lists(struct block *b)
+static enum br_status read_lists(struct study_part *b)
 {
     struct br_error inner = {0};
     if (b->text[MESHES] && br_read_counts("the list", b->text[MESHES], &b->n, &b->n_count, &inner))
@@ -73,7 +74,7 @@ static enum br_status read_lists(struct block *b)
     return BR_OK;
 }
 
-static enum br_status check_counts(const struct block *b)
+static enum br_status check_counts(const struct study_part *b)
 {
     static const char *const expected[BR_VERIFY_KINDS] = {
         "expected meshes and one time step", "expected one mesh and time steps",
@@ -87,7 +88,7 @@ static enum br_status check_counts(const struct block *b)
 }
 
 /* The cells from the two lists; a list of one goes with all of the other. */
-static enum br_status make_cells(struct block *b)
+static enum br_status make_cells(struct study_part *b)
 {
     struct br_verify_study *v = b->study;
     const size_t count = b->n_count > b->k_count ? b->n_count : b->k_count;
@@ -173,7 +174,8 @@ static bool parse_expectation(const char *text, struct br_expectation *e)
     return end && parse_range(end, e);
 }
 
-static enum br_status read_expectation(struct block *b, const char *what, const yaml_node_t *node)
+static enum br_status read_expectation(struct study_part *b, const char *what,
+                                       const yaml_node_t *node)
 {
     const size_t line = br_yaml_line(node);
     struct br_expectation e = {.line = line};
@@ -195,7 +197,8 @@ static enum br_status read_expectation(struct block *b, const char *what, const 
 
 /* ---- a study ---- */
 
-static enum br_status read_key(struct block *b, const yaml_node_t *name, const yaml_node_t *value)
+static enum br_status read_key(struct study_part *b, const yaml_node_t *name,
+                               const yaml_node_t *value)
 {
     if (name->type != YAML_SCALAR_NODE || value->type != YAML_SCALAR_NODE)
         return br_scene_refuse(b->r, br_yaml_line(name), br_verify_names[b->kind],
@@ -215,7 +218,7 @@ static enum br_status read_key(struct block *b, const yaml_node_t *name, const y
 }
 
 /* Reads the fields one by one, so that an error has its line; then all together. */
-static enum br_status read_method(struct block *b)
+static enum br_status read_method(struct study_part *b)
 {
     struct br_method *m = &b->study->method;
     const struct br_method *const methods[] = {m};
@@ -232,7 +235,7 @@ static enum br_status read_method(struct block *b)
     return br_scene_pass_on(b->r, b->study->line, br_verify_names[b->kind], &inner);
 }
 
-static enum br_status read_block(struct block *b, const yaml_node_t *node)
+static enum br_status read_block(struct study_part *b, const yaml_node_t *node)
 {
     const struct br_scene_reader *r = b->r;
     const char *name = br_verify_names[b->kind];
@@ -256,10 +259,9 @@ static enum br_status read_block(struct block *b, const yaml_node_t *node)
     return status ? status : make_cells(b);
 }
 
-enum br_status br_verify_read(const struct br_scene_reader *r, const yaml_node_t *node,
-                              struct br_verify *verify)
+static enum br_status read_studies(const struct br_scene_reader *r, const yaml_node_t *node,
+                                   struct br_verify *verify)
 {
-    *verify = (struct br_verify){0};
     if (node->type != YAML_MAPPING_NODE)
         return br_scene_refuse(r, br_yaml_line(node), "verify",
                                "expected a mapping with space, time or joint");
@@ -274,7 +276,8 @@ enum br_status br_verify_read(const struct br_scene_reader *r, const yaml_node_t
         if (kind == BR_VERIFY_KINDS)
             return br_scene_refuse(r, br_yaml_line(name), key,
                                    "unknown key in verify, expected space, time or joint");
-        struct block b = {.r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
+        struct study_part b = {
+            .r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
         const enum br_status status = read_block(&b, yaml_document_get_node(r->document, p->value));
         free(b.n);
         free(b.k);
@@ -286,4 +289,20 @@ enum br_status br_verify_read(const struct br_scene_reader *r, const yaml_node_t
     if (br_verify_check(r->scene, verify, &line, &inner))
         return br_scene_pass_on(r, line ? line : br_yaml_line(node), "verify", &inner);
     return BR_OK;
+}
+
+static enum br_status take(const struct br_scene_reader *r, const yaml_node_t *node, void *self)
+{
+    struct br_verify *verify = self;
+    const enum br_status status =
+        node ? read_studies(r, node, verify) : br_verify_default(r->scene, verify, r->err);
+    return status ? status : br_scene_data(r, &verify->data);
+}
+
+enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
+                              struct br_verify *verify, struct br_error *err)
+{
+    const struct br_scene_asked asked = {.take_verify = take, .self = verify};
+    *verify = (struct br_verify){0};
+    return br_scene_parse(name, text, &asked, scene, err);
 }

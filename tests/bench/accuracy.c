@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "tests/bench/bench.h"
 
 static double predicted(const struct br_scene *scene, const struct br_test_golden *row,

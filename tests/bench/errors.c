@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
+#include "solver/linear/linear_solver.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "tests/bench/bench.h"

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "solver/linear/linear_solver.h"
 #include "tests/bench/bench.h"
 
 static const size_t sizes[] = {100, 400, 3200, 12800, 100000, 1000000};

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "solver/clock.h"
+#include "solver/linear/linear_solver.h"
 #include "tests/bench/bench.h"
 
 enum { REPEATS = 7 };

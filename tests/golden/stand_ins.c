@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "cli/provenance.h"
+#include "solver/linear/linear_solver.h"
 #include "solver/linear/riccati/kernel.h"
 
 int clock_gettime(clockid_t clock, struct timespec *t)

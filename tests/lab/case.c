@@ -4,11 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
+#include "study/base/words.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
-#include "study/scene/words.h"
 #include "tests/lab/map.h"
 #include "tests/lab/random.h"
 

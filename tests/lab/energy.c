@@ -3,8 +3,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "study/base/each.h"
 #include "study/extremes/extremes.h"
-#include "study/grid/each.h"
 #include "study/scene/file.h"
 #include "tests/lab/energy.h"
 

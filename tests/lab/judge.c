@@ -10,6 +10,7 @@
 #include "study/foresee/warnings.h"
 #include "study/run/run.h"
 #include "study/scene/file.h"
+#include "study/scene/resolution.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/grid/each.h"
+#include "study/base/each.h"
 #include "tests/lab/map.h"
 #include "tests/support.h"
 

@@ -23,7 +23,7 @@ double br_nodal_value(enum br_field_kind kind, size_t unknowns, const double *at
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)
 {
-    const struct br_nodal *f = self;
+    const struct br_nodal_shape *f = self;
     const size_t unknowns = br_field_unknowns(f->field);
     const double last = (double)f->field->n - 1;
     (void)t;
@@ -46,7 +46,7 @@ static void nothing(void *self)
     (void)self;
 }
 
-struct br_function br_nodal_function(struct br_nodal *nodal)
+struct br_function br_nodal_function(struct br_nodal_shape *nodal)
 {
     static const struct br_function_ops ops = {
         .evaluate = evaluate, .clone = same, .free = nothing};
@@ -67,7 +67,7 @@ static enum br_status march_once(const struct br_field *rod, double stiffness, d
     const size_t size = br_field_size(rod);
     for (size_t i = 0; i < size; i++)
         state[size + i] /= rod->k;
-    struct br_nodal start[2] = {{rod, state, false}, {rod, state + size, false}};
+    struct br_nodal_shape start[2] = {{rod, state, false}, {rod, state + size, false}};
     struct br_method method = br_method_default();
     method.axial_degree = rod->degree;
     struct br_scene scene = {

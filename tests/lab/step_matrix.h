@@ -13,14 +13,14 @@
 double br_nodal_value(enum br_field_kind kind, size_t unknowns, const double *at, double xi,
                       double *slope);
 
-struct br_nodal {
+struct br_nodal_shape {
     const struct br_field *field;
     const double *value;
     bool slope; /* the function is w_x of a beam, not w */
 };
 
 /* A function for the initial data of a scene. It and its clones borrow `nodal`. */
-struct br_function br_nodal_function(struct br_nodal *nodal);
+struct br_function br_nodal_function(struct br_nodal_shape *nodal);
 
 /* ---- the matrix of a rod's Euler step against a closed contact with a lagged force, measured by
  * marches of one step, without use of the equations ---- */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
 #include "tests/support.h"

@@ -133,7 +133,7 @@ struct trial {
     struct br_beam_mode mode;
     struct br_field field;
     double nodal[BR_MODE_UNKNOWNS + 2]; /* of the mode */
-    struct br_nodal shape[2];           /* values, slopes */
+    struct br_nodal_shape shape[2];     /* values, slopes */
     struct br_march *march;
     struct br_energy_meter *meter;
     double k;
@@ -159,7 +159,7 @@ static void set_scene(struct trial *t)
     t->field = br_field_of_scene(&t->scene, t->v->kind, BR_MODE_ELEMENTS, k);
     memcpy(t->nodal + br_field_unknowns(&t->field), t->mode.phi, sizeof t->mode.phi);
     for (int slope = 0; slope < 2; slope++)
-        t->shape[slope] = (struct br_nodal){&t->field, t->nodal, slope};
+        t->shape[slope] = (struct br_nodal_shape){&t->field, t->nodal, slope};
     t->scene.axial.displacement = t->scene.bending.displacement = br_nodal_function(&t->shape[0]);
     t->scene.bending.displacement_slope = br_nodal_function(&t->shape[1]);
 }

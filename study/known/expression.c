@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 
 #include <locale.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 /* A recursive descent parser. Each function is named after what it reads, from `at` on, and returns
  * its node. After the first error `at` is the text's end, so that all functions return. */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Methods that are compared, each with a name: "euler+lagged", "bdf2+uzawa", "bdf3+p2". A name is
  * the time scheme and the choices that are not the default for that scheme. */
-#ifndef BR_STUDY_TRADE_NAMED_METHOD_H
-#define BR_STUDY_TRADE_NAMED_METHOD_H
+#ifndef BR_STUDY_SCENE_NAMED_METHOD_H
+#define BR_STUDY_SCENE_NAMED_METHOD_H
 
 #include "solver/march.h"
 
@@ -20,8 +20,9 @@ struct br_named_methods {
 
 /* Reads one name: words joined by '+', in any order, at most one of a kind: rows of the registries
  * of time schemes, contact rules, friction rules and linear solvers; "p1" and "p2", the degree of
- * the axial elements. Without a contact rule the contact is the registry's first where the scheme may lag, else implicit, as on
- * the command line. *named (out). Fails with BR_BAD_INPUT, naming the word. */
+ * the axial elements. Without a contact rule the contact is the registry's first where the scheme
+ * may lag, else implicit, as on the command line. *named (out). Fails with BR_BAD_INPUT, naming the
+ * word. */
 enum br_status br_named_method_read(const char *name, struct br_named_method *named,
                                     struct br_error *err);
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <sleef.h>
 
-#include "study/scene/operations.h"
+#include "study/known/operations.h"
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)

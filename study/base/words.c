@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/words.h"
+#include "study/base/words.h"
 
 #include <ctype.h>
 #include <math.h>

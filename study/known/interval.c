@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/operations.h"
+#include "study/known/operations.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/each.h"
+#include "study/base/each.h"
 
 #include <locale.h>
 #include <pthread.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds and lists the rows of any registry by their names. */
-#ifndef BR_STUDY_SCENE_WORDS_H
-#define BR_STUDY_SCENE_WORDS_H
+#ifndef BR_STUDY_BASE_WORDS_H
+#define BR_STUDY_BASE_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>

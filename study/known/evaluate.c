@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/scene/expression.h"
-#include "study/scene/operations.h"
+#include "study/known/expression.h"
+#include "study/known/operations.h"
 
 /* ---- trees ---- */
 

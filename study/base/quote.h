@@ -9,8 +9,8 @@
  *
  * To add a target: add one record. What text files hold must be UTF-8: br_text_load refuses others.
  */
-#ifndef BR_STUDY_SCENE_QUOTE_H
-#define BR_STUDY_SCENE_QUOTE_H
+#ifndef BR_STUDY_BASE_QUOTE_H
+#define BR_STUDY_BASE_QUOTE_H
 
 #include <stdbool.h>
 #include <stdio.h>

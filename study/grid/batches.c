@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cuts studies into slices of some cells, deals these into batches, marches a batch, and turns its
  * results into bytes. */
-#include "study/ranks/batches.h"
+#include "study/grid/batches.h"
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "study/grid/statement.h"
+#include "study/base/statement.h"
 #include "study/grid/sweep.h"
 
 /* ---- costs ---- */

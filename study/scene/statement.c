@@ -1,48 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/statement.h"
+#include "study/scene/statement.h"
 
-#include <stdarg.h>
-#include <stdint.h>
-#include <string.h>
+#include <stdio.h>
 
-#include "study/base/text.h"
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 #include "study/scene/method_fields.h"
 #include "study/scene/schema.h"
-
-void br_statement_begin(struct br_statement *s)
-{
-    *s = (struct br_statement){0};
-    s->file = br_text_open(&s->text, &s->size);
-    s->failed = !s->file;
-}
-
-char *br_statement_end(struct br_statement *s)
-{
-    s->failed |= s->file && fclose(s->file) != 0;
-    if (s->failed) {
-        free(s->text);
-        s->text = NULL;
-    }
-    return s->text;
-}
-
-void br_state(struct br_statement *s, const char *name, const char *format, ...)
-{
-    char *value = NULL;
-    va_list values;
-    va_start(values, format);
-    const int size = s->failed ? -1 : vasprintf(&value, format, values);
-    va_end(values);
-    if (size < 0)
-        s->failed = true;
-    else {
-        s->failed |= fprintf(s->file, "%s %d %s\n", name, size, value) < 0;
-        free(value);
-    }
-}
-
-/* ---- a scene ---- */
 
 static void state_number(struct br_statement *s, const char *name, double value)
 {
@@ -116,7 +79,7 @@ void br_state_scene(struct br_statement *s, const struct br_scene *scene)
             state_function(s, i, f);
 }
 
-/* ---- a method and a study ---- */
+/* ---- a method ---- */
 
 void br_state_method(struct br_statement *s, const struct br_method *m)
 {
@@ -127,30 +90,4 @@ void br_state_method(struct br_statement *s, const struct br_method *m)
             br_state(s, f->name, "%s", br_method_field_text(f, m, value));
     br_state(s, "iterations", "%zu", m->iteration.most);
     br_state(s, "most_steps", "%zu", m->most_steps);
-}
-
-static void state_resolution(struct br_statement *s, struct br_resolution at)
-{
-    br_state(s, "n", "%zu", at.n);
-    br_state(s, "steps", "%zu", at.steps);
-}
-
-void br_state_study(struct br_statement *s, const struct br_study *study, size_t cell)
-{
-    const bool all = cell == SIZE_MAX;
-    br_state_scene(s, study->scene);
-    br_state(s, "norm", "%s", study->norm->name);
-    br_state(s, "judge", "%s", study->judge->name);
-    if (study->judge->nests) { /* else they need not be set */
-        state_resolution(s, study->reference);
-        br_state_method(s, &study->reference_method);
-    }
-    if (all)
-        br_state(s, "auditor", "%s", study->auditor ? study->auditor->name : "");
-    for (size_t c = all ? 0 : cell; c < (all ? br_study_cells(study) : cell + 1); c++) {
-        br_state(s, "cell", "%s", "");
-        state_resolution(s, br_study_resolution(study, c));
-        if (!all || c == 0 || study->cell_method)
-            br_state_method(s, br_study_method(study, c));
-    }
 }

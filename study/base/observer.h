@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Progress and interruption of whatever takes long. */
-#ifndef BR_STUDY_GRID_OBSERVER_H
-#define BR_STUDY_GRID_OBSERVER_H
+#ifndef BR_STUDY_BASE_OBSERVER_H
+#define BR_STUDY_BASE_OBSERVER_H
 
 #include <stdbool.h>
 

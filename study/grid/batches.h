@@ -2,12 +2,12 @@
 /* The work of a call of br_study_run, cut into batches for ranks. A batch is some cells of one or
  * more studies, with their references; a rank marches one batch at a time. Every rank makes the
  * same cut. */
-#ifndef BR_STUDY_RANKS_BATCHES_H
-#define BR_STUDY_RANKS_BATCHES_H
+#ifndef BR_STUDY_GRID_BATCHES_H
+#define BR_STUDY_GRID_BATCHES_H
 
 #include <stdio.h>
 
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 #include "study/grid/study.h"
 
 /* Which batch each cell belongs to; batches of lower numbers begin first. */
@@ -47,7 +47,7 @@ double br_reference_cost(const struct br_study *study);
  * the largest cost of a slice's cells, ns. -1: out of memory. */
 double br_slice_cells(const struct br_study *study, size_t slices, size_t *slice);
 
-/* A hash of what studies ask (study/grid/statement.h), equal on ranks that have read the same
+/* A hash of what studies ask (study/base/statement.h), equal on ranks that have read the same
  * scenes and options. */
 unsigned long long br_studies_fingerprint(const struct br_study *studies, size_t count);
 

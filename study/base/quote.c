@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/quote.h"
+#include "study/base/quote.h"
 
 #include <ctype.h>
 #include <stdlib.h>

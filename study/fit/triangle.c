@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/grid/sweep.h"
+#include "study/fit/triangle.h"
 
 #include <math.h>
+
+#include "study/grid/sweep.h"
 
 /* A pair with at least this score shows a contradiction plainly. Then the cheapest pair is enough:
  * a finer one costs a hundred times as much and shows the same. */

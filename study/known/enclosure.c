@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Taylor coefficients of operations by Moore's recurrences, and with them Taylor coefficients and
  * bounds of a tree over a box. */
-#include "study/scene/operations.h"
+#include "study/known/operations.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Expressions: parsed from text, evaluated as functions, differentiated and multiplied out. A tree
  * is a list of nodes. Each node comes after its arguments, and equal nodes are stored once. */
-#ifndef BR_STUDY_SCENE_EXPRESSION_H
-#define BR_STUDY_SCENE_EXPRESSION_H
+#ifndef BR_STUDY_KNOWN_EXPRESSION_H
+#define BR_STUDY_KNOWN_EXPRESSION_H
 
 #include "solver/field.h"
 #include "solver/function.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 
 #include <math.h>
 

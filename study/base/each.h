@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Threads that share work, and a loop that they share, with progress, interruption and the first
  * failure. */
-#ifndef BR_STUDY_GRID_EACH_H
-#define BR_STUDY_GRID_EACH_H
+#ifndef BR_STUDY_BASE_EACH_H
+#define BR_STUDY_BASE_EACH_H
 
 #include <stddef.h>
 
 #include "solver/status.h"
-#include "study/grid/observer.h"
+#include "study/base/observer.h"
 
 enum { BR_MOST_THREADS = 1024 };
 

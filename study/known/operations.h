@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of expression.h on arrays, on intervals and on Taylor series, and bounds of trees.
  * All of these need rounding to nearest. */
-#ifndef BR_STUDY_SCENE_OPERATIONS_H
-#define BR_STUDY_SCENE_OPERATIONS_H
+#ifndef BR_STUDY_KNOWN_OPERATIONS_H
+#define BR_STUDY_KNOWN_OPERATIONS_H
 
 #include <fenv.h>
 #include <math.h>
 
 #include "solver/instruction_set.h"
-#include "study/scene/expression.h"
+#include "study/known/expression.h"
 
 /* ---- on arrays ---- */
 

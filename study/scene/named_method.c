@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/trade/named_method.h"
+#include "study/scene/named_method.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "study/scene/method_fields.h"
 
 /* ---- the words of a name ---- */

@@ -4,12 +4,11 @@
  *
  * A line for each thing: its name, the bytes of its value, and the value. So two requests have the
  * same text only where all values are the same. */
-#ifndef BR_STUDY_GRID_STATEMENT_H
-#define BR_STUDY_GRID_STATEMENT_H
+#ifndef BR_STUDY_BASE_STATEMENT_H
+#define BR_STUDY_BASE_STATEMENT_H
 
+#include <stdbool.h>
 #include <stdio.h>
-
-#include "study/grid/study.h"
 
 struct br_statement {
     FILE *file;
@@ -28,14 +27,5 @@ char *br_statement_end(struct br_statement *statement);
 /* One line. */
 __attribute__((format(printf, 3, 4))) void br_state(struct br_statement *statement,
                                                     const char *name, const char *format, ...);
-
-/* All lines of a scene, by the rows of br_scene_keys and by its functions; of a method, by the rows
- * of br_method_fields. */
-void br_state_scene(struct br_statement *statement, const struct br_scene *scene);
-void br_state_method(struct br_statement *statement, const struct br_method *method);
-
-/* All lines of a cell of a study in its norm, whatever the other cells are. Cell SIZE_MAX: of all
- * its cells and of what is measured of the reference. */
-void br_state_study(struct br_statement *statement, const struct br_study *study, size_t cell);
 
 #endif
