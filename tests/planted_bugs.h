@@ -740,7 +740,7 @@ static const struct planted_bug planted_bugs[] = {
     {"output_for_complaints", "lost", "study/orders/program.c", "tests/test_program test_places",
      "r->printed[reading->complaints]", "r->printed[0]"},
     {"stated_size_is_ignored", "lost", "study/orders/program.c", "tests/test_program test_places",
-     "numbers->column[size->axis] = size;", "(void)0;"},
+     "numbers->column[size->axis] = stated[size->axis] = size;", "(void)0;"},
     {"failed_run_lies_at_its_level", "lost", "study/orders/program.c",
      "tests/test_program test_places", "isnan(z) ? listed * factor : z;",
      "isnan(z) ? listed : z;"},
