@@ -227,6 +227,8 @@ static enum br_status run(const struct br_options *options, struct br_error *err
         announce(&r);
         failed = (writes && prepare_reports(&r, err)) || compute(&r, err) ||
                  (writes && write_all(&r, err));
+        for (size_t i = 0; i < r.most && !failed && writes; i++)
+            failed = br_numbers_check_runs(&r.item[i].study.numbers, err);
     }
     clear(&r);
     return failed ? err->status : BR_OK;
@@ -242,7 +244,8 @@ const struct br_command br_command_check = {
         "part is checked against theory. There are three kinds of study: over h at one time step, "
         "over k on one mesh, and over both against the solution. An order has the verdict PASS if "
         "its 95 % interval lies within the band, FAIL if its 99 % interval lies outside, and else "
-        "INCONCLUSIVE. Exit code 0: all orders pass; 1: some do not.",
+        "INCONCLUSIVE. Exit code 0: all orders pass; 1: some do not; 3: they pass, but a run of a "
+        "program has failed.",
     .more = "The options of the method replace what the scenes say.",
     .example = {"beamrate check --all --junit orders.xml --markdown summary.md",
                 "beamrate check my_scene.yaml --json new.json --compare old.json"},

@@ -12,6 +12,7 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "study/base/quote.h"
+#include "study/base/text.h"
 
 /* No result can have this name: those begin with no dot. */
 static const char list_name[] = ".beamrate-set", first_line[] = "beamrate-set 2\n";
@@ -126,15 +127,14 @@ static enum br_status write_list(int folder, const struct list *l, struct br_err
 {
     char *text = NULL;
     size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
+    FILE *file = br_text_open(&text, &size);
     if (!file)
         return br_no_memory(err, list_name);
     fputs(first_line, file);
     for (const struct entry *e = l->entry; e < l->entry + l->count; e++)
         fprintf(file, "%u %lld %lld %s\n", e->set, e->bytes, e->time, e->name);
-    const bool lost = ferror(file) != 0, closed = fclose(file) == 0;
     enum br_status status = BR_OK;
-    if (lost || !closed)
+    if (fclose(file) != 0)
         status = br_no_memory(err, list_name);
     else if (!br_put_whole(folder, list_name, br_new_permissions(0666), text, size) ||
              !br_sync_folder(folder))

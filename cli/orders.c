@@ -228,30 +228,12 @@ static enum br_status write_all(struct run *r, struct br_error *err)
                   : br_verdicts_write(&r->verdicts, &r->session, NULL, err);
 }
 
-/* A run without a number makes the command fail, after everything has been written. */
-static enum br_status check_rows(const struct run *r, struct br_error *err)
-{
-    size_t failed = 0;
-    const struct br_numbers_row *first = NULL;
-    for (size_t i = 0; i < r->study.numbers.rows; i++)
-        if (r->study.numbers.row[i].failure) {
-            first = first ? first : &r->study.numbers.row[i];
-            failed++;
-        }
-    const struct br_resolution_column *const *column = r->study.numbers.column;
-    const int axis = column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
-    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s = %.6g: %s",
-                            failed, r->study.numbers.rows, column[axis]->name, first->given[axis],
-                            first->failure)
-                  : BR_OK;
-}
-
 static enum br_status run(const struct br_options *options, struct br_error *err)
 {
     static struct run r;
     r = (struct run){.session = br_session_begin(options)};
     const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        compute(&r, err) || write_all(&r, err) || check_rows(&r, err);
+                        compute(&r, err) || write_all(&r, err) || br_numbers_check_runs(&r.study.numbers, err);
     br_verdicts_clear(&r.verdicts);
     br_check_clear(&r.check);
     br_study_file_clear(&r.study);

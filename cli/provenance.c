@@ -9,6 +9,7 @@
 
 #include "build_info.h"
 #include "study/base/quote.h"
+#include "study/base/text.h"
 
 static char *command_line, machine[512], date[32];
 
@@ -37,15 +38,12 @@ enum br_status br_remember_command_line(int argc, const char **argv, struct br_e
     size_t size;
     free(command_line);
     command_line = NULL;
-    FILE *text = open_memstream(&command_line, &size);
+    FILE *text = br_text_open(&command_line, &size);
     for (int i = 0; text && i < argc; i++) {
         fputs(i ? " " : "", text);
         br_quote(text, &br_for_shell, argv[i]);
     }
-    const bool bad = !text || ferror(text);
-    if (bad | (text && fclose(text)))
-        return br_no_memory(err, "the command line");
-    return BR_OK;
+    return text && fclose(text) == 0 ? BR_OK : br_no_memory(err, "the command line");
 }
 
 /* The processor's name from Linux, or "". */

@@ -9,6 +9,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "study/base/text.h"
 #include "tables/json_value.h"
 
 /* The path with symbolic links followed, to be freed. The file need not exist, but its folder. NULL
@@ -73,7 +74,7 @@ enum br_status br_whole_file_open(struct br_whole_file *w, const char *option, c
     w->place = there && S_ISCHR(old.st_mode) ? NULL : place_of(path);
     w->renamed = w->place && (!there || S_ISREG(old.st_mode));
     if (w->renamed && can_be_replaced(w, there))
-        w->file = open_memstream(&w->text, &w->size);
+        w->file = br_text_open(&w->text, &w->size);
     else if (there && !w->renamed)
         w->file = open_special(path); /* a pipe or a terminal is not renamed; a folder fails */
     if (!w->file && errno == ENOMEM)
@@ -149,7 +150,7 @@ enum br_status br_whole_file_commit(struct br_whole_file *w, struct br_error *er
     struct stat old;
     w->file = NULL;
     const bool failed = fflush(file) != 0 || ferror(file);
-    if (fclose(file) != 0 || failed || br_json_lacked_memory() || (w->renamed && !w->text))
+    if (fclose(file) != 0 || failed || br_json_lacked_memory())
         return w->renamed ? br_no_memory(err, w->path)
                           : br_fail(err, BR_IO, "%s could not be written whole", w->path);
     if (!w->renamed)

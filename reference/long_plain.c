@@ -141,13 +141,13 @@ static void set(void *self, const double *displacement, const double *velocity)
 static void get(const void *self, double *displacement, double *velocity)
 {
     const struct long_plain *s = self;
-    br_recursion_get(&s->recursion, s->of[0], s->nodal[0], s->nodal[1]);
-    for (size_t i = 0; i < br_field_size(&s->field); i++) {
-        if (displacement)
-            displacement[i] = (double)s->nodal[0][i];
-        if (velocity)
-            velocity[i] = (double)s->nodal[1][i];
-    }
+    const size_t size = br_field_size(&s->field);
+    br_recursion_get(&s->recursion, s->of[0], displacement ? s->nodal[0] : NULL,
+                     velocity ? s->nodal[1] : NULL);
+    for (size_t i = 0; displacement && i < size; i++)
+        displacement[i] = (double)s->nodal[0][i];
+    for (size_t i = 0; velocity && i < size; i++)
+        velocity[i] = (double)s->nodal[1][i];
 }
 
 /* As in plain.c. */

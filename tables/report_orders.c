@@ -55,6 +55,12 @@ static void say_rates(struct br_document *d, const struct br_orders_line *line)
     }
 }
 
+/* Whether the answer of a value has p, which then states the assumed dimension. */
+static bool says_p(const struct br_orders *o, const struct br_quantity_orders *of)
+{
+    return quantity_of(o, of)->is_value && of->lines == 1 && isfinite(of->line[0].gci.fine.index);
+}
+
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -69,7 +75,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
                 none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
-    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
+    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE && !says_p(o, of))
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
         br_put_more(d, " (--value, if its limit is not known)");
@@ -146,18 +152,22 @@ static void say_left_out(struct br_document *d, const struct br_quantity_orders 
 }
 
 /* The limit of a value. On a line also its grid convergence index. */
-static void say_limit(struct br_document *d, const struct br_quantity_orders *of, bool *first)
+static void say_limit(struct br_document *d, const struct br_orders *o,
+                      const struct br_quantity_orders *of, bool *first)
 {
     const struct br_grid_limit *limit = &of->limit;
-    const struct br_gci *g = &of->line[of->lines - 1].gci;
+    const struct br_gci *g = &of->line[0].gci;
     if (isfinite(limit->value.low))
         br_put_more(d, "%slimit %s", separator(first),
                     br_interval_text(&limit->value, (char[128]){0}, 128));
     else
         br_put_more(d, "%sno limit", separator(first));
-    if (of->lines == 1 && isfinite(g->fine.index))
-        br_put_more(d, ", p = %.2f, GCI %.2g %%, asymptotic %.3f", g->order, 100 * g->fine.index,
-                    g->asymptotic);
+    if (says_p(o, of)) {
+        br_put_more(d, ", p = %.2f", g->order);
+        if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
+            say_dimension(d, o, g->order);
+        br_put_more(d, ", GCI %.2g %%, asymptotic %.3f", 100 * g->fine.index, g->asymptotic);
+    }
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
 
@@ -374,7 +384,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (!line)
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
-            say_limit(d, of, &first);
+            say_limit(d, o, of, &first);
         say_orders(d, o, of, &first);
         say_next(d, o, of, &first);
         br_put_more(d, ".");

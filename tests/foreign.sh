@@ -80,6 +80,10 @@ expect 0 "drag: limit 24.9371 [24.9216, 24.9395], p = 1.91, GCI 0.03 %, asymptot
 expect 0 "l2: order in h 2.00 [2.00, 2.01], last rates 1.99, 2.00, 2.00" beamrate orders errors.csv
 printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
 expect 0 "drag: limit 3.450 [3.338, 3.463], p = 1.58, GCI 1.8 %" beamrate orders units.tsv --value drag --out units
+printf 'cells,cd\n2500,3\n10000,3.3\n40000,3.4\n' >cells.csv
+expect 0 "p = 0.79 (1-D assumed, or cells along one side; --dimension 2 gives 1.58, 3 gives 2.38), GCI" \
+    beamrate orders cells.csv --value cd
+expect 0 "p = 1.58, GCI" beamrate orders cells.csv --value cd --dimension 2
 cp units/orders.gp whole
 says "mesh size h, m" "the picture"
 says "difference of values, N" "the picture"
@@ -113,10 +117,33 @@ fails() { # HOW MESSAGE
     says "PASS" "orders, bad.sh $1, with an expectation"
 }
 
+# Without a number in any run, no hint speaks of values that stay the same.
+none_has_a_number() {
+    expect 3 "err: order in h not measurable. 3 of 3 left out" \
+        beamrate orders --run './bad.sh never {n}' --n 4,16,32 --read 'err=other=(.+)'
+}
+
+# A study file's failed run: the verdict is of the others, and the exit code says it.
+failed_run_of_a_study() {
+    cat >bad.yaml <<'END'
+run: ./bad.sh fails {n}
+n: 4, 8, 16, 32, 64
+read:
+  err: err=(.+)
+verify:
+  err: h 2 +- 0.1
+END
+    expect 3 "1 of 5 runs failed; the first, n = 8: exit code 3" beamrate check bad.yaml --trust
+    says "left out: n = 8 (failed)" "check bad.yaml"
+    says "1 PASS" "check bad.yaml"
+}
+
 expect 0 "err: order in h 2.00" \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
 expect 0 "5 of 5 runs were kept from before, and not run again." \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)' --resume
+none_has_a_number
+failed_run_of_a_study
 fails fails "exit code 3; it printed: singular matrix"
 fails hangs "it did not end within 1 s; it printed nothing"
 fails nan "err: found 'nan', expected a finite number"

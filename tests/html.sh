@@ -38,7 +38,9 @@ if command -v python3 >/dev/null; then
     page trade 0 "<title>beamrate trade: 3 reports</title>"
     page split $pictures
     page plan $pictures
-    page check $pictures "<figcaption>Each observed order"
+    shown="<figcaption>Each observed order"
+    [ $pictures = 1 ] || shown="<code>gnuplot check.gp</code>"
+    page check $pictures "$shown"
     page run $pictures "<td"
     page floors $pictures "<h1>Round-off floors of the linear solvers</h1>"
     echo "Python read the pages"

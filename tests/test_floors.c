@@ -51,6 +51,36 @@ TEST(test_floors)
     br_floors_clear(&f);
 }
 
+static bool at_once(void *self)
+{
+    (void)self;
+    return true;
+}
+
+/* Which marches are laid out: of an assembled matrix none above 100,000 elements, unless the user
+ * lists the meshes. */
+TEST(test_meshes)
+{
+    static const size_t million = 1000000;
+    const struct br_observer stops = {.stop = at_once};
+    for (int listed = 0; listed < 2; listed++) {
+        const struct br_extremes_job job = {.scene = scenes,
+                                            .scenes = 1,
+                                            .n = listed ? &million : NULL,
+                                            .n_count = listed ? 1 : 0,
+                                            .observer = &stops};
+        struct br_error err = {0};
+        struct br_floors f;
+        REFUSED(br_floors_run(&f, false, &job, &err), BR_INTERRUPTED, "interrupted");
+        for (size_t i = 0; i < f.floors; i++) {
+            const bool assembled = f.floor[i].by == &f.method[named(&f, "umfpack")];
+            const bool left = !listed && assembled && f.floor[i].n > 100000;
+            assert_true(f.floor[i].steps == (left ? 0 : BR_FLOOR_STEPS));
+        }
+        br_floors_clear(&f);
+    }
+}
+
 /* A vibration that dies down by the factor 50 in these steps; a lagged contact that would multiply
  * its error by -46 in each step: what is predicted holds for both. */
 TEST(test_any_scene)

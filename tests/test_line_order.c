@@ -316,3 +316,33 @@ TEST(test_fit)
         point[i].error = NAN;
     assert_true(isnan(br_line_fit(point, SOME, 2, &order).value));
 }
+
+/* An order's interval may reach below zero: an error, or a difference, then grows there with
+ * refinement, and the band has two ends, which hold the line. */
+TEST(test_band_of_a_wide_interval)
+{
+    static const struct br_estimate order = {3.7, -11, 18.7};
+    for (int differences = 0; differences < 2; differences++) {
+        struct br_order_point point[SOME];
+        for (size_t i = 0; i < SOME; i++) {
+            const double z = pow(0.5, (double)i);
+            point[i] = (struct br_order_point){z, differences ? z / 2 : 0, pow(z, 3.7)};
+        }
+        for (size_t i = 0; i < SOME; i++) {
+            const struct br_estimate fit = br_line_fit(point, SOME, i, &order);
+            const double away = (double)i - 3, e = point[i].error;
+            CLOSE(log2(fit.value / e), 0, 1e-12);
+            CLOSE(log2(fit.low / e), -(away > 0 ? 15.0 : 14.7) * fabs(away), 1e-11);
+            CLOSE(log2(fit.high / e), (away > 0 ? 14.7 : 15.0) * fabs(away), 1e-11);
+            assert_true(fit.low <= fit.value && fit.value <= fit.high);
+        }
+        for (size_t i = 0; i < SOME; i++) /* one that counts: the line and its band go through it */
+            point[i].error = i == 2 ? 0.3 : NAN;
+        const struct br_estimate fit = br_line_fit(point, SOME, 2, &order);
+        CLOSE(fit.value, 0.3, 1e-12);
+        assert_true(fit.low <= fit.value && fit.value <= fit.high);
+        assert_true(br_line_fit(point, SOME, 3, &order).low <
+                    br_line_fit(point, SOME, 3, &order).value);
+        assert_true(isnan(br_line_fit(point, SOME, 3, &(struct br_estimate){2, NAN, NAN}).low));
+    }
+}

@@ -135,6 +135,33 @@ TEST(test_extrapolated)
     assert_int_equal(t.far_too_low, 0);
 }
 
+/* Where in a step a load jumps decides the error of few steps: they may show any order, but a jump
+ * leaves order one. */
+TEST(test_jumps)
+{
+    static const size_t n = 32, many = 5001;
+    static const double at[] = {0.21, 0.3101234567, 0.4987, 0.7331};
+    const struct br_study shape = {.n_count = 1, .k_count = 1, .n = &n, .steps = &many};
+    struct tally t = {0};
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+        char text[64];
+        struct br_scene scene = br_test_bare();
+        scene.axial.modelled = false;
+        scene.duration = 1;
+        scene.density = 1e-4;
+        scene.bending.stiffness = 1000;
+        scene.bending.viscosity = 333;
+        snprintf(text, sizeof text, "100*step(t - %.17g)", at[i]);
+        scene.bending.load = br_test_load(text);
+        measure(&t, &scene, "esdirk4", &shape, 2e5);
+        br_load_clear(&scene.bending.load);
+    }
+    show("loads that jump, extrapolated", &t);
+    assert_int_equal(t.all, 4);
+    assert_true(t.known >= 2);
+    assert_int_equal(t.below, t.known);
+}
+
 /* ---- scenes drawn at random, against a march by a tolerance ---- */
 
 static const char *const loads[] = {"1", "t", "sin(3*t)", "exp(t) - 1", "x*cos(2*t)", "1 - x*t"};

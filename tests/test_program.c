@@ -382,6 +382,19 @@ TEST(test_repeated)
     assert_true(isnan(numbers.row[1].number[0]));
 }
 
+/* Two readings may not state one resolution. */
+TEST(test_refused_sizes)
+{
+    static const struct br_reading both[] = {
+        {"dofs", "dofs=(.*)", BR_READING_REGEX, NULL, false, false},
+        {"h", "h=(.*)", BR_READING_REGEX, NULL, false, false},
+        {"err", "err=(.*)", BR_READING_REGEX, NULL, false, false}};
+    struct br_orders_request p = program("true {n}");
+    p.reading = both;
+    p.readings = 3;
+    refuse(&p, BR_BAD_INPUT, "h is read beside dofs, expected one resolution of an axis");
+}
+
 TEST(test_refused_lists)
 {
     static const char *const lists[][2] = {
@@ -502,6 +515,21 @@ TEST(test_hanging)
     expect_dead("hang.4");
     expect_dead("hang.8");
     expect_dead("hang.16");
+}
+
+/* A program that stops its keeper, which then watches nothing, ends in time, too. */
+TEST(test_stopped_keeper)
+{
+    static const double one[] = {4};
+    write_script("stops", "echo $$ > $0.pid; kill -STOP $PPID; exec sleep 60");
+    struct br_orders_request p = program(command_of("stops", "{n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    p.seconds = 1;
+    const double start = br_seconds();
+    run(&p);
+    AT_MOST(br_seconds() - start, 20);
+    assert_non_null(strstr(numbers.row[0].failure, "it did not end within 1 s"));
+    expect_dead("stops.pid");
 }
 
 /* ---- cost ---- */
@@ -745,8 +773,9 @@ TEST(test_no_survivors)
             _exit(br_program_run(&p, &numbers, &err) || numbers.row[0].failure);
         }
         if (deadly[i]) {
-            shell("for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
-                  "done; exit 1");
+            shell(
+                "for i in $(seq 3000); do [ -s nest.8.a ] && [ -s nest.8.b ] && exit 0; sleep 0.01; "
+                "done; exit 1");
             kill(child, deadly[i]);
         }
         int status;
@@ -760,6 +789,71 @@ TEST(test_no_survivors)
         shell(
             "for i in $(seq 1000); do [ -z \"$(ls -A tmp)\" ] && exit 0; sleep 0.02; done; exit 1");
     }
+}
+
+/* A program has the usual signals, also where this process ignores them. */
+TEST(test_usual_signals)
+{
+    static const int usual[] = {SIGINT, SIGQUIT, SIGTERM, SIGPIPE, SIGXFSZ, SIGCHLD};
+    static const double one[] = {4};
+    void (*old[6])(int);
+    unsigned long long ignored = ~0ull;
+    write_script("usual",
+                 "sed -n 's/^SigIgn:[^0-9a-f]*//p' /proc/self/status > $0.ignored; echo err=1");
+    struct br_orders_request p = program(command_of("usual", "{n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    for (int i = 0; i < 6; i++)
+        old[i] = signal(usual[i], SIG_IGN);
+    br_numbers_clear(&numbers);
+    const enum br_status status = br_program_run(&p, &numbers, &err);
+    for (int i = 0; i < 6; i++)
+        signal(usual[i], old[i]);
+    MUST(status);
+    FILE *file = fopen(path_of("usual.ignored"), "r");
+    assert_non_null(file);
+    assert_int_equal(fscanf(file, "%llx", &ignored), 1);
+    fclose(file);
+    for (int i = 0; i < 6; i++)
+        assert_int_equal(ignored >> (usual[i] - 1) & 1, 0);
+}
+
+/* What a program has started is asked to end, too, before it is killed. */
+TEST(test_group_is_asked)
+{
+    static const double one[] = {4};
+    write_script("asked", "sh -c 'trap \"echo asked > $0.child; exit\" TERM\n"
+                          "touch $0.ready; while :; do sleep 0.1; done' $0 &\n"
+                          "trap : TERM; until [ -e $0.ready ]; do sleep 0.1; done; wait; wait");
+    struct br_orders_request p = program(command_of("asked", "{n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    p.seconds = 3;
+    run(&p);
+    assert_non_null(strstr(numbers.row[0].failure, "it did not end within 3 s"));
+    shell("test -e asked.ready && test -e asked.child");
+}
+
+/* Where a program's keeper is killed, the program ends, and its folder is removed. */
+TEST(test_killed_keeper)
+{
+    static const double one[] = {4};
+    write_script("left", "echo $$ > $0.pid; touch here; echo $PPID > $0.new; mv $0.new $0.keeper\n"
+                         "exec sleep 60");
+    struct br_orders_request p = program(command_of("left", "{n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0)
+        _exit(br_program_run(&p, &numbers, &err) == BR_IO &&
+                      strstr(err.message, "what watched a program was killed")
+                  ? 0
+                  : 1);
+    shell("for i in $(seq 1000); do [ -e left.keeper ] && exit 0; sleep 0.01; done; exit 1");
+    shell("kill -KILL $(cat left.keeper)");
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    expect_dead("left.pid");
+    has_entries("tmp", 0);
 }
 
 /* ---- readings ---- */

@@ -212,8 +212,10 @@ static struct br_case made_case(enum br_verify_kind kind, enum br_verdict verdic
         .constant = 3 + x,
         .margin = 0.125 - x,
         .verdict = verdict};
-    snprintf(c.reason, sizeof c.reason, verdict ? "reason <%zu>, 100 %%" : "", i);
-    snprintf(c.note, sizeof c.note, verdict ? "" : "note <%zu>", i);
+    if (verdict)
+        snprintf(c.reason, sizeof c.reason, "reason <%zu>, 100 %%", i);
+    else
+        snprintf(c.note, sizeof c.note, "note <%zu>", i);
     return c;
 }
 

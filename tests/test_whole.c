@@ -11,7 +11,9 @@
 
 #include "cli/output.h"
 #include "cli_driver.h"
+#include "faults.h"
 #include "solver/clock.h"
+#include "study/base/text.h"
 #include "support.h"
 
 static struct cli_outcome out;
@@ -209,7 +211,8 @@ TEST(test_stopped)
         if (!run_with(new_line, n, "stop"))
             break;
         const bool written = set_that_is_there() == 'r';
-        const char *said = written ? "interrupted after everything was written" : "no file is half written";
+        const char *said =
+            written ? "interrupted after everything was written" : "no file is half written";
         if (out.exit_code != -SIGTERM || !strstr(out.output, said) ||
             cli_is_there("set/.beamrate-new"))
             fail_msg("disk %ld stop: exit code %d: %s", n, out.exit_code, out.output);
@@ -231,7 +234,8 @@ TEST(test_killed_at_random)
     const double last = 1.3 * (br_seconds() - start);
     for (int i = 0; i < kills; i++) {
         make_old();
-        snprintf(command, sizeof command, "timeout -s KILL %.4f \"$BEAMRATE\" %s 2>&1 || true",
+        snprintf(command, sizeof command,
+                 "{ timeout -s KILL %.4f \"$BEAMRATE\" %s; } >/dev/null 2>&1 || true",
                  last * (i + 1) / kills, new_line);
         shell(command);
         const char before = set_that_is_there();
@@ -293,6 +297,37 @@ static pid_t start_slow(const char *line)
         return child;
     run_with(line, 0, "slow");
     _exit(out.exit_code);
+}
+
+/* The n-th allocation of a text in memory fails: nothing is written, or all of it. The texts get
+ * shorter, so that some fit again behind one that did not. */
+TEST(test_texts_without_memory)
+{
+    static char expected[70000];
+    size_t failures = 0, good = 0;
+    for (size_t i = 0, at = 0; i < 3; at += 60000 >> 3 * i++)
+        memset(expected + at, "abc"[i], 60000 >> 3 * i);
+    for (long n = 1; good < 5; n++) {
+        char *text = expected;
+        size_t size = 1;
+        br_memory_fails_at(n);
+        FILE *file = br_text_open(&text, &size);
+        for (size_t i = 0, at = 0; i < 3 && file; at += 60000 >> 3 * i++)
+            fprintf(file, "%.*s", 60000 >> 3 * i, expected + at);
+        const bool written = file && fclose(file) == 0;
+        br_memory_fails_at(-1);
+        if (written) {
+            assert_int_equal(size, strlen(expected));
+            assert_true(strcmp(text, expected) == 0);
+        } else {
+            assert_null(text);
+            assert_int_equal(size, 0);
+        }
+        failures += !written;
+        good = written ? good + 1 : 0;
+        free(text);
+    }
+    assert_true(failures >= 4);
 }
 
 TEST(test_two_at_once)

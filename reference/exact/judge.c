@@ -172,7 +172,7 @@ static void exact_print_notes(const void *self, FILE *out)
     for (size_t i = 0; i < count && i < MOST; i++) {
         if (event[i].time == 0)
             fprintf(out, "At t = 0: %s%s.\n", subjects[event[i].field],
-                    br_phase_text(event[i].phase));
+                    event[i].phase == BR_OPEN ? "contact is open" : br_phase_text(event[i].phase));
         else
             fprintf(out, "At t = %.12g s (+- %.0e s): %s%s.\n", event[i].time, event[i].error,
                     subjects[event[i].field], br_phase_text(event[i].phase));

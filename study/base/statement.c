@@ -4,10 +4,12 @@
 #include <stdarg.h>
 #include <stdlib.h>
 
+#include "study/base/text.h"
+
 void br_statement_begin(struct br_statement *s)
 {
     *s = (struct br_statement){0};
-    s->file = open_memstream(&s->text, &s->size);
+    s->file = br_text_open(&s->text, &s->size);
     s->failed = !s->file;
 }
 

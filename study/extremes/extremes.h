@@ -71,7 +71,8 @@ struct br_floors {
 };
 
 /* Measures all; a refusal by a march is a result. Defaults of the job: for floors n is 100 to
- * 1,000,000, with 1e2, 1e4, 1e6 steps of the duration; for gathered round-off there are from one
+ * 1,000,000, to 100,000 for assembled matrices, which are refused there, with 1e2, 1e4, 1e6 steps
+ * of the duration; for gathered round-off there are from one
  * step to 1e5 steps, to 1e6 where a step is one solve, and to 1e7 in the first scene by implicit
  * Euler with implicit contact. Clear *floors (out) also after a failure. Fails with BR_UNSUPPORTED
  * where long double has no more digits than double, BR_NO_MEMORY, BR_INTERRUPTED, BR_BAD_INPUT (too

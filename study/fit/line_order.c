@@ -107,7 +107,8 @@ static double loss(double ratio, double p, double *slope)
     if (ratio == 0)
         return 0;
     *slope = fabs(decay) < 1e-4 ? log(ratio) / 2 : log(ratio) / expm1(-decay) * -1 - 1 / p;
-    return fabs(decay) < 1e-8 ? log(-log(ratio)) : log(-expm1(decay) / p);
+    return fabs(decay) < 1e-8 ? log(-log(ratio))
+                              : fmax(decay, 0) + log(-expm1(-fabs(decay)) / fabs(p));
 }
 
 /* The regression over all rows; where errors are differences the loss depends on its slope. */
@@ -510,7 +511,8 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
         take_rows(&r, point, scatter, count);
         if (r.count >= 3 && isfinite(r.order))
             add_laws(&all, &r);
-        normalise(&all);
+        if (all.count)
+            normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
@@ -564,10 +566,12 @@ double br_order_rate(const struct br_order_point *coarse, const struct br_order_
 
 /* ---- the line of an order ---- */
 
-/* A point's share of an error of order p. */
-static double power_at(const struct br_order_point *point, double p)
+/* The logarithm of a point's share of an error of order p. Its constant factor is not that of the
+ * error itself, and |z^p - z_against^p| also has a share of an order of zero or less. */
+static double log_share(const struct br_order_point *point, double p)
 {
-    return pow(point->z, p) - pow(point->z_against, p);
+    double slope;
+    return p * log(point->z) + loss(point->z_against / point->z, p, &slope);
 }
 
 static double line_at(const struct br_order_point *point, size_t count, size_t i, double p)
@@ -575,16 +579,19 @@ static double line_at(const struct br_order_point *point, size_t count, size_t i
     double sum = 0, counts = 0;
     for (size_t j = 0; j < count; j++)
         if (usable(&point[j])) {
-            sum += log(point[j].error / power_at(&point[j], p));
+            sum += log(point[j].error) - log_share(&point[j], p);
             counts++;
         }
-    return power_at(&point[i], p) * exp(sum / counts);
+    return exp(log_share(&point[i], p) + sum / counts);
 }
 
 struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
                                const struct br_estimate *order)
 {
-    const double a = line_at(point, count, i, order->low),
+    const double fit = line_at(point, count, i, order->value),
+                 a = line_at(point, count, i, order->low),
                  b = line_at(point, count, i, order->high);
-    return (struct br_estimate){line_at(point, count, i, order->value), fmin(a, b), fmax(a, b)};
+    if (!(isfinite(a) && isfinite(b)))
+        return (struct br_estimate){fit, NAN, NAN};
+    return (struct br_estimate){fit, fmin(fit, fmin(a, b)), fmax(fit, fmax(a, b))};
 }

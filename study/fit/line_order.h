@@ -71,8 +71,9 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
                                       struct br_error *err);
 
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
- * their logarithms, at point[i]; and its band, by the lines of the order's low and high end. Errors
- * that are not above 0, or not finite, are left aside; NaN: there are no others, or no order. */
+ * their logarithms, at point[i]; and its band, by the lines of the order's low and high end, which
+ * holds the line itself. Errors that are not above 0, or not finite, are left aside; NaN: there are
+ * no others, or no order, or no interval of it. */
 struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
                                const struct br_estimate *order);
 

@@ -7,6 +7,7 @@
 #include "solver/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/proof.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
@@ -27,7 +28,7 @@ enum cell {
     TIME,  /* the steps of RUN on the elements of R: the error of time */
     SPACE, /* the elements of RUN with the steps of CHECK: the error of space */
     STEPS, /* the elements of R with the steps of CHECK */
-    HALF,  /* half of RUN in what R refines, if RUN is not the run: shows the order */
+    HALF,  /* half of RUN in what R refines, if the error is extrapolated: shows the order */
     CELLS
 };
 
@@ -45,6 +46,7 @@ struct comparison {
 struct marches {
     const struct br_planned_march *run;
     struct comparison by[COMPARISONS];
+    bool jumps;    /* a load does, or bends, within the duration: set for IN_TIME */
     char why[200]; /* why the last failed comparison failed */
 };
 
@@ -208,7 +210,9 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->at[TIME] = place(c, &on_fine, fine, s->steps);
     c->at[SPACE] = place(c, s->check, s->n, some);
     c->at[STEPS] = place(c, s->check, fine, some);
-    const bool halves = !itself && !chosen && (s->finer > 1 ? s->n : s->steps) % 2 == 0;
+    const bool halves =
+        s->finer > 1 ? which == IN_SPACE && s->n < m->run->n && s->n % 2 == 0
+                     : which == IN_TIME && s->steps < m->run->steps && !chosen && s->steps % 2 == 0;
     c->at[HALF] = !halves        ? -1
                   : s->finer > 1 ? place(c, s->own, s->n / 2, s->steps)
                                  : place(c, s->own, s->n, s->steps / 2);
@@ -297,6 +301,42 @@ static size_t twice_odd(double count)
     return 2 * ((size_t)(count / 2) | 1);
 }
 
+/* Whether a function of time jumps or bends within the duration; no proof: it may. Fails with
+ * BR_NO_MEMORY. */
+static enum br_status add_jumps(const struct br_scene *s, const struct br_function *f, bool *jumps,
+                                struct br_error *err)
+{
+    struct br_breaks breaks = {0};
+    struct br_error failure = {0};
+    if (!f->uses_t || *jumps)
+        return BR_OK;
+    const enum br_status status = br_breaks_add(
+        f, BR_T, (struct br_box){{0, s->length}, {0, s->duration}}, &breaks, &failure);
+    *jumps = status || breaks.count > 0 || breaks.moving;
+    br_breaks_free(&breaks);
+    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
+}
+
+static enum br_status find_jumps(struct marches *m, struct br_error *err)
+{
+    const struct br_scene *s = m->run->scene;
+    const struct br_function *const tip[] = {&s->axial.tip_force, &s->bending.tip_force,
+                                             &s->bending.tip_moment};
+    enum br_status status = BR_OK;
+    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_load *load = kind ? &s->bending.load : &s->axial.load;
+        for (size_t i = 0; i < BR_LOAD_TERMS && is_modelled(s, kind) && !status; i++) {
+            status = add_jumps(s, &load->term[i].space, &m->jumps, err);
+            if (!status)
+                status = add_jumps(s, &load->term[i].time, &m->jumps, err);
+        }
+    }
+    for (size_t i = 0; i < sizeof tip / sizeof *tip && !status; i++)
+        if (is_modelled(s, i ? BR_BENDING : BR_AXIAL))
+            status = add_jumps(s, tip[i], &m->jumps, err);
+    return status;
+}
+
 /* For a run that is too dear: its steps on a coarse mesh, its elements with few steps. */
 static enum br_status march_apart(struct marches *m, size_t n, struct br_error *err)
 {
@@ -305,7 +345,9 @@ static enum br_status march_apart(struct marches *m, size_t n, struct br_error *
     struct br_method own = *o->method;
     const double most = budget(o) / solve(o, n), r = 1.5 * stages(&best), steps = (double)o->steps;
     struct setting time = {n, o->steps, 1, 16, &own, &best, &best};
-    enum br_status status;
+    enum br_status status = find_jumps(m, err);
+    if (status)
+        return status;
     if (own.scheme->adaptive) {
         own.tolerance = fmax(own.tolerance, loosest);
         status = march_tight(m, IN_TIME, &own, n, LEVELS, err);
@@ -440,9 +482,10 @@ static struct br_predicted distance(const struct comparison *c, enum cell cell, 
     return (struct br_predicted){e, fmax(0, (e - unsure) / factor), factor * (e + unsure), NAN};
 }
 
-/* The error of RUN, extrapolated to the run by the observed order or, if it is higher or not
- * plausible, that of theory. Switches spoil orders above one, which coarse marches do not show;
- * errors of friction that iterates grow with the steps. */
+/* The error of RUN, extrapolated to the run by the observed order, at most that of theory; by one if
+ * it is not plausible. Switches, and loads that jump or bend, spoil orders above one. Coarse marches
+ * do not show that: their error depends on where in a step a load jumps. Errors of friction that
+ * iterates grow with the steps. */
 static struct br_predicted extrapolated(const struct marches *m, int which, int kind)
 {
     const struct comparison *c = &m->by[which];
@@ -455,7 +498,7 @@ static struct br_predicted extrapolated(const struct marches *m, int which, int 
     const bool plausible = observed >= least_order;
     const double expected = fmin(plausible ? observed : 1, theory);
     double order[] = {plausible ? expected : 0, expected, theory};
-    if (time && can_switch(m->run->scene))
+    if (time && (m->jumps || can_switch(m->run->scene)))
         order[0] = fmin(order[0], 1);
     if (time && rubs && own->friction->iterates)
         order[0] = -1;

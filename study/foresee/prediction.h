@@ -32,7 +32,7 @@ struct br_prediction {
     bool bounded;                 /* `whole` has low and high, even if it is not known */
     struct br_predicted field[2]; /* of discretisation, by br_field_kind; zeros: not
                                      modelled */
-    double size[2]; /* of the fields, by br_field_kind: their largest L2 norms in the probes,
+    double size[2]; /* of the fields, by br_field_kind: their largest L2 norms in the marches,
                        m^(3/2) */
     struct br_predicted space, time, whole; /* of the field whose upper bound is the larger */
     double round_off; /* relative to the exact discrete solution: br_predict_round_off */

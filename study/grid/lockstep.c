@@ -13,6 +13,7 @@
 
 #include "solver/clock.h"
 #include "study/base/each.h"
+#include "study/base/text.h"
 #include "study/grid/sweep.h"
 
 /* ---- measuring ---- */
@@ -378,11 +379,10 @@ static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
                                   struct br_error *err)
 {
     size_t size;
-    FILE *out = open_memstream(&study->events, &size);
-    if (!out)
-        return br_no_memory(err, "the events");
-    l->reference.judge->print_notes(l->reference.self, out);
-    return fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
+    FILE *out = br_text_open(&study->events, &size);
+    if (out)
+        l->reference.judge->print_notes(l->reference.self, out);
+    return out && fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
 }
 
 /* Whether a failure ends the whole call, not only one study. */

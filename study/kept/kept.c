@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "study/base/quote.h"
+#include "study/base/text.h"
 
 static const double usual_slice = 2, usual_reference = 0.1;
 
@@ -209,14 +210,13 @@ bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, 
     size_t size;
     if (!k || !*k->folder)
         return true;
-    struct br_record record = {.to = text ? open_memstream(&bytes, &size) : NULL};
+    struct br_record record = {.to = text ? br_text_open(&bytes, &size) : NULL};
     bool kept = false;
     if (record.to) {
         pass_bytes(&record, (char *)text, strlen(text) + 1);
         if (!record.wrong)
             pass_all(&record, self);
-        kept =
-            fclose(record.to) == 0 && bytes && (record.wrong || put_in_place(k, text, bytes, size));
+        kept = fclose(record.to) == 0 && (record.wrong || put_in_place(k, text, bytes, size));
     }
     free(bytes);
     if (!kept)

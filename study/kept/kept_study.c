@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "reference/exact/exact.h"
+#include "study/base/text.h"
 #include "study/grid/batches.h"
 #include "study/kept/kept.h"
 
@@ -218,7 +219,7 @@ static enum br_status march(struct work *w, int threads, struct br_error *err)
     if (w->share.whole)
         of_share = br_observer_of(&w->share);
     enum br_status status = BR_OK;
-    if (!(w->results = open_memstream(&w->bytes, &w->size)))
+    if (!(w->results = br_text_open(&w->bytes, &w->size)))
         return br_no_memory(err, "what is kept");
     w->share.length = 1 / (double)w->slices.count;
     for (size_t i = 0; i < w->slices.count && !status; i++) {
@@ -228,7 +229,7 @@ static enum br_status march(struct work *w, int threads, struct br_error *err)
         if (!status)
             keep_cells(w, i);
     }
-    const bool lost = fclose(w->results) != 0 || !w->bytes; /* of which fclose says nothing */
+    const bool lost = fclose(w->results) != 0;
     return lost && !status ? br_no_memory(err, "what is kept") : status;
 }
 

@@ -249,3 +249,19 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
                        most, most == 1 ? "" : "s");
     return BR_OK;
 }
+
+enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br_error *err)
+{
+    size_t failed = 0;
+    const struct br_numbers_row *first = NULL;
+    for (size_t i = 0; i < numbers->rows; i++)
+        if (numbers->row[i].failure) {
+            first = first ? first : &numbers->row[i];
+            failed++;
+        }
+    const int axis = numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s = %.6g: %s",
+                            failed, numbers->rows, numbers->column[axis]->name, first->given[axis],
+                            first->failure)
+                  : BR_OK;
+}

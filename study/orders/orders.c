@@ -378,9 +378,10 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
     const struct br_orders_line *finest = br_orders_finest(of, axis);
     const struct br_estimate *joint = &of->joint.order[axis];
     if (br_joint_describes(&of->joint))
-        return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, axis) ? hidden[axis]
-                                                 : br_order_determined(joint)        ? NULL
-                                                                                     : open[axis]};
+        return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, (int)axis)
+                                                     ? hidden[axis]
+                                                 : br_order_determined(joint) ? NULL
+                                                                              : open[axis]};
     if (!finest)
         return (struct br_orders_answer){{NAN, NAN, NAN}, NULL};
     return is_grid(o) && !o->numbers->quantity[of->quantity].is_value
@@ -571,7 +572,7 @@ bool br_orders_stays(const struct br_orders_line *line)
         least = fmin(least, line->observed.point[i].error);
         most = fmax(most, line->observed.point[i].error);
     }
-    return most < 2 * least;
+    return most > 0 && most < 2 * least; /* 0: no row has a number */
 }
 
 /* ---- costs ---- */

@@ -95,6 +95,10 @@ bool br_lists(const char *list, const char *name);
  * overflow. */
 enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, struct br_error *err);
 
+/* Fails with BR_NOT_FINITE where runs of a program have no numbers: a command says so after it has
+ * written what the others give. */
+enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br_error *err);
+
 /* ---- orders ---- */
 
 /* The observed order of a quantity along one axis, at one size of the other axis. */

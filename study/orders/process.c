@@ -219,6 +219,7 @@ void br_process_terminate(const struct br_process *p)
 void br_process_kill(const struct br_process *p)
 {
     kill(p->keeper, KILL_ALL);
+    kill(p->keeper, SIGCONT); /* the program may have stopped it */
 }
 
 struct br_process_end br_process_wait(struct br_process *p)

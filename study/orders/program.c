@@ -147,7 +147,10 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
                        strerror(end.failure));
     if (end.failure)
         return cannot_run(&r->process, end.failure, err);
-    return end.known ? BR_OK : br_fail(err, BR_IO, "what watched a program was killed");
+    if (end.known)
+        return BR_OK;
+    br_remove_folder(end.folder);
+    return br_fail(err, BR_IO, "what watched a program was killed");
 }
 
 /* ---- its output ---- */
@@ -409,13 +412,19 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
                                       struct br_error *err)
 {
     const char **name = br_allocate(p->readings, sizeof *name);
+    const struct br_resolution_column *stated[BR_AXES] = {NULL};
     enum br_status status = name ? BR_OK : br_no_memory(err, "what is read");
     for (size_t i = 0; i < p->readings && !status; i++) {
         const char *text = p->reading[i].name;
         const struct br_resolution_column *size = br_resolution_column_find(text);
         status = br_reading_check(&p->reading[i], err);
+        const struct br_resolution_column *other = size ? stated[size->axis] : NULL;
+        if (other && !status)
+            status = br_fail(err, BR_BAD_INPUT,
+                             "%s is read beside %s, expected one resolution of an axis", text,
+                             other->name);
         if (size)
-            numbers->column[size->axis] = size;
+            numbers->column[size->axis] = stated[size->axis] = size;
         else if (!status) {
             name[numbers->quantities] = text;
             status = br_numbers_add_quantity(numbers, text, NULL, br_lists(p->values, text), err);

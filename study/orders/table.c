@@ -236,7 +236,8 @@ static enum br_status refuse_columns(const struct source *s, const char *why, st
         if (heading(s, i)) {
             br_quoted(name, sizeof name, &br_for_text, heading(s, i));
             br_append(names, sizeof names, "%s%s", names[0] ? ", " : "", name);
-            strcpy(first, *first ? first : name);
+            if (!*first)
+                strcpy(first, name);
         }
     return br_fail(err, BR_BAD_INPUT,
                    none ? "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s%s"

@@ -25,6 +25,7 @@
 
 #include "solver/clock.h"
 #include "study/base/quote.h"
+#include "study/base/text.h"
 #include "study/grid/batches.h"
 #include "study/grid/sweep.h"
 #include "study/ranks/ranks.h"
@@ -369,7 +370,7 @@ static enum br_status gather(struct call *c, struct br_error *err)
 static enum br_status share(struct call *c, struct br_error *err)
 {
     struct br_error *failure = &c->report.failure;
-    c->results = open_memstream(&c->own, &c->report.bytes);
+    c->results = br_text_open(&c->own, &c->report.bytes);
     enum br_status status = exchange_reports(c->report, err);
     if (!status && c->results)
         march_all(c, failure);

@@ -12,6 +12,7 @@
 #include <yaml.h>
 
 #include "study/base/quote.h"
+#include "study/base/text.h"
 #include "study/base/words.h"
 #include "study/known/expression.h"
 #include "study/scene/schema.h"
@@ -301,7 +302,7 @@ static void print_value(const struct br_scene_reader *r, const struct br_scene_k
 enum br_status br_scene_data(const struct br_scene_reader *r, char **data)
 {
     size_t size;
-    FILE *out = open_memstream(data, &size);
+    FILE *out = br_text_open(data, &size);
     for (const struct br_scene_key *k = br_scene_keys; out && k->name; k++)
         if (line_of(r, k) && k->need != BR_MAKES && k->kind != BR_KEY_SECTION &&
             k->kind != BR_KEY_TEXT && k->kind != BR_KEY_VERIFY)

@@ -47,10 +47,14 @@ static const struct br_point *first_failed(const struct br_case *c)
 static void list_left_out(struct br_case *c)
 {
     for (size_t i = 0; i < c->points; i++) {
-        if (c->point[i].flag)
-            br_append(c->note, sizeof c->note, "%s%s (%s, error %.1e)",
-                      c->note[0] ? ", " : "left out: ", c->point[i].label,
-                      br_flag_name(c->point[i].flag), c->point[i].error);
+        const struct br_point *p = &c->point[i];
+        if (!p->flag)
+            continue;
+        br_append(c->note, sizeof c->note, "%s%s (%s", c->note[0] ? ", " : "left out: ", p->label,
+                  br_flag_name(p->flag));
+        if (isfinite(p->error))
+            br_append(c->note, sizeof c->note, ", error %.1e", p->error);
+        br_append(c->note, sizeof c->note, ")");
     }
 }
 

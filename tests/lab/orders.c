@@ -265,8 +265,8 @@ static bool try_all_published(size_t number)
     size_t count[4] = {0};
     for (size_t i = 0; i < BR_PUBLISHED; i++)
         count[try_published(i)]++;
-    const bool good = count[0] >= 0.8 * BR_PUBLISHED && count[2] <= 0.08 * BR_PUBLISHED &&
-                      count[3] <= 0.08 * BR_PUBLISHED;
+    const bool good = 10 * count[0] >= 8 * BR_PUBLISHED && 100 * count[2] <= 8 * BR_PUBLISHED &&
+                      100 * count[3] <= 8 * BR_PUBLISHED;
     printf(
         "# of %d columns %zu cover the order, %zu are near, %zu exclude it, %zu do not determine it\n",
         BR_PUBLISHED, count[0], count[1], count[2], count[3]);
