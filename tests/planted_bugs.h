@@ -908,7 +908,7 @@ static const struct planted_bug planted_bugs[] = {
     {"rows_below_1e-9_do_not_count", "tolerance", "study/fit/line_order.c",
      "tests/test_line_order test_units", "return p->error > 0 && isfinite(p->error);",
      "return p->error > 1e-9 && isfinite(p->error);"},
-    {"gaps_are_bridged", "drawn", "plots/script.c", "tests/test_figure test_gap",
+    {"gaps_are_bridged", "drawn", "plots/script.c", "tests/test_figure test_stored",
      "set border front lw 1\\nunset key",
      "set datafile missing 'NaN'\\nset border front lw 1\\nunset key"},
     {"front_is_no_stairs", "drawn", "plots/trade.c", "golden trade", "s->stairs = true;", ""},

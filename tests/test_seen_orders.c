@@ -241,7 +241,8 @@ TEST(test_steps_apart)
         const double line = 16 * pow(2, 1 - (double)i);
         assert_int_equal(seen->point[i].flag, i == 0 ? BR_FLAG_COARSE : BR_FLAG_NONE);
         CLOSE(seen->point[i].fit.value, line, 1e-3 * line);
-        assert_true(seen->point[i].fit.low <= line && line <= seen->point[i].fit.high * (1 + 1e-6));
+        assert_true(seen->point[i].fit.low <= line * (1 + 1e-12));
+        assert_true(line <= seen->point[i].fit.high * (1 + 1e-12));
         CLOSE(seen->point[i].z, 1 / (double)halved[i], 1e-15);
     }
     /* nor does one of those that are fitted, if it is outside the window */
