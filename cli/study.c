@@ -306,8 +306,8 @@ static enum br_status run_differences(struct run *r, size_t job, const struct br
  * cells. */
 static double choose_steps(struct work *w, const struct br_study *s)
 {
-    const struct br_axial *u = &s->scene->axial;
-    const struct br_bending *b = &s->scene->bending;
+    const struct br_scene_field *u = &s->scene->axial;
+    const struct br_scene_field *b = &s->scene->bending;
     const double time =
         fmin(u->modelled && u->viscosity > 0 ? u->viscosity / u->stiffness : INFINITY,
              b->modelled && b->viscosity > 0 ? b->viscosity / b->stiffness : INFINITY);
