@@ -892,7 +892,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_axis_size(l->study->scene, axis, c->at);", "br_axis_size(l->study->scene, axis, l->study->cell->at);"},
     {"a_printed_grid_is_refined", "printed", "study/fit/report.c", "tests/test_seen_orders",
      "if (!agrees(o) && !r->printed) {", "if (!agrees(o)) {"},
-    {"steps_end_where_they_settle_nothing", "order", "cli/study.c", "golden study_mms",
+    {"steps_end_where_they_settle_nothing", "order", "study/fit/apart.c", "golden study_mms",
      "!status && !settled && !failed;", "!status && i < 1 && !settled && !failed;"},
     {"band_upside_down", "interval", "study/fit/line_order.c", "tests/test_line_order test_fit",
      "fmin(fit, fmin(a, b)), fmax(fit, fmax(a, b))", "fmax(fit, fmax(a, b)), fmin(fit, fmin(a, b))"},
