@@ -1451,6 +1451,10 @@ static const struct planted_bug planted_bugs[] = {
      "ratio >= 0.95 && ratio <= 2"},
     {"wider_band_unsaid", "lost", "study/verify/comparison.c", "tests/test_report_values",
      "fmax(e->order, e->highest) + e->tolerance, 1)", "e->order + e->tolerance, 1)"},
+    {"farthest_name_unsaid", "lost", "study/base/words.c",
+     "tests/test_suggestions methods_and_varied_keys", "best + !nearest", "best"},
+    {"units_of_any_dimension_suggested", "unit", "study/scene/units.c", "tests/test_suggestions units",
+     "br_unit_read(whole, &unit) && br_dimension_is(unit.of, of)", "br_unit_read(whole, &unit)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
