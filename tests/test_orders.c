@@ -691,6 +691,22 @@ TEST(test_finer)
     CLOSE(given, 4096, 0);
 }
 
+/* The number that a size was made of; of a size between two numbers, the larger one. */
+TEST(test_given)
+{
+    static const double list[] = {1, 7, 49, 1000, 65537, 1368999999, 99999999999.0};
+    static const char *const columns[] = {"n", "steps", "dofs", "cells"};
+    for (size_t c = 0; c < 4; c++)
+        for (int dimension = 1; dimension <= 3; dimension++)
+            for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+                const struct br_resolution_column *column = br_resolution_column_find(columns[c]);
+                const double z = br_numbers_z(column, list[i], dimension);
+                CLOSE(br_numbers_given(column, z, dimension), list[i], 0);
+                const double between = br_numbers_z(column, list[i] + 0.3, dimension);
+                CLOSE(br_numbers_given(column, between, dimension), list[i] + 1, 0);
+            }
+}
+
 /* A difference goes over a missing value; without any finer value it names the finest row. */
 TEST(test_gap_in_values)
 {
