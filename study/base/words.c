@@ -2,6 +2,7 @@
 #include "study/base/words.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -140,8 +141,10 @@ const char *br_read_number(const char *text, double *value)
     if (!isdigit((unsigned char)*text) && *text != '.' && *text != '-' && *text != '+')
         return NULL; /* strtod would take "nan", "inf" and leading blanks */
     char *end;
+    errno = 0;
     *value = strtod(text, &end);
-    return end != text && isfinite(*value) ? end : NULL;
+    const bool lost = errno == ERANGE && *value == 0; /* 1e-400 is not 0 */
+    return end != text && isfinite(*value) && !lost ? end : NULL;
 }
 
 static enum br_status not_in_range(const char *text, const struct br_number_range *r,

@@ -390,6 +390,9 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     if (axis == BR_AXIS_SPACE) {
         numbers->dimension = br_orders_dimension(s->request, c->size);
         numbers->assumed = c->size->is_volume && s->request->assumed_dimension;
+        if (c->size->is_volume)
+            br_append(numbers->taken, sizeof numbers->taken, ", d = %g%s", numbers->dimension,
+                      numbers->assumed ? " assumed" : "");
     }
     for (size_t i = 1; i <= s->columns; i++)
         if (i != best && s->column[i].size && s->column[i].size->axis == axis &&
