@@ -153,9 +153,9 @@ static const struct {
     const char *taken, *names;
 } foreign[] = {
     {"dealii.txt", "L2", 2,
-     "h = dofs^(-1/d) from column dofs; errors: L2, H1; left aside: cells, cycle", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2, H1; left aside: cells, cycle", NULL},
     {"dealii_org.txt", "L2 error", 2,
-     "h = dofs^(-1/d) from column dofs; errors: L2 error; left aside: cells, L2 rate", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2 error; left aside: cells, L2 rate", NULL},
     {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler", NULL},
     {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r", NULL},
     {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error", NULL},
@@ -178,7 +178,7 @@ static const struct {
     /* two columns of rates, and a bar behind the last field */
     {"| cycle | # dofs | L2 | rate | H1 | rate |\n| 0 | 81 | 1.6e-2 | - | 2.56e-1 | - |\n"
      "| 1 | 324 | 4e-3 | 2 | 1.28e-1 | 1 |\n| 2 | 1296 | 1e-3 | 2 | 6.4e-2 | 1 |\n",
-     "H1", 1, "h = dofs^(-1/d) from column # dofs; errors: L2, H1; left aside: cycle, rate, rate",
+     "H1", 1, "h = dofs^(-1/d) from column # dofs, d = 2 assumed; errors: L2, H1; left aside: cycle, rate, rate",
      NULL},
     {"| level | e |\n|---|---|\n| 0 | 16 |\n| 1 | 4 |\n| 2 | 1 |\n", "e", 2,
      "h = 2^-level from column level; errors: e", NULL},
@@ -689,6 +689,22 @@ TEST(test_finer)
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
     CLOSE(given, 4096, 0);
+}
+
+/* The number that a size was made of; of a size between two numbers, the larger one. */
+TEST(test_given)
+{
+    static const double list[] = {1, 7, 49, 1000, 65537, 1368999999, 99999999999.0};
+    static const char *const columns[] = {"n", "steps", "dofs", "cells"};
+    for (size_t c = 0; c < 4; c++)
+        for (int dimension = 1; dimension <= 3; dimension++)
+            for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+                const struct br_resolution_column *column = br_resolution_column_find(columns[c]);
+                const double z = br_numbers_z(column, list[i], dimension);
+                CLOSE(br_numbers_given(column, z, dimension), list[i], 0);
+                const double between = br_numbers_z(column, list[i] + 0.3, dimension);
+                CLOSE(br_numbers_given(column, between, dimension), list[i] + 1, 0);
+            }
 }
 
 /* A difference goes over a missing value; without any finer value it names the finest row. */
