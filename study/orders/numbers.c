@@ -243,8 +243,9 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         name_row(numbers, b, path, source);
         return b->line
                    ? br_fail(err, BR_BAD_INPUT,
-                             "%s: the resolution is that of line %zu, expected each once", source,
-                             a->line)
+                             "%s: the resolution is that of line %zu, expected each once; of "
+                             "replicates, the mean",
+                             source, a->line)
                    : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", source);
     }
     if (most < 3)
