@@ -15,7 +15,7 @@ enum {
     TIGHT,    /* the run against steps by a tolerance on more elements */
     IN_TIME,  /* its steps, or fewer, on a coarse mesh against more steps */
     IN_SPACE, /* its elements, or fewer, with few steps against more elements */
-    START,    /* its first steps on a coarse mesh against steps by a tolerance, or more steps */
+    START,    /* its first steps on a coarse mesh against steps by a tolerance */
     COMPARISONS
 };
 
@@ -68,6 +68,7 @@ enum {
     SPACE_N = 128,    /* from so many on, errors of space follow their order: R has them at least */
     SEEN_LEVELS = 64, /* where a step of R ends, at least, so that it meets loads that oscillate */
     MANY_N = 1000,    /* the check of so many elements may have the run's mesh */
+    FIRST = 4,        /* steps of START: what dies away at once */
     LEVELS = 24,      /* of adaptive runs: levels say nothing about their steps */
     LEAST_STEPS = 40  /* by a tolerance beside the levels, or the levels choose the steps */
 };
@@ -80,6 +81,11 @@ static const double tighter = 25, loosest = 1e-4, tight = 1e-6, tightest = 1e-12
 static bool is_modelled(const struct br_scene *scene, int kind)
 {
     return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
 }
 
 static double stages(const struct br_method *m)
@@ -256,12 +262,6 @@ static enum br_status march_tight(struct marches *m, int which, const struct br_
     return march(m, which, &(struct setting){n, steps, finer, shorter, own, &check, &r}, err);
 }
 
-/* An even number: half of it is odd, so that not all levels are where a periodic load is zero. */
-static size_t twice_odd(double count)
-{
-    return 2 * ((size_t)(count / 2) | 1);
-}
-
 /* Time and space apart: its steps on a coarse mesh, its elements with few steps. Two marches that
  * both step over a peak of the load agree, but friction keeps the effect of the peak: for a beam
  * that follows its load at once R has as many steps as the budget allows. */
@@ -282,12 +282,12 @@ static enum br_status march_apart(struct marches *m, size_t n, struct br_error *
         while ((time.shorter < SHORTER || at_once(o)) &&
                steps * (stages(&own) + 2 * (double)time.shorter * r) <= most)
             time.shorter *= 2;
-        if (steps * (stages(&own) + 4 * r) > most)
-            time.steps = twice_odd(most / (1.5 * stages(&own) + 4 * r));
+        if (steps * (stages(&own) + 4 * r) > most) /* half of them odd: a periodic load is seen */
+            time.steps = 2 * ((size_t)(most / (3 * stages(&own) + 8 * r)) | 1);
         status = march(m, IN_TIME, &time, err);
         m->by[IN_TIME].beyond = steps / (double)time.steps;
     }
-    struct setting space = {o->n < SPACE_N ? o->n : SPACE_N, 1, 4, 1, &best, &best, &best};
+    struct setting space = {least(o->n, SPACE_N), 1, 4, 1, &best, &best, &best};
     space.finer = refinement(space.n, SPACE_N);
     const double a_step = 2 * solve(o, space.n * space.finer) * stages(&best);
     const double few = budget(o) / 3 / a_step + 1;
@@ -298,34 +298,19 @@ static enum br_status march_apart(struct marches *m, size_t n, struct br_error *
     return status;
 }
 
-/* The first steps by a tolerance or, where that fails and nothing else has as many, by more steps.
- */
-static enum br_status march_start(struct marches *m, size_t n, struct br_error *err)
-{
-    enum { FIRST = 4 };
-    const struct br_planned_march *o = m->run;
-    const struct br_method best = best_method(o);
-    const double most = budget(o) / 5 / solve(o, n) / (stages(o->method) + 6 * stages(&best)) + 1;
-    struct setting s = {n, o->steps < FIRST ? o->steps : FIRST, 1, 4, o->method, &best, &best};
-    const enum br_status status = march_tight(m, START, o->method, n, s.steps, err);
-    if (status || m->by[START].active)
-        return status;
-    s.steps = (double)o->steps < most ? o->steps : (size_t)most;
-    return march(m, START, &s, err);
-}
-
 static enum br_status march_all(struct marches *m, struct br_error *err)
 {
     const struct br_planned_march *o = m->run;
     const bool adaptive = o->method->scheme->adaptive;
-    const size_t levels = adaptive && o->steps > LEVELS ? LEVELS : o->steps;
-    const size_t coarse = o->n < COARSE_N ? o->n : COARSE_N;
+    const size_t levels = adaptive ? least(o->steps, LEVELS) : o->steps;
+    const size_t coarse = least(o->n, COARSE_N);
     enum br_status status = march_tight(m, TIGHT, o->method, o->n, levels, err);
-    if (!status && !m->by[TIGHT].active)
-        status = march_apart(m, coarse, err);
-    if (!status && !m->by[TIGHT].active && !adaptive)
-        status = march_start(m, coarse, err);
-    return status;
+    if (status || m->by[TIGHT].active)
+        return status;
+    status = march_apart(m, coarse, err);
+    return status || adaptive
+               ? status
+               : march_tight(m, START, o->method, coarse, least(o->steps, FIRST), err);
 }
 
 /* ---- from distances to an error ---- */
@@ -466,8 +451,7 @@ static struct br_predicted error_of(const struct marches *m, enum cell cell, int
 static const char *unseen_start(const struct marches *m, double k)
 {
     const struct br_scene *s = m->run->scene;
-    const struct comparison *start = &m->by[START];
-    if (m->by[TIGHT].active || (start->active && start->study.reference_method.scheme->adaptive))
+    if (m->by[TIGHT].active || m->by[START].active)
         return NULL;
     for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool rod = kind == BR_AXIAL;
@@ -498,7 +482,7 @@ static enum br_status find_too_short(const struct marches *m, const char **name,
                                      struct br_error *err)
 {
     enum { STAGES = 16, FINER_LEVELS = 64 };
-    static const double least = 1e-3; /* a smaller share of a load is ignored */
+    static const double ignored = 1e-3; /* a smaller share of a load is ignored */
     const struct comparison *c = &m->by[m->by[TIGHT].active ? TIGHT : IN_SPACE];
     const size_t seen = STAGES * c->study.reference.steps;
     struct br_planned_march finer = *m->run;
@@ -509,9 +493,9 @@ static enum br_status find_too_short(const struct marches *m, const char **name,
     *name = NULL;
     if (br_check_loads(&finer, &w, err))
         return err->status;
-    if (fmax(w.unseen[BR_WARN_LOAD_TIME], w.unseen[BR_WARN_LOAD_SPACE]) > least)
+    if (fmax(w.unseen[BR_WARN_LOAD_TIME], w.unseen[BR_WARN_LOAD_SPACE]) > ignored)
         *name = "a load is";
-    if (w.unseen[BR_WARN_INITIAL] > least)
+    if (w.unseen[BR_WARN_INITIAL] > ignored)
         *name = "the initial data are";
     return BR_OK;
 }
