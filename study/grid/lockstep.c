@@ -14,7 +14,6 @@
 #include "solver/clock.h"
 #include "study/base/each.h"
 #include "study/base/text.h"
-#include "study/grid/sweep.h"
 
 /* ---- measuring ---- */
 
