@@ -92,8 +92,8 @@ enum br_status br_apart_meshes(struct br_apart *a, struct br_report *report, siz
  * cells. */
 static double choose_steps(struct br_apart *a, const struct br_study *s)
 {
-    const struct br_axial *u = &s->scene->axial;
-    const struct br_bending *b = &s->scene->bending;
+    const struct br_scene_field *u = &s->scene->axial;
+    const struct br_scene_field *b = &s->scene->bending;
     const double time =
         fmin(u->modelled && u->viscosity > 0 ? u->viscosity / u->stiffness : INFINITY,
              b->modelled && b->viscosity > 0 ? b->viscosity / b->stiffness : INFINITY);
