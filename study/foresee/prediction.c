@@ -8,6 +8,7 @@
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/proof.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
