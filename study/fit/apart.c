@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 enum {
     PAIRS = 4,  /* so many differences in k, and more until they settle the order */
     CHEAP = 10, /* elements of their mesh, at most */

@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/base/words.h"
 #include "study/fit/line_order.h"
 

@@ -7,6 +7,7 @@
 #include "solver/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/foresee/warnings.h"
 
 #include <math.h>
