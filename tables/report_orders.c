@@ -200,7 +200,8 @@ static void put_given(struct br_document *d, const struct br_numbers *numbers, s
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis])
             BR_PUT(d, br_number(numbers->row[row].given[axis]), .key = numbers->column[axis]->name,
-                   .unit = numbers->unit[axis], .format = "%.6g");
+                   .unit = numbers->unit[axis],
+                   .format = numbers->column[axis]->is_size ? "%.6g" : "%.15g");
 }
 
 static void put_rows(struct br_document *d, const struct br_orders *o,
@@ -314,7 +315,7 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
         {.key = "quantity"},
         {.key = "in"},
         {.key = "at"},
-        {.key = "finest", .heading = "finest of three", .format = "%.6g"},
+        {.key = "finest", .heading = "finest of three", .format = "%.10g"},
         {.key = "p", .format = "%.4f"},
         {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
@@ -460,14 +461,14 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "high", .flags = BR_FOR_PROGRAMS},
         {.key = "method", .flags = BR_FILES_ONLY},
         {.key = "p", .heading = "p of three", .format = "%.4f"},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
         {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
         {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
         {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
         {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "of_three", .flags = BR_FOR_PROGRAMS},
         {.key = "gci_limited",
          .heading = "GCI, p limited",
@@ -484,11 +485,12 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
-            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.ratio),
-                         br_number(g->coarse.ratio), br_number(g->fine.limit),
-                         br_number(g->fine.relative), br_number(g->fine.relative_extrapolated),
-                         br_number(g->fine.index), br_number(g->coarse.index),
-                         br_number(g->asymptotic), br_text(br_sequence_text(g->sequence)),
+            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
+                         br_number(g->coarse.index), br_number(g->asymptotic),
+                         br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                         br_number(g->fine.limit), br_number(g->fine.relative),
+                         br_number(g->fine.relative_extrapolated),
+                         br_text(br_sequence_text(g->sequence)),
                          br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
