@@ -361,8 +361,8 @@ TEST(test_colours)
         rows[i].term ? setenv("TERM", rows[i].term, 1) : unsetenv("TERM");
         show_on_terminal(200, text);
         assert_int_equal(count_of(text, "\033[1;32mPASS\033[0m"), rows[i].coloured);
-        assert_int_equal(count_of(text, "\033[1;31mFAIL\033[0m"), 2 * rows[i].coloured);
-        assert_int_equal(count_of(text, "\033"), 6 * rows[i].coloured);
+        assert_int_equal(count_of(text, "\033[1;31mFAIL\033[0m"), 3 * rows[i].coloured);
+        assert_int_equal(count_of(text, "\033"), 8 * rows[i].coloured);
     }
 }
 
