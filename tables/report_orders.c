@@ -322,7 +322,7 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
         {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e"},
         {.key = "sequence"},
     };
-    BR_TABLE(d, "triples", "Grid convergence index of each three neighbours", 0, columns);
+    BR_TABLE(d, "triples", "Grid convergence index of three neighbouring sizes", 0, columns);
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
@@ -390,16 +390,16 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->numbers->taken[0])
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
-        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
+        br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
         say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
     if (o->tied)
-        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+        br_put_answer(d, "h and k change together: the orders in h are those of both.");
     for (size_t i = 0; i < o->numbers->rows; i++)
         kept += o->numbers->row[i].kept;
     if (kept) /* their numbers are those of the program at that time */
-        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
-                      o->numbers->rows);
+        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.",
+                      kept, o->numbers->rows);
 
     static const struct br_column orders_columns[] = {
         {.key = "quantity"},
