@@ -920,7 +920,7 @@ TEST(test_orders_that_a_grid_hides)
     const struct br_orders_answer *answer = found.orders.of[0].answer;
     assert_true(isnan(answer[BR_AXIS_SPACE].order.value));
     assert_string_equal(answer[BR_AXIS_SPACE].open,
-                        "no error in h is seen, that in k is larger everywhere: a finer k, or a "
+                        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
                         "coarser h, would show it");
     CLOSE(answer[BR_AXIS_TIME].order.value, 1, 1e-6);
     const char *open = answer[BR_AXIS_SPACE].open; /* a new find clears the answer, not its text */
