@@ -31,13 +31,13 @@ struct job {
 };
 
 enum {
-    MESHES = 4, /* an order needs three differences */
-    STEPS = 8,  /* at most, each half of the one before; differences in k: */
-    PAIRS = 4,  /* ... so many, and more until they settle the order */
-    CHEAP = 10, /* elements of their mesh, at most */
+    SIZES = 12, /* meshes or time steps at most, each half of the one before; differences: */
+    PAIRS = 3,  /* ... so many at least, and more until they settle the order */
+    LARGER = 4, /* time steps that are kept for the end */
+    CHEAP = 10, /* elements of the mesh for those in k, at most */
     BESIDE = 60 /* elements' worth of what a step takes beside its elements */
 };
-/* Element-steps for the order in k that nobody waits for: about half a second. */
+/* Element-steps for an order that nobody waits for: about half a second. */
 static const double no_matter = 28e6;
 
 static double work_of(size_t n, size_t steps)
@@ -49,10 +49,11 @@ static double work_of(size_t n, size_t steps)
  * where the grid does not settle the order in k, each step with the next on one mesh. */
 struct work {
     struct br_opened_scene opened;
-    size_t *steps;             /* numbers of steps of the grid, ascending; owned */
-    size_t mesh[MESHES];       /* for differences, if those of the grid do not suffice */
-    size_t cheap, step[STEPS]; /* a mesh, and numbers of steps, for differences in k */
-    struct br_error no_meshes; /* why there are no differences */
+    size_t *steps;               /* numbers of steps of the grid, ascending; owned */
+    size_t size[BR_AXES][SIZES]; /* meshes, and numbers of steps, that are compared: */
+    size_t first[BR_AXES], end[BR_AXES]; /* ... those that have been marched; end 0: none */
+    size_t at[BR_AXES];          /* the number of steps, or the mesh, at which they are */
+    struct br_error no_meshes;   /* why there are no differences */
     struct br_kept kept;
     struct br_differences apart[BR_MOST_NORMS];
 };
@@ -254,160 +255,154 @@ static enum br_status check_memory(const struct run *r, struct br_error *err)
                : BR_OK;
 }
 
-/* The meshes for the differences, at the coarsest time step that all of them can march: those of
- * the grid, if they suffice and each nests in the next; else meshes up to about its finest. */
-static struct br_study grid_of_meshes(const struct br_study *s, size_t mesh[MESHES])
+/* ---- differences of neighbours ---- */
+
+/* Sets the meshes: those of the grid, if they suffice and each nests in the next, else meshes up to
+ * about its finest; and then finer ones. At the coarsest time step that the grid's can march. */
+static void choose_meshes(struct work *w, const struct br_study *s)
 {
-    struct br_study grid = {.scene = s->scene, .method = s->method, .judge = &br_judge_none};
-    bool nest = s->n_count >= MESHES, sound = false;
+    const size_t finest = s->n[s->n_count - 1], first = finest >> PAIRS;
+    size_t *size = w->size[BR_AXIS_SPACE];
+    bool nest = s->n_count > PAIRS && s->n_count <= SIZES, sound = false;
     for (size_t i = 0; i + 1 < s->n_count; i++)
         nest = nest && s->n[i + 1] > s->n[i] && s->n[i + 1] % s->n[i] == 0;
-    const size_t finest = s->n[s->n_count - 1], first = finest >> (MESHES - 1);
-    for (size_t i = 0; i < MESHES; i++)
-        mesh[i] = (first ? first : 1) << i;
-    grid.n = nest ? s->n : mesh;
-    grid.n_count = nest ? s->n_count : MESHES;
-    grid.k_count = 1;
+    for (size_t i = 0; i < SIZES; i++)
+        size[i] = nest && i < s->n_count ? s->n[i] : i ? 2 * size[i - 1] : first ? first : 1;
+    w->end[BR_AXIS_SPACE] = nest ? s->n_count : PAIRS + 1;
     for (size_t j = 0; j < s->k_count && !sound; j++) {
-        grid.steps = &s->steps[j];
+        w->at[BR_AXIS_SPACE] = s->steps[j];
         sound = true;
         for (size_t i = 0; i < s->n_count; i++)
             sound &= !br_study_cell(s, i, j)->unstable && !br_study_cell(s, i, j)->failure.status;
     }
-    return grid;
 }
 
-/* Differences of meshes show the order in h, which the error in k hides in most grids. The study
- * goes on if they fail. */
-static enum br_status run_differences(struct run *r, size_t job, const struct br_observer *observer,
-                                      struct br_error *err)
-{
-    const size_t norms = r->request.norms;
-    struct work *w = &r->work[job];
-    struct br_study grid[BR_MOST_NORMS] = {0};
-    for (size_t m = 0; m < norms; m++) {
-        grid[m] = grid_of_meshes(study_of(r, job, 0), w->mesh);
-        grid[m].norm = r->request.norm[m];
-        grid[m].next_norm = m + 1 < norms ? &grid[m + 1] : NULL;
-    }
-    const enum br_status status =
-        br_differences_run(grid, w->apart, r->session->threads, observer, &w->no_meshes);
-    if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
-        return br_fail(err, status, "%s", w->no_meshes.message);
-    for (size_t m = 0; m < norms && !status; m++)
-        br_flag_beside(&w->apart[m].over[BR_AXIS_SPACE]);
-    return BR_OK;
-}
-
-/* ---- the order in k ---- */
-
-/* Sets the mesh and the steps: from the grid's smallest on, and below the relaxation time if that
- * is within reach, since above it errors have another order. Returns the work of the grid's
- * cells. */
-static double choose_steps(struct work *w, const struct br_study *s)
+/* Sets the time steps: from the grid's smallest on, and below the relaxation time if that is within
+ * reach, since above it errors have another order; before them larger ones. */
+static void choose_steps(struct work *w, const struct br_study *s)
 {
     const struct br_axial *u = &s->scene->axial;
     const struct br_bending *b = &s->scene->bending;
     const double time =
         fmin(u->modelled && u->viscosity > 0 ? u->viscosity / u->stiffness : INFINITY,
              b->modelled && b->viscosity > 0 ? b->viscosity / b->stiffness : INFINITY);
-    size_t steps = s->steps[s->k_count - 1];
+    size_t steps = s->steps[s->k_count - 1], *first = &w->first[BR_AXIS_TIME];
     for (int i = 0; i < 2 && br_time_step(s->scene, steps) > time; i++)
         steps *= 2;
-    w->cheap = s->n[0] < CHEAP ? s->n[0] : CHEAP;
-    for (size_t i = 0; i < STEPS; i++)
-        w->step[i] = steps << i;
-    double work = 0;
-    for (size_t c = 0; c < br_study_cells(s); c++)
-        work += work_of(s->cell[c].at.n, s->cell[c].at.steps);
-    return work;
+    for (; *first < LARGER && steps % 2 == 0 && steps / 2 >= w->at[BR_AXIS_SPACE]; ++*first)
+        steps /= 2;
+    w->at[BR_AXIS_TIME] = s->n[0] < CHEAP ? s->n[0] : CHEAP;
+    for (size_t i = 0; i < SIZES; i++)
+        w->size[BR_AXIS_TIME][i] = steps << i;
 }
 
-/* Appends the difference of a pair of time steps to those before it. */
-static enum br_status append(struct br_study *to, const struct br_study *pair, const struct work *w,
-                             struct br_error *err)
+/* Adds differences of neighbours at the front or the back of those that are there. size: of the
+ * first one. */
+static enum br_status add(struct br_study *to, struct br_study *more, int axis, bool front,
+                          const size_t *size, struct br_error *err)
 {
-    struct br_cell *cell = br_allocate(to->k_count + 1, sizeof *cell);
+    const size_t old = to->cell ? br_axis_count(to, axis) : 0, new = br_axis_count(more, axis);
+    struct br_cell *cell = br_allocate(old + new, sizeof *cell);
     if (!cell)
         return br_no_memory(err, "the differences");
-    if (to->k_count)
-        memcpy(cell, to->cell, to->k_count * sizeof *cell);
-    cell[to->k_count] = pair->cell[0];
+    br_flag_beside(more); /* each by its own round-off */
+    if (old)
+        memcpy(cell + (front ? new : 0), to->cell, old * sizeof *cell);
+    memcpy(cell + (front ? 0 : old), more->cell, new * sizeof *cell);
     free(to->cell);
-    const size_t count = to->k_count + 1;
-    *to = *pair;
+    *to = *more;
     to->cell = cell;
-    to->steps = w->step;
-    to->k_count = count;
-    br_flag_beside(to);
+    *(axis == BR_AXIS_SPACE ? &to->n : &to->steps) = size;
+    *(axis == BR_AXIS_SPACE ? &to->n_count : &to->k_count) = old + new;
     return BR_OK;
 }
 
-/* Marches pair i of time steps in all norms. A march that fails ends what there is to see. */
-static enum br_status run_pair(struct run *r, size_t job, size_t i,
-                               const struct br_observer *observer, bool *failed,
-                               struct br_error *err)
+/* Compares the sizes [from, to) of an axis in all norms. A march that fails (why) ends what there is
+ * to see. */
+static enum br_status compare(struct run *r, struct work *w, int axis, size_t from, size_t to,
+                              const struct br_observer *observer, struct br_error *why,
+                              struct br_error *err)
 {
-    struct work *w = &r->work[job];
+    const size_t norms = r->request.norms, *size = w->size[axis];
+    const bool over_h = axis == BR_AXIS_SPACE, front = from < w->first[axis];
     struct br_study grid[BR_MOST_NORMS] = {0};
-    struct br_differences pair[BR_MOST_NORMS] = {0};
-    struct br_error why = {0};
-    const size_t norms = r->request.norms;
-    for (size_t m = 0; m < norms; m++) {
+    struct br_differences found[BR_MOST_NORMS] = {0};
+    for (size_t m = 0; m < norms; m++)
         grid[m] = (struct br_study){.scene = &w->opened.scene,
                                     .method = r->request.method,
                                     .judge = &br_judge_none,
                                     .norm = r->request.norm[m],
-                                    .n = &w->cheap,
-                                    .n_count = 1,
-                                    .steps = &w->step[i],
-                                    .k_count = 2,
+                                    .n = over_h ? size + from : &w->at[axis],
+                                    .n_count = over_h ? to - from : 1,
+                                    .steps = over_h ? &w->at[axis] : size + from,
+                                    .k_count = over_h ? 1 : to - from,
                                     .next_norm = m + 1 < norms ? &grid[m + 1] : NULL};
-    }
-    enum br_status status = br_differences_run(grid, pair, r->session->threads, observer, &why);
-    *failed = status != BR_OK;
+    enum br_status status = br_differences_run(grid, found, r->session->threads, observer, why);
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
-        return br_fail(err, status, "%s", why.message);
+        return br_fail(err, status, "%s", why->message);
+    w->first[axis] = front ? from : w->first[axis];
+    w->end[axis] = front ? w->end[axis] : to;
     status = BR_OK;
-    for (size_t m = 0; m < norms && !*failed; m++) {
+    for (size_t m = 0; m < norms && !why->status; m++) {
         if (!status)
-            status = append(&w->apart[m].over[BR_AXIS_TIME], &pair[m].over[BR_AXIS_TIME], w, err);
-        br_study_clear(&pair[m].over[BR_AXIS_TIME]);
+            status = add(&w->apart[m].over[axis], &found[m].over[axis], axis, front,
+                         size + w->first[axis], err);
+        br_study_clear(&found[m].over[axis]);
     }
     return status;
 }
 
 /* The pages of a job stand together, one for each norm. settled: out. */
-static enum br_status see_job(struct run *r, size_t job, bool *settled, struct br_error *err)
+static enum br_status see_job(struct run *r, size_t job, enum br_axis axis, bool *settled,
+                              struct br_error *err)
 {
     *settled = true;
     for (size_t m = 0; m < r->request.norms; m++) {
         struct br_report *report = &r->page[job * r->request.norms + m].report;
-        const struct br_study *apart = &r->work[job].apart[m].over[BR_AXIS_TIME];
-        report->apart[BR_AXIS_TIME] = apart->k_count ? apart : NULL;
-        if (apart->k_count && br_report_see_orders(report, BR_AXIS_TIME, err))
+        const struct br_study *apart = &r->work[job].apart[m].over[axis];
+        report->apart[axis] = apart->cell ? apart : NULL;
+        if (apart->cell && br_report_see_orders(report, axis, err))
             return err->status;
-        *settled = *settled && br_report_settles(report, BR_AXIS_TIME);
+        *settled = *settled && br_report_settles(report, axis);
     }
     return BR_OK;
 }
 
-/* Where the grid does not settle the order in k, differences of ever smaller steps on a cheap mesh
- * do: until they settle it, or cost more than the grid. */
-static enum br_status run_steps(struct run *r, size_t job, const struct br_observer *observer,
-                                struct br_error *err)
+/* The element-steps of two neighbours. */
+static double work_of_pair(const struct work *w, int axis, size_t i)
+{
+    const size_t *size = w->size[axis];
+    return axis == BR_AXIS_SPACE
+               ? work_of(size[i], w->at[axis]) + work_of(size[i + 1], w->at[axis])
+               : work_of(w->at[axis], size[i]) + work_of(w->at[axis], size[i + 1]);
+}
+
+/* Where the order is not settled, differences of ever smaller sizes do it, and then of larger ones:
+ * until they settle it, or cost more than the grid. */
+static enum br_status search(struct run *r, size_t job, enum br_axis axis,
+                             const struct br_observer *observer, struct br_error *err)
 {
     struct work *w = &r->work[job];
-    bool settled, failed = false;
-    enum br_status status = see_job(r, job, &settled, err);
-    double left = fmax(choose_steps(w, study_of(r, job, 0)), no_matter);
-    for (size_t i = 0; i + 1 < STEPS && !status && !settled && !failed; i++) {
-        left -= work_of(w->cheap, w->step[i] + w->step[i + 1]);
-        if (left < 0)
+    const struct br_study *s = study_of(r, job, 0);
+    struct br_error why = {0};
+    bool settled;
+    enum br_status status = see_job(r, job, axis, &settled, err);
+    double left = 0;
+    for (size_t c = 0; c < br_study_cells(s); c++)
+        left += work_of(s->cell[c].at.n, s->cell[c].at.steps);
+    left = fmax(left, no_matter);
+    while (!status && !settled && !why.status) {
+        const size_t end = w->end[axis], first = w->first[axis];
+        size_t from = end ? end - 1 : first, to = end ? end + 1 : first + PAIRS + 2;
+        for (size_t i = from; i + 1 < to && to <= SIZES; i++)
+            left -= work_of_pair(w, axis, i);
+        if (to > SIZES || left < 0)
+            from = first - 1, to = first + 1;
+        if (first == 0 && to == 1)
             break;
-        status = run_pair(r, job, i, observer, &failed, err);
-        if (!status && i + 1 >= PAIRS)
-            status = see_job(r, job, &settled, err);
+        status = compare(r, w, axis, from, to, observer, &why, err);
+        if (!status)
+            status = see_job(r, job, axis, &settled, err);
     }
     return status;
 }
@@ -418,8 +413,13 @@ static enum br_status compute(struct run *r, struct br_error *err)
     const bool varies = br_option_given(r->session->options, BR_OPT_VARY);
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = br_study_run(r->study, r->heads, r->session->threads, observer, err);
-    for (size_t i = 0; i < r->jobs && !status; i++)
-        status = run_differences(r, i, observer, err);
+    for (size_t i = 0; i < r->jobs && !status; i++) {
+        struct work *w = &r->work[i];
+        choose_meshes(w, study_of(r, i, 0));
+        choose_steps(w, study_of(r, i, 0));
+        status = compare(r, w, BR_AXIS_SPACE, 0, w->end[BR_AXIS_SPACE], observer, &w->no_meshes,
+                         err);
+    }
     for (struct page *page = r->page; page < r->page + r->pages && !status; page++) {
         const struct br_error *no_meshes = &page->work->no_meshes;
         if (no_meshes->status) {
@@ -428,8 +428,12 @@ static enum br_status compute(struct run *r, struct br_error *err)
         }
         status = br_report_finish(&page->report, r->session->threads, err);
     }
-    for (size_t i = 0; i < r->jobs && !status && !varies; i++)
-        status = run_steps(r, i, observer, err);
+    for (size_t i = 0; i < r->jobs && !status && !varies; i++) {
+        if (!r->work[i].no_meshes.status)
+            status = search(r, i, BR_AXIS_SPACE, observer, err);
+        if (!status)
+            status = search(r, i, BR_AXIS_TIME, observer, err);
+    }
     br_progress_end();
     for (size_t i = 0; i < r->jobs; i++)
         br_session_report_kept(r->session, &r->work[i].kept);
