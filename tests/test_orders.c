@@ -648,16 +648,16 @@ TEST(test_values)
                 assert_int_equal(line->observed.point[i].flag, BR_FLAG_NONE);
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
-            CLOSE(line->gci.order, p, 1e-8);
-            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
-            CLOSE(line->gci.fine.limit, 5, 1e-9);
-            assert_int_equal(line->triples, kind ? 4 : 3);
-            for (size_t i = 0; i < line->triples; i++) {
-                CLOSE(line->triple[i].order, p, 1e-8);
-                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+            CLOSE(line->limits.gci.order, p, 1e-8);
+            CLOSE(line->limits.gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
+            CLOSE(line->limits.gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->limits.triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->limits.triples; i++) {
+                CLOSE(line->limits.triple[i].order, p, 1e-8);
+                CLOSE(line->limits.triple[i].fine.limit, 5, 1e-9);
                 CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
             }
-            assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
+            assert_true(line->limits.limit.value.low <= 5 && line->limits.limit.value.high >= 5);
         }
 }
 
@@ -877,7 +877,7 @@ TEST(test_limit_of_a_grid)
     const struct br_quantity_orders *of = &found.orders.of[0];
     CLOSE(of->limit.value.value, 5, 1e-9);
     assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
-    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
+    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limits.limit.value.value, 5 - pow(2, -5), 1e-9);
     find("h,l2\n1,0\n.5,1\n.25,2\n.125,3.000000001\n.0625,4\n", "l2");
     assert_true(isnan(found.orders.of[0].limit.value.value));
     find(grid_of(5, 5, logarithm), "l2");
