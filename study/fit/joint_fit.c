@@ -599,8 +599,9 @@ static size_t next_best(const struct candidate *candidate, const bool *done)
     return best;
 }
 
-/* Models whose criterion is within this of the best one's are not ruled out. */
-static const double not_ruled_out = 4;
+/* Models whose criterion is within this of the best one's are not ruled out (Burnham, Anderson and
+ * Huyvaert, Behavioral Ecology and Sociobiology 65, 23-35, 2011). */
+static const double not_ruled_out = 7;
 
 /* A misfit of all powers below this is round-off, and no extras explain it. */
 static const double exact = 1e-5;
