@@ -238,12 +238,11 @@ static enum br_status apply_solutions(const struct br_scene_reader *r)
     enum br_field_kind culprit = BR_AXIAL;
     enum br_status status = br_manufactured_apply(r->scene, &culprit, &inner);
     const size_t row = br_scene_row(culprit == BR_AXIAL ? "axial.solution" : "bending.solution");
-    struct br_load *const load[] = {&r->scene->axial.load, &r->scene->bending.load};
-    const bool derived[] = {r->scene->axial.solution, r->scene->bending.solution};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_function whole = load[kind]->term[0].space;
-        if (derived[kind])
-            status = br_products(&whole, load[kind], &inner);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+        struct br_scene_field *field = &r->scene->field[kind];
+        struct br_function whole = field->load.term[0].space;
+        if (field->solution)
+            status = br_products(&whole, &field->load, &inner);
     }
     return br_scene_pass_on(r, r->given->row[row].line, "solution", &inner);
 }

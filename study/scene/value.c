@@ -262,7 +262,7 @@ static enum br_status read_solution(struct value *v)
     struct br_scene *scene = v->r->scene;
     const bool axial = v->key->offset == offsetof(struct br_scene, axial.solution);
     const enum br_status status =
-        read_expression(v, axial ? &scene->axial.given : &scene->bending.given, text);
+        read_expression(v, &scene->field[axial ? BR_AXIAL : BR_BENDING].given, text);
     return status ? status : keep_text(v, text);
 }
 
