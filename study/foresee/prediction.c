@@ -78,11 +78,6 @@ enum {
  * For equal steps R has `tight`; `tightest` is near round-off. */
 static const double tighter = 25, loosest = 1e-4, tight = 1e-6, tightest = 1e-12;
 
-static bool is_modelled(const struct br_scene *scene, int kind)
-{
-    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
-}
-
 static size_t least(size_t a, size_t b)
 {
     return a < b ? a : b;
@@ -97,10 +92,10 @@ static double stages(const struct br_method *m)
 static double solve(const struct br_planned_march *o, size_t n)
 {
     double cost = 1;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_load *load = kind ? &o->scene->bending.load : &o->scene->axial.load;
-        for (size_t i = 0; i < BR_LOAD_TERMS && is_modelled(o->scene, kind); i++)
-            if (load->term[i].space.uses_x && load->term[i].space.uses_t)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_scene_field *f = &o->scene->field[kind];
+        for (size_t i = 0; i < BR_LOAD_TERMS && f->modelled; i++)
+            if (f->load.term[i].space.uses_x && f->load.term[i].space.uses_t)
                 cost = evaluated;
     }
     return (double)n * cost + overhead;
@@ -224,9 +219,9 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     return BR_OK;
 }
 
-static double off(const struct comparison *c, enum cell cell, int kind)
+static double off(const struct comparison *c, enum cell cell, enum br_field_kind kind)
 {
-    const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+    const enum br_part part = br_part_of(kind);
     return c->at[cell] < 0 ? 0 : c->study.cell[c->at[cell]].error[part];
 }
 
@@ -345,9 +340,9 @@ static bool can_switch(const struct br_scene *scene)
 /* A factor, in L2, by which a layer at the tip moves more than n elements that are wider than the
  * layer. Waves and diffusion make it so deep until t = T. The worst cases are a force on a rod,
  * whose tip moves by 1/h, and a moment on a beam, by 1/h^2. */
-static double unresolved(const struct br_scene *s, int kind, size_t n)
+static double unresolved(const struct br_scene *s, enum br_field_kind kind, size_t n)
 {
-    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, n, s->duration);
+    const struct br_field f = br_field_of_scene(s, kind, n, s->duration, 1);
     const double waves = sqrt(f.stiffness / s->density) * s->duration;
     const double spread = f.viscosity * s->duration / s->density;
     const double depth = kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + sqrt(sqrt(spread));
@@ -373,7 +368,8 @@ static double reference_error(double coarse, double a, double finer, double unse
 
 /* A cell's error from its distance to R. Two tolerances may choose the same steps: the bound in
  * time is at least the accumulated error of steps by a tolerance. */
-static struct br_predicted distance(const struct comparison *c, enum cell cell, int kind)
+static struct br_predicted distance(const struct comparison *c, enum cell cell,
+                                    enum br_field_kind kind)
 {
     const struct br_study *s = &c->study;
     const double steps = off(c, STEPS, kind), size = s->reference_size[kind];
@@ -395,7 +391,7 @@ static struct br_predicted distance(const struct comparison *c, enum cell cell, 
  * if it is not plausible. Switches, and loads that jump or bend, leave order one in time, and
  * coarse marches do not show that, since their error depends on where in a step that happens: so
  * the upper end counts on no more. Errors of friction that iterates grow with the steps. */
-static struct br_predicted extrapolated(const struct marches *m, int which, int kind)
+static struct br_predicted extrapolated(const struct marches *m, int which, enum br_field_kind kind)
 {
     const struct comparison *c = &m->by[which];
     const struct br_method *own = m->run->method;
@@ -422,7 +418,8 @@ static struct br_predicted extrapolated(const struct marches *m, int which, int 
 /* The error of time (TIME), of space (SPACE) or of both (RUN), which may have opposite signs. Equal
  * steps may miss what decays within a step: where time counts, the error is at least that of the
  * first steps. */
-static struct br_predicted error_of(const struct marches *m, enum cell cell, int kind)
+static struct br_predicted error_of(const struct marches *m, enum cell cell,
+                                    enum br_field_kind kind)
 {
     const struct comparison *c = &m->by[TIGHT];
     struct br_predicted e = c->active ? distance(c, cell, kind)
@@ -452,13 +449,13 @@ static const char *unseen_start(const struct marches *m, double k)
     const struct br_scene *s = m->run->scene;
     if (m->by[TIGHT].active || m->by[START].active)
         return NULL;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool rod = kind == BR_AXIAL;
-        const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, m->run->n, k);
+        const struct br_field f = br_field_of_scene(s, kind, m->run->n, k, 1);
         const double curved = rod ? pow(1.5708 / s->length, 2) : pow(1.8751 / s->length, 4);
         const double angular = sqrt(f.stiffness * curved / s->density);
         double tip = 0;
-        if (!is_modelled(s, kind) || s->density == 0)
+        if (!s->field[kind].modelled || s->density == 0)
             continue;
         if (rod)
             br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
@@ -467,8 +464,7 @@ static const char *unseen_start(const struct marches *m, double k)
             return "how the contact, closed at t = 0, pushes the tip back";
         if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
             return "the oscillations after t = 0, in which the tip may switch";
-        if (!br_function_is_zero(rod ? &s->axial.velocity : &s->bending.velocity) &&
-            f.viscosity * curved * k > s->density)
+        if (!br_function_is_zero(&s->field[kind].velocity) && f.viscosity * curved * k > s->density)
             return "how the velocity of t = 0 dies away";
     }
     return NULL;
@@ -503,8 +499,8 @@ static enum br_status find_too_short(const struct marches *m, const char **name,
 
 /* An error relative to the solution, whose size differs among the marches: a coarse mesh may move
  * far more than a fine one. If a field is at rest, the size of the other one counts. */
-static struct br_predicted relative(const struct marches *m, struct br_predicted e, int kind,
-                                    double *largest)
+static struct br_predicted relative(const struct marches *m, struct br_predicted e,
+                                    enum br_field_kind kind, double *largest)
 {
     double least = INFINITY;
     *largest = 0;
@@ -526,9 +522,9 @@ static void judge(struct br_prediction *p, const struct marches *m)
     snprintf(p->why, sizeof p->why, "%s", m->why);
     p->whole.high = -1;
     p->bounded = by[TIGHT].active || (by[IN_TIME].active && by[IN_SPACE].active);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
         double size;
-        if (!is_modelled(m->run->scene, kind))
+        if (!m->run->scene->field[kind].modelled)
             continue;
         const struct br_predicted e = p->field[kind] =
             relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
@@ -583,11 +579,10 @@ double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, 
 double br_predict_round_off(const struct br_planned_march *o)
 {
     double largest = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n,
-                                                  br_time_step(o->scene, o->steps));
-        field.degree = o->method->axial_degree;
-        if (is_modelled(o->scene, kind))
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field = br_field_of_scene(
+            o->scene, kind, o->n, br_time_step(o->scene, o->steps), o->method->axial_degree);
+        if (o->scene->field[kind].modelled)
             largest = fmax(largest, br_method_round_off(o->method, &field));
     }
     return largest;
