@@ -206,12 +206,11 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->at[TIME] = place(c, s, s->own, fine, s->steps);
     c->at[SPACE] = place(c, s, s->check, s->n, some);
     c->at[STEPS] = place(c, s, s->check, fine, some);
-    const bool halves =
-        s->finer > 1 ? which == IN_SPACE && s->n < m->run->n && s->n % 2 == 0
-                     : which == IN_TIME && s->steps < m->run->steps && !chosen && s->steps % 2 == 0;
-    c->at[HALF] = !halves        ? -1
-                  : s->finer > 1 ? place(c, s, s->own, s->n / 2, s->steps)
-                                 : place(c, s, s->own, s->n, s->steps / 2);
+    const bool fewer_n = which == IN_SPACE && s->n < m->run->n;
+    const bool fewer_steps = which == IN_TIME && !chosen && s->steps < m->run->steps;
+    c->at[HALF] = fewer_n       ? place(c, s, s->own, s->n / 2, s->steps)
+                  : fewer_steps ? place(c, s, s->own, s->n, s->steps / 2)
+                                : -1;
     if (br_study_run_each(&c->study, 1, 1, NULL, &failure)) {
         if (failure.status != BR_INTERRUPTED) /* by itself, for its many steps */
             return br_fail(err, failure.status, "%s", failure.message);
@@ -527,8 +526,8 @@ static void judge(struct br_prediction *p, const struct marches *m)
         double size;
         if (!m->run->scene->field[kind].modelled)
             continue;
-        struct br_predicted e = relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
-        p->field[kind] = e;
+        const struct br_predicted e = p->field[kind] =
+            relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
         finite = finite && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (!(e.high > p->whole.high))
