@@ -500,8 +500,8 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
         }
         const size_t above = fields(lines, 0), below = fields(lines, 1);
         title = !has_pairs(lines, 0) &&
-                ((below_title && above != below && !numbers(lines, 0) && has_data(lines, 1)) ||
-                 has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                (has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                 (above != below && below_title && !numbers(lines, 0) && has_data(lines, 1)) ||
                  ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
                   has_data(lines, 2) && !has_groups(lines, 0)));
         json_decref(lines);
