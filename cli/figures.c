@@ -22,7 +22,7 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
     char text[600] = "The exact solution:";
     for (size_t i = 0; i < e->events; i++)
         br_append(text, sizeof text, "%s at t = %.6g s %s%s", i ? "," : "", e->event[i].time,
-                  e->event[i].field == BR_EXACT_BENDING ? "the tip " : "",
+                  e->event[i].field == BR_BENDING ? "the tip " : "",
                   br_phase_text(e->event[i].phase));
     br_put_note(d, "Figure %d. The paper: %s", f->number, f->says);
     br_put_note(d, "%s.", text);

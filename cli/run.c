@@ -286,12 +286,12 @@ static const struct br_variation_column *name_columns(void)
 static void take_point(const struct br_run_report *p, const struct br_prediction *prediction,
                        double *value)
 {
-    const bool modelled[] = {p->marched.axial.modelled, p->marched.bending.modelled};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double error =
-            br_predicted_tip(prediction, (enum br_field_kind)kind, p->scene->length);
-        value[TIP + kind] = modelled[kind] ? p->end.last.displacement[kind] : (double)NAN;
-        value[TIP_ERROR + kind] = modelled[kind] && prediction->known ? error : (double)NAN;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double error = br_predicted_tip(prediction, kind, p->scene->length);
+        value[TIP + kind] =
+            p->marched.field[kind].modelled ? p->end.last.displacement[kind] : (double)NAN;
+        value[TIP_ERROR + kind] =
+            p->marched.field[kind].modelled && prediction->known ? error : (double)NAN;
     }
     for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
         value[EVENTS + kind] = (double)p->watch.count[kind];

@@ -99,7 +99,7 @@ static void fill6(const struct br_paper *paper, struct br_figure *f)
 static void mark_phases(const struct br_example *e, struct br_figure *f)
 {
     for (size_t i = 0; i < e->events; i++)
-        if (e->event[i].field == BR_EXACT_BENDING && e->event[i].time > 0)
+        if (e->event[i].field == BR_BENDING && e->event[i].time > 0)
             br_mark_add(f, e->event[i].time, br_phase_text(e->event[i].phase));
 }
 

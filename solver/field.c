@@ -32,18 +32,17 @@ static const double gauss_weight[GAUSS] = {
 };
 
 struct br_field br_field_of_scene(const struct br_scene *s, enum br_field_kind kind, size_t n,
-                                  double k)
+                                  double k, int axial_degree)
 {
-    const bool axial = kind == BR_AXIAL;
     return (struct br_field){
         .kind = kind,
         .n = n,
         .h = s->length / (double)n,
         .density = s->density,
-        .stiffness = axial ? s->axial.stiffness : s->bending.stiffness,
-        .viscosity = axial ? s->axial.viscosity : s->bending.viscosity,
+        .stiffness = s->field[kind].stiffness,
+        .viscosity = s->field[kind].viscosity,
         .k = k,
-        .degree = 1,
+        .degree = axial_degree,
     };
 }
 
@@ -171,13 +170,13 @@ enum br_status br_interpolate(const struct br_field *field, const struct br_func
     for (size_t i = 0; i < nodes; i++)
         x[i] = field->h * (double)i;
     enum br_status status = br_function_clone(value, &own, err);
-    if (!status && slope)
+    if (!status && field->kind == BR_BENDING)
         status = br_function_clone(slope, &own_slope, err);
     if (!status)
         status = evaluate_finite(&own, nodes, x, 0, f, err);
     for (size_t i = 0; i < nodes && !status; i++)
         nodal[i * unknowns] = f[i];
-    if (!status && slope) {
+    if (!status && field->kind == BR_BENDING) {
         status = evaluate_finite(&own_slope, nodes, x, 0, f, err);
         for (size_t i = 0; i < nodes && !status; i++)
             nodal[2 * i + 1] = field->h * f[i];

@@ -12,8 +12,6 @@
 
 #include "solver/scene.h"
 
-enum br_field_kind { BR_AXIAL, BR_BENDING };
-
 /* The operator of one Euler step in velocity form: M/k + C + k K. */
 struct br_field {
     enum br_field_kind kind;
@@ -26,9 +24,9 @@ struct br_field {
     int degree;       /* of axial elements: 1 (or 0) or 2; not used for bending */
 };
 
-/* The field of the given kind of a scene, on n elements with the time step k; degree 1. */
+/* The field of the given kind of a scene, on n elements with the time step k. */
 struct br_field br_field_of_scene(const struct br_scene *scene, enum br_field_kind kind, size_t n,
-                                  double k);
+                                  double k, int axial_degree);
 
 /* A rod of quadratic elements. */
 static inline bool br_field_is_quadratic(const struct br_field *field)
@@ -72,8 +70,8 @@ enum br_status br_assemble_load(const struct br_field *field, const struct br_fu
                                 double t, double *vector, struct br_error *err);
 
 /* Interpolant (Lagrange, with the midpoints if quadratic, or Hermite) of a function of x, m or m/s,
- * into `nodal` (out, br_field_size values). slope: the function's derivative, for bending; else
- * NULL. The clamped node is set to zero. Clones of the functions are evaluated, so that other
+ * into `nodal` (out, br_field_size values). slope: the function's derivative, used for bending.
+ * The clamped node is set to zero. Clones of the functions are evaluated, so that other
  * threads may use the functions. Fails with BR_NOT_FINITE; BR_NO_MEMORY. */
 enum br_status br_interpolate(const struct br_field *field, const struct br_function *value,
                               const struct br_function *slope, double *nodal, struct br_error *err);

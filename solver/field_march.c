@@ -6,28 +6,27 @@
 
 /* ---- initial data ---- */
 
-static enum br_status set_initial(struct br_field_march *fm, const struct br_function *displacement,
-                                  const struct br_function *displacement_slope,
-                                  const struct br_function *velocity,
-                                  const struct br_function *velocity_slope, struct br_error *err)
+static enum br_status set_initial(struct br_field_march *fm, const struct br_scene_field *data,
+                                  struct br_error *err)
 {
-    if (br_function_is_zero(displacement) && br_function_is_zero(velocity))
+    if (br_function_is_zero(&data->displacement) && br_function_is_zero(&data->velocity))
         return BR_OK; /* a solver starts at rest */
     const size_t size = br_field_size(&fm->field);
     double *nodal = br_allocate(2 * size, sizeof *nodal);
     if (!nodal)
         return br_no_memory(err, "the initial data");
     enum br_status status =
-        br_interpolate(&fm->field, displacement, displacement_slope, nodal, err);
+        br_interpolate(&fm->field, &data->displacement, &data->displacement_slope, nodal, err);
     if (!status)
-        status = br_interpolate(&fm->field, velocity, velocity_slope, nodal + size, err);
+        status =
+            br_interpolate(&fm->field, &data->velocity, &data->velocity_slope, nodal + size, err);
     for (size_t i = 0; i < size && !status; i++)
         fm->started_with =
             fmax(fm->started_with, fmax(fabs(nodal[i]), fm->field.k * fabs(nodal[size + i])));
     if (!status && !(fm->started_with <= br_most_size))
-        status = br_fail(
-            err, BR_NOT_FINITE, "the %s initial data are as large as %g m, expected at most %g m",
-            fm->field.kind == BR_AXIAL ? "axial" : "bending", fm->started_with, br_most_size);
+        status = br_fail(err, BR_NOT_FINITE,
+                         "the %s initial data are as large as %g m, expected at most %g m",
+                         br_field_names[fm->field.kind], fm->started_with, br_most_size);
     if (!status)
         fm->solver->set(fm->state, nodal, nodal + size);
     free(nodal);
@@ -100,8 +99,7 @@ enum br_status br_field_march_create(struct br_field_march *fm, const struct br_
                                      const struct br_field *field, const struct br_method *method,
                                      struct br_error *err)
 {
-    const bool axial = field->kind == BR_AXIAL;
-    fm->modelled = axial ? s->axial.modelled : s->bending.modelled;
+    fm->modelled = s->field[field->kind].modelled;
     fm->field = *field;
     if (!fm->modelled)
         return BR_OK;
@@ -117,12 +115,7 @@ enum br_status br_field_march_create(struct br_field_march *fm, const struct br_
             fm->buffer[i] = ++fm->kept;
     if (!status && fm->kept)
         status = fm->solver->keep(fm->state, fm->kept, err);
-    if (status)
-        return status;
-    if (axial)
-        return set_initial(fm, &s->axial.displacement, NULL, &s->axial.velocity, NULL, err);
-    return set_initial(fm, &s->bending.displacement, &s->bending.displacement_slope,
-                       &s->bending.velocity, &s->bending.velocity_slope, err);
+    return status ? status : set_initial(fm, &s->field[field->kind], err);
 }
 
 void br_field_march_clear(struct br_field_march *fm)
@@ -240,8 +233,7 @@ enum br_status br_field_march_predict(struct br_field_march *fm, double t, doubl
         return br_fail(err, BR_NOT_FINITE,
                        "the %s load at t = %g s has a nodal force of %Lg N, "
                        "expected at most %g",
-                       fm->field.kind == BR_AXIAL ? "axial" : "bending", t, fm->moved_by,
-                       br_most_size);
+                       br_field_names[fm->field.kind], t, fm->moved_by, br_most_size);
     fm->counts.stages++;
     const enum br_status predicted = fm->solver->predict(fm->state, &fm->load.drive, velocity, err);
     fm->load.drive.changed = false;

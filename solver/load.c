@@ -19,15 +19,12 @@ enum br_status br_step_load_init(struct br_step_load *load, const struct br_scen
                                  const struct br_field *field, struct br_error *err)
 {
     *load = (struct br_step_load){.drive = {.factor = 1, .changed = true}};
-    const bool axial = field->kind == BR_AXIAL;
-    const struct br_axial *rod = &scene->axial;
-    const struct br_bending *beam = &scene->bending;
-    enum br_status status = br_load_clone(axial ? &rod->load : &beam->load, &load->functions, err);
+    const struct br_scene_field *data = &scene->field[field->kind];
+    enum br_status status = br_load_clone(&data->load, &load->functions, err);
     if (!status)
-        status =
-            br_function_clone(axial ? &rod->tip_force : &beam->tip_force, &load->tip_force, err);
-    if (!status && !axial)
-        status = br_function_clone(&beam->tip_moment, &load->tip_moment, err);
+        status = br_function_clone(&data->tip_force, &load->tip_force, err);
+    if (!status)
+        status = br_function_clone(&data->tip_moment, &load->tip_moment, err);
     while (load->terms < BR_LOAD_TERMS && !br_product_is_zero(&load->functions.term[load->terms]))
         load->terms++;
     for (size_t i = 0; i < load->terms && !status; i++) {
@@ -124,6 +121,5 @@ enum br_status br_step_load_update(struct br_step_load *load, const struct br_fi
     const enum br_status status = update(load, field, t, &inner);
     if (!status)
         return BR_OK;
-    return br_fail(err, status, "%s load: %.900s", field->kind == BR_AXIAL ? "axial" : "bending",
-                   inner.message);
+    return br_fail(err, status, "%s load: %.900s", br_field_names[field->kind], inner.message);
 }

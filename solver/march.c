@@ -33,8 +33,8 @@ static enum br_status create_fields(struct br_march *m, size_t n, struct br_erro
     const double tau = stages.stage[0].gamma * (m->scene->duration / (double)m->steps);
     enum br_status status = br_march_allow_lead(m, 1, err);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
-        struct br_field field = br_field_of_scene(m->scene, kind, n, tau);
-        field.degree = m->method.axial_degree;
+        const struct br_field field =
+            br_field_of_scene(m->scene, kind, n, tau, m->method.axial_degree);
         status = br_field_march_create(&m->field[kind], m->scene, &field, &m->method, err);
     }
     if (!status && m->method.scheme->adaptive)
@@ -336,8 +336,6 @@ double br_march_round_off(const struct br_march *m)
 
 /* ---- range ---- */
 
-static const char *const names[] = {"axial", "bending"};
-
 /* Products of a few numbers of this size with entries of a matrix are not below DBL_MIN / eps. */
 static const double least_size = 1e-280;
 
@@ -354,7 +352,7 @@ enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kin
     } values[] = {
         {"velocity of the tip", "m/s", tip->velocity[kind]},
         {"displacement of the tip", "m", kind == BR_AXIAL ? tip->displacement : 0},
-        {"force on the tip", "N", kind == BR_AXIAL ? tip->contact_force : tip->friction_force},
+        {"force on the tip", "N", tip->force[kind]},
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (!(fabs(values[i].value) <= br_most_size))
@@ -362,7 +360,7 @@ enum br_status br_march_check_finite(const struct br_march *m, enum br_field_kin
                            "the march blew up at t = %g s (step %zu of %zu, k = %g s): the %s %s "
                            "is %g %s",
                            t, m->field[kind].done, m->steps, m->scene->duration / (double)m->steps,
-                           names[kind], values[i].what, values[i].value, values[i].unit);
+                           br_field_names[kind], values[i].what, values[i].value, values[i].unit);
     return BR_OK;
 }
 
@@ -387,7 +385,7 @@ enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind
     if (!isfinite(size[0]) || !isfinite(size[1])) /* the tip may still be finite */
         return br_fail(err, BR_NOT_FINITE,
                        "the march blew up by t = %g s: the %s strain is %g, its rate %g 1/s",
-                       m->scene->duration, names[kind], size[0], size[1]);
+                       m->scene->duration, br_field_names[kind], size[0], size[1]);
     /* A field that is moved only by forces and data below least_size has lost digits to underflow.
      * A field that was larger and decays to such values keeps its digits relative to its former
      * size. */
@@ -400,7 +398,7 @@ enum br_status br_march_check_range(const struct br_march *m, enum br_field_kind
                    "the %s motion is lost to underflow: its largest nodal force is %Lg N and its "
                    "largest initial value %g m, which move an element by about %Lg m, expected at "
                    "least %g: choose smaller units",
-                   names[fm->field.kind], force, fm->started_with, motion, least_size);
+                   br_field_names[fm->field.kind], force, fm->started_with, motion, least_size);
 }
 
 void br_march_sample(const struct br_march *march, enum br_field_kind kind, enum br_measure measure,

@@ -38,10 +38,15 @@ struct br_switch {
 
 /* The tip after a step; what is not modelled is zero. */
 struct br_tip {
-    double displacement;   /* axial, u_n(L), m */
-    double velocity[2];    /* axial and bending, by br_field_kind, m/s */
-    double contact_force;  /* c_H (u - g)_+ as this step used it, N */
-    double friction_force; /* lambda = -sigma_V(L), N */
+    double displacement; /* axial, u_n(L), m */
+    double velocity[2];  /* axial and bending, by br_field_kind, m/s */
+    union {
+        double force[2]; /* by br_field_kind, N */
+        struct {
+            double contact_force;  /* c_H (u - g)_+ as this step used it, N */
+            double friction_force; /* lambda = -sigma_V(L), N */
+        };
+    };
     double friction_bound; /* h(t_n), N */
 };
 

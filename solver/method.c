@@ -45,10 +45,9 @@ double br_method_cost(const struct br_method *m, const struct br_scene *scene, s
     const double sums = br_time_scheme_sums(m->scheme);
     double cost = 0;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(scene, kind, n, 1);
-        field.degree = m->axial_degree;
+        const struct br_field field = br_field_of_scene(scene, kind, n, 1, m->axial_degree);
         const struct br_linear_solver *solver = br_method_solver(m, &field);
-        if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
+        if (scene->field[kind].modelled)
             cost += solver->cost(solver, &field, sums);
     }
     return cost * br_time_scheme_stages(m->scheme);
@@ -185,17 +184,15 @@ enum br_status br_damping_check(const struct br_method *method, const struct br_
 {
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && method->scheme->needs_damping;
          kind++) {
-        const bool axial = kind == BR_AXIAL;
-        struct br_field field = br_field_of_scene(scene, kind, n, k);
-        field.degree = method->axial_degree;
-        const double most = br_damping_largest_step(&field, axial && scene->contact.modelled);
-        if (!(axial ? scene->axial.modelled : scene->bending.modelled) || k <= most ||
-            beyond_lobes(&field))
+        const struct br_field field = br_field_of_scene(scene, kind, n, k, method->axial_degree);
+        const bool spring = kind == BR_AXIAL && scene->contact.modelled;
+        const double most = br_damping_largest_step(&field, spring);
+        if (!scene->field[kind].modelled || k <= most || beyond_lobes(&field))
             continue;
         return br_fail(err, BR_BAD_INPUT,
                        "scheme %s with k = %g s and a viscosity of %g in %s: it lets vibration of "
                        "so little damping grow, expected k of at most %g s, or another scheme",
-                       method->scheme->name, k, field.viscosity, axial ? "axial" : "bending", most);
+                       method->scheme->name, k, field.viscosity, br_field_names[kind], most);
     }
     return BR_OK;
 }

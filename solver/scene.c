@@ -2,6 +2,9 @@
 #include "solver/scene.h"
 
 #include <math.h>
+#include <stdio.h>
+
+const char *const br_field_names[BR_FIELDS] = {"axial", "bending"};
 
 /* One physical number: its name, value, and the range that makes sense. */
 struct range {
@@ -21,14 +24,17 @@ static enum br_status check_ranges(const char *prefix, const struct range *range
     return BR_OK;
 }
 
-static enum br_status check_material(const char *prefix, double stiffness, double viscosity,
+static enum br_status check_material(const struct br_scene *s, enum br_field_kind kind,
                                      struct br_error *err)
 {
+    const struct br_scene_field *f = &s->field[kind];
     const struct range ranges[] = {
-        {"stiffness", stiffness, true},
-        {"viscosity", viscosity, true},
-        {"stiffness plus viscosity", stiffness + viscosity, false},
+        {"stiffness", f->stiffness, true},
+        {"viscosity", f->viscosity, true},
+        {"stiffness plus viscosity", f->stiffness + f->viscosity, false},
     };
+    char prefix[16];
+    snprintf(prefix, sizeof prefix, "%s: ", br_field_names[kind]);
     return check_ranges(prefix, ranges, sizeof ranges / sizeof *ranges, err);
 }
 
@@ -58,10 +64,9 @@ enum br_status br_scene_check(const struct br_scene *s, struct br_error *err)
     enum br_status status = check_ranges("", ranges, sizeof ranges / sizeof *ranges, err);
     if (!status && !s->axial.modelled && !s->bending.modelled)
         status = br_fail(err, BR_BAD_INPUT, "neither axial nor bending is modelled");
-    if (!status && s->axial.modelled)
-        status = check_material("axial: ", s->axial.stiffness, s->axial.viscosity, err);
-    if (!status && s->bending.modelled)
-        status = check_material("bending: ", s->bending.stiffness, s->bending.viscosity, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (s->field[kind].modelled)
+            status = check_material(s, kind, err);
     if (!status)
         status = check_laws(s, err);
     return status;
@@ -115,23 +120,19 @@ void br_load_clear(struct br_load *load)
 
 struct br_function *br_scene_function(struct br_scene *s, size_t i)
 {
-    struct br_function *const single[] = {
-        &s->axial.displacement,   &s->axial.velocity,
-        &s->bending.displacement, &s->bending.displacement_slope,
-        &s->bending.velocity,     &s->bending.velocity_slope,
-        &s->axial.tip_force,      &s->bending.tip_force,
-        &s->bending.tip_moment,   &s->bending.stick_force,
-        &s->axial.given,          &s->bending.given,
+    enum { SINGLES = 8, ALL = SINGLES + 2 * BR_LOAD_TERMS };
+    struct br_scene_field *f = &s->field[i < ALL ? BR_AXIAL : BR_BENDING];
+    struct br_function *const single[SINGLES] = {
+        &f->displacement, &f->displacement_slope, &f->velocity,    &f->velocity_slope,
+        &f->tip_force,    &f->tip_moment,         &f->stick_force, &f->given,
     };
-    const size_t singles = sizeof single / sizeof *single;
-    if (i < singles)
-        return single[i];
-    const size_t term = (i - singles) / 2;
-    if (term >= 2 * BR_LOAD_TERMS)
+    const size_t at = i % ALL;
+    if (i >= BR_FIELDS * ALL)
         return NULL;
-    struct br_load *load = term < BR_LOAD_TERMS ? &s->axial.load : &s->bending.load;
-    struct br_product *product = &load->term[term % BR_LOAD_TERMS];
-    return (i - singles) % 2 ? &product->time : &product->space;
+    if (at < SINGLES)
+        return single[at];
+    struct br_product *product = &f->load.term[(at - SINGLES) / 2];
+    return at % 2 ? &product->time : &product->space;
 }
 
 void br_scene_clear(struct br_scene *s)
@@ -142,7 +143,7 @@ void br_scene_clear(struct br_scene *s)
     free(s->name);
     free(s->title);
     free(s->remark);
-    free(s->axial.solution);
-    free(s->bending.solution);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        free(s->field[kind].solution);
     *s = (struct br_scene){0};
 }

@@ -31,34 +31,25 @@ double br_load_value(const struct br_load *load, double x, double t);
 enum br_status br_load_clone(const struct br_load *load, struct br_load *out, struct br_error *err);
 void br_load_clear(struct br_load *load);
 
-/* The rod of (3) and (8). */
-struct br_axial {
-    bool modelled;
-    double stiffness; /* a1, N */
-    double viscosity; /* c1, N s */
-    struct br_load load;
-    struct br_function tip_force;    /* of t, at x = L beside the contact, N */
-    struct br_function displacement; /* u0(x), m */
-    struct br_function velocity;     /* v0(x), m/s */
-    char *solution;                  /* owned; NULL, or u(x, t), m, from which load, tip force
-                                        and initial data were derived (reference/mms) */
-    struct br_function given;        /* that solution */
-};
+enum br_field_kind { BR_AXIAL, BR_BENDING, BR_FIELDS };
+extern const char *const br_field_names[BR_FIELDS]; /* "axial", "bending" */
 
-/* The beam of (4), (9) and (11). Hermite interpolation of the initial data
- * needs their slopes. */
-struct br_bending {
+/* A field: the rod of (3) and (8), or the beam of (4), (9) and (11). What a rod does not have is
+ * zero. */
+struct br_scene_field {
     bool modelled;
-    double stiffness; /* a2, N m^2 */
-    double viscosity; /* c2, N m^2 s */
+    double stiffness; /* a1, N; a2, N m^2 */
+    double viscosity; /* c1, N s; c2, N m^2 s */
     struct br_load load;
-    struct br_function tip_force;  /* of t, at x = L beside the friction, N */
-    struct br_function tip_moment; /* of t, at x = L, N m: works on the slope w_x */
-    struct br_function displacement, displacement_slope; /* w0(x), m, and w0'(x), 1 */
-    struct br_function velocity, velocity_slope;         /* m/s and 1/s */
-    char *solution;                 /* owned; NULL, or w(x, t), m, as for the axial field */
+    struct br_function tip_force;  /* of t, at x = L beside the contact or the friction, N */
+    struct br_function tip_moment; /* beam: of t, at x = L, N m: works on the slope w_x */
+    struct br_function displacement, velocity;             /* u0(x) or w0(x), m; v0(x), m/s */
+    struct br_function displacement_slope, velocity_slope; /* beam: their derivatives, 1 and 1/s,
+                                                              for Hermite interpolation */
+    char *solution;                 /* owned; NULL, or u(x, t) or w(x, t), m, from which load, tip
+                                       force and initial data were derived (reference/mms) */
     struct br_function given;       /* that solution */
-    struct br_function stick_force; /* of t, N: lambda of that solution while its tip sticks */
+    struct br_function stick_force; /* beam: of t, N: lambda of it while its tip sticks */
 };
 
 /* Normal compliance (10). */
@@ -92,8 +83,12 @@ struct br_scene {
     double length;   /* L, m */
     double duration; /* T, s */
     double density;  /* rho, kg/m */
-    struct br_axial axial;
-    struct br_bending bending;
+    union {
+        struct br_scene_field field[BR_FIELDS]; /* by br_field_kind */
+        struct {
+            struct br_scene_field axial, bending; /* the same ones by name */
+        };
+    };
     struct br_contact contact;
     struct br_friction friction;
     struct br_derived derived[BR_MOST_DERIVED]; /* up to the first without `what` */

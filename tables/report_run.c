@@ -10,14 +10,7 @@
 
 enum { VALUE = 80 };
 
-static const char *const field_names[2] = {"axial", "bending"};
-
 /* ---- facts ---- */
-
-static bool is_marched(const struct br_run_report *r, int kind)
-{
-    return kind == BR_AXIAL ? r->marched.axial.modelled : r->marched.bending.modelled;
-}
 
 static bool has_friction(const struct br_run_report *r)
 {
@@ -28,11 +21,11 @@ static bool has_friction(const struct br_run_report *r)
 static void put_two(struct br_document *d, const struct br_run_report *r, const double x[2],
                     const char *label, const char *unit, const char *key)
 {
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         char heading[80];
-        snprintf(heading, sizeof heading, "%s, %s", label ? label : "", field_names[kind]);
-        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(x[kind])), label ? heading : NULL,
-                       unit, "%s.%s", key, field_names[kind]);
+        snprintf(heading, sizeof heading, "%s, %s", label ? label : "", br_field_names[kind]);
+        br_put_fact_as(d, br_if(r->marched.field[kind].modelled, br_number(x[kind])),
+                       label ? heading : NULL, unit, "%s.%s", key, br_field_names[kind]);
     }
 }
 
@@ -44,10 +37,9 @@ static const char *direction(int sign)
 /* ---- the answer ---- */
 
 /* The predicted error of the tip's displacement, m; NAN: not known. */
-static double tip_error(const struct br_run_findings *f, int kind)
+static double tip_error(const struct br_run_findings *f, enum br_field_kind kind)
 {
-    const double error =
-        br_predicted_tip(f->prediction, (enum br_field_kind)kind, f->report->scene->length);
+    const double error = br_predicted_tip(f->prediction, kind, f->report->scene->length);
     return f->prediction->known ? error : NAN;
 }
 
@@ -86,8 +78,8 @@ static void answer_tip(struct br_document *d, const struct br_run_findings *f)
     char value[VALUE];
     br_put_answer(d, "Tip at t = %.10g s%s", r->end.last.time,
                   r->failure.status ? " (the last good step)" : "");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (is_marched(r, kind)) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (r->marched.field[kind].modelled) {
             br_put_more(d, "%s %s = %s m", between, kind == BR_AXIAL ? "u" : "w",
                         with_error(r->end.last.displacement[kind], tip_error(f, kind), value));
             between = ",";
@@ -137,12 +129,13 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
     if (r->bad_steps)
         br_put_answer(d, "%zu of %zu steps are beyond the certificate's limits; the first: %s",
                       r->bad_steps, r->end.last.step, r->verdict.message);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && r->summed; kind++) { /* of the whole march */
-        const double added = br_energy_added(&r->work, (enum br_field_kind)kind);
-        const double in = br_energy_put_in(&r->energy_start, &r->work, (enum br_field_kind)kind);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && r->summed;
+         kind++) { /* of the whole march */
+        const double added = br_energy_added(&r->work, kind);
+        const double in = br_energy_put_in(&r->energy_start, &r->work, kind);
         if (!(added > 0))
             continue;
-        br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, field_names[kind]);
+        br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, br_field_names[kind]);
         if (in > 0)
             br_put_more(d, " (%.2g %% of the initial energy and the work of the loads)",
                         100 * added / in);
@@ -226,14 +219,15 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
     br_put_section(d, "The tip");
     BR_FACT(d, br_number(row->time), .key = "tip.t", .heading = "t", .unit = "s");
     br_hide_fact(d, br_count(row->step), NULL, "tip.step");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        br_put_fact_as(d, br_if(is_marched(r, kind), br_number(row->displacement[kind])),
-                       displacements[kind], "m", "tip.displacement.%s", field_names[kind]);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_put_fact_as(d,
+                       br_if(r->marched.field[kind].modelled, br_number(row->displacement[kind])),
+                       displacements[kind], "m", "tip.displacement.%s", br_field_names[kind]);
         br_put_shown(d, "%s", with_error(row->displacement[kind], error[kind], text));
     }
     put_two(d, r, error, NULL, "m", "tip.predicted_error");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        put_number(d, f, is_marched(r, kind) ? row->velocity[kind] : NAN, NAN,
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        put_number(d, f, r->marched.field[kind].modelled ? row->velocity[kind] : NAN, NAN,
                    kind == BR_AXIAL ? "velocity, axial" : "velocity, bending", "m/s",
                    kind == BR_AXIAL ? "tip.velocity.axial" : "tip.velocity.bending");
     if (rests(f))
@@ -484,12 +478,13 @@ void br_report_run(const struct br_run_findings *f, struct br_document *d)
     put_predicted(d, p->bounded, "discretisation", "discretisation error", &p->whole);
     put_predicted(d, p->bounded, "time", "  of the time steps", &p->time);
     put_predicted(d, p->bounded, "space", "  of the elements", &p->space);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double most = br_predicted_most(p, (enum br_field_kind)kind);
-        const bool marched = is_marched(f->report, kind);
-        put_predicted(d, marched && p->bounded, field_names[kind], labels[kind], &p->field[kind]);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const double most = br_predicted_most(p, kind);
+        const bool marched = f->report->marched.field[kind].modelled;
+        put_predicted(d, marched && p->bounded, br_field_names[kind], labels[kind],
+                      &p->field[kind]);
         br_hide_fact(d, br_if(marched && p->known, br_number(most)), NULL, "prediction.%s.most",
-                     field_names[kind]);
+                     br_field_names[kind]);
     }
     BR_FACT(d, br_number(p->round_off), .key = "prediction.round_off", .heading = "round-off",
             .format = "%.1e");

@@ -47,12 +47,6 @@ static void answer_run(struct br_document *d, const struct br_split *s)
                        "chatter.");
 }
 
-static bool models(const struct br_split *s, enum br_part part)
-{
-    return part == BR_PART_TOTAL ||
-           (part == BR_PART_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled);
-}
-
 /* The lines of a run: its components, then their sum and the whole. */
 enum { OTHERS = 2 };
 
@@ -72,7 +66,7 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
     br_hide(d, "applies", NULL, br_truth(!l->none));
     br_put_blank(d, l->none);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
-        const double error = models(s, part) ? l->error[norm][part] : (double)NAN;
+        const double error = br_models(s->scene, part) ? l->error[norm][part] : (double)NAN;
         const double floor = is_sum ? (double)NAN : l->floor[norm][part];
         br_hide(d, floor_key[part], NULL, br_number(floor));
         BR_PUT(d, br_number(error), .key = key[part], .heading = br_part_names[part],
@@ -85,9 +79,9 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
         br_put_shown(d, share_format(share), 100 * share);
     BR_PUT(d, br_if(known || is_whole, br_number(l->error[norm][BR_PART_TOTAL] / s->scale[norm])),
            .key = "relative", .heading = "of the solution", .format = "%.2e");
-    BR_PUT(d, br_if(models(s, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])), .key = "axial_tip",
-           .heading = "axial tip", .unit = "m", .format = "%+.3e");
-    BR_PUT(d, br_if(models(s, BR_PART_BENDING), br_number(l->tip[BR_BENDING])),
+    BR_PUT(d, br_if(br_models(s->scene, BR_PART_AXIAL), br_number(l->tip[BR_AXIAL])),
+           .key = "axial_tip", .heading = "axial tip", .unit = "m", .format = "%+.3e");
+    BR_PUT(d, br_if(br_models(s->scene, BR_PART_BENDING), br_number(l->tip[BR_BENDING])),
            .key = "bending_tip", .heading = "bending tip", .unit = "m", .format = "%+.3e");
     br_put_blank(d, false);
     br_hide(d, "none", NULL, br_text(l->none));

@@ -16,9 +16,8 @@ static double step_of(const struct br_study *s, const struct br_cell *c)
  * known. */
 static double relative_of(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
-    const double size = part == BR_PART_TOTAL   ? s->reference_scale
-                        : part == BR_PART_AXIAL ? s->reference_size[BR_AXIAL]
-                                                : s->reference_size[BR_BENDING];
+    const double size =
+        part == BR_PART_TOTAL ? s->reference_scale : s->reference_size[part - BR_PART_AXIAL];
     return c->error[part] / size;
 }
 
@@ -116,12 +115,6 @@ static void answer_printed(struct br_document *d, const struct br_report *r)
             "No choice of reference explains this: at least %zu pair%s of printed errors violate%s "
             "the triangle inequality.",
             pairs, pairs == 1 ? "" : "s", pairs == 1 ? "s" : "");
-}
-
-static bool is_modelled(const struct br_report *r, enum br_field_kind kind)
-{
-    const struct br_scene *s = r->study->scene;
-    return kind == BR_AXIAL ? s->axial.modelled : s->bending.modelled;
 }
 
 static void put_answers(struct br_document *d, const struct br_report *r)
@@ -451,10 +444,10 @@ void br_report_study(const struct br_report *r, struct br_document *d)
 
     br_put_table(d, "tips", "Tip at t = T", r->printed ? BR_FILES_ONLY : 0);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        if (!is_modelled(r, kind))
+        if (!r->study->scene->field[kind].modelled)
             continue;
         br_put_row(d);
-        BR_PUT(d, br_text(kind == BR_AXIAL ? "axial" : "bending"), .key = "field");
+        BR_PUT(d, br_text(br_field_names[kind]), .key = "field");
         BR_PUT(d, br_number(finest->tip[kind]), .key = "finest", .heading = "finest cell",
                .unit = "m", .format = "%.10g");
         BR_PUT(d, br_number(fitted->reference_tip[kind]), .key = "reference", .unit = "m",

@@ -173,7 +173,7 @@ static void form_rhs(struct dense_march *q, int kind, double t)
     const bool axial = kind == BR_AXIAL;
     const real *w = f->state[Z], *v = w + f->order;
     memset(f->rhs, 0, f->order * sizeof *f->rhs);
-    add_load(q, f, axial ? &s->axial.load : &s->bending.load, t);
+    add_load(q, f, &s->field[kind].load, t);
     for (size_t e = 0; e < q->n; e++)
         for (size_t a = e > 0 ? 0 : f->u; a < 2 * f->u; a++)
             for (size_t b = e > 0 ? 0 : f->u; b < 2 * f->u; b++) {
@@ -181,7 +181,7 @@ static void form_rhs(struct dense_march *q, int kind, double t)
                 f->rhs[(e - 1) * f->u + a] +=
                     f->heavy * f->mass[a][b] / f->tau * v[j] - f->stiff * f->stiffness[a][b] * w[j];
             }
-    f->rhs[f->order - f->u] += value_at(axial ? &s->axial.tip_force : &s->bending.tip_force, 0, t);
+    f->rhs[f->order - f->u] += value_at(&s->field[kind].tip_force, 0, t);
     if (!axial)
         f->rhs[f->order - 1] += value_at(&s->bending.tip_moment, 0, t) / q->h;
 }
@@ -328,8 +328,8 @@ static bool init_field(struct dense_march *q, enum br_field_kind kind, int degre
     f->stiffness = linear ? linear_stiffness : quadratic ? quadratic_stiffness : bending_stiffness;
     f->u = linear ? 1 : 2;
     f->heavy = s->density * q->h;
-    f->stiff = (axial ? s->axial.stiffness : s->bending.stiffness) / volume;
-    f->viscous = (axial ? s->axial.viscosity : s->bending.viscosity) / volume;
+    f->stiff = s->field[kind].stiffness / volume;
+    f->viscous = s->field[kind].viscosity / volume;
     f->order = f->u * q->n;
     f->band = 2 * f->u - 1;
     const size_t count = f->order * (f->band + 1 + 3 + 2 * STATES);
@@ -362,8 +362,8 @@ static void interpolate(const struct dense_march *q, const struct dense_field *f
 
 static void start_from(struct dense_march *q)
 {
-    const struct br_axial *a = &q->scene->axial;
-    const struct br_bending *b = &q->scene->bending;
+    const struct br_scene_field *a = &q->scene->axial;
+    const struct br_scene_field *b = &q->scene->bending;
     struct dense_field *rod = &q->field[BR_AXIAL], *beam = &q->field[BR_BENDING];
     interpolate(q, rod, &a->displacement, NULL, rod->state[BR_NOW]);
     interpolate(q, rod, &a->velocity, NULL, rod->state[BR_NOW] + rod->order);
@@ -397,7 +397,7 @@ void dense_free(struct dense_march *q)
 {
     if (!q)
         return;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         free(q->field[kind].factor);
     free(q->nodal);
     free(q);

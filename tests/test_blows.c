@@ -106,7 +106,7 @@ static const double acceptable = 1e-5; /* as study does */
 /* Whether an answer states no more than was asked for. */
 static bool is_useful(const struct hard_load *c, const struct br_exact *exact)
 {
-    const enum br_exact_field field = c->problem.bending ? BR_EXACT_BENDING : BR_EXACT_AXIAL;
+    const enum br_field_kind field = c->problem.bending ? BR_BENDING : BR_AXIAL;
     const struct br_exact_report report = br_exact_report(exact, field);
     if (report.error.displacement <= acceptable * report.largest.displacement)
         return true;
@@ -141,7 +141,7 @@ static enum outcome compare(const struct hard_load *c, const struct br_exact *ex
 {
     struct br_error err = {0};
     struct br_exact_state *state;
-    const enum br_exact_field field = c->problem.bending ? BR_EXACT_BENDING : BR_EXACT_AXIAL;
+    const enum br_field_kind field = c->problem.bending ? BR_BENDING : BR_AXIAL;
     const struct br_exact_size error = br_exact_report(exact, field).error;
     bool right = true;
     MUST(br_exact_state_create(&state, exact, &err));

@@ -28,14 +28,14 @@ static void record(struct recorded *r, const char *contact, const char *friction
     struct br_march *march = br_test_march(&r->scene, N, 100, &r->method);
     double(*const nodal[2])[SIZE] = {r->axial, r->bending};
     r->step = (struct br_checked_step){.scene = &r->scene, .method = &r->method, .n = N, .k = 0.01};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double(*x)[SIZE] = nodal[kind];
         r->step.field[kind] = (struct br_step_field){x[0], x[1], x[2], x[3], x[4]};
     }
     for (size_t i = 0; i < 2; i++) {
         br_test_advance(march, 60 + i);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            br_march_get(march, (enum br_field_kind)kind, nodal[kind][i], nodal[kind][2 + i]);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            br_march_get(march, kind, nodal[kind][i], nodal[kind][2 + i]);
     }
     br_march_load(march, BR_AXIAL, r->axial[4]);
     br_march_load(march, BR_BENDING, r->bending[4]);

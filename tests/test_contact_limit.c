@@ -23,9 +23,7 @@ static struct br_scene pressed_scene(double density, double viscosity, double st
 
 static struct br_field field_of(const struct br_scene *scene, size_t n, double k, int degree)
 {
-    struct br_field field = br_field_of_scene(scene, BR_AXIAL, n, k);
-    field.degree = degree;
-    return field;
+    return br_field_of_scene(scene, BR_AXIAL, n, k, degree);
 }
 
 /* G(1/k) = k z_tip of a step of k, whatever solver computed it. */

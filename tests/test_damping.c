@@ -53,8 +53,7 @@ static void check_bounds(enum br_field_kind kind, int degree, double highest)
 {
     for (double k = 1e-6; k < 1e6; k *= 3) {
         struct br_scene s = vibrating(1);
-        struct br_field f = br_field_of_scene(&s, kind, 10, k);
-        f.degree = degree;
+        struct br_field f = br_field_of_scene(&s, kind, 10, k, degree);
         const double lowest = sqrt(br_field_lowest_mode(&f));
         /* The viscosity that just does, by halving. */
         double low = 1e-30, high = 1e30;
@@ -103,7 +102,7 @@ TEST(test_refusals)
 TEST(test_spring)
 {
     struct br_scene s = br_test_bare();
-    const struct br_field f = br_field_of_scene(&s, BR_AXIAL, 10, 1);
+    const struct br_field f = br_field_of_scene(&s, BR_AXIAL, 10, 1, 1);
     assert_true(br_damping_largest_step(&f, true) < br_damping_largest_step(&f, false));
     for (double spring = 1e-3; spring < 1e3; spring *= 1.1) {
         double q = 2, low = acos(0), high = 2 * acos(0); /* tan q = -q / spring */

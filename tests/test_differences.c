@@ -32,7 +32,7 @@ static void check_cell(const struct br_study *differences, size_t i, size_t j,
     s.n = &meshes[i], s.steps = &steps[j];
     s.n_count = s.k_count = 1;
     MUST(br_study_run(&s, 1, 1, NULL, &err));
-    for (int part = 0; part < BR_PARTS; part++)
+    for (enum br_part part = 0; part < BR_PARTS; part++)
         assert_true(s.cell[0].error[part] == cell->error[part]);
     br_study_clear(&s);
 }

@@ -59,10 +59,10 @@ static struct br_march *marched(const struct br_scene *s, size_t n, size_t steps
 static struct result result_of(struct br_march *march)
 {
     struct result r = {.round_off = br_march_round_off(march)};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        r.size[kind] = br_field_size(br_march_field(march, (enum br_field_kind)kind));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        r.size[kind] = br_field_size(br_march_field(march, kind));
         assert_true(r.size[kind] <= MOST);
-        br_march_get(march, (enum br_field_kind)kind, r.value[kind][0], r.value[kind][1]);
+        br_march_get(march, kind, r.value[kind][0], r.value[kind][1]);
     }
     br_march_free(march);
     return r;
@@ -161,7 +161,7 @@ static void compare_modes(const struct br_scene *s, const char *name,
         /* Steps by a tolerance may have other lengths; results then differ by their error. */
         const double limit = method->scheme->adaptive ? 100 * method->tolerance
                                                       : one_sided_by(method) * nearest.round_off;
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             if (!(apart(&nearest, &r, kind, 1) <= limit))
                 fail_msg("%s, %s, %s, rounding %s: off by %g, expected %g at most", name,
                          method->solver->name, method->scheme->name, modes[i].name,
@@ -260,7 +260,7 @@ static void compare_units(const struct br_scene *s, const struct br_method *meth
     const double limit = exact                      ? 0
                          : method->scheme->adaptive ? 100 * method->tolerance
                                                     : 16 * a.round_off + numbers;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         if (!(apart(&a, &b, kind, 1 / u->metre) <= limit))
             fail_msg("%s, %s, %s, n = %zu, units %g %g %g: off by %g, expected %g at most",
                      method->solver->name, method->scheme->name, method->friction->name, n,

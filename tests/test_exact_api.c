@@ -15,7 +15,7 @@ TEST(test_derivatives)
     const double x = 0.4, h = 1e-3;
     for (unsigned field = 0; field < 2; field++)
         for (unsigned order = 0; order <= field + 1; order++) {
-            struct br_exact_quantity part = {(enum br_exact_field)field, false, order}, next = part;
+            struct br_exact_quantity part = {(enum br_field_kind)field, false, order}, next = part;
             next.order++;
             const double difference =
                 8 * value_of(&solved, part, x + h) - 8 * value_of(&solved, part, x - h) -
@@ -51,7 +51,7 @@ TEST(test_refusals)
     s.bending.load = (struct br_load){{{formula_function(&bad), {.constant = 1}}}};
     refuses(&s, (struct br_exact_options){0}, BR_NOT_FINITE, "not finite");
     s = (struct br_scene){.length = 1, .duration = 1, .density = 1};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 1};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 1};
     s.axial.load = (struct br_load){{{formula_function(&bad), {.constant = 1}}}};
     refuses(&s, (struct br_exact_options){0}, BR_NOT_FINITE, "not finite");
     refuses(&good, (struct br_exact_options){.tolerance = 1e-14}, BR_BAD_INPUT, "tolerance");
@@ -66,7 +66,7 @@ TEST(test_refusals)
     refuses(&s, (struct br_exact_options){0}, BR_BAD_INPUT, "viscosity");
     /* An undamped rod that hits an obstacle: a kink travels for ever. */
     s = (struct br_scene){.length = 1, .duration = 3, .density = 1};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 1};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 1};
     s.axial.load =
         (struct br_load){.term[0].space = {.constant = 1}, .term[0].time = {.constant = 1}};
     s.contact = (struct br_contact){true, 0.2, 5};
@@ -75,8 +75,7 @@ TEST(test_refusals)
     struct solved solved = solve(&good, 1e-8);
     const double x = 0.5;
     double value;
-    const struct br_exact_quantity axial = {BR_EXACT_AXIAL, false, 0},
-                                   high = {BR_EXACT_BENDING, false, 4};
+    const struct br_exact_quantity axial = {BR_AXIAL, false, 0}, high = {BR_BENDING, false, 4};
     assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &axial, 1, &x, &value, NULL),
                      BR_BAD_INPUT);
     assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &high, 1, &x, &value, NULL),
@@ -101,7 +100,7 @@ TEST(test_shared)
     assert_int_equal(br_exact_borrow(&exact[4], &scene, &least, NULL), BR_OK);
     assert_true(exact[1] == exact[0]);
     assert_true(exact[2] != exact[0] && exact[3] != exact[0] && exact[4] != exact[0]);
-    assert_true(br_exact_report(exact[0], BR_EXACT_AXIAL).modes >= 18); /* 18 may be cut short */
+    assert_true(br_exact_report(exact[0], BR_AXIAL).modes >= 18); /* 18 may be cut short */
     br_exact_give_back(exact[0]);
     assert_int_equal(br_exact_borrow(&exact[5], &scene, &modest, NULL), BR_OK);
     assert_true(exact[5] == exact[1]); /* still there for its second user */
@@ -116,7 +115,7 @@ TEST(test_allocations)
 {
     struct br_scene scene = br_test_bundled("example2");
     const struct br_exact_options options = {.tolerance = 1e-4};
-    const struct br_exact_quantity part = {BR_EXACT_BENDING, false, 0};
+    const struct br_exact_quantity part = {BR_BENDING, false, 0};
     const struct br_exact_mesh mesh = {4, 3};
     enum br_status status = BR_NO_MEMORY;
     long failures = 0;

@@ -74,7 +74,7 @@ static double contact_guard(double t, void *scalar)
 }
 
 /* Compares the tip with s from s->start up to `end`. */
-static void check_piece(const struct solved *solved, enum br_exact_field field,
+static void check_piece(const struct solved *solved, enum br_field_kind field,
                         const struct scalar *s, double end)
 {
     struct br_exact_state *state = solved->state;
@@ -96,7 +96,7 @@ static void check_event(const struct br_exact_event *event, double t, enum br_ph
 TEST(test_slider)
 {
     struct br_scene s = {.length = 1.5, .duration = 10};
-    s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
+    s.bending = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.bending.load = uniform(20, "sin(3*t)");
     s.friction = (struct br_friction){BR_TRESCA, 5, 0};
     struct solved solved = solve(&s, 1e-10);
@@ -113,7 +113,7 @@ TEST(test_slider)
     check_event(&event[n++], 0, BR_STICK);
     for (;;) {
         const double t = first_root(tip.held ? stick_guard : slip_guard, &tip, s.duration);
-        check_piece(&solved, BR_EXACT_BENDING, &tip, fmin(t, s.duration));
+        check_piece(&solved, BR_BENDING, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;
         tip.value = scalar_at(&tip, t);
@@ -133,7 +133,7 @@ TEST(test_slider)
 TEST(test_bouncing)
 {
     struct br_scene s = {.length = 1.5, .duration = 10};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 4, .viscosity = 3};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.axial.load = uniform(20, "sin(5*t)");
     s.contact = (struct br_contact){true, 0.3, 50};
     struct solved solved = solve(&s, 1e-10);
@@ -150,7 +150,7 @@ TEST(test_bouncing)
     check_event(&event[n++], 0, BR_OPEN);
     for (;;) {
         const double t = first_root(contact_guard, &tip, s.duration);
-        check_piece(&solved, BR_EXACT_AXIAL, &tip, fmin(t, s.duration));
+        check_piece(&solved, BR_AXIAL, &tip, fmin(t, s.duration));
         if (!(t < s.duration))
             break;
         tip.value = s.contact.gap;
@@ -170,7 +170,7 @@ TEST(test_bouncing)
 TEST(test_slip_to_rest)
 {
     struct br_scene s = {.length = 1, .duration = 100, .density = 0.1};
-    s.bending = (struct br_bending){.modelled = true, .stiffness = 4, .viscosity = 3};
+    s.bending = (struct br_scene_field){.modelled = true, .stiffness = 4, .viscosity = 3};
     s.bending.load = uniform(8, "1");
     s.friction = (struct br_friction){BR_TRESCA, 1, 0};
     struct solved solved = solve(&s, 1e-10);
@@ -179,7 +179,7 @@ TEST(test_slip_to_rest)
     const struct br_exact_event *event = br_exact_events(solved.exact, &count);
     assert_int_equal(event[count - 1].phase, BR_SLIP_UP);
     br_exact_at(solved.exact, s.duration, state);
-    assert_near(state->tip[BR_EXACT_BENDING].displacement, (3.0 / 8 * 8 - 1) / (3 * 4), 1e-13);
+    assert_near(state->tip[BR_BENDING].displacement, (3.0 / 8 * 8 - 1) / (3 * 4), 1e-13);
     assert_near(state->friction_force, 1, 0);
     release(&solved);
     br_scene_clear(&s);

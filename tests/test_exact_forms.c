@@ -7,11 +7,9 @@
 
 #include "tests/exact_scenes.h"
 
-static const struct br_exact_quantity u = {BR_EXACT_AXIAL, false, 0}, v = {BR_EXACT_AXIAL, true, 0},
-                                      u_xt = {BR_EXACT_AXIAL, true, 1},
-                                      w = {BR_EXACT_BENDING, false, 0},
-                                      w_t = {BR_EXACT_BENDING, true, 0},
-                                      w_xxt = {BR_EXACT_BENDING, true, 2};
+static const struct br_exact_quantity u = {BR_AXIAL, false, 0}, v = {BR_AXIAL, true, 0},
+                                      u_xt = {BR_AXIAL, true, 1}, w = {BR_BENDING, false, 0},
+                                      w_t = {BR_BENDING, true, 0}, w_xxt = {BR_BENDING, true, 2};
 
 /* Solves, checks up to the end, and clears all. */
 static void check_forms(struct br_scene *scene, int times, size_t count,
@@ -47,7 +45,7 @@ static void oscillate(double d, double square, struct text *q, struct text *rate
 static void check_vibration(struct br_scene *scene, struct br_exact_quantity part,
                             const char *shape, double square, const char *reaction)
 {
-    const bool axial = part.field == BR_EXACT_AXIAL;
+    const bool axial = part.field == BR_AXIAL;
     const double a = axial ? scene->axial.stiffness : scene->bending.stiffness,
                  c = axial ? scene->axial.viscosity : scene->bending.viscosity;
     const struct br_exact_quantity velocity = {part.field, true, 0};
@@ -75,7 +73,8 @@ TEST(test_axial_vibration)
     for (size_t i = 0; i < 4; i++) {
         const struct text shape = text_of("0.01*sin(%.17g*x)", k);
         struct br_scene s = {.length = 2.5, .duration = 10, .density = 1.5};
-        s.axial = (struct br_axial){.modelled = true, .stiffness = 7, .viscosity = viscosities[i]};
+        s.axial =
+            (struct br_scene_field){.modelled = true, .stiffness = 7, .viscosity = viscosities[i]};
         s.axial.displacement = br_test_function(shape.s);
         check_vibration(&s, u, shape.s, k * k / s.density, NULL);
     }
@@ -102,7 +101,8 @@ TEST(test_bending_vibration)
         struct br_scene s = {.length = 1.25, .duration = 3, .density = 0.8};
         if (held && viscosity == 0)
             continue;
-        s.bending = (struct br_bending){.modelled = true, .stiffness = 2, .viscosity = viscosity};
+        s.bending =
+            (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = viscosity};
         s.bending.displacement = br_test_function(shape.s);
         s.bending.displacement_slope = br_test_function(slope.s);
         if (held)
@@ -121,7 +121,7 @@ TEST(test_closed_vibration)
                       moving = text_of("(%.17g*x-%.17g*x^2+0.05*sin(2*x)*cos(%.17g*t))", slope, bow,
                                        omega);
     struct br_scene s = {.length = 1, .duration = 4, .density = 2};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = a};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = a};
     s.axial.load = uniform(load, "1");
     s.contact = (struct br_contact){true, gap, c};
     s.axial.displacement = br_test_function(still.s);
@@ -139,7 +139,7 @@ TEST(test_forced)
 {
     const double length = 0.8, k = 5 * M_PI_2 / length, inertia = k * k * 2 - 0.3 * 4 * 4;
     struct br_scene s = {.length = length, .duration = 2, .density = 0.3};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = 0.1};
     s.axial.load = br_test_load(
         text_of("sin(%.17g*x)*(%.17g*sin(4*t)+%.17g*cos(4*t))", k, inertia, k * k * 0.1 * 4).s);
     s.axial.velocity = br_test_function(text_of("4*sin(%.17g*x)", k).s);
@@ -162,10 +162,10 @@ TEST(test_pulse)
 {
     struct formula load = {f_pulse, {M_PI_2, 2, 0.1, 0.01}};
     struct br_scene scene = {.length = 1, .duration = 2, .density = 1};
-    scene.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.1};
+    scene.axial = (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = 0.1};
     scene.axial.load = (struct br_load){{{formula_function(&load), {.constant = 1}}}};
     struct solved s = solve(&scene, 1e-9);
-    const double allowed = br_exact_report(s.exact, BR_EXACT_AXIAL).error.displacement;
+    const double allowed = br_exact_report(s.exact, BR_AXIAL).error.displacement;
     assert_near(allowed, 0, 1e-9);
     check_closed(
         &s, 1, 2, 1000, 1,
@@ -181,9 +181,9 @@ TEST(test_held)
     struct br_scene scene = br_test_bundled("example4");
     struct solved s = solve(&scene, 1e-10);
     br_exact_at(s.exact, 2.1, s.state);
-    assert_near(value_of(&s, w, 1), s.state->tip[BR_EXACT_BENDING].displacement, 1e-14);
+    assert_near(value_of(&s, w, 1), s.state->tip[BR_BENDING].displacement, 1e-14);
     assert_near(value_of(&s, w_t, 1), 0, 3e-14);
-    assert_near(s.state->tip[BR_EXACT_BENDING].velocity, 0, 0);
+    assert_near(s.state->tip[BR_BENDING].velocity, 0, 0);
     release(&s);
     br_scene_clear(&scene);
 }
@@ -254,7 +254,7 @@ TEST(test_held_creep)
 {
     static const char shape[] = "3/(48*5)*x^2*(2*x^2-10*x+12)";
     struct br_scene s = {.length = 2, .duration = 3};
-    s.bending = (struct br_bending){.modelled = true, .stiffness = 5, .viscosity = 4};
+    s.bending = (struct br_scene_field){.modelled = true, .stiffness = 5, .viscosity = 4};
     s.bending.load = uniform(3, "1");
     s.friction = (struct br_friction){BR_TRESCA, 3, 0};
     check_forms(&s, 100, 3,
@@ -317,10 +317,10 @@ TEST(test_inertia)
                                      {PART, w_xxt, text_of("3*t^2*cos(x)"), 1e-6}});
     /* t = 2 is the last one and the largest; the estimate covers the error */
     const double largest = 12 * sqrt((1.3 + sin(2.6) / 2) / 2 / 1.3); /* of cos^2, its mean */
-    const struct br_exact_report r = br_exact_report(s.exact, BR_EXACT_AXIAL);
+    const struct br_exact_report r = br_exact_report(s.exact, BR_AXIAL);
     assert_near(sqrt(square_of(&s, u_xt) / 1.3), largest, 1e-6);
     assert_near(r.largest.strain_rate, largest, 1e-6);
-    assert_near(br_exact_report(s.exact, BR_EXACT_BENDING).largest.strain_rate, largest, 1e-6);
+    assert_near(br_exact_report(s.exact, BR_BENDING).largest.strain_rate, largest, 1e-6);
     assert_true(r.error.strain_rate >= 0 && r.error.strain_rate <= 1e-6);
     release(&s);
     br_scene_clear(&scene);
@@ -351,7 +351,7 @@ TEST(test_stick)
                                      {PART, w, text_of("0"), 1e-12}});
     br_exact_at(s.exact, 0.6, s.state);
     assert_near(s.state->friction_force, 2, 0);
-    assert_true(s.state->tip[BR_EXACT_BENDING].displacement > 1e-4);
+    assert_true(s.state->tip[BR_BENDING].displacement > 1e-4);
     release(&s);
     br_scene_clear(&scene);
 }
@@ -366,7 +366,7 @@ TEST(test_rest)
     assert_int_equal(count, 1);
     br_exact_at(s.exact, 1.9, s.state);
     assert_near(s.state->friction_force, sin(5.7), 1e-9);
-    assert_near(br_exact_report(s.exact, BR_EXACT_BENDING).largest.displacement, 0, 1e-13);
+    assert_near(br_exact_report(s.exact, BR_BENDING).largest.displacement, 0, 1e-13);
     release(&s);
     br_scene_clear(&scene);
 }
@@ -377,7 +377,7 @@ TEST(test_stopped_tip)
 {
     static const double bounds[] = {1e5, 1e8, 1e10, 1e12, 1e18};
     struct br_scene scene = {.length = 1, .duration = 1, .density = 1};
-    scene.bending = (struct br_bending){.modelled = true, .viscosity = 1e-5};
+    scene.bending = (struct br_scene_field){.modelled = true, .viscosity = 1e-5};
     scene.bending.velocity = br_test_function("x^2");
     scene.bending.velocity_slope = br_test_function("2*x");
     for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++) {
@@ -386,7 +386,7 @@ TEST(test_stopped_tip)
         br_exact_at(s.exact, 1, s.state);
         for (double x = 0.25; x < 0.6; x += 0.25)
             assert_near(value_of(&s, w, x), x * x, 0.01 * x * x);
-        assert_near(s.state->tip[BR_EXACT_BENDING].displacement, 0, 1e-7);
+        assert_near(s.state->tip[BR_BENDING].displacement, 0, 1e-7);
         release(&s);
     }
     br_scene_clear(&scene);

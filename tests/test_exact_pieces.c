@@ -29,14 +29,14 @@ TEST(test_front)
     scene.axial.load = br_test_load("-3*step(2*t-x)");
     MUST(br_exact_create(&s.exact, &scene, &(struct br_exact_options){.acceptable = 1e-5}, &err));
     MUST(br_exact_state_create(&s.state, s.exact, &err));
-    const struct br_exact_report r = br_exact_report(s.exact, BR_EXACT_AXIAL);
+    const struct br_exact_report r = br_exact_report(s.exact, BR_AXIAL);
     AT_MOST(r.error.displacement / r.largest.displacement, 1e-6);
     for (int n = 0; n <= 20; n++) {
         br_exact_at(s.exact, scene.duration * n / 20, s.state);
         const double rate = 10, t = fmin(s.state->time, 1.25), later = s.state->time - t;
         const double ramp = 2 * (t * t + 2 / rate * (-expm1(-rate * t) / rate - t));
         const double tip = 3.125 + (ramp - 3.125) * exp(-rate * later);
-        assert_near(s.state->tip[BR_EXACT_AXIAL].displacement, -3.0 / 7 * tip,
+        assert_near(s.state->tip[BR_AXIAL].displacement, -3.0 / 7 * tip,
                     r.error.displacement + 1e-13 * r.largest.displacement);
     }
     release(&s);
@@ -53,12 +53,13 @@ TEST(test_needless_ends)
     struct solved s[2];
     for (int i = 0; i < 2; i++) {
         scene[i] = (struct br_scene){.length = 0.4, .duration = 2, .density = 1.3};
-        scene[i].bending = (struct br_bending){.modelled = true, .stiffness = 5, .viscosity = 0.02};
+        scene[i].bending =
+            (struct br_scene_field){.modelled = true, .stiffness = 5, .viscosity = 0.02};
         scene[i].bending.load = br_test_load(loads[i]);
         s[i] = solve(&scene[i], 1e-10);
     }
-    const struct br_exact_quantity part = {BR_EXACT_BENDING, false, 0};
-    const double largest = br_exact_report(s[0].exact, BR_EXACT_BENDING).largest.displacement;
+    const struct br_exact_quantity part = {BR_BENDING, false, 0};
+    const double largest = br_exact_report(s[0].exact, BR_BENDING).largest.displacement;
     for (int n = 0; n <= 40; n++) {
         for (int i = 0; i < 2; i++)
             br_exact_at(s[i].exact, 2.0 * n / 40, s[i].state);
@@ -144,11 +145,11 @@ TEST(test_sight_of_a_front)
     br_function_free(&f);
 }
 
-static struct br_outline outline_of(const struct br_scene *scene, size_t degree)
+static struct br_outline outline_of(const struct br_scene *scene, enum br_field_kind kind)
 {
     struct br_error err;
     struct br_outline o;
-    MUST(br_outline_init(&o, scene, degree, &err));
+    MUST(br_outline_init(&o, scene, kind, &err));
     return o;
 }
 
@@ -165,7 +166,7 @@ TEST(test_outline_of_a_blow)
 {
     struct br_scene s = rod(1, 0.7);
     s.axial.load = br_test_load("(1+x)*exp(-((t-1.2)/1e-3)^2)");
-    struct br_outline o = outline_of(&s, 1);
+    struct br_outline o = outline_of(&s, BR_AXIAL);
     assert_true(br_outline_is_sharp(&o, 1.2, 0.01));
     assert_false(br_outline_is_sharp(&o, 0.3, 0.01));
     AT_MOST(br_outline_cell(&o, 1.2), 2e-3);
@@ -190,7 +191,7 @@ TEST(test_outline_of_a_blow_at_the_tip)
     s.length = 0.022135580911717349;
     s.duration = 62.72405076094217;
     s.axial.tip_force = br_test_function("12*exp(-((t-38.5286)/0.00806621)^2)");
-    struct br_outline o = outline_of(&s, 1);
+    struct br_outline o = outline_of(&s, BR_AXIAL);
     AT_MOST(br_outline_cell(&o, 38.5286), 0.02);
     AT_MOST((double)o.end[BR_T].count, 200); /* not some 1,800 */
     AT_MOST(o.proved, 1e-10);
@@ -205,7 +206,7 @@ TEST(test_outline_of_places)
 {
     struct br_scene s = rod(1, 0.7);
     s.axial.load = br_test_load("-3*step(2*t-x)");
-    struct br_outline o = outline_of(&s, 1);
+    struct br_outline o = outline_of(&s, BR_AXIAL);
     assert_true(o.fronts);
     bool found = false;
     for (size_t i = 0; i < o.jump.count; i++)
@@ -217,7 +218,7 @@ TEST(test_outline_of_places)
     s = rod(1, 0.7);
     s.axial.displacement = br_test_function("abs(x-1.1)-1.1+sqrt(x)");
     s.axial.tip_force = br_test_function("exp(t)*step(t-1)");
-    o = outline_of(&s, 1);
+    o = outline_of(&s, BR_AXIAL);
     assert_true(!o.fronts && has(&o.end[BR_X], 1.1));
     const double layer = sqrt(0.7 * 1e-6 * s.duration);
     const double last = s.length - o.end[BR_X].at[o.end[BR_X].count - 2];

@@ -18,9 +18,9 @@ enum { SCENES = sizeof scenes / sizeof *scenes, MORE = 5, TIMES = 97 };
 static struct br_scene lively_scene(void)
 {
     struct br_scene s = {.length = 1.2, .duration = 3, .density = 0.7};
-    s.axial = (struct br_axial){.modelled = true, .stiffness = 2, .viscosity = 0.05};
+    s.axial = (struct br_scene_field){.modelled = true, .stiffness = 2, .viscosity = 0.05};
     s.axial.load = uniform(6, "sin(5*t)");
-    s.bending = (struct br_bending){.modelled = true, .stiffness = 1, .viscosity = 0.02};
+    s.bending = (struct br_scene_field){.modelled = true, .stiffness = 1, .viscosity = 0.02};
     s.bending.load = uniform(5, "sin(7*t)");
     s.contact = (struct br_contact){true, 0.1, 20};
     s.friction = (struct br_friction){BR_COULOMB, 10, 0};
@@ -60,16 +60,16 @@ static int release_all(void **state)
     return 0;
 }
 
-static bool is_modelled(const struct br_scene *scene, enum br_exact_field field)
+static bool is_modelled(const struct br_scene *scene, enum br_field_kind field)
 {
-    return field == BR_EXACT_AXIAL ? scene->axial.modelled : scene->bending.modelled;
+    return scene->field[field].modelled;
 }
 
 /* ---- estimates ---- */
 
 /* The tip's largest distance of two solutions at many times that are no step's ends. */
 static double tip_distance(const struct solved *a, const struct solved *b, double duration,
-                           enum br_exact_field field)
+                           enum br_field_kind field)
 {
     double most = 0;
     for (int i = 1; i <= 400; i++) {
@@ -99,7 +99,7 @@ static void compare_events(const struct br_exact *a, const struct br_exact *b, d
 static void check_loose(const struct bundled *b, double tolerance)
 {
     struct solved loose = solve(&b->scene, tolerance);
-    for (enum br_exact_field field = 0; field < BR_EXACT_FIELDS; field++) {
+    for (enum br_field_kind field = 0; field < BR_FIELDS; field++) {
         if (!is_modelled(&b->scene, field))
             continue;
         const struct br_exact_report r = br_exact_report(b->tight.exact, field);
@@ -183,8 +183,7 @@ static double net_power(double t, void *data)
     const double viscosity[] = {p->scene->axial.viscosity, p->scene->bending.viscosity};
     const struct br_load *load[] = {&p->scene->axial.load, &p->scene->bending.load};
     br_exact_at(p->solved->exact, t, p->solved->state);
-    double sum =
-        -p->solved->state->friction_force * p->solved->state->tip[BR_EXACT_BENDING].velocity;
+    double sum = -p->solved->state->friction_force * p->solved->state->tip[BR_BENDING].velocity;
     for (size_t i = 0; i < 2; i++) {
         double mean, rest, factor;
         br_exact_projection_apply(p->strain[i], p->solved->state, &mean, &rest);
@@ -200,10 +199,10 @@ static double energy(const struct power *p)
 {
     const struct br_scene *s = p->scene;
     const double stiffness[] = {s->axial.stiffness, s->bending.stiffness};
-    const double in = fmax(p->solved->state->tip[BR_EXACT_AXIAL].displacement - s->contact.gap, 0);
+    const double in = fmax(p->solved->state->tip[BR_AXIAL].displacement - s->contact.gap, 0);
     double sum = s->contact.stiffness * in * in / 2;
     for (unsigned i = 0; i < 2; i++) {
-        const enum br_exact_field field = (enum br_exact_field)i;
+        const enum br_field_kind field = (enum br_field_kind)i;
         const struct br_exact_quantity strain = {field, false, i + 1}, rate = {field, true, 0};
         sum += stiffness[i] / 2 * square_of(p->solved, strain);
         sum += s->density / 2 * square_of(p->solved, rate);
@@ -238,7 +237,7 @@ TEST(test_energy)
     const struct br_exact *exact = b->tight.exact;
     struct power p = {.scene = &b->scene, .solved = &b->tight};
     for (unsigned i = 0; i < 2; i++) {
-        const enum br_exact_field field = (enum br_exact_field)i;
+        const enum br_field_kind field = (enum br_field_kind)i;
         p.rate[i] = project(exact, (struct br_exact_quantity){field, true, 0});
         p.strain[i] = project(exact, (struct br_exact_quantity){field, true, i + 1});
     }
@@ -265,14 +264,14 @@ static void check_laws(const struct bundled *b)
 {
     const struct br_scene *scene = &b->scene;
     const struct br_exact_state *state = b->tight.state;
-    const double largest = br_exact_report(b->tight.exact, BR_EXACT_BENDING).largest.force;
+    const double largest = br_exact_report(b->tight.exact, BR_BENDING).largest.force;
     for (int n = 1; n <= 3000; n++) {
         br_exact_at(b->tight.exact, scene->duration * n / 3000, b->tight.state);
-        const double in = fmax(state->tip[BR_EXACT_AXIAL].displacement - scene->contact.gap, 0);
+        const double in = fmax(state->tip[BR_AXIAL].displacement - scene->contact.gap, 0);
         const double bound = scene->friction.law == BR_TRESCA    ? scene->friction.coefficient
                              : scene->friction.law == BR_COULOMB ? scene->friction.coefficient * in
                                                                  : 0;
-        const double force = state->friction_force, v = state->tip[BR_EXACT_BENDING].velocity;
+        const double force = state->friction_force, v = state->tip[BR_BENDING].velocity;
         assert_near(state->friction_bound, bound, 1e-12 * bound);
         if (scene->contact.modelled)
             assert_near(state->contact_force, scene->contact.stiffness * in, 1e-9);
@@ -310,7 +309,7 @@ TEST(test_small_units)
                                         {x->friction_force, s.state->friction_force}};
             for (int f = 0; f < 2; f++) {
                 const struct br_exact_size largest =
-                    br_exact_report(b->tight.exact, (enum br_exact_field)f).largest;
+                    br_exact_report(b->tight.exact, (enum br_field_kind)f).largest;
                 assert_near(s.state->tip[f].displacement / u.metre, x->tip[f].displacement,
                             1e-8 * largest.displacement);
                 assert_near(force[f][1] / newton, force[f][0], 1e-8 * largest.force);

@@ -115,7 +115,7 @@ static const struct {
 } refusals[] = {
     {"", 1, "found the end, expected a number, a name or '('"},
     {"  ", 3, "found the end"},
-    {"100*tt", 5, "unknown name 'tt', expected x, t, pi, e or a function: ln sin cos"},
+    {"100*tt", 5, "unknown name 'tt', expected one of: x, t, pi, e, ln, sin, cos"},
     {"y", 1, "unknown name 'y'"},
     {"X", 1, "unknown name 'X'"},
     {"rint(x)", 1, "unknown name 'rint'"},
@@ -341,7 +341,7 @@ TEST(test_no_memory)
 static double tip_after(struct br_function f, bool products, enum br_field_kind kind)
 {
     struct br_scene s = br_test_bare();
-    struct br_load *load = kind == BR_AXIAL ? &s.axial.load : &s.bending.load;
+    struct br_load *load = &s.field[kind].load;
     struct br_error err;
     if (products)
         MUST(br_products(&f, load, &err));
@@ -365,7 +365,7 @@ TEST(test_march)
                                         "100*x + 100*exp(-(x-t)^2)", "100*x*sin(t) + 50*x^2"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         for (int kind = 0; kind <= BR_BENDING; kind++) {
-            const enum br_field_kind k = (enum br_field_kind)kind;
+            const enum br_field_kind k = kind;
             const double sum = tip_after(br_test_function(texts[i]), true, k),
                          whole = tip_after(br_test_function(texts[i]), false, k);
             assert_true(fabs(whole) > 1e-3);

@@ -199,8 +199,8 @@ static double follow(struct br_march *march, struct dense_march *dense, size_t s
         br_test_advance(march, step);
         if (bad_flags())
             return INFINITY;
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            most = fmax(most, field_deviation(march, dense, (enum br_field_kind)kind));
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            most = fmax(most, field_deviation(march, dense, kind));
     }
     return most;
 }

@@ -249,13 +249,12 @@ TEST(test_round_off)
         const struct br_cell *c = &g.cell[i];
         const double k = br_time_step(&g.scene, c->at.steps);
         double limit[2];
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-            const struct br_field field =
-                br_field_of_scene(&g.scene, (enum br_field_kind)kind, c->at.n, k);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const struct br_field field = br_field_of_scene(&g.scene, kind, c->at.n, k, 1);
             limit[kind] = 3 * br_umfpack.round_off(&field);
         }
         assert_true(limit[BR_BENDING] > 4 * limit[BR_AXIAL]);
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             g.cell[i].error[part] = 2 * limit[BR_AXIAL];
     }
     br_flag_beside(&g.study);
@@ -362,14 +361,14 @@ TEST(test_own_error)
 {
     static const double told[BR_PARTS] = {7e-9, 5e-9, 2e-9};
     const struct truth truth = {20, 2, 0.2, 1, 0.3};
-    for (int part = 0; part < BR_PARTS; part++) {
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
         grid_init(false);
         fill(&truth, 0, 1);
         for (size_t i = 0; i < CELLS; i++)
             g.cell[i].error[part] = g.cell[i].error[BR_PART_TOTAL];
         g.study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = 5e-9;
         g.study.judged_by.own_error[BR_BENDING][BR_DISPLACEMENT] = 2e-9;
-        fit((enum br_part)part);
+        fit(part);
         CLOSE(fits.reference_error, told[part], 1e-20);
     }
 }

@@ -47,11 +47,11 @@ static void run_fine(const struct meeting *m, const struct br_scene *scene,
         const size_t steps = m->steps << (3 + half);
         struct br_march *march = br_test_march(scene, 64, steps, &method);
         br_test_advance(march, steps);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            tip[half][kind] = br_march_tip_displacement(march, (enum br_field_kind)kind);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            tip[half][kind] = br_march_tip_displacement(march, kind);
         br_march_free(march);
     }
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         verdict[kind] = (struct verdict){tip[1][kind], 2 * fabs(tip[1][kind] - tip[0][kind])};
 }
 
@@ -63,8 +63,8 @@ static void solve_exactly(const struct br_scene *scene, struct verdict verdict[2
     MUST(br_exact_create(&exact, scene, NULL, &err));
     MUST(br_exact_state_create(&state, exact, &err));
     br_exact_at(exact, scene->duration, state);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_exact_field field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const enum br_field_kind field = kind;
         verdict[kind] = (struct verdict){state->tip[field].displacement,
                                          br_exact_report(exact, field).error.displacement};
     }
@@ -84,7 +84,7 @@ TEST(test_agreement)
         struct verdict fine[2], exact[2];
         run_fine(m, &scene, fine);
         solve_exactly(&scene, exact);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             if (!modelled[kind])
                 continue;
             print_message("# %s %s: exact %.12g +- %.0e, fine +- %.0e\n", m->scene, names[kind],
@@ -124,9 +124,9 @@ TEST(test_manufactured)
         run_by(&br_judge_mms, &scene, by_mms);
         for (size_t m = 0; m < NORMS; m++)
             for (size_t c = 0; c < 4; c++)
-                for (int part = 0; part < BR_PARTS; part++) {
-                    const double bar = br_norm_of_constant(
-                        br_norms[m], &scene, by_exact[m].judged_by.own_error, (enum br_part)part);
+                for (enum br_part part = 0; part < BR_PARTS; part++) {
+                    const double bar = br_norm_of_constant(br_norms[m], &scene,
+                                                           by_exact[m].judged_by.own_error, part);
                     CLOSE(by_exact[m].cell[c].error[part], by_mms[m].cell[c].error[part],
                           bar + 1e-12);
                     AT_MOST(bar, 1e-7);

@@ -167,20 +167,21 @@ TEST(test_stopped_and_resumed)
                 X(CELL, friction, br_friction_rules[0], br_friction_rules[1])   \
                     X(NONE, iteration, iteration, iteration) /* ITERATION */ X( \
                         CELL, axial_degree, 1, 2) X(CELL, most_steps, 7, 8)
-#define AXIAL(X)                                                                     \
-    X(CELL, modelled, true, false)                                                   \
-    X(CELL, stiffness, 1, 2)                                                         \
-    X(CELL, viscosity, 1, 2) X(CELL, load, none, load) X(CELL, tip_force, zero, one) \
-        X(CELL, displacement, zero, one) X(CELL, velocity, zero, one)                \
-            X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)
-#define BENDING(X)                                                                   \
-    X(CELL, modelled, true, false)                                                   \
-    X(CELL, stiffness, 1, 2)                                                         \
-    X(CELL, viscosity, 1, 2) X(CELL, load, none, load) X(CELL, tip_force, zero, one) \
-        X(CELL, tip_moment, zero, one) X(CELL, displacement, zero, one)              \
-            X(CELL, displacement_slope, zero, one) X(CELL, velocity, zero, one)      \
-                X(CELL, velocity_slope, zero, one) X(CELL, solution, NULL, "x [m]")  \
-                    X(CELL, given, zero, one) X(CELL, stick_force, zero, one)
+#define FIELD(X)                                                                           \
+    X(CELL, modelled, true, false)                                                         \
+    X(CELL, stiffness, 1, 2)                                                               \
+    X(CELL, viscosity, 1, 2)                                                               \
+    X(CELL, load, none, load) X(CELL, tip_force, zero, one) X(CELL, tip_moment, zero, one) \
+        X(CELL, displacement, zero, one) X(CELL, velocity, zero, one)                      \
+            X(CELL, displacement_slope, zero, one) X(CELL, velocity_slope, zero, one)      \
+                X(CELL, solution, NULL, "x [m]") X(CELL, given, zero, one)                 \
+                    X(CELL, stick_force, zero, one)
+#define FIELDS             \
+    {                      \
+        {                  \
+            axial, bending \
+        }                  \
+    }
 #define CONTACT(X) \
     X(CELL, modelled, true, false) X(CELL, gap, 0, 0x1p-1074) X(CELL, stiffness, 1, 2)
 #define FRICTION(X)                     \
@@ -189,10 +190,10 @@ TEST(test_stopped_and_resumed)
 #define SCENE(X)                                                                                   \
     X(NONE, name, "a", "b")                                                                        \
     X(CELL, title, "a", "b")                                                                       \
-    X(CELL, remark, "a", "b") X(CELL, length, 1, 2) X(CELL, duration, 1, 2) X(CELL, density, 1, 2) \
-        X(NONE, axial, axial, axial) X(NONE, bending, bending, bending)                            \
-            X(NONE, contact, contact, contact)                                                     \
-                X(NONE, friction, friction, friction) /* those lists */                            \
+    X(CELL, remark, "a", "b")                                                                      \
+    X(CELL, length, 1, 2) X(CELL, duration, 1, 2) X(CELL, density, 1, 2)                           \
+        X(NONE, field, FIELDS, )                                                 /* FIELD */       \
+        X(NONE, contact, contact, contact) X(NONE, friction, friction, friction) /* those lists */ \
         X(NONE, derived, {{0}}, )
 #define STUDY(X)                                                                                   \
     X(NONE, scene, &scene, &scene)                                                                 \
@@ -244,8 +245,7 @@ TEST(test_all_members_are_stated)
 {
     struct br_function zero = {0}, one = {.constant = 1};
     struct br_load none = {0}, load = {{{one, one}}};
-    struct br_axial axial = {AXIAL(FIRST)};
-    struct br_bending bending = {BENDING(FIRST)};
+    struct br_scene_field axial = {FIELD(FIRST)}, bending = axial;
     struct br_contact contact = {CONTACT(FIRST)};
     struct br_friction friction = {FRICTION(FIRST)};
     struct br_scene scene = {SCENE(FIRST)};
@@ -278,8 +278,9 @@ TEST(test_all_members_are_stated)
     reset(&asked, &other, &scene, &of);
     STUDY(IN_STUDY)
     METHOD(IN_METHOD)
-    ITERATION(IN_ITERATION) SCENE(IN_SCENE) AXIAL(IN_AXIAL) BENDING(IN_BENDING) CONTACT(IN_CONTACT)
-        FRICTION(IN_FRICTION) other.reference_method.most_steps = 9;
+    ITERATION(IN_ITERATION)
+    SCENE(IN_SCENE) FIELD(IN_AXIAL) FIELD(IN_BENDING) CONTACT(IN_CONTACT) FRICTION(IN_FRICTION)
+        other.reference_method.most_steps = 9;
     expect_other("the reference's method", &asked, &other, true);
     /* The registries: a field of a method that is got, and a number of a scene, is stated. */
     for (const struct br_method_field *f = br_method_fields;

@@ -119,7 +119,7 @@ static void march_gives(const char *scene_name, const char *const *method, struc
             assert_true(columns >= 1 && columns <= 2);
             memset(a, 1, sizeof a);
             memcpy(b, a, sizeof b);
-            br_march_get(march, (enum br_field_kind)kind, a[0], a[1]);
+            br_march_get(march, kind, a[0], a[1]);
             beamrate_march_get(ours, (enum beamrate_field)kind, b[0], b[1]);
             assert_memory_equal(a, b, sizeof a);
             close_to(tip.displacement[kind], b[0][columns * N]);
@@ -276,10 +276,10 @@ static void same_study(const struct beamrate_study *study, struct br_study *expe
         for (int i = 0; i < 2; i++)
             close_to(cell.tip[i], e->tip[i]);
     }
-    for (int part = 0; part < BR_PARTS; part++) {
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
         struct br_fits fits;
         struct beamrate_fit fit;
-        MUST(br_fit(expected, (enum br_part)part, &fits, &err));
+        MUST(br_fit(expected, part, &fits, &err));
         beamrate_study_fit(study, (enum beamrate_part)part, &fit);
         assert_int_equal(fit.describes, br_joint_describes(&fits.joint));
         assert_int_equal(fit.points, fits.joint.points);

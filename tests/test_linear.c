@@ -431,8 +431,8 @@ TEST(test_kernels)
     static const char *const schemes[] = {"euler", "bdf2", "esdirk4"};
     for (const struct br_kernel *const *k = br_kernels; *k; k++)
         for (size_t i = 0; i < 12 && (*k)->available(); i++)
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-                compare_kernel(*k, schemes[i / 4], (enum br_field_kind)kind, n[i % 4]);
+            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+                compare_kernel(*k, schemes[i / 4], kind, n[i % 4]);
 }
 
 /* ---- kernels that are asked for ---- */
@@ -493,8 +493,7 @@ static const struct br_linear_solver *taken(enum br_field_kind kind, size_t n, i
 {
     const struct br_scene scene = br_test_bare();
     struct br_method method = br_method_default();
-    struct br_field field = br_field_of_scene(&scene, kind, n, 1e-3);
-    field.degree = degree;
+    const struct br_field field = br_field_of_scene(&scene, kind, n, 1e-3, degree);
     method.scheme = scheme;
     assert_ptr_equal(method.solver, &br_auto);
     return br_method_solver(&method, &field);
@@ -524,12 +523,11 @@ TEST(test_taken)
             check_least(BR_AXIAL, n, 2, *s);
             check_least(BR_BENDING, n, 1, *s);
         }
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         for (size_t n = 1; n <= 32; n++)
-            assert_ptr_equal(taken((enum br_field_kind)kind, n, 1, br_time_schemes[0]), &br_plain);
+            assert_ptr_equal(taken(kind, n, 1, br_time_schemes[0]), &br_plain);
         for (size_t n = 100; n <= 102400; n *= 2)
-            assert_ptr_equal(taken((enum br_field_kind)kind, n, 1, br_time_schemes[0]),
-                             &br_riccati);
+            assert_ptr_equal(taken(kind, n, 1, br_time_schemes[0]), &br_riccati);
     }
     assert_true(br_time_scheme_sums(br_time_schemes[0]) == 0);
     assert_true(br_time_scheme_sums(br_time_scheme_find("bdf2")) == 1.4);

@@ -13,9 +13,7 @@ static struct br_field field_of(enum br_field_kind kind, size_t n, int degree)
 {
     struct br_scene scene = br_test_bare();
     scene.length = 3;
-    struct br_field field = br_field_of_scene(&scene, kind, n, 1e-6);
-    field.degree = degree;
-    return field;
+    return br_field_of_scene(&scene, kind, n, 1e-6, degree);
 }
 
 static double largest(const double *value, size_t size)

@@ -47,8 +47,8 @@ static void check_scheme(const char *name, const struct br_time_scheme *scheme, 
     struct br_march *march = br_test_march(&scene, N, STEPS, &method);
     struct dense_march *dense = dense_follow(march, &scene, &method);
     br_test_advance(march, STEPS);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && dense; kind++)
-        AT_MOST(dense_deviation(dense, (enum br_field_kind)kind, 0), 2e-14 * br_test_slack());
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && dense; kind++)
+        AT_MOST(dense_deviation(dense, kind, 0), 2e-14 * br_test_slack());
     dense_free(dense);
     br_march_free(march);
     br_scene_clear(&scene);

@@ -231,12 +231,12 @@ TEST(test_projection)
     scene.axial.given = scene.bending.given = br_test_function(scene.axial.solution);
     const struct br_judge_request request = {
         .scene = &scene, .axial_degree = 2, .levels = 10, .mesh_count = 2, .mesh = mesh};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_TIP; measure++) {
             void *judge;
             double modes[3 * BR_MOST_MODES], sum = 0;
             struct br_view view = {.values = modes};
-            const struct br_sample_at at = {(enum br_field_kind)kind, (enum br_measure)measure, 1};
+            const struct br_sample_at at = {kind, (enum br_measure)measure, 1};
             MUST(br_judge_mms.create(&judge, &request, &err));
             MUST(br_judge_mms.advance(judge, at.kind, 5, &err));
             br_judge_mms.sample(judge, &at, &view);
@@ -378,8 +378,7 @@ TEST(test_tip_breaks)
         struct br_error err = {0};
         struct br_scene s = scene_of(forced[i].text);
         struct br_breaks breaks = {0};
-        const struct br_function *f =
-            forced[i].kind == BR_AXIAL ? &s.axial.tip_force : &s.bending.tip_force;
+        const struct br_function *f = &s.field[forced[i].kind].tip_force;
         MUST(br_breaks_add(f, BR_T, (struct br_box){{0, 2}, {0, 1}}, &breaks, &err));
         assert_int_equal(breaks.count, forced[i].breaks);
         for (size_t k = 0; k < breaks.count; k++)

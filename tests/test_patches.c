@@ -52,9 +52,9 @@ TEST(test_uniform_load)
     const double length = 2.5;
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         for (size_t n = 1; n <= MOST_N; n = 2 * n + 1)
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
                 struct br_error err = {0};
-                const struct br_field field = static_field((enum br_field_kind)kind, n, length, 40);
+                const struct br_field field = static_field(kind, n, length, 40);
                 double load[2 * (MOST_N + 1)], nodal[2 * (MOST_N + 1)];
                 MUST(br_assemble_load(&field, &f, 0, load, &err));
                 solve_once(*s, &field, load, 0, nodal);
@@ -94,9 +94,8 @@ TEST(test_dynamic_compliance)
     for (const struct br_linear_solver *const *solver = br_linear_solvers; *solver; solver++) {
         double last[2] = {0, 0};
         for (size_t n = 400; n <= 800; n *= 2)
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-                const struct br_field field = {
-                    (enum br_field_kind)kind, n, length / (double)n, 50, 20, 0.3, 0.01, 1};
+            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+                const struct br_field field = {kind, n, length / (double)n, 50, 20, 0.3, 0.01, 1};
                 const double z = compliance_of(*solver, &field);
                 const double error = fabs(z / (kind == BR_AXIAL ? rod : beam) - 1);
                 AT_MOST(error, kind == BR_AXIAL ? 0.02 : 1e-7);

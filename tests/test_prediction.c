@@ -31,7 +31,7 @@ static void count_one(struct tally *t, const struct br_prediction *p, int kind, 
     t->known++;
     t->within_3 += ratio >= 1.0 / 3 && ratio <= 3;
     t->within_10 += ratio >= 0.1 && ratio <= 10;
-    t->below += actual <= br_predicted_most(p, (enum br_field_kind)kind);
+    t->below += actual <= br_predicted_most(p, kind);
     t->inside += actual >= e->low && actual <= e->high;
     t->far_too_low += !(ratio >= 0.01);
 }
@@ -62,7 +62,7 @@ static void count_cell(struct tally *t, const struct br_study *s, const struct b
     if (cell->failure.status || cell->unstable)
         return;
     MUST(br_predict(&o, &p, &err));
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const double error = cell->error[parts[kind]];
         const double own =
             br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, parts[kind]);

@@ -92,12 +92,12 @@ static void compare_cells(const struct br_study *a, const struct br_study *b,
     const double sign[2] = {1, f->sign};
     for (size_t i = 0; i < br_study_cells(a); i++) {
         const struct br_cell *x = &a->cell[i], *y = &b->cell[i];
-        for (int part = 0; part < BR_PARTS; part++) {
+        for (enum br_part part = 0; part < BR_PARTS; part++) {
             expect("an error", y->error[part], x->error[part], norm_factor(a->norm, f),
                    f->tolerance);
             expect("its time", y->worst_time[part], x->worst_time[part], f->second, 1e-12);
         }
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             expect("a tip", y->tip[kind], x->tip[kind], f->metre * sign[kind], f->tolerance);
         assert_int_equal(y->unstable, x->unstable);
     }
@@ -107,18 +107,17 @@ static void compare_judges(const struct br_study *a, const struct br_study *b,
                            const struct factors *f)
 {
     const double sign[2] = {1, f->sign};
-    for (int part = 0; part < BR_PARTS; part++)
+    for (enum br_part part = 0; part < BR_PARTS; part++)
         expect("the reference's audited error", b->reference_error[part], a->reference_error[part],
                norm_factor(a->norm, f), f->tolerance);
     expect("the reference's size", b->reference_scale, a->reference_scale, norm_factor(a->norm, f),
            f->tolerance);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         expect("the reference's tip", b->reference_tip[kind], a->reference_tip[kind],
                f->metre * sign[kind], f->tolerance);
         for (int m = 0; m < BR_MEASURES; m++)
             expect_about("the judge's own error", b->judged_by.own_error[kind][m],
-                         a->judged_by.own_error[kind][m],
-                         measure_factor((enum br_field_kind)kind, m, f));
+                         a->judged_by.own_error[kind][m], measure_factor(kind, m, f));
     }
 }
 
@@ -142,12 +141,12 @@ static void compare_joint(const struct br_joint_fit *x, const struct br_joint_fi
 /* A reference that knows its error is compared by that, which is round-off; the orders are none. */
 static void compare_fits(struct br_study *a, struct br_study *b, const struct factors *f)
 {
-    for (int part = 0; part < BR_PARTS; part++) {
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
         struct br_error err = {0};
         struct br_fits x, y;
         const double norm = norm_factor(a->norm, f);
-        MUST(br_fit(a, (enum br_part)part, &x, &err));
-        MUST(br_fit(b, (enum br_part)part, &y, &err));
+        MUST(br_fit(a, part, &x, &err));
+        MUST(br_fit(b, part, &y, &err));
         expect_about("what limits the cells", y.reference_error, x.reference_error, norm);
         assert_int_equal(x.joint.kind, y.joint.kind);
         compare_joint(&x.joint, &y.joint, norm, f);

@@ -21,8 +21,8 @@ TEST(test_energy_of_states)
     scene.bending.stiffness = 7;
     struct br_function x = br_test_function("x"), square = br_test_function("x^2"),
                        twice = br_test_function("2*x");
-    struct br_field axial = br_field_of_scene(&scene, BR_AXIAL, 6, 0.1);
-    const struct br_field bending = br_field_of_scene(&scene, BR_BENDING, 6, 0.1);
+    struct br_field axial = br_field_of_scene(&scene, BR_AXIAL, 6, 0.1, 1);
+    const struct br_field bending = br_field_of_scene(&scene, BR_BENDING, 6, 0.1, 1);
     double u[14], w[14];
     for (axial.degree = 1; axial.degree <= 2; axial.degree++) {
         MUST(br_interpolate(&axial, &x, NULL, u, &err));

@@ -245,9 +245,9 @@ TEST(test_damping_ratio)
                    "mass_density: 2.7 g/cm^3\nsection: tube 20 mm x 1 mm\n"
                    "axial: {damping_ratio: 2 %}\nbending: {damping_ratio: 0.02}\n",
                    &s, &err));
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct br_beam_mode mode;
-        MUST(br_beam_mode_find(&mode, &s, (enum br_field_kind)kind, &err));
+        MUST(br_beam_mode_find(&mode, &s, kind, &err));
         const double tau = kind == BR_AXIAL ? s.axial.viscosity / s.axial.stiffness
                                             : s.bending.viscosity / s.bending.stiffness;
         CLOSE(tau * mode.omega / 2, 0.02, most[kind]);

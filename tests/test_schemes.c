@@ -32,8 +32,8 @@ static void run(const struct br_scene *scene, const struct br_method *method, si
 {
     struct br_march *march = br_test_march(scene, N, steps, method);
     br_test_advance(march, steps);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        br_march_get(march, (enum br_field_kind)kind, end->value[kind], NULL);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        br_march_get(march, kind, end->value[kind], NULL);
     br_march_free(march);
 }
 
@@ -211,10 +211,10 @@ TEST(test_fields_apart)
             struct br_march *apart = br_test_march(&scene, N, STEPS, &method);
             br_test_advance(together, STEPS);
             march_apart(apart, STEPS);
-            for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
                 double a[2][SIZE] = {{0}}, b[2][SIZE] = {{0}};
-                br_march_get(together, (enum br_field_kind)kind, a[0], a[1]);
-                br_march_get(apart, (enum br_field_kind)kind, b[0], b[1]);
+                br_march_get(together, kind, a[0], a[1]);
+                br_march_get(apart, kind, b[0], b[1]);
                 assert_memory_equal(a, b, sizeof a);
             }
             br_march_free(together);

@@ -28,13 +28,13 @@ static void make(struct made *m, double a, double p, double b, double q)
     for (size_t i = 0; i < CELLS; i++) {
         m->cell[i].at = (struct br_resolution){n[i / COLUMNS], steps[i % COLUMNS]};
         const double h = 1 / (double)m->cell[i].at.n, k = 1 / (double)m->cell[i].at.steps;
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             m->cell[i].error[part] = a * pow(h, p) + b * pow(k, q);
     }
     for (size_t i = 0; i < ROWS - 1; i++) {
         m->difference[i].at = (struct br_resolution){n[i], steps[0]};
         m->difference[i].against = (struct br_resolution){n[i + 1], steps[0]};
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             m->difference[i].error[part] =
                 a * (pow(1 / (double)n[i], p) - pow(1 / (double)n[i + 1], p));
     }
@@ -48,8 +48,8 @@ static void make(struct made *m, double a, double p, double b, double q)
 
 static void see(struct made *m)
 {
-    for (int part = 0; part < BR_PARTS; part++) {
-        MUST(br_fit(&m->study, (enum br_part)part, &m->report.fits[part], &err));
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
+        MUST(br_fit(&m->study, part, &m->report.fits[part], &err));
     }
     for (enum br_axis axis = 0; axis < BR_AXES; axis++)
         MUST(br_report_see_orders(&m->report, axis, &err));
@@ -204,7 +204,7 @@ static struct br_study pairs_of(struct made *m, struct br_cell cell[PAIRS],
     static const size_t mesh = 10;
     for (size_t i = 0; i < PAIRS; i++) {
         cell[i] = (struct br_cell){.at = {mesh, halved[i]}, .against = {mesh, 2 * halved[i]}};
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             cell[i].error[part] = error[i];
     }
     struct br_study s = br_test_study(&m->scene, &br_judge_none, 1, &mesh, PAIRS, halved);
@@ -313,10 +313,10 @@ TEST(test_words_in_any_unit)
             for (size_t c = 0; c < CELLS; c++)
                 m.cell[c].error[BR_PART_TOTAL] = errors[i][c % COLUMNS];
             for (size_t c = 0; c < CELLS && small; c++)
-                for (int part = 0; part < BR_PARTS; part++)
+                for (enum br_part part = 0; part < BR_PARTS; part++)
                     m.cell[c].error[part] *= 1e-12;
             for (size_t c = 0; c < ROWS - 1 && small; c++)
-                for (int part = 0; part < BR_PARTS; part++)
+                for (enum br_part part = 0; part < BR_PARTS; part++)
                     m.difference[c].error[part] *= 1e-12;
             see(&m);
             for (int axis = 0; axis < BR_AXES; axis++) {

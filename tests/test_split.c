@@ -64,7 +64,7 @@ static void check_sums(const struct br_split *split)
 {
     for (size_t m = 0; m < split->norms; m++)
         for (int part = 0; part < BR_PARTS; part++)
-            check_triangle(split, m, (enum br_part)part);
+            check_triangle(split, m, part);
     check_tip(split, BR_AXIAL);
     check_tip(split, BR_BENDING);
 }
@@ -227,7 +227,7 @@ TEST(test_orders)
                 if (orders[i].part == BR_PARTS || (int)orders[i].part == part)
                     check_order(i, share_of(&split[j - 1], orders[i].name)->error[0][part],
                                 fine->error[0][part]);
-            for (int kind = BR_AXIAL; kind <= BR_BENDING && j > 0; kind++)
+            for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && j > 0; kind++)
                 if (strcmp(orders[i].name, "lag") == 0)
                     check_order(i, fabs(share_of(&split[j - 1], "time")->tip[kind]),
                                 fabs(share_of(&split[j], "time")->tip[kind]));

@@ -121,8 +121,8 @@ TEST(test_limit_of_columns)
     for (struct br_stability_plane *p = s.plane; p < s.plane + s.planes; p++)
         for (size_t i = 0; i < p->columns; i++) {
             const struct br_stability_column *c = &p->column[i];
-            struct br_field field = br_field_of_scene(&scene, BR_AXIAL, c->n, 1);
-            field.degree = p < s.plane + 2 ? 1 : 2;
+            struct br_field field =
+                br_field_of_scene(&scene, BR_AXIAL, c->n, 1, p < s.plane + 2 ? 1 : 2);
             assert_int_equal(c->n, p->over_stiffness ? n[0] : n[i]);
             const double limit = br_contact_limit_step(&field, c->stiffness);
             if (limit < scene.duration) {

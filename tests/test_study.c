@@ -141,9 +141,8 @@ static void values(const struct side *s, const struct what *what, size_t count, 
                    double *value)
 {
     const int order = what->kind == BR_AXIAL ? 1 : 2;
-    const struct br_exact_quantity part = {what->kind == BR_AXIAL ? BR_EXACT_AXIAL
-                                                                  : BR_EXACT_BENDING,
-                                           what->velocity, (unsigned)(what->derived ? order : 0)};
+    const struct br_exact_quantity part = {what->kind, what->velocity,
+                                           (unsigned)(what->derived ? order : 0)};
     if (s->exact) {
         assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, count, x, value, NULL),
                          BR_OK);
@@ -185,9 +184,9 @@ static void add_level(const struct side *cell, const struct side *other, size_t 
 {
     const double end = scene->length;
     double level[NORMS][BR_PARTS] = {{0}};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct what place = {(enum br_field_kind)kind, false, false},
-                          velocity = {place.kind, true, false}, rate = {place.kind, true, true};
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct what place = {kind, false, false}, velocity = {place.kind, true, false},
+                          rate = {place.kind, true, true};
         const double weight = k * pow(end, kind == BR_AXIAL ? 2 : 4) / scene->duration;
         const double rates = weight * pow(distance(cell, other, &rate, end, pieces), 2);
         double tip[2];
@@ -232,7 +231,7 @@ static struct errors direct(const struct br_study *s, struct br_resolution at)
             br_exact_at(other.exact, (double)i * k, other.state);
         add_level(&cell, &other, other.march ? s->reference.n : 4 * at.n, s->scene, k, &errors);
     }
-    for (int part = 0; part < BR_PARTS; part++)
+    for (enum br_part part = 0; part < BR_PARTS; part++)
         errors.error[1][part] = sqrt(errors.error[1][part] + errors.rates[part]);
     br_march_free(cell.march);
     br_march_free(other.march);
@@ -249,14 +248,14 @@ static void check_cell(const struct br_study s[NORMS], size_t c)
         assert_true(cell->at.n == s->n[c / s->k_count]);
         assert_true(cell->at.steps == s->steps[c % s->k_count]);
         assert_int_equal(cell->failure.status, BR_OK);
-        for (int part = 0; part < BR_PARTS; part++) {
+        for (enum br_part part = 0; part < BR_PARTS; part++) {
             const double error = e.error[m][part];
             CLOSE(cell->error[part], error,
                   (error > 0 ? 1e-15 : 1e-16) + (s->judge->nests ? 1e-10 : 1e-9) * error);
             if (m == 0 && error > 1e-9)
                 CLOSE(cell->worst_time[part], e.time[m][part], 1e-12);
         }
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
             CLOSE(cell->tip[kind], e.tip[kind], 1e-16);
             CLOSE(s[m].reference_tip[kind], e.tip[kind], e.error[2][1 + kind] + 1e-16);
         }
@@ -498,7 +497,7 @@ TEST(test_audit)
         exact.judge = &br_judge_exact;
         exact.norm = fine.norm;
         MUST(br_study_run(&exact, 1, 1, NULL, &err));
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             CLOSE(fine.reference_error[part], exact.cell[0].error[part],
                   1e-9 * exact.cell[0].error[BR_PART_TOTAL]);
         CLOSE(fine.reference_scale, exact.reference_scale,

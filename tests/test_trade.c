@@ -162,7 +162,7 @@ TEST(test_errors_are_a_study_s)
             study.norm = norm[m];
             study.method = br_trial_method(&trial[i]);
             MUST(br_study_run(&study, 1, 1, NULL, &err));
-            for (int part = 0; part < BR_PARTS; part++)
+            for (enum br_part part = 0; part < BR_PARTS; part++)
                 CLOSE(trial[i].error[part], study.cell[0].error[part],
                       1e-13 * study.cell[0].error[BR_PART_TOTAL]);
             CLOSE(trial[i].scale, study.reference_scale, 1e-12 * study.reference_scale);

@@ -143,8 +143,8 @@ static void compare(const char *title, const struct answer *a, const struct answ
         br_exact_at(a->exact, t, a->state);
         br_exact_at(b->exact, t, b->state);
         for (int f = 0; f < 2; f++) {
-            const struct br_exact_report x = br_exact_report(a->exact, (enum br_exact_field)f),
-                                         y = br_exact_report(b->exact, (enum br_exact_field)f);
+            const struct br_exact_report x = br_exact_report(a->exact, (enum br_field_kind)f),
+                                         y = br_exact_report(b->exact, (enum br_field_kind)f);
             const double off =
                 a->state->tip[f].displacement + (f ? 0 : moved) - b->state->tip[f].displacement;
             const double allowed = x.error.displacement + y.error.displacement +

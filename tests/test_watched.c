@@ -454,6 +454,20 @@ static void pushes_more(struct spoiler *s, struct br_march_stage *stage)
         s->march->tip.contact_force *= 1 + 1e-6;
 }
 
+/* The first stage is on another branch than those that follow, which obey the law. */
+static void lets_go(struct spoiler *s, struct br_march_stage *stage)
+{
+    if (stage->index == 0)
+        s->march->tip.contact_force = 0;
+}
+
+static void pushes_and_rubs_more(struct spoiler *s, struct br_march_stage *stage)
+{
+    (void)stage;
+    s->march->tip.contact_force *= 1 + 1e-3;
+    s->march->tip.friction_force *= 1 + 1e-3;
+}
+
 static void show(void *self, const struct br_march_stage *stage)
 {
     struct spoiler *s = self;
@@ -468,6 +482,52 @@ static void accept(void *self, enum br_field_kind kind, bool switched)
 {
     const struct spoiler *s = self;
     s->checker.step(s->checker.self, kind, switched);
+}
+
+/* The largest entries of the certificates of a march whose checker is shown something else. */
+static struct br_certificate worst_of(const struct br_method *method,
+                                      void (*spoil)(struct spoiler *s,
+                                                    struct br_march_stage *stage))
+{
+    struct watched w = {.scene = br_test_bundled("chatter"), .method = *method};
+    struct br_certificate worst = {0};
+    struct br_error err = {0};
+    assert_true(start(&w, 10, 200, NULL));
+    struct spoiler s = {w.march, w.march->watcher[0], spoil};
+    w.march->watcher[0] = (struct br_march_watcher){&s, show, accept};
+    for (int step = 0; step < 200; step++) {
+        MUST(br_march_step(w.march, &err));
+        const struct br_certificate c = br_step_checker_step(w.checker);
+        br_certificate_merge(&worst, &c);
+    }
+    finish(&w);
+    return worst;
+}
+
+/* Where the scheme keeps a branch, all its stages are on the same one. */
+TEST(test_one_branch)
+{
+    struct br_method m = br_test_method(NULL, "implicit", NULL);
+    m.tolerance = 1e-3;
+    m.scheme = br_time_scheme_find("adaptive");
+    const double worst = worst_of(&m, lets_go).contact;
+    if (!(worst > 1e-3))
+        fail_msg("a contact that lets go within steps is off by %g", worst);
+}
+
+/* Forces that are a thousandth off are said to be so, whatever the solver leaves by itself. */
+TEST(test_size_of_an_error)
+{
+    for (size_t i = 0; br_linear_solvers[i]; i++) {
+        struct br_method m = br_test_method(br_linear_solvers[i]->name, "implicit", NULL);
+        struct br_certificate c = worst_of(&m, pushes_and_rubs_more);
+        const double *entry = br_certificate_entries(&c);
+        const double least[] = {1e-4, 1e-4, 0, 1e-5,
+                                1e-5}; /* a share of the terms, or of the scale */
+        for (size_t e = 0; e < BR_CERTIFICATE_ENTRIES; e++)
+            if (!(entry[e] >= least[e] && entry[e] <= 1e-3))
+                fail_msg("%s: entry %zu is %g", m.solver->name, e, entry[e]);
+    }
 }
 
 TEST(test_spoilt_stages)

@@ -61,11 +61,6 @@ static double magnitude(const double *x, size_t count)
     return most;
 }
 
-static bool modelled(const struct br_checked_step *s, enum br_field_kind kind)
-{
-    return kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
-}
-
 static size_t size_of(const struct br_checked_step *s, enum br_field_kind kind)
 {
     return br_step_unknowns(s->method, kind) * (s->n + 1);
@@ -102,7 +97,7 @@ static double static_distance(const struct br_checked_step *s, enum br_field_kin
 /* Error of u_n = u_{n-1} + k v_n, and of the stated velocity of the tip. */
 static double update_error(const struct br_checked_step *s, enum br_field_kind kind)
 {
-    if (!modelled(s, kind))
+    if (!s->scene->field[kind].modelled)
         return 0;
     const size_t size = size_of(s, kind);
     const struct br_step_field *f = &s->field[kind];
@@ -484,8 +479,7 @@ static double relative_residual(struct balance *b, double tip_force)
 /* The residual of (27) or (28), relative; 0 where the field is not modelled. */
 static double residual_of(const struct br_checked_step *s, enum br_field_kind kind)
 {
-    const bool axial = kind == BR_AXIAL;
-    if (!modelled(s, kind))
+    if (!s->scene->field[kind].modelled)
         return 0;
     struct balance b = {
         .step = s,
@@ -495,11 +489,11 @@ static double residual_of(const struct br_checked_step *s, enum br_field_kind ki
         .unknowns = br_step_unknowns(s->method, kind),
         .h = (real)s->scene->length / (real)s->n,
         .density = s->scene->density,
-        .stiffness = axial ? s->scene->axial.stiffness : s->scene->bending.stiffness,
-        .viscosity = axial ? s->scene->axial.viscosity : s->scene->bending.viscosity,
+        .stiffness = s->scene->field[kind].stiffness,
+        .viscosity = s->scene->field[kind].viscosity,
         .k = s->k,
     };
-    return relative_residual(&b, axial ? s->tip.contact_force : s->tip.friction_force);
+    return relative_residual(&b, s->tip.force[kind]);
 }
 
 /* ---- a step ---- */
@@ -511,7 +505,7 @@ static bool finite_field(const struct br_checked_step *s, enum br_field_kind kin
     bool good = isfinite(s->tip.velocity[kind]);
     for (int i = 0; i < 2; i++)
         good = good && isfinite(*tip[kind == BR_AXIAL ? i : 2 + i]);
-    if (!modelled(s, kind))
+    if (!s->scene->field[kind].modelled)
         return good;
     const struct br_step_field *f = &s->field[kind];
     const double *arrays[] = {f->displacement_before, f->displacement, f->velocity_before,

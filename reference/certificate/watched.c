@@ -99,9 +99,7 @@ void br_watched_step(struct br_watched *w, enum br_field_kind kind, bool switche
     struct br_watched_field *f = &w->field[kind];
     const enum br_regime before = f->regime;
     const struct br_tip *tip = br_march_tip(w->march);
-    f->regime = br_textbook_regime(w->scene, kind,
-                                   kind == BR_AXIAL ? tip->contact_force : tip->friction_force,
-                                   tip->friction_bound);
+    f->regime = br_textbook_regime(w->scene, kind, tip->force[kind], tip->friction_bound);
     if (!w->method->scheme->adaptive)
         switched = f->steps > 0 && f->regime != before;
     f->since = switched ? 0 : f->since + 1;

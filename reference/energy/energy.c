@@ -223,7 +223,7 @@ static struct power power_of(const struct br_energy_meter *m, enum br_field_kind
     const struct br_tip *tip = br_march_tip(m->seen.march);
     const double *v = seen->y.row[seen->last].velocity;
     const real bent = product(&f->field, BR_STIFFNESS, v, v);
-    const double force = kind == BR_AXIAL ? tip->contact_force : tip->friction_force;
+    const double force = tip->force[kind];
     struct power p = {
         .viscous = (real)f->field.viscosity * bent,
         .residual =
@@ -429,9 +429,7 @@ static enum br_status set_up(struct br_energy_meter *m, enum br_field_kind kind,
 {
     struct meter_field *f = &m->field[kind];
     const struct br_nodal *y = &m->seen.field[kind].y.past[0];
-    f->field = br_field_of_scene(m->seen.scene, kind, m->seen.n, NAN);
-    if (kind == BR_AXIAL)
-        f->field.degree = m->seen.method->axial_degree;
+    f->field = br_field_of_scene(m->seen.scene, kind, m->seen.n, NAN, m->seen.method->axial_degree);
     const size_t size = br_field_size(&f->field);
     f->scratch[0] = br_allocate(2 * size, sizeof *f->scratch[0]);
     if (!f->scratch[0])

@@ -199,11 +199,11 @@ static enum br_status compare_field(struct pair *p, double duration, struct br_e
 /* Fills exact->report with the size of exact->solution and its distance to another, infinite where
  * their events differ. Its work counts. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
 static enum br_status compare(struct br_exact *exact, const struct br_exact_solution *other,
-                              const struct br_outline outline[BR_EXACT_FIELDS],
-                              struct br_effort *effort, struct br_error *err)
+                              const struct br_outline outline[BR_FIELDS], struct br_effort *effort,
+                              struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (size_t which = 0; which < BR_EXACT_FIELDS && !status; which++) {
+    for (size_t which = 0; which < BR_FIELDS && !status; which++) {
         struct br_exact_report *report = &exact->report[which];
         *report = (struct br_exact_report){0};
         if (!exact->solution->track[which])
@@ -235,13 +235,13 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
                                   struct br_error *err)
 {
     size_t room = 0;
-    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+    for (enum br_field_kind which = 0; which < BR_FIELDS; which++)
         if (exact->solution->track[which])
             room += exact->solution->track[which]->entries;
     exact->event = br_allocate(room, sizeof *exact->event);
     if (!exact->event)
         return br_no_memory(err, "the events");
-    for (size_t which = 0; which < BR_EXACT_FIELDS; which++) {
+    for (enum br_field_kind which = 0; which < BR_FIELDS; which++) {
         const struct br_history *track = exact->solution->track[which];
         for (size_t i = 0; track && i < track->entries; i++) {
             const double t = track->entry[i].time, t2 = other->track[which]->entry[i].time;
@@ -250,7 +250,7 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
                 exact->event[exact->events++] = (struct br_exact_event){
                     .time = t,
                     .error = safety * fabs(t - t2) + track->entry[i].error,
-                    .field = (enum br_exact_field)which,
+                    .field = which,
                     .phase = track->entry[i].phase,
                 };
         }
@@ -307,7 +307,7 @@ static double badness(const struct br_exact *exact, const struct br_exact_option
 {
     const double rate_tolerance = 10 * o->tolerance;
     double worst = 0;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
+    for (size_t i = 0; i < BR_FIELDS; i++) {
         const struct br_exact_size *e = &exact->report[i].error, *l = &exact->report[i].largest;
         const double error[] = {e->displacement, e->velocity, e->force};
         const double allowed[] = {
@@ -349,7 +349,7 @@ struct search {
     struct br_exact *exact;
     const struct br_scene *scene;
     const struct br_exact_options *o;
-    struct br_outline outline[BR_EXACT_FIELDS];
+    struct br_outline outline[BR_FIELDS];
     struct br_effort effort;
     size_t round, modes; /* of the next solution */
     struct br_exact_solution *before;
@@ -360,16 +360,11 @@ struct search {
 
 /* ---- one solution ---- */
 
-static bool is_modelled(const struct br_scene *s, enum br_exact_field which)
-{
-    return which == BR_EXACT_AXIAL ? s->axial.modelled : s->bending.modelled;
-}
-
-static struct br_exact_law law_of(const struct br_scene *s, enum br_exact_field which,
+static struct br_exact_law law_of(const struct br_scene *s, enum br_field_kind which,
                                   const struct br_history *axial)
 {
     const struct br_friction *f = &s->friction;
-    if (which == BR_EXACT_AXIAL)
+    if (which == BR_AXIAL)
         return (struct br_exact_law){
             .contact = true,
             .obstacle = s->contact.modelled,
@@ -401,21 +396,21 @@ static size_t count_modes(const struct search *s, size_t which, size_t modes)
 /* Solves one field. Every second solution has finer steps, so that consecutive ones differ in time
  * as well as in space. A singular value decomposition is most of the cost of its modes. The cause
  * of a failure is in s->cause. */
-static enum br_status solve(struct search *s, enum br_exact_field which,
+static enum br_status solve(struct search *s, enum br_field_kind which,
                             struct br_exact_solution *into)
 {
     const bool finer = s->round % 2;
     const struct br_scene *scene = s->scene;
     const struct br_outline *outline = &s->outline[which];
     struct br_exact_law *law = &into->law[which];
-    *law = law_of(scene, which, into->track[BR_EXACT_AXIAL]);
+    *law = law_of(scene, which, into->track[BR_AXIAL]);
     const struct br_march_options options = {
         .duration = scene->duration,
         .gap = law->obstacle ? scene->contact.gap : 0,
         .tolerance = s->o->tolerance * (finer ? 0.1 : 0.4),
         .first_step = scene->duration * (finer ? 2e-13 : 1e-12),
         .max_steps = s->o->max_steps,
-        .outline = {outline, law->axial ? &s->outline[BR_EXACT_AXIAL] : NULL},
+        .outline = {outline, law->axial ? &s->outline[BR_AXIAL] : NULL},
         .effort = &s->effort,
     };
     const double count = (double)count_modes(s, which, s->modes);
@@ -441,8 +436,8 @@ static enum br_status next_round(struct search *s)
     s->cause = (struct br_error){0};
     if (!next)
         return br_no_memory(&s->cause, "the exact solution");
-    for (enum br_exact_field which = 0; which < BR_EXACT_FIELDS && !status; which++)
-        if (is_modelled(s->scene, which))
+    for (enum br_field_kind which = 0; which < BR_FIELDS && !status; which++)
+        if (s->scene->field[which].modelled)
             status = solve(s, which, next);
     if (status) {
         solution_free(next);
@@ -471,7 +466,7 @@ static size_t next_modes(const struct search *s)
 {
     const size_t most = s->o->max_modes, more = s->modes * 3 / 2;
     const size_t next = !s->modes ? FIRST_MODES : more < most ? more : most;
-    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+    for (enum br_field_kind which = 0; which < BR_FIELDS; which++)
         if (count_modes(s, which, next) > 6 * most)
             return 0;
     return s->modes == most || is_spent(s) ? 0 : next;
@@ -497,7 +492,7 @@ static bool is_acceptable(struct search *s)
         return false;
     if (s->worst <= NEAR)
         return true;
-    for (size_t i = 0; i < BR_EXACT_FIELDS && ratio <= slow; i++)
+    for (size_t i = 0; i < BR_FIELDS && ratio <= slow; i++)
         add_to_size(&s->exact->report[i].error, 1 / (1 - ratio), 0, &s->exact->report[i].largest);
     return ratio <= slow;
 }
@@ -522,7 +517,7 @@ static double stated_error(const struct br_exact *exact)
 {
     const double cancelled = 1e7; /* times the noise: a millionth of the free velocity */
     double most = 0;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++) {
+    for (size_t i = 0; i < BR_FIELDS; i++) {
         const struct br_exact_size *e = &exact->report[i].error, *l = &exact->report[i].largest;
         if (l->velocity < cancelled * exact->noise[i])
             continue;
@@ -553,7 +548,7 @@ static enum br_status refine(struct search *s, struct br_error *err)
         return br_fail(err, status, "%s", s->cause.message);
     if (!(s->worst <= enough) && !is_acceptable(s))
         return refuse(s->exact, s->worst, &s->cause, err);
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+    for (size_t i = 0; i < BR_FIELDS; i++)
         add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
     if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))
         return br_fail(err, BR_NOT_FINITE,
@@ -566,11 +561,10 @@ static enum br_status refine(struct search *s, struct br_error *err)
 static enum br_status outline(struct search *s, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (enum br_exact_field which = 0; which < BR_EXACT_FIELDS && !status; which++) {
-        if (!is_modelled(s->scene, which))
+    for (enum br_field_kind which = 0; which < BR_FIELDS && !status; which++) {
+        if (!s->scene->field[which].modelled)
             continue;
-        status =
-            br_outline_init(&s->outline[which], s->scene, which == BR_EXACT_AXIAL ? 1 : 2, err);
+        status = br_outline_init(&s->outline[which], s->scene, which, err);
         s->missed = fmax(s->missed, s->outline[which].missed);
     }
     if (!status && !(s->missed <= s->o->acceptable))
@@ -605,7 +599,7 @@ enum br_status br_exact_create(struct br_exact **out, const struct br_scene *sce
     if (!status)
         status = refine(&s, err);
     solution_free(s.before);
-    for (size_t which = 0; which < BR_EXACT_FIELDS; which++)
+    for (enum br_field_kind which = 0; which < BR_FIELDS; which++)
         br_outline_clear(&s.outline[which]);
     if (status)
         br_exact_free(s.exact);

@@ -73,8 +73,6 @@ enum br_status br_exact_borrow(const struct br_exact **out, const struct br_scen
 /* The last user to give it back frees it. Accepts NULL. */
 void br_exact_give_back(const struct br_exact *exact);
 
-enum br_exact_field { BR_EXACT_AXIAL, BR_EXACT_BENDING, BR_EXACT_FIELDS };
-
 /* The size of a field, or of its error. */
 struct br_exact_size {
     double displacement; /* root of the mean square over the beam, or the tip's if larger, m */
@@ -93,13 +91,13 @@ struct br_exact_report {
     struct br_exact_size error;
     size_t modes, steps;
 };
-struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field);
+struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_field_kind field);
 
 /* A phase of the tip begins. */
 struct br_exact_event {
     double time;  /* s */
     double error; /* estimate of the time's error, s */
-    enum br_exact_field field;
+    enum br_field_kind field;
     enum br_phase phase; /* that begins */
 };
 
@@ -113,11 +111,16 @@ struct br_exact_state {
     double time; /* s */
     struct {
         double displacement, velocity; /* m, m/s */
-    } tip[BR_EXACT_FIELDS];
-    double contact_force;             /* -sigma_H(L), N */
-    double friction_force;            /* lambda = -sigma_V(L), N */
+    } tip[BR_FIELDS];
+    union {
+        double force[BR_FIELDS]; /* by br_field_kind, N */
+        struct {
+            double contact_force;  /* -sigma_H(L), N */
+            double friction_force; /* lambda = -sigma_V(L), N */
+        };
+    };
     double friction_bound;            /* b, N */
-    double *mode[BR_EXACT_FIELDS][2]; /* private: displacement and velocity */
+    double *mode[BR_FIELDS][2];       /* private: displacement and velocity */
     double memory[];
 };
 
@@ -131,12 +134,12 @@ void br_exact_state_free(struct br_exact_state *state);
 void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state);
 
 /* The same for one field; the other field may be at another time. */
-void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
+void br_exact_field_at(const struct br_exact *exact, enum br_field_kind field, double t,
                        struct br_exact_state *state);
 
 /* A function of x: a modelled field's displacement or velocity, derived. */
 struct br_exact_quantity {
-    enum br_exact_field field;
+    enum br_field_kind field;
     bool velocity;
     unsigned order; /* of the derivative in x: axial 0 to 2, bending 0 to 3 */
 };

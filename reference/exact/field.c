@@ -107,26 +107,27 @@ void br_modes_expand(const struct br_modes *modes, size_t order, const double *q
 static enum br_status set_initial(struct br_oscillators *f, struct br_error *err)
 {
     const struct br_modes *modes = &f->modes;
-    const struct br_exact_data *d = &f->data;
+    const struct br_scene_field *d = f->data;
+    const struct br_function *slope = br_initial_slope(d, modes->degree);
     const int m = (int)modes->count, rows = (int)br_modes_length(modes, 0);
     const double scale = modes->degree == 1 ? 1 : f->length; /* dw/dxi = L dw/dx */
     double *c = f->load_series;
     enum br_status status = BR_OK;
-    if (!br_function_is_zero(d->slope)) {
-        status = br_quadrature_project_slope(&modes->quadrature, d->slope, c, err);
+    if (!br_function_is_zero(slope)) {
+        status = br_quadrature_project_slope(&modes->quadrature, slope, c, err);
         cblas_dgemv(CblasColMajor, CblasTrans, m, m, scale, modes->curve, m, c, 1, 0,
                     f->displacement, 1); /* U' c */
     }
-    if (!status && !br_function_is_zero(d->velocity)) {
-        status = br_quadrature_project(&modes->quadrature, d->velocity, 0, NULL, c, err);
+    if (!status && !br_function_is_zero(&d->velocity)) {
+        status = br_quadrature_project(&modes->quadrature, &d->velocity, 0, NULL, c, err);
         cblas_dgemv(CblasColMajor, CblasTrans, rows, m, 1, modes->shape, rows, c, 1, 0, f->velocity,
                     1);                           /* Y' c */
         for (size_t i = 0; i < modes->count; i++) /* modes below round-off carry none */
             f->velocity[i] *=
                 modes->size[i] > DBL_EPSILON * modes->size[0] ? 1 / modes->size[i] : 0;
     }
-    br_function_evaluate(d->displacement, 1, &f->length, 0, &f->tip_displacement);
-    br_function_evaluate(d->velocity, 1, &f->length, 0, &f->tip_velocity);
+    br_function_evaluate(&d->displacement, 1, &f->length, 0, &f->tip_displacement);
+    br_function_evaluate(&d->velocity, 1, &f->length, 0, &f->tip_velocity);
     return status;
 }
 
@@ -142,7 +143,7 @@ static enum br_status set_space(struct br_oscillators *f, struct br_error *err)
     const size_t width = f->modes.width;
     enum br_status status = BR_OK;
     for (size_t term = 0; term < BR_LOAD_TERMS && !status; term++) {
-        const struct br_product *p = &f->data.load->term[term];
+        const struct br_product *p = &f->data->load.term[term];
         double *space = f->load_space + term * width;
         if (p->space.uses_t || br_product_is_zero(p))
             continue;
@@ -166,10 +167,10 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
     if (!terms)
         return br_no_memory(err, "the modes");
     f->length = scene->length;
-    f->data = br_exact_data_of(scene, outline->degree);
+    f->data = outline->data;
     f->fronts = outline->fronts;
-    f->damping = f->data.viscosity * power;
-    f->stiffness = f->data.stiffness * power;
+    f->damping = f->data->viscosity * power;
+    f->stiffness = f->data->stiffness * power;
     for (size_t e = 0; e < elements; e++)
         terms[e] = br_outline_terms(outline, e, modes);
     br_pieces_init(&f->modes.pieces, f->length, elements, outline->end[BR_X].at, terms, store);
@@ -194,10 +195,8 @@ enum br_status br_oscillators_create(struct br_oscillators **out, const struct b
 /* out[i] += force * tip_i + moment * slope_i / L */
 static void add_tip(const struct br_oscillators *f, double t, double *out)
 {
-    double force, moment = 0;
-    br_function_evaluate(f->data.tip_force, 1, &f->length, t, &force);
-    if (f->data.tip_moment)
-        br_function_evaluate(f->data.tip_moment, 1, &f->length, t, &moment);
+    const double force = br_function_at(&f->data->tip_force, f->length, t),
+                 moment = br_function_at(&f->data->tip_moment, f->length, t);
     for (size_t i = 0; i < f->modes.count; i++)
         out[i] += force * f->modes.tip[i] + moment / f->length * f->modes.slope[i];
 }
@@ -242,7 +241,7 @@ enum br_status br_oscillators_load(const struct br_oscillators *f, const double 
     double factor[S], sizes[S] = {0};
     memset(out, 0, S * width * sizeof *out);
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
-        const struct br_product *p = &f->data.load->term[term];
+        const struct br_product *p = &f->data->load.term[term];
         const double *space = f->load_space + term * width;
         enum br_status status = BR_OK;
         if (br_product_is_zero(p))
@@ -271,7 +270,7 @@ double br_oscillators_work(const struct br_oscillators *f)
     const double elements = (double)f->modes.pieces.count;
     double work = 4 + 0.15 * m;
     for (size_t term = 0; term < BR_LOAD_TERMS; term++) {
-        const struct br_product *p = &f->data.load->term[term];
+        const struct br_product *p = &f->data->load.term[term];
         if (p->space.uses_t && !br_product_is_zero(p))
             work += S * (0.05 * points + 1.5e-4 * points * m / elements + 7e-5 * m * m) +
                     (f->fronts ? 100 : 0);

@@ -151,19 +151,15 @@ enum br_status br_sight_mesh(struct br_sight *sight, struct br_box part, struct 
 
 /* ---- all data of a field (outline.c) ---- */
 
-/* The data of a field, axial or bending. */
-struct br_exact_data {
-    double stiffness, viscosity;
-    const struct br_load *load;
-    const struct br_function *tip_force, *tip_moment; /* the moment NULL for axial */
-    const struct br_function *displacement, *velocity;
-    const struct br_function *slope; /* of the displacement, derived degree - 1 times */
-};
-
-/* Degree 1 is the axial, 2 the bending field. */
-struct br_exact_data br_exact_data_of(const struct br_scene *scene, size_t degree);
+/* Of the initial displacement, derived degree - 1 times. */
+static inline const struct br_function *br_initial_slope(const struct br_scene_field *field,
+                                                         size_t degree)
+{
+    return degree == 1 ? &field->displacement : &field->displacement_slope;
+}
 
 struct br_outline {
+    const struct br_scene_field *data; /* borrowed */
     size_t degree;         /* of the field: 1 axial, 2 bending */
     struct br_list end[2]; /* by br_variable: of the elements, m, from 0 to L; of cells in time, s,
                               that no step may overlook, from 0 to T */
@@ -177,7 +173,7 @@ struct br_outline {
 /* Clear it even after a failure: BR_NOT_FINITE, the data have details that are too fine,
  * BR_BAD_INPUT where they are not finite, or BR_NO_MEMORY. */
 enum br_status br_outline_init(struct br_outline *outline, const struct br_scene *scene,
-                               size_t degree, struct br_error *err);
+                               enum br_field_kind kind, struct br_error *err);
 void br_outline_clear(struct br_outline *outline);
 
 /* The number of polynomials on element e in a solution that would have `modes` on one element. */
@@ -243,7 +239,7 @@ struct br_oscillators {
     double length;             /* L, m */
     double *mass;              /* width, kg; behind the modes 1 */
     double damping, stiffness; /* N s/m, N/m */
-    struct br_exact_data data; /* borrowed */
+    const struct br_scene_field *data; /* borrowed */
     bool fronts;               /* the load's jumps move */
     double *load_space;        /* BR_LOAD_TERMS x width: of the terms whose space part is constant
                                   in time */
@@ -439,17 +435,17 @@ enum br_status br_march(const struct br_oscillators *field, const struct br_exac
 
 /* One march of each modelled field; the others are NULL. */
 struct br_exact_solution {
-    struct br_oscillators *field[BR_EXACT_FIELDS];
-    struct br_exact_law law[BR_EXACT_FIELDS];
-    struct br_history *track[BR_EXACT_FIELDS];
+    struct br_oscillators *field[BR_FIELDS];
+    struct br_exact_law law[BR_FIELDS];
+    struct br_history *track[BR_FIELDS];
     struct br_store store; /* of the fields */
 };
 
 struct br_exact {
     double duration; /* T, s */
     struct br_exact_solution *solution;
-    struct br_exact_report report[BR_EXACT_FIELDS];
-    double noise[BR_EXACT_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
+    struct br_exact_report report[BR_FIELDS];
+    double noise[BR_FIELDS]; /* m/s: where a force at the tip cancels all motion, this much
                                       of the velocity is round-off */
     size_t events;
     struct br_exact_event *event;

@@ -40,7 +40,7 @@ static void exact_free(void *self)
 static struct br_exact_quantity quantity_of(enum br_field_kind kind, enum br_measure measure)
 {
     return (struct br_exact_quantity){
-        .field = kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING,
+        .field = kind,
         .velocity = measure != BR_DISPLACEMENT,
         .order = measure != BR_STRAIN_RATE ? 0
                  : kind == BR_AXIAL        ? 1
@@ -103,8 +103,7 @@ static enum br_status exact_advance(void *self, enum br_field_kind kind, size_t 
     struct exact_judge *e = self;
     (void)err;
     const double start = br_seconds();
-    br_exact_field_at(e->exact, quantity_of(kind, BR_TIP).field,
-                      e->scene->duration * (double)i / (double)e->levels, e->state);
+    br_exact_field_at(e->exact, kind, e->scene->duration * (double)i / (double)e->levels, e->state);
     e->seconds[kind] += br_seconds() - start;
     return BR_OK;
 }
@@ -114,7 +113,7 @@ static void exact_sample(void *self, const struct br_sample_at *at, struct br_vi
     struct exact_judge *e = self;
     if (at->measure == BR_TIP) {
         br_view_modes(view, 0);
-        *view->values = e->state->tip[quantity_of(at->kind, BR_TIP).field].displacement;
+        *view->values = e->state->tip[at->kind].displacement;
         return;
     }
     br_view_modes(view,
@@ -148,9 +147,9 @@ static struct br_judge_report exact_report(const void *self)
     const struct exact_judge *e = self;
     const double length = e->scene->length;
     struct br_judge_report report = {.seconds = e->seconds[BR_AXIAL] + e->seconds[BR_BENDING]};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_exact_size error = /* zeros where nothing is modelled */
-            br_exact_report(e->exact, quantity_of((enum br_field_kind)kind, BR_TIP).field).error;
+            br_exact_report(e->exact, kind).error;
         double *own = report.own_error[kind];
         own[BR_DISPLACEMENT] = error.displacement * sqrt(length);
         own[BR_VELOCITY] = error.velocity * sqrt(length);

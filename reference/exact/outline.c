@@ -11,7 +11,7 @@ enum { MOST = 2 * BR_LOAD_TERMS + 4 };
 /* Arrays of two: by br_variable. */
 struct work {
     struct br_outline *o;
-    const struct br_exact_data *data;
+    const struct br_scene_field *data;
     double all[2], density; /* L, m; T, s; kg/m */
     struct br_sight subject[MOST];
     size_t subjects;
@@ -19,32 +19,6 @@ struct work {
     enum br_status status;      /* where it is not BR_OK, nothing more is done */
     struct br_error *err;
 };
-
-struct br_exact_data br_exact_data_of(const struct br_scene *s, size_t degree)
-{
-    const struct br_axial *a = &s->axial;
-    const struct br_bending *b = &s->bending;
-    if (degree == 1)
-        return (struct br_exact_data){
-            .stiffness = a->stiffness,
-            .viscosity = a->viscosity,
-            .load = &a->load,
-            .tip_force = &a->tip_force,
-            .displacement = &a->displacement,
-            .velocity = &a->velocity,
-            .slope = &a->displacement,
-        };
-    return (struct br_exact_data){
-        .stiffness = b->stiffness,
-        .viscosity = b->viscosity,
-        .load = &b->load,
-        .tip_force = &b->tip_force,
-        .tip_moment = &b->tip_moment,
-        .displacement = &b->displacement,
-        .velocity = &b->velocity,
-        .slope = &b->displacement_slope,
-    };
-}
 
 /* ---- the functions that matter ---- */
 
@@ -63,7 +37,7 @@ static bool is_mixed(const struct br_sight *s)
 /* f is needed up to a time. Without bounds it has no proofs. */
 static void list(struct work *w, const struct br_function *f, double until)
 {
-    if (!f || !f->ops || !f->ops->bound)
+    if (!f->ops || !f->ops->bound)
         return;
     const struct br_box box = {{0, f->uses_x ? w->all[BR_X] : 0}, {0, f->uses_t ? until : 0}};
     if (box.x.high > 0 || box.t.high > 0)
@@ -72,18 +46,18 @@ static void list(struct work *w, const struct br_function *f, double until)
 
 static void list_subjects(struct work *w)
 {
-    const struct br_exact_data *d = w->data;
+    const struct br_scene_field *d = w->data;
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        const struct br_product *p = &d->load->term[i];
+        const struct br_product *p = &d->load.term[i];
         if (br_product_is_zero(p))
             continue;
         list(w, &p->space, w->all[BR_T]);
         list(w, &p->time, w->all[BR_T]);
     }
-    list(w, d->slope, 0);
-    list(w, d->velocity, 0);
-    list(w, d->tip_force, w->all[BR_T]);
-    list(w, d->tip_moment, w->all[BR_T]);
+    list(w, br_initial_slope(d, w->o->degree), 0);
+    list(w, &d->velocity, 0);
+    list(w, &d->tip_force, w->all[BR_T]);
+    list(w, &d->tip_moment, w->all[BR_T]);
 }
 
 /* ---- intervals between points where functions jump ---- */
@@ -284,16 +258,15 @@ static void grade(struct work *w, bool tip, double layer)
  * tip or the clamp. */
 static void find_layers(struct work *w)
 {
-    const struct br_exact_data *d = w->data;
+    const struct br_scene_field *d = w->data;
     const double layer =
         pow(d->viscosity / w->density * (shortest * w->all[BR_T]), 0.5 / (double)w->o->degree);
-    const bool tip = !br_function_is_zero(d->tip_force) ||
-                     (d->tip_moment && !br_function_is_zero(d->tip_moment));
+    const bool tip = !br_function_is_zero(&d->tip_force) || !br_function_is_zero(&d->tip_moment);
     if (w->o->end[BR_T].count == 2 || !(layer > narrow * w->all[BR_X]))
         return;
     if (tip)
         grade(w, true, layer);
-    if (!br_load_is_zero(d->load))
+    if (!br_load_is_zero(&d->load))
         grade(w, false, layer);
 }
 
@@ -334,18 +307,17 @@ static void count_all_proved(struct work *w)
                 w->o->proved += BR_SIGHT_TOLERANCE;
 }
 
-enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scene, size_t degree,
-                               struct br_error *err)
+enum br_status br_outline_init(struct br_outline *o, const struct br_scene *scene,
+                               enum br_field_kind kind, struct br_error *err)
 {
-    const struct br_exact_data data = br_exact_data_of(scene, degree);
     struct work w = {
         .o = o,
-        .data = &data,
+        .data = &scene->field[kind],
         .all = {[BR_X] = scene->length, [BR_T] = scene->duration},
         .density = scene->density,
         .err = err,
     };
-    *o = (struct br_outline){.degree = degree};
+    *o = (struct br_outline){.data = &scene->field[kind], .degree = kind == BR_AXIAL ? 1 : 2};
     list_subjects(&w);
     for (enum br_variable v = BR_X; v <= BR_T; v++)
         find_breaks(&w, v);

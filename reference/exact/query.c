@@ -6,7 +6,7 @@
 #include <pthread.h>
 #include <stdint.h>
 
-struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_exact_field field)
+struct br_exact_report br_exact_report(const struct br_exact *exact, enum br_field_kind field)
 {
     return exact->report[field];
 }
@@ -31,14 +31,14 @@ enum br_status br_exact_state_create(struct br_exact_state **out, const struct b
                                      struct br_error *err)
 {
     size_t count = 0;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+    for (size_t i = 0; i < BR_FIELDS; i++)
         count += exact->report[i].modes;
     struct br_exact_state *state = *out =
         br_allocate(1, sizeof *state + 2 * count * sizeof(double));
     if (!state)
         return br_no_memory(err, "a state of the exact solution");
     double *next = state->memory;
-    for (size_t i = 0; i < BR_EXACT_FIELDS; i++)
+    for (size_t i = 0; i < BR_FIELDS; i++)
         for (size_t j = 0; j < 2 && exact->solution->field[i]; j++) {
             state->mode[i][j] = next;
             next += exact->report[i].modes;
@@ -52,7 +52,7 @@ void br_exact_state_free(struct br_exact_state *state)
     free(state);
 }
 
-void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, double t,
+void br_exact_field_at(const struct br_exact *exact, enum br_field_kind field, double t,
                        struct br_exact_state *state)
 {
     const struct br_history *track = exact->solution->track[field];
@@ -63,16 +63,15 @@ void br_exact_field_at(const struct br_exact *exact, enum br_exact_field field, 
         br_history_at(track, time, state->mode[field][0], state->mode[field][1]);
     state->tip[field].displacement = tip.displacement + track->gap;
     state->tip[field].velocity = tip.velocity;
-    const double force = br_law_at(&exact->solution->law[field], time, &tip).force;
-    *(field == BR_EXACT_AXIAL ? &state->contact_force : &state->friction_force) = force;
+    state->force[field] = br_law_at(&exact->solution->law[field], time, &tip).force;
 }
 
 void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *state)
 {
     state->time = fmin(fmax(t, 0), exact->duration);
-    br_exact_field_at(exact, BR_EXACT_AXIAL, t, state);
-    br_exact_field_at(exact, BR_EXACT_BENDING, t, state);
-    state->friction_bound = br_law_bound(&exact->solution->law[BR_EXACT_BENDING], state->time);
+    br_exact_field_at(exact, BR_AXIAL, t, state);
+    br_exact_field_at(exact, BR_BENDING, t, state);
+    state->friction_bound = br_law_bound(&exact->solution->law[BR_BENDING], state->time);
 }
 
 /* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the
@@ -82,7 +81,7 @@ static enum br_status check_quantity(const struct br_exact *exact,
                                      struct br_error *err)
 {
     const struct br_oscillators *field =
-        quantity->field < BR_EXACT_FIELDS ? exact->solution->field[quantity->field] : NULL;
+        quantity->field < BR_FIELDS ? exact->solution->field[quantity->field] : NULL;
     if (!field)
         return br_fail(err, BR_BAD_INPUT, "a field that is not modelled was asked for");
     if (quantity->order > field->modes.degree + extra)

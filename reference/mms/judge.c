@@ -42,14 +42,14 @@ static void mms_free(void *self)
 
 static enum br_status derive(struct mms_judge *j, enum br_field_kind kind, struct br_error *err)
 {
-    const bool axial = kind == BR_AXIAL;
-    const struct br_function *given = axial ? &j->scene->axial.given : &j->scene->bending.given;
+    const struct br_function *given = &j->scene->field[kind].given;
     static const struct br_partial order[] = {
         [BR_DISPLACEMENT] = {0, 0}, [BR_VELOCITY] = {0, 1}, [BR_STRAIN_RATE] = {1, 1}};
     enum br_status status = br_function_clone(given, &j->derivative[kind][BR_TIP], err);
     for (int measure = 0; measure < BR_TIP && !status; measure++)
         status = br_function_derivative(
-            given, (struct br_partial){order[measure].x * (axial ? 1 : 2), order[measure].t},
+            given,
+            (struct br_partial){order[measure].x * (kind == BR_AXIAL ? 1 : 2), order[measure].t},
             &j->derivative[kind][measure], err);
     return status;
 }

@@ -50,7 +50,7 @@ static enum br_status set_step(void *self, double k, struct br_error *err)
 {
     struct plain *s = self;
     s->recursion.k = k;
-    return br_recursion_fill(&s->recursion, s->field.kind == BR_AXIAL ? "axial" : "bending", err);
+    return br_recursion_fill(&s->recursion, br_field_names[s->field.kind], err);
 }
 
 static enum br_status create(const struct br_field *field, const struct br_kernel *kernel,

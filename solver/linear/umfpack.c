@@ -303,7 +303,7 @@ static enum br_status check_digits(struct assembled *s, struct br_error *err)
         "umfpack: the %s matrix of n = %zu elements and k = %g s is too ill-conditioned: %.2g "
         "of the velocity is lost in %g steps, expected at most %g; solver riccati has no "
         "such matrix",
-        f->kind == BR_AXIAL ? "axial" : "bending", f->n, f->k, lost, few_steps, most_loss);
+        br_field_names[f->kind], f->n, f->k, lost, few_steps, most_loss);
 }
 
 /* Computes all that depends on the step's length. */

@@ -73,7 +73,8 @@ static bool is_usual(const struct br_method *m, bool sticks, size_t steps)
 static bool contact_grows(const struct br_scene *scene, const struct br_method *m, size_t n,
                           size_t steps)
 {
-    const struct br_field rod = br_field_of_scene(scene, BR_AXIAL, n, br_time_step(scene, steps));
+    const struct br_field rod =
+        br_field_of_scene(scene, BR_AXIAL, n, br_time_step(scene, steps), 1);
     return scene->contact.modelled && !m->contact->at_new_step &&
            br_contact_grows(&rod, scene->contact.stiffness);
 }
@@ -202,7 +203,7 @@ static enum br_status find_exact(struct work *w, struct br_error *err)
     method.solver = &br_long_plain;
     struct br_march *march;
     enum br_status status = br_march_create(&march, f->scene, f->n, f->of, &method, err);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++) {
         w->nodal[kind] = br_allocate(2 * (f->n + 1), sizeof *w->nodal[kind]);
         if (!w->nodal[kind])
             status = br_no_memory(err, "the exact discrete solution");
@@ -215,7 +216,7 @@ static enum br_status find_exact(struct work *w, struct br_error *err)
         if (!status)
             take_level(w, march);
     }
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && status; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && status; kind++) {
         free(w->nodal[kind]);
         w->nodal[kind] = NULL;
     }
@@ -264,8 +265,8 @@ static enum br_status measure(const struct work *w, struct br_floor *floor, stru
     }
     if (march)
         floor->predicted = br_march_round_off(march);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        compare(w, march, (enum br_field_kind)kind, floor);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        compare(w, march, kind, floor);
     br_march_free(march);
     if (status == BR_NO_MEMORY)
         return br_fail(err, status, "%s", floor->refused.message);
@@ -298,7 +299,7 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
         struct br_floor *floor = w.first + s * l->f->n_count * l->f->k_count;
         status = floor->steps ? measure(&w, floor, err) : BR_OK;
     }
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         free(w.nodal[kind]);
     free(w.march);
     return status;

@@ -159,8 +159,8 @@ static double predict(const struct br_stability *s, const struct br_method *meth
 {
     if (isnan(c->stiffness) || method->contact->at_new_step)
         return INFINITY;
-    struct br_field field = br_field_of_scene(s->scene, BR_AXIAL, c->n, 1);
-    field.degree = method->axial_degree;
+    const struct br_field field =
+        br_field_of_scene(s->scene, BR_AXIAL, c->n, 1, method->axial_degree);
     const double limit = br_contact_limit_step(&field, c->stiffness);
     return limit > 1e6 * s->scene->duration ? INFINITY : limit;
 }
@@ -317,9 +317,8 @@ static bool may_break(const struct br_stability *s, const struct br_method *meth
 {
     if (isnan(c->stiffness) || method->contact->at_new_step)
         return false;
-    struct br_field field =
-        br_field_of_scene(s->scene, BR_AXIAL, c->n, br_time_step(s->scene, steps));
-    field.degree = method->axial_degree;
+    const struct br_field field = br_field_of_scene(
+        s->scene, BR_AXIAL, c->n, br_time_step(s->scene, steps), method->axial_degree);
     return !(c->stiffness <= br_contact_limit_bouncing(&field));
 }
 

@@ -140,24 +140,16 @@ static double reference_error(const struct br_study *s, enum br_part part,
                           (double[]){0, 0});
 }
 
-static bool has_field(enum br_part part, enum br_field_kind kind)
-{
-    return part == BR_PART_TOTAL || (part == BR_PART_AXIAL) == (kind == BR_AXIAL);
-}
-
 /* Predicted round-off of a component of a cell, m^(3/2); and of the reference, unless an auditor
  * has measured all of its error. */
 static double round_off(const struct br_study *s, const struct br_cell *c, enum br_part part)
 {
     const struct br_method *method = br_study_method(s, (size_t)(c - s->cell));
     double relative = s->auditor ? 0 : s->judged_by.round_off;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const bool modelled =
-            kind == BR_AXIAL ? s->scene->axial.modelled : s->scene->bending.modelled;
-        struct br_field field = br_field_of_scene(s->scene, (enum br_field_kind)kind, c->at.n,
-                                                  br_time_step(s->scene, c->at.steps));
-        field.degree = method->axial_degree;
-        if (modelled && has_field(part, (enum br_field_kind)kind))
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field = br_field_of_scene(
+            s->scene, kind, c->at.n, br_time_step(s->scene, c->at.steps), method->axial_degree);
+        if (s->scene->field[kind].modelled && br_part_has(part, kind))
             relative = fmax(relative, br_method_round_off(method, &field));
     }
     return relative * s->reference_scale;
@@ -167,8 +159,7 @@ static double round_off(const struct br_study *s, const struct br_cell *c, enum 
 static size_t set_flags(struct br_study *s, enum br_part part, double reference)
 {
     size_t changed = 0;
-    if ((part == BR_PART_AXIAL && !s->scene->axial.modelled) ||
-        (part == BR_PART_BENDING && !s->scene->bending.modelled))
+    if (!br_models(s->scene, part))
         return 0;
     for (size_t i = 0; i < br_study_cells(s); i++) {
         struct br_cell *c = &s->cell[i];
@@ -207,8 +198,8 @@ enum br_status br_fit(struct br_study *s, enum br_part part, struct br_fits *fit
 void br_flag_beside(struct br_study *s)
 {
     static const struct br_joint_fit none;
-    for (int part = 0; part < BR_PARTS; part++)
-        set_flags(s, (enum br_part)part, reference_error(s, (enum br_part)part, &none));
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        set_flags(s, part, reference_error(s, part, &none));
 }
 
 /* ---- linear least squares ---- */

@@ -390,12 +390,6 @@ bool br_report_settles(const struct br_report *r, enum br_axis axis)
     return all;
 }
 
-static bool is_modelled(const struct br_scene *scene, enum br_part part)
-{
-    return (part != BR_PART_AXIAL || scene->axial.modelled) &&
-           (part != BR_PART_BENDING || scene->bending.modelled);
-}
-
 enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, struct br_error *err)
 {
     const struct br_study *s = br_report_fitted(r);
@@ -404,7 +398,7 @@ enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, stru
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
         struct br_seen_order *o = &r->seen[part][axis];
         *o = (struct br_seen_order){
-            .asked = is_modelled(s->scene, part) && br_study_cells(s) > 0 &&
+            .asked = br_models(s->scene, part) && br_study_cells(s) > 0 &&
                      (over_h || !s->method.scheme->adaptive),
             .order = {NAN, NAN, NAN},
             .theory = br_theory_of(s, part, axis),
@@ -423,8 +417,8 @@ enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, stru
 enum br_status br_report_finish(struct br_report *r, int threads, struct br_error *err)
 {
     enum br_status status = BR_OK;
-    for (int part = 0; part < BR_PARTS && !status; part++)
-        status = br_fit(br_report_fitted(r), (enum br_part)part, &r->fits[part], err);
+    for (enum br_part part = 0; part < BR_PARTS && !status; part++)
+        status = br_fit(br_report_fitted(r), part, &r->fits[part], err);
     for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
         status = br_report_see_orders(r, axis, err);
     if (!status && r->exact)

@@ -82,27 +82,10 @@ static int zeros_at_start(const struct br_function *f, const struct br_scene *s)
     return zeros;
 }
 
-/* The data of a field that this theory depends on. */
-struct data {
-    const struct br_load *load;
-    const struct br_function *tip_force, *tip_moment, *displacement, *velocity;
-    bool given; /* derived from a solution */
-};
-
-static struct data data_of(const struct br_scene *s, enum br_field_kind kind)
+static bool starts_at_rest(const struct br_scene_field *d)
 {
-    static const struct br_function zero;
-    const struct br_axial *u = &s->axial;
-    const struct br_bending *w = &s->bending;
-    return kind == BR_AXIAL ? (struct data){&u->load,         &u->tip_force, &zero,
-                                            &u->displacement, &u->velocity,  u->solution != NULL}
-                            : (struct data){&w->load,         &w->tip_force, &w->tip_moment,
-                                            &w->displacement, &w->velocity,  w->solution != NULL};
-}
-
-static bool starts_at_rest(const struct data *d)
-{
-    return d->given || (br_function_is_zero(d->displacement) && br_function_is_zero(d->velocity));
+    return d->solution ||
+           (br_function_is_zero(&d->displacement) && br_function_is_zero(&d->velocity));
 }
 
 /* ---- in h ---- */
@@ -111,13 +94,13 @@ static bool starts_at_rest(const struct data *d)
 static struct br_theory of_elements(const struct br_study *s, enum br_field_kind kind)
 {
     const struct br_scene *scene = s->scene;
-    const struct data d = data_of(scene, kind);
+    const struct br_scene_field *d = &scene->field[kind];
     const int degree = kind == BR_AXIAL ? s->method.axial_degree : 3,
               derivatives = kind == BR_AXIAL ? 1 : 2;
-    bool smooth = is_smooth(d.displacement, BR_X, s->n[0], scene) &&
-                  is_smooth(d.velocity, BR_X, s->n[0], scene);
+    bool smooth = is_smooth(&d->displacement, BR_X, s->n[0], scene) &&
+                  is_smooth(&d->velocity, BR_X, s->n[0], scene);
     for (size_t i = 0; i < BR_LOAD_TERMS && smooth; i++)
-        smooth = is_smooth(&d.load->term[i].space, BR_X, s->n[0], scene);
+        smooth = is_smooth(&d->load.term[i].space, BR_X, s->n[0], scene);
     const bool tip = s->norm->level == br_norm_tip.level;
     const double order =
         tip ? 2 * (degree + 1 - derivatives) : degree + 1 - (s->norm->energy ? derivatives : 0);
@@ -125,7 +108,7 @@ static struct br_theory of_elements(const struct br_study *s, enum br_field_kind
         return none(order, "each mesh has time steps of its own");
     if (!smooth)
         return none(order, "loads or initial data are not smooth inside elements");
-    if (degree > 1 && !starts_at_rest(&d))
+    if (degree > 1 && !starts_at_rest(d))
         return none(order, "initial data start a boundary layer");
     if (tip && scene->density == 0 && degree < 2 * derivatives)
         return none(order, "without mass, the elements are exact at the tip");
@@ -155,8 +138,8 @@ static struct br_theory of_beam(const struct br_study *s)
 /* The lower one. */
 static struct br_theory in_h(const struct br_study *s, enum br_part part)
 {
-    const bool rod = s->scene->axial.modelled && part != BR_PART_BENDING,
-               beam = s->scene->bending.modelled && part != BR_PART_AXIAL;
+    const bool rod = s->scene->axial.modelled && br_part_has(part, BR_AXIAL),
+               beam = s->scene->bending.modelled && br_part_has(part, BR_BENDING);
     const struct br_theory u = rod ? of_elements(s, BR_AXIAL) : of_order(INFINITY);
     const struct br_theory w = beam ? of_beam(s) : of_order(INFINITY);
     if (isnan(u.order) || !beam)
@@ -172,21 +155,21 @@ static struct br_theory in_h(const struct br_study *s, enum br_part part)
  * the loads' value and derivatives have to vanish at t = 0, unless a solution is given. */
 static const char *what_spoils(const struct br_scene *s, enum br_field_kind kind, int zeros)
 {
-    const struct data d = data_of(s, kind);
-    bool smooth = is_smooth(d.tip_force, BR_T, 1, s) && is_smooth(d.tip_moment, BR_T, 1, s);
+    const struct br_scene_field *d = &s->field[kind];
+    bool smooth = is_smooth(&d->tip_force, BR_T, 1, s) && is_smooth(&d->tip_moment, BR_T, 1, s);
     int vanish = DERIVATIVES;
     for (size_t i = 0; i < BR_LOAD_TERMS; i++) {
-        const struct br_product *p = &d.load->term[i];
+        const struct br_product *p = &d->load.term[i];
         const int of = zeros_at_start(&p->space, s) + zeros_at_start(&p->time, s);
         smooth = smooth && is_smooth(&p->space, BR_T, 1, s) && is_smooth(&p->time, BR_T, 1, s);
         vanish = of < vanish ? of : vanish;
     }
     if (!smooth)
         return "forces are not smooth in time";
-    if (!starts_at_rest(&d))
+    if (!starts_at_rest(d))
         return "initial data start a motion that no time step resolves";
-    return d.given || (vanish >= zeros && zeros_at_start(d.tip_force, s) >= zeros &&
-                       zeros_at_start(d.tip_moment, s) >= zeros)
+    return d->solution || (vanish >= zeros && zeros_at_start(&d->tip_force, s) >= zeros &&
+                           zeros_at_start(&d->tip_moment, s) >= zeros)
                ? NULL
                : "forces start suddenly, which no time step resolves";
 }
@@ -195,9 +178,9 @@ static struct br_theory in_k(const struct br_study *s, enum br_part part)
 {
     const struct br_scene *scene = s->scene;
     const int order = s->method.scheme->order;
-    const bool beam = scene->bending.modelled && part != BR_PART_AXIAL,
+    const bool beam = scene->bending.modelled && br_part_has(part, BR_BENDING),
                rod = scene->axial.modelled &&
-                     (part != BR_PART_BENDING || scene->friction.law == BR_COULOMB),
+                     (br_part_has(part, BR_AXIAL) || scene->friction.law == BR_COULOMB),
                contact = scene->contact.modelled && rod,
                lags = contact && !s->method.contact->at_new_step;
     const int zeros = (s->norm->energy ? 1 : 0) + (lags ? 1 : order) - 1;

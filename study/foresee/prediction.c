@@ -82,11 +82,6 @@ static const double sure = 0.2, negligible = 1e-5;
  * For equal steps R has `tight`; `tightest` is near round-off. */
 static const double tighter = 25, loosest = 1e-4, tight = 1e-6, tightest = 1e-12;
 
-static bool is_modelled(const struct br_scene *scene, int kind)
-{
-    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
-}
-
 static double stages(const struct br_method *m)
 {
     return m->scheme->adaptive ? chosen_stages : br_time_scheme_stages(m->scheme);
@@ -96,10 +91,10 @@ static double stages(const struct br_method *m)
 static double solve(const struct br_planned_march *o, size_t n)
 {
     double cost = 1;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_load *load = kind ? &o->scene->bending.load : &o->scene->axial.load;
-        for (size_t i = 0; i < BR_LOAD_TERMS && is_modelled(o->scene, kind); i++)
-            if (load->term[i].space.uses_x && load->term[i].space.uses_t)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_scene_field *f = &o->scene->field[kind];
+        for (size_t i = 0; i < BR_LOAD_TERMS && f->modelled; i++)
+            if (f->load.term[i].space.uses_x && f->load.term[i].space.uses_t)
                 cost = evaluated;
     }
     return (double)n * cost + overhead;
@@ -225,9 +220,9 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     return BR_OK;
 }
 
-static double off(const struct comparison *c, enum cell cell, int kind)
+static double off(const struct comparison *c, enum cell cell, enum br_field_kind kind)
 {
-    const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+    const enum br_part part = br_part_of(kind);
     return c->at[cell] < 0 ? 0 : c->study.cell[c->at[cell]].error[part];
 }
 
@@ -235,7 +230,7 @@ static double off(const struct comparison *c, enum cell cell, int kind)
 static bool is_sure(const struct comparison *c)
 {
     bool all = c->active;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && all; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && all; kind++)
         all = off(c, CHECK, kind) <=
               fmax(sure * off(c, RUN, kind), negligible * c->study.reference_size[kind]);
     return all;
@@ -320,20 +315,19 @@ static enum br_status add_jumps(const struct br_scene *s, const struct br_functi
 static enum br_status find_jumps(struct marches *m, struct br_error *err)
 {
     const struct br_scene *s = m->run->scene;
-    const struct br_function *const tip[] = {&s->axial.tip_force, &s->bending.tip_force,
-                                             &s->bending.tip_moment};
     enum br_status status = BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_load *load = kind ? &s->bending.load : &s->axial.load;
-        for (size_t i = 0; i < BR_LOAD_TERMS && is_modelled(s, kind) && !status; i++) {
-            status = add_jumps(s, &load->term[i].space, &m->jumps, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_scene_field *f = &s->field[kind];
+        for (size_t i = 0; i < BR_LOAD_TERMS && f->modelled && !status; i++) {
+            status = add_jumps(s, &f->load.term[i].space, &m->jumps, err);
             if (!status)
-                status = add_jumps(s, &load->term[i].time, &m->jumps, err);
+                status = add_jumps(s, &f->load.term[i].time, &m->jumps, err);
         }
+        if (!status && f->modelled)
+            status = add_jumps(s, &f->tip_force, &m->jumps, err);
+        if (!status && f->modelled)
+            status = add_jumps(s, &f->tip_moment, &m->jumps, err);
     }
-    for (size_t i = 0; i < sizeof tip / sizeof *tip && !status; i++)
-        if (is_modelled(s, i ? BR_BENDING : BR_AXIAL))
-            status = add_jumps(s, tip[i], &m->jumps, err);
     return status;
 }
 
@@ -438,7 +432,7 @@ static bool can_switch(const struct br_scene *scene)
  * whose tip moves by 1/h, and a moment on a beam, by 1/h^2. */
 static double unresolved(const struct br_scene *s, int kind, size_t n)
 {
-    const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, n, s->duration);
+    const struct br_field f = br_field_of_scene(s, kind, n, s->duration, 1);
     const double waves = sqrt(f.stiffness / s->density) * s->duration;
     const double spread = f.viscosity * s->duration / s->density;
     const double depth = kind == BR_AXIAL ? waves + sqrt(spread) : sqrt(waves) + sqrt(sqrt(spread));
@@ -464,7 +458,8 @@ static double reference_error(double coarse, double a, double finer, double unse
 
 /* A cell's error from its distance to R. Two tolerances may choose the same steps: the bound in
  * time is at least the accumulated error of steps by a tolerance. */
-static struct br_predicted distance(const struct comparison *c, enum cell cell, int kind)
+static struct br_predicted distance(const struct comparison *c, enum cell cell,
+                                    enum br_field_kind kind)
 {
     const struct br_study *s = &c->study;
     const double steps = off(c, STEPS, kind), size = s->reference_size[kind];
@@ -486,7 +481,7 @@ static struct br_predicted distance(const struct comparison *c, enum cell cell, 
  * it is not plausible. Switches, and loads that jump or bend, spoil orders above one. Coarse marches
  * do not show that: their error depends on where in a step a load jumps. Errors of friction that
  * iterates grow with the steps. */
-static struct br_predicted extrapolated(const struct marches *m, int which, int kind)
+static struct br_predicted extrapolated(const struct marches *m, int which, enum br_field_kind kind)
 {
     const struct comparison *c = &m->by[which];
     const struct br_method *own = m->run->method;
@@ -513,7 +508,8 @@ static struct br_predicted extrapolated(const struct marches *m, int which, int 
 /* The error of time (TIME), of space (SPACE) or of both (RUN), which may have opposite signs. Equal
  * steps may miss what decays within a step: they do not count where steps by a tolerance contradict
  * them. Where time counts, the error is at least that of the first steps. */
-static struct br_predicted error_of(const struct marches *m, enum cell cell, int kind)
+static struct br_predicted error_of(const struct marches *m, enum cell cell,
+                                    enum br_field_kind kind)
 {
     const struct comparison *tolerance = &m->by[TIGHT], *equal = &m->by[EQUAL], *c = equal;
     if (tolerance->active && equal->active) {
@@ -550,13 +546,13 @@ static const char *unseen_start(const struct marches *m, double k)
     const struct comparison *start = &m->by[START];
     if (m->by[TIGHT].active || (start->active && start->study.reference_method.scheme->adaptive))
         return NULL;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool rod = kind == BR_AXIAL;
-        const struct br_field f = br_field_of_scene(s, (enum br_field_kind)kind, m->run->n, k);
+        const struct br_field f = br_field_of_scene(s, kind, m->run->n, k, 1);
         const double curved = rod ? pow(1.5708 / s->length, 2) : pow(1.8751 / s->length, 4);
         const double angular = sqrt(f.stiffness * curved / s->density);
         double tip = 0;
-        if (!is_modelled(s, kind) || s->density == 0)
+        if (!s->field[kind].modelled || s->density == 0)
             continue;
         if (rod)
             br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
@@ -565,8 +561,7 @@ static const char *unseen_start(const struct marches *m, double k)
             return "how the contact, closed at t = 0, pushes the tip back";
         if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
             return "the oscillations after t = 0, in which the tip may switch";
-        if (!br_function_is_zero(rod ? &s->axial.velocity : &s->bending.velocity) &&
-            f.viscosity * curved * k > s->density)
+        if (!br_function_is_zero(&s->field[kind].velocity) && f.viscosity * curved * k > s->density)
             return "how the velocity of t = 0 dies away";
     }
     return NULL;
@@ -597,8 +592,8 @@ static enum br_status find_too_short(const struct br_planned_march *o, const cha
 
 /* An error relative to the solution, whose size differs among the marches: a coarse mesh may move
  * far more than a fine one. If a field is at rest, the size of the other one counts. */
-static struct br_predicted relative(const struct marches *m, struct br_predicted e, int kind,
-                                    double *largest)
+static struct br_predicted relative(const struct marches *m, struct br_predicted e,
+                                    enum br_field_kind kind, double *largest)
 {
     double least = INFINITY;
     *largest = 0;
@@ -629,9 +624,9 @@ static void judge(struct br_prediction *p, const struct marches *m)
     p->whole.high = -1;
     p->bounded =
         by[TIGHT].active || by[EQUAL].active || (by[IN_TIME].active && by[IN_SPACE].active);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
         double size;
-        if (!is_modelled(m->run->scene, kind))
+        if (!m->run->scene->field[kind].modelled)
             continue;
         struct br_predicted e = relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
         e.high += peak;
@@ -686,11 +681,10 @@ double br_predicted_tip(const struct br_prediction *p, enum br_field_kind kind, 
 double br_predict_round_off(const struct br_planned_march *o)
 {
     double largest = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n,
-                                                  br_time_step(o->scene, o->steps));
-        field.degree = o->method->axial_degree;
-        if (is_modelled(o->scene, kind))
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field = br_field_of_scene(
+            o->scene, kind, o->n, br_time_step(o->scene, o->steps), o->method->axial_degree);
+        if (o->scene->field[kind].modelled)
             largest = fmax(largest, br_method_round_off(o->method, &field));
     }
     return largest;

@@ -16,11 +16,11 @@ double br_march_bytes(const struct br_planned_march *o)
 {
     const double states = br_time_scheme_kept(o->method->scheme);
     double element = nodal_arrays;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(o->scene, (enum br_field_kind)kind, o->n, 1);
-        field.degree = o->method->axial_degree;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field =
+            br_field_of_scene(o->scene, kind, o->n, 1, o->method->axial_degree);
         const struct br_linear_solver *l = br_method_solver(o->method, &field);
-        if (kind == BR_AXIAL ? o->scene->axial.modelled : o->scene->bending.modelled)
+        if (o->scene->field[kind].modelled)
             element += br_by_element_of(&l->bytes, &field) +
                        states * br_by_element_of(&l->state_bytes, &field);
     }

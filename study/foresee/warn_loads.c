@@ -311,7 +311,7 @@ static enum br_status compare(struct loss *s, const struct br_function *f, doubl
     const double length = s->planned->scene->length;
     struct br_scene rod = *s->planned->scene;
     rod.axial.stiffness = rod.axial.viscosity = 1;
-    const struct br_field hats = br_field_of_scene(&rod, BR_AXIAL, n, rod.duration);
+    const struct br_field hats = br_field_of_scene(&rod, BR_AXIAL, n, rod.duration, 1);
     struct exact exact = {
         f, {{0, length}, {t, t}}, length / (double)n, br_allocate(n + 1, sizeof(double))};
     struct br_mesh mesh = {0};
@@ -464,8 +464,8 @@ static void report(const struct loss *s, const struct check *check, struct br_wa
 enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,
                               struct br_error *err)
 {
-    const struct br_axial *a = &o->scene->axial;
-    const struct br_bending *b = &o->scene->bending;
+    const struct br_scene_field *a = &o->scene->axial;
+    const struct br_scene_field *b = &o->scene->bending;
     const bool rod = a->modelled, beam = b->modelled;
     const struct input inputs[] = {
         {"the axial tip force", rod, .force = &a->tip_force},

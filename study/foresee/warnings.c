@@ -94,8 +94,8 @@ void br_check_contact(const struct br_planned_march *o, struct br_warnings *warn
 {
     const struct br_scene *scene = o->scene;
     const double k = scene->duration / (double)o->steps;
-    struct br_field field = br_field_of_scene(scene, BR_AXIAL, o->n, k);
-    field.degree = o->method->axial_degree;
+    const struct br_field field =
+        br_field_of_scene(scene, BR_AXIAL, o->n, k, o->method->axial_degree);
     if (!scene->contact.modelled || o->method->contact->at_new_step ||
         !br_contact_grows(&field, scene->contact.stiffness))
         return;
@@ -162,8 +162,8 @@ static enum br_status check_bounces(const struct br_planned_march *o, struct br_
                                     struct br_error *err)
 {
     const struct br_scene *s = o->scene;
-    struct br_field field = br_field_of_scene(s, BR_AXIAL, o->n, s->duration / (double)o->steps);
-    field.degree = o->method->axial_degree;
+    const struct br_field field = br_field_of_scene(
+        s, BR_AXIAL, o->n, s->duration / (double)o->steps, o->method->axial_degree);
     if (!s->contact.modelled || o->method->contact->at_new_step ||
         !(s->contact.stiffness > br_contact_limit_bouncing(&field)) ||
         br_contact_grows(&field, s->contact.stiffness))

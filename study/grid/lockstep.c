@@ -14,7 +14,6 @@
 #include "solver/clock.h"
 #include "study/base/each.h"
 #include "study/base/text.h"
-#include "study/grid/sweep.h"
 
 /* ---- measuring ---- */
 
@@ -131,7 +130,7 @@ void br_cell_failed(struct br_study *study, size_t index, const struct br_error 
     for (struct br_study *s = study; s; s = s->next_norm) {
         struct br_cell *cell = &s->cell[index];
         cell->failure = *error;
-        for (int part = 0; part < BR_PARTS; part++) {
+        for (enum br_part part = 0; part < BR_PARTS; part++) {
             cell->error[part] = NAN;
             cell->flag[part] = BR_FLAG_FAILED;
         }
@@ -146,10 +145,10 @@ static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_
     const struct br_cell *first = &l->study->cell[index];
     cell->seconds = l->cell[index].seconds;
     cell->unstable = l->cell[index].march && br_march_contact_unstable(l->cell[index].march);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         cell->tip[kind] = first->tip[kind];
-    for (int part = 0; part < BR_PARTS && !cell->failure.status; part++) {
-        cell->error[part] = br_norm_value(s->norm, sum, (enum br_part)part);
+    for (enum br_part part = 0; part < BR_PARTS && !cell->failure.status; part++) {
+        cell->error[part] = br_norm_value(s->norm, sum, part);
         cell->worst_time[part] = sum->time[part];
     }
 }
@@ -162,14 +161,14 @@ static void conclude_norms(struct br_lockstep *l)
         s->auditor = l->study->auditor;
         s->judged_by = l->reference.judge->report(l->reference.self);
         s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-            const enum br_part part = kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const enum br_part part = br_part_of(kind);
             s->reference_size[kind] = br_norm_value(s->norm, &l->reference.sum[m], part);
             s->reference_tip[kind] = l->study->reference_tip[kind];
         }
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             s->reference_error[part] =
-                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], (enum br_part)part) : NAN;
+                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], part) : NAN;
         for (size_t i = 0; i < br_study_cells(s); i++)
             conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
     }
@@ -196,12 +195,6 @@ static bool failed_before(const struct br_lockstep *l, size_t index)
     return atomic_load(&l->first_failed) <= index;
 }
 
-static bool models(const struct br_lockstep *l, enum br_field_kind kind)
-{
-    const struct br_scene *scene = l->study->scene;
-    return kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled;
-}
-
 /* The failure that counts is that of the first level, and at that level that of the axial field,
  * whichever thread was faster. Therefore the other field goes on up to that level. */
 static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t index,
@@ -219,7 +212,8 @@ static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t 
 static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
 {
     struct br_error failure = {0};
-    for (size_t i = b * l->batch; i < batch_end(l, b) && models(l, kind); i++) {
+    for (size_t i = b * l->batch; i < batch_end(l, b) && l->study->scene->field[kind].modelled;
+         i++) {
         if (should_stop(l) || failed_before(l, i))
             return;
         if (judge_level(l, &l->reference, kind, i, &failure) ||

@@ -63,8 +63,6 @@ static void list_root_meshes(struct br_lockstep *l)
 /* Chooses the measures that the norms need. The tip is always measured at the end. */
 static void choose_measured(struct br_lockstep *l)
 {
-    const struct br_scene *scene = l->study->scene;
-    const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
     for (size_t i = 0; i < BR_MEASURED; i++) {
         struct br_measured *f = &l->measured[i];
         bool needed = false;
@@ -72,7 +70,8 @@ static void choose_measured(struct br_lockstep *l)
                                       (enum br_measure)(i % BR_MEASURES), 0};
         for (const struct br_study *s = l->study; s; s = s->next_norm)
             needed |= br_norm_needs(s->norm, f->at.measure);
-        f->used = modelled[f->at.kind] && (needed || f->at.measure == BR_TIP);
+        f->used =
+            l->study->scene->field[f->at.kind].modelled && (needed || f->at.measure == BR_TIP);
         f->last_only = !needed;
     }
 }

@@ -80,12 +80,11 @@ void br_norm_add(const struct br_norm *norm, const struct br_scene *scene,
                  const struct br_sample *sample, struct br_norm_sum *sum)
 {
     double level[2], rate[2], part[BR_PARTS];
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const double size = sample->size[kind][norm->level];
         const double strain = norm->energy ? sample->size[kind][BR_STRAIN_RATE] : 0;
         level[kind] = norm->energy ? size * size : size;
-        rate[kind] =
-            sample->weight * energy_weight(scene, (enum br_field_kind)kind) * (strain * strain);
+        rate[kind] = sample->weight * energy_weight(scene, kind) * (strain * strain);
     }
     spread(level, part);
     for (int p = 0; p < BR_PARTS; p++)
@@ -107,9 +106,8 @@ double br_norm_of_constant(const struct br_norm *norm, const struct br_scene *sc
                            const double size[2][BR_MEASURES], enum br_part part)
 {
     struct br_sample sample = {.weight = scene->duration};
-    const bool modelled[2] = {scene->axial.modelled, scene->bending.modelled};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_MEASURES && modelled[kind]; measure++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (int measure = 0; measure < BR_MEASURES && scene->field[kind].modelled; measure++)
             sample.size[kind][measure] = size[kind][measure];
     struct br_norm_sum sum = {0};
     br_norm_add(norm, scene, &sample, &sum);

@@ -10,6 +10,25 @@
 
 /* The error and its components, each with its own maximum over the time levels. */
 enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
+
+static inline enum br_part br_part_of(enum br_field_kind kind)
+{
+    return kind == BR_AXIAL ? BR_PART_AXIAL : BR_PART_BENDING;
+}
+
+/* Whether a field belongs to a part. */
+static inline bool br_part_has(enum br_part part, enum br_field_kind kind)
+{
+    return part == BR_PART_TOTAL || part == br_part_of(kind);
+}
+
+/* Whether a scene models a field of a part. */
+static inline bool br_models(const struct br_scene *scene, enum br_part part)
+{
+    return (scene->axial.modelled && part != BR_PART_BENDING) ||
+           (scene->bending.modelled && part != BR_PART_AXIAL);
+}
+
 extern const char *const br_part_names[BR_PARTS];
 
 struct br_norm {

@@ -5,20 +5,11 @@
 #define BR_STUDY_GRID_STUDY_H
 
 #include "reference/judge.h"
+#include "study/grid/engine.h"
 #include "study/grid/norms.h"
 #include "study/scene/resolution.h"
 
-struct br_study;
-struct br_observer;
 struct br_statement;
-
-/* What marches prepared studies (cells allocated, grids known to nest), all of a call at once; but
- * not those that have failed already. */
-struct br_engine {
-    enum br_status (*march)(struct br_study *studies, size_t count, int threads,
-                            const struct br_observer *observer, struct br_error *err);
-    void *self; /* its own, borrowed */
-};
 
 /* Why a cell is left out of the fits. */
 enum br_flag {
@@ -69,7 +60,7 @@ struct br_study {
     struct br_study *next_norm; /* the same study in another norm, all else being equal: measured
                                    on the same marches; NULL: none. Borrowed */
     struct br_engine engine;    /* the same of all studies of a call; march NULL: the usual one
-                                   (br_engine_set in sweep.h) */
+                                   (engine.h) */
     /* out */
     struct br_cell *cell; /* br_study_cells of them, by rows of equal n; owned */
     struct br_judge_report judged_by;

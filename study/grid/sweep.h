@@ -14,19 +14,10 @@
  * the first ones of their chains of norms. */
 enum br_status br_study_run(struct br_study *studies, size_t count, int threads,
                             const struct br_observer *observer, struct br_error *err);
+
 /* As br_study_run, but what is wrong with one study stays in its `failure`, and the others go
  * on: only BR_NO_MEMORY and BR_INTERRUPTED fail the call. */
 enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
                                  const struct br_observer *observer, struct br_error *err);
-
-/* ---- engines ---- */
-
-/* The engine of studies that name none, for the whole process: at first br_lockstep. For the main
- * thread, before any study runs. */
-void br_engine_set(struct br_engine engine);
-
-/* Marches in this process: reference and cells in lockstep, as tasks. See br_study_run_each. */
-enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
-                           const struct br_observer *observer, struct br_error *err);
 
 #endif

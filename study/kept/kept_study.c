@@ -39,7 +39,7 @@ static void pass_cell(struct br_record *r, void *self)
     br_record_count(r, &c->at.n, c->at.n, c->at.n);
     br_record_count(r, &c->at.steps, c->at.steps, c->at.steps);
     br_record_number(r, &c->error[BR_PART_TOTAL], 0, DBL_MAX);
-    for (int part = 0; part < BR_PARTS; part++) {
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
         pass_size(r, &c->error[part]);
         pass_size(r, &c->worst_time[part]);
     }
@@ -88,7 +88,7 @@ static void pass_reference(struct br_record *r, void *self)
         pass_size(r, &s->reference_size[field]);
         br_record_or_nan(r, &s->reference_tip[field], -DBL_MAX, DBL_MAX);
     }
-    for (int part = 0; part < BR_PARTS; part++)
+    for (enum br_part part = 0; part < BR_PARTS; part++)
         pass_size(r, &s->reference_error[part]);
     br_record_text(r, &s->events, MOST_EVENTS);
 }

@@ -123,7 +123,7 @@ static void copy_prediction(const struct br_prediction *p, struct beamrate_forec
     f->known = p->known;
     snprintf(f->why, sizeof f->why, "%s", p->known ? "" : p->why);
     f->round_off = p->round_off;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const struct br_predicted *e = &p->field[kind];
         f->error[kind] = p->known ? (struct beamrate_estimate){e->error, e->low, e->high}
                                   : (struct beamrate_estimate){NAN, NAN, NAN};
@@ -241,8 +241,8 @@ enum beamrate_status beamrate_march_tip(const struct beamrate_march *march,
         .friction_force = t->friction_force,
         .friction_bound = t->friction_bound,
     };
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        tip->displacement[kind] = br_march_tip_displacement(march->march, (enum br_field_kind)kind);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        tip->displacement[kind] = br_march_tip_displacement(march->march, kind);
         tip->velocity[kind] = t->velocity[kind];
     }
     return BEAMRATE_OK;

@@ -113,11 +113,10 @@ static struct beamrate_reference describe_reference(const struct br_study *s)
         .size = s->reference_scale,
         .tip = {s->reference_tip[BR_AXIAL], s->reference_tip[BR_BENDING]},
     };
-    for (int part = 0; part < BR_PARTS; part++)
-        r.own_error[part] = s->judge->nests
-                                ? s->reference_error[part]
-                                : br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error,
-                                                      (enum br_part)part);
+    for (enum br_part part = 0; part < BR_PARTS; part++)
+        r.own_error[part] =
+            s->judge->nests ? s->reference_error[part]
+                            : br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
     return r;
 }
 
@@ -136,8 +135,8 @@ static enum br_status march_and_fit(struct beamrate_study *s, const struct beamr
     br_library_watch_begin(&watch, q->observer);
     status = br_study_run(&s->study, 1, q->threads, &watch.ours, err);
     br_library_watch_end(&watch);
-    for (int part = 0; part < BR_PARTS && !status; part++)
-        status = br_fit(&s->study, (enum br_part)part, &s->fits[part], err);
+    for (enum br_part part = 0; part < BR_PARTS && !status; part++)
+        status = br_fit(&s->study, part, &s->fits[part], err);
     if (!status)
         s->reference = describe_reference(&s->study);
     return status;
@@ -185,7 +184,7 @@ enum beamrate_status beamrate_study_cell(const struct beamrate_study *study, siz
         .seconds = c->seconds,
         .failure = c->failure.status ? c->failure.message : "",
     };
-    for (int part = 0; part < BR_PARTS; part++) {
+    for (enum br_part part = 0; part < BR_PARTS; part++) {
         cell->error[part] = c->error[part];
         cell->flag[part] = br_flag_name(c->flag[part]);
     }

@@ -228,10 +228,15 @@ static void put_aside(struct source *s, const char *name)
                   br_quoted(text, sizeof text, &br_for_text, name));
 }
 
-/* Refuses the table. The message lists its headings, and says how to name columns. */
-static enum br_status refuse_columns(const struct source *s, const char *why, struct br_error *err)
+/* Refuses the table. The message lists its headings, and says how to name columns. word: an unknown
+ * heading; NULL: none. */
+static enum br_status refuse_columns(const struct source *s, const char *why, const char *word,
+                                     struct br_error *err)
 {
-    char names[300] = "", name[80], first[80] = "";
+    enum { MOST = 64 };
+    const char *headings[MOST];
+    size_t count = 0;
+    char names[300] = "", name[80], first[80] = "", suggestion[BR_SUGGESTION] = "";
     const bool none = heading(s, 1) && strcmp(heading(s, 1), "1") == 0;
     for (size_t i = 1; i <= s->columns && !none; i++)
         if (heading(s, i)) {
@@ -239,12 +244,16 @@ static enum br_status refuse_columns(const struct source *s, const char *why, st
             br_append(names, sizeof names, "%s%s", names[0] ? ", " : "", name);
             if (!*first)
                 strcpy(first, name);
+            if (count < MOST)
+                headings[count++] = heading(s, i);
         }
+    if (word)
+        br_suggestion(word, headings, count, suggestion);
     return br_fail(err, BR_BAD_INPUT,
                    none ? "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s%s"
                         : "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
-                          "cells, level, k, dt or steps)",
-                   s->path, line_of(s, 0), why, names, first);
+                          "cells, level, k, dt or steps)%s",
+                   s->path, line_of(s, 0), why, names, first, suggestion);
 }
 
 /* Names a column as an item of --column says: its heading or position, '=', its name or what it
@@ -269,10 +278,10 @@ static enum br_status rename_column(struct source *s, const char *item, size_t l
     if (!found && strspn(item, "0123456789") == size && position > 0 && position <= s->columns)
         found = position;
     if (!found) {
-        char why[120];
-        snprintf(why, sizeof why, "--column: found no column '%.*s'", size < 60 ? (int)size : 60,
-                 item);
-        return refuse_columns(s, why, err);
+        char why[120], word[60];
+        snprintf(word, sizeof word, "%.*s", size < 59 ? (int)size : 59, item);
+        snprintf(why, sizeof why, "--column: found no column '%s'", word);
+        return refuse_columns(s, why, word, err);
     }
     struct column *c = &s->column[found];
     char *name = strndup(equals + 1, rest - 1);
@@ -407,6 +416,9 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     if (axis == BR_AXIS_SPACE) {
         numbers->dimension = br_orders_dimension(s->request, c->size);
         numbers->assumed = c->size->is_volume && s->request->assumed_dimension;
+        if (c->size->is_volume)
+            br_append(numbers->taken, sizeof numbers->taken, ", d = %g%s", numbers->dimension,
+                      numbers->assumed ? " assumed" : "");
     }
     for (size_t i = 1; i <= s->columns; i++)
         if (i != best && s->column[i].size && s->column[i].size->axis == axis &&
@@ -551,10 +563,10 @@ static enum br_status take_columns(struct source *s, struct br_error *err)
         return status;
     state(s);
     if (!numbers->column[BR_AXIS_SPACE] && !numbers->column[BR_AXIS_TIME])
-        return refuse_columns(s, "found no column of a resolution", err);
+        return refuse_columns(s, "found no column of a resolution", NULL, err);
     return numbers->quantities
                ? BR_OK
-               : refuse_columns(s, "found no column of numbers beside the resolution", err);
+               : refuse_columns(s, "found no column of numbers beside the resolution", NULL, err);
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,

@@ -237,7 +237,7 @@ static double exact_rest(const struct br_example *e)
 {
     double rest = 0, since = NAN;
     for (size_t i = 0; i < e->events; i++) {
-        if (e->event[i].field != BR_EXACT_BENDING)
+        if (e->event[i].field != BR_BENDING)
             continue;
         if (!isnan(since))
             rest += e->event[i].time - since;

@@ -63,9 +63,9 @@ static enum br_status measure(void *self, const struct br_march *march,
     (void)row, (void)err;
     struct size *s = self;
     s->last = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        br_march_get(march, (enum br_field_kind)kind, s->nodal, NULL);
-        s->last += sqrt(square(br_march_field(march, (enum br_field_kind)kind), s->nodal));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        br_march_get(march, kind, s->nodal, NULL);
+        s->last += sqrt(square(br_march_field(march, kind), s->nodal));
     }
     s->most = s->last <= s->most ? s->most : s->last; /* keeps a NaN */
     return BR_OK;

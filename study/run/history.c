@@ -206,8 +206,8 @@ static enum br_status keep_sample(void *self, const struct br_march *march,
                                   const struct br_history_row *row, struct br_error *err)
 {
     struct br_history_record *h = self;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        h->unknowns[kind] = br_field_unknowns(br_march_field(march, (enum br_field_kind)kind));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        h->unknowns[kind] = br_field_unknowns(br_march_field(march, kind));
     const size_t size = values_of(h) * (h->n + 1);
     size_t most = h->most_samples;
     if (!grow((void **)&h->at, h->samples, &most, sizeof *h->at))
@@ -217,8 +217,8 @@ static enum br_status keep_sample(void *self, const struct br_march *march,
         return br_no_memory(err, "the fields");
     h->most_samples = most;
     double *field = h->field + h->samples * size;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_field_kind k = (enum br_field_kind)kind;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const enum br_field_kind k = kind;
         br_march_get(march, k, field + field_offset(h, k, false), field + field_offset(h, k, true));
     }
     h->at[h->samples++] = *row;

@@ -112,17 +112,16 @@ static void add_terms(struct br_run_report *r, const char *key, const char *part
 
 static void add_load(struct br_run_report *r, enum br_field_kind kind)
 {
-    const bool axial = kind == BR_AXIAL;
-    const char *key = axial ? "axial_load" : "bending_load";
-    const char *part = axial ? "axial load" : "bending load";
-    const struct br_scene *s = &r->marched;
-    const struct br_load *load = axial ? &s->axial.load : &s->bending.load;
-    if (!(axial ? s->axial.modelled : s->bending.modelled))
+    static const char *const keys[] = {"axial_load", "bending_load"}, *const parts[] = {
+                                                                          "axial load",
+                                                                          "bending load"};
+    const struct br_scene_field *f = &r->marched.field[kind];
+    if (!f->modelled)
         return;
-    if (br_load_is_zero(load))
-        add(r, key, part, false, "the scene has none");
+    if (br_load_is_zero(&f->load))
+        add(r, keys[kind], parts[kind], false, "the scene has none");
     else
-        add_terms(r, key, part, load);
+        add_terms(r, keys[kind], parts[kind], &f->load);
 }
 
 static void add_tip_loads(struct br_run_report *r)
@@ -143,13 +142,15 @@ static void add_tip_loads(struct br_run_report *r)
                 loads[i].f->uses_t ? "one evaluation a step" : "constant");
 }
 
+static bool has_initial(const struct br_scene_field *f)
+{
+    return f->modelled &&
+           !(br_function_is_zero(&f->displacement) && br_function_is_zero(&f->velocity));
+}
+
 static void add_initial(struct br_run_report *r)
 {
-    const struct br_scene *s = &r->marched;
-    const bool axial = s->axial.modelled && !(br_function_is_zero(&s->axial.displacement) &&
-                                              br_function_is_zero(&s->axial.velocity));
-    const bool bending = s->bending.modelled && !(br_function_is_zero(&s->bending.displacement) &&
-                                                  br_function_is_zero(&s->bending.velocity));
+    const bool axial = has_initial(&r->marched.axial), bending = has_initial(&r->marched.bending);
     if (axial || bending)
         add(r, "initial_data", "initial data", true, "interpolated once, at the nodes%s: %s",
             axial && r->method.axial_degree == 2 ? " and midpoints" : "",

@@ -12,29 +12,18 @@
 
 static enum br_status check_free(struct br_scene *s, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_axial *a = &s->axial;
-    struct br_bending *b = &s->bending;
+    const struct br_scene_field *f = &s->field[kind];
     const struct {
-        enum br_field_kind kind;
         const char *key;
         const struct br_function *function;
     } given[] = {
-        {BR_AXIAL, "load", &a->load.term[0].space},
-        {BR_AXIAL, "load", &a->load.term[0].time},
-        {BR_AXIAL, "tip_force", &a->tip_force},
-        {BR_AXIAL, "displacement", &a->displacement},
-        {BR_AXIAL, "velocity", &a->velocity},
-        {BR_BENDING, "load", &b->load.term[0].space},
-        {BR_BENDING, "load", &b->load.term[0].time},
-        {BR_BENDING, "tip_force", &b->tip_force},
-        {BR_BENDING, "tip_moment", &b->tip_moment},
-        {BR_BENDING, "displacement", &b->displacement},
-        {BR_BENDING, "displacement_slope", &b->displacement_slope},
-        {BR_BENDING, "velocity", &b->velocity},
-        {BR_BENDING, "velocity_slope", &b->velocity_slope},
+        {"load", &f->load.term[0].space},   {"load", &f->load.term[0].time},
+        {"tip_force", &f->tip_force},       {"tip_moment", &f->tip_moment},
+        {"displacement", &f->displacement}, {"displacement_slope", &f->displacement_slope},
+        {"velocity", &f->velocity},         {"velocity_slope", &f->velocity_slope},
     };
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
-        if (given[i].kind == kind && !br_function_is_zero(given[i].function))
+        if (!br_function_is_zero(given[i].function))
             return br_fail(err, BR_BAD_INPUT,
                            "found '%s' beside it, expected none: it is derived from the solution",
                            given[i].key);
@@ -133,22 +122,21 @@ static enum br_status add_law(const struct br_scene *s, enum br_field_kind kind,
 static enum br_status make_tip_force(const struct br_scene *s, enum br_field_kind kind,
                                      struct br_function *f, struct br_error *err)
 {
-    const struct br_axial *a = &s->axial;
-    const struct br_bending *b = &s->bending;
     const bool axial = kind == BR_AXIAL;
-    const struct br_function *given = axial ? &a->given : &b->given;
+    const struct br_scene_field *d = &s->field[kind];
+    const double sign = axial ? 1 : -1;
     const struct br_derivation u = one_term(0, 0, s->length, NAN),
                                v = one_term(0, 1, s->length, NAN),
-                               stress = axial ? stress_at_tip(s, a->stiffness, a->viscosity, 1)
-                                              : stress_at_tip(s, -b->stiffness, -b->viscosity, 3);
+                               stress = stress_at_tip(s, sign * d->stiffness, sign * d->viscosity,
+                                                      axial ? 1 : 3);
     if (!(axial ? s->contact.modelled : s->friction.law != BR_FRICTIONLESS))
-        return br_function_derive(given, &stress, f, err);
+        return br_function_derive(&d->given, &stress, f, err);
     struct parts p = {.u = {0}};
-    enum br_status status = br_function_derive(given, &stress, &p.stress, err);
+    enum br_status status = br_function_derive(&d->given, &stress, &p.stress, err);
     if (!status && (axial || s->friction.law == BR_COULOMB))
-        status = br_function_derive(&a->given, &u, &p.u, err);
+        status = br_function_derive(&s->axial.given, &u, &p.u, err);
     if (!status && !axial)
-        status = br_function_derive(given, &v, &p.velocity, err);
+        status = br_function_derive(&d->given, &v, &p.velocity, err);
     if (!status && !axial)
         status = br_stick_check(s, &p.u, &p.velocity, err);
     if (!status)
@@ -164,8 +152,7 @@ static enum br_status make_tip_force(const struct br_scene *s, enum br_field_kin
 /* Without density there is no initial velocity: it follows from the load. */
 static enum br_status make_data(struct br_scene *s, enum br_field_kind kind, struct br_error *err)
 {
-    struct br_axial *a = &s->axial;
-    struct br_bending *b = &s->bending;
+    struct br_scene_field *a = &s->axial, *b = &s->bending, *f = &s->field[kind];
     const struct {
         enum br_field_kind kind;
         bool moving; /* a velocity */
@@ -184,19 +171,17 @@ static enum br_status make_data(struct br_scene *s, enum br_field_kind kind, str
         {BR_BENDING, true, &b->velocity, one_term(0, 1, NAN, 0)},
         {BR_BENDING, true, &b->velocity_slope, one_term(1, 1, NAN, 0)},
     };
-    const bool axial = kind == BR_AXIAL;
     enum br_status status = BR_OK;
-    (axial ? &a->load : &b->load)->term[0].time = (struct br_function){.constant = 1};
+    f->load.term[0].time = (struct br_function){.constant = 1};
     for (size_t i = 0; i < sizeof data / sizeof *data && !status; i++)
         if (data[i].kind == kind && (s->density > 0 || !data[i].moving))
-            status = br_function_derive(axial ? &a->given : &b->given, &data[i].sum,
-                                        data[i].function, err);
-    return status ? status : make_tip_force(s, kind, axial ? &a->tip_force : &b->tip_force, err);
+            status = br_function_derive(&f->given, &data[i].sum, data[i].function, err);
+    return status ? status : make_tip_force(s, kind, &f->tip_force, err);
 }
 
 static enum br_status check_given(struct br_scene *s, enum br_field_kind kind, struct br_error *err)
 {
-    const struct br_function *f = kind == BR_AXIAL ? &s->axial.given : &s->bending.given;
+    const struct br_function *f = &s->field[kind].given;
     return br_given_check(&(struct br_given){f, kind, s->length, s->duration}, err);
 }
 

@@ -313,12 +313,10 @@ static bool is_default(const struct br_method_field *f, const struct br_method *
 static const char *taken_at(const struct br_meshes *on, const struct br_method *m, size_t n,
                             char word[2 * BR_METHOD_VALUE])
 {
-    const bool modelled[] = {on->scene->axial.modelled, on->scene->bending.modelled};
     const char *name[2] = {NULL, NULL};
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        struct br_field field = br_field_of_scene(on->scene, (enum br_field_kind)kind, n, 1);
-        field.degree = m->axial_degree;
-        if (modelled[kind])
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+        const struct br_field field = br_field_of_scene(on->scene, kind, n, 1, m->axial_degree);
+        if (on->scene->field[kind].modelled)
             name[kind] = br_method_solver(m, &field)->name;
     }
     const bool two = name[0] && name[1] && strcmp(name[0], name[1]) != 0;

@@ -234,7 +234,7 @@ static enum br_status check_initial(const struct initial *d, const struct br_fun
 enum br_status br_scene_check_initial(const struct br_scene *s, size_t *culprit,
                                       struct br_error *err)
 {
-    const struct br_bending *b = &s->bending;
+    const struct br_scene_field *b = &s->bending;
     const struct initial data[] = {
         {"axial displacement", &s->axial.displacement, NULL, NULL, s->length, true},
         {"axial velocity", &s->axial.velocity, NULL, NULL, s->length, false},

@@ -119,7 +119,6 @@ static enum br_status time_judge(const struct br_trial_request *r, struct judgin
     struct br_judge_request request = {
         .axial_degree = 1, .levels = FEW, .mesh_count = 1, .mesh = &mesh};
     const struct br_judge *judge = br_trials_judge(r);
-    const bool modelled[2] = {r->scene->axial.modelled, r->scene->bending.modelled};
     const struct br_planned_march fine = {.scene = r->scene,
                                           .method = &r->reference_method,
                                           .n = r->reference.n,
@@ -127,17 +126,17 @@ static enum br_status time_judge(const struct br_trial_request *r, struct judgin
     *judging = (struct judging){judge->nests ? br_march_seconds(&fine) : 0, 0};
     if (!judge->create || judge->nests)
         return BR_OK;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         for (int measure = 0; measure < BR_TIP; measure++)
             request.measured[kind][measure] =
-                modelled[kind] && br_norm_needs(r->norm, (enum br_measure)measure);
+                r->scene->field[kind].modelled && br_norm_needs(r->norm, (enum br_measure)measure);
     void *self = NULL;
     const double start = br_thread_seconds();
     enum br_status status = create_judge(r, &request, &self, err);
     const double created = br_thread_seconds();
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (modelled[kind])
-            status = sample(judge, self, &request, (enum br_field_kind)kind, values, err);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+        if (r->scene->field[kind].modelled)
+            status = sample(judge, self, &request, kind, values, err);
     *judging = (struct judging){created - start, (br_thread_seconds() - created) / (N * FEW)};
     judge->free(self);
     return status;

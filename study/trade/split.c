@@ -330,7 +330,7 @@ static enum br_status check_links(const struct br_split *split, const struct cha
 /* The round-off of a march, measured or, where the audit fails, predicted; and the errors of the
  * refined march and of the judge. */
 static double floor_of(const struct br_split *split, const struct chain *c,
-                       const struct br_study *s, bool in_time, size_t norm, int part)
+                       const struct br_study *s, bool in_time, size_t norm, enum br_part part)
 {
     const size_t audit = c->audit[in_time];
     double floor = failed(c->d, audit) ? split->predicted_round_off * split->scale[norm]
@@ -338,7 +338,7 @@ static double floor_of(const struct br_split *split, const struct chain *c,
     if (in_time)
         floor += c->refining.error[norm][part];
     if (s->judge == split->judge)
-        floor += br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, (enum br_part)part);
+        floor += br_norm_of_constant(s->norm, s->scene, s->judged_by.own_error, part);
     return floor;
 }
 
@@ -349,9 +349,9 @@ static void set_share(const struct br_split *split, const struct chain *c, size_
     const bool in_time = share->source && share->source->in_time;
     take_errors(c->d, head, share->error);
     for (size_t m = 0; m < split->norms; m++)
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             share->floor[m][part] = floor_of(split, c, &c->d->study[m][head], in_time, m, part);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         share->tip[kind] = s->cell[0].tip[kind] - s->reference_tip[kind];
 }
 
@@ -366,7 +366,7 @@ static void set_whole(struct br_split *split, const struct chain *c)
     split->predicted_round_off = br_predict_round_off(&run);
     for (size_t m = 0; m < split->norms; m++)
         split->scale[m] = c->d->study[m][c->whole].reference_scale;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         split->tip[kind] = s->cell[0].tip[kind];
         split->solution_tip[kind] = s->reference_tip[kind];
     }
@@ -380,9 +380,9 @@ static void set_shares(struct br_split *split, const struct chain *c)
         if (!share->none)
             set_share(split, c, c->link[i], share);
         for (size_t m = 0; m < split->norms; m++)
-            for (int part = 0; part < BR_PARTS; part++)
+            for (enum br_part part = 0; part < BR_PARTS; part++)
                 split->sum.error[m][part] += share->error[m][part];
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
             split->sum.tip[kind] += share->tip[kind];
     }
 }

@@ -321,7 +321,7 @@ static void begin(struct br_trial *t)
     t->cost = (struct br_trial_cost){.set_up = NAN, .march = NAN};
     t->failure = (struct br_error){0};
     t->scale = t->own = NAN;
-    for (int part = 0; part < BR_PARTS; part++)
+    for (enum br_part part = 0; part < BR_PARTS; part++)
         t->error[part] = NAN;
 }
 

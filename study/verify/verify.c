@@ -110,8 +110,7 @@ void br_verify_expect_default(const struct br_scene *scene, struct br_verify *ve
         *v->silent = '\0';
         for (enum br_part part = apart ? BR_PART_AXIAL : BR_PART_TOTAL;
              part <= (apart ? BR_PART_BENDING : BR_PART_TOTAL); part++)
-            if (!(part == BR_PART_AXIAL && !scene->axial.modelled) &&
-                !(part == BR_PART_BENDING && !scene->bending.modelled))
+            if (br_models(scene, part))
                 expect(scene, v, (enum br_verify_kind)kind, part);
         v->count = v->expectations ? CELLS : 0;
     }
@@ -152,8 +151,7 @@ static enum br_status check_expectation(const struct br_scene *scene,
                                         const struct br_expectation *e, struct br_error *err)
 {
     const char *part = br_part_names[e->part];
-    if ((e->part == BR_PART_AXIAL && !scene->axial.modelled) ||
-        (e->part == BR_PART_BENDING && !scene->bending.modelled))
+    if (!br_models(scene, e->part))
         return br_fail(err, BR_BAD_INPUT, "the scene has no %s part", part);
     if (!(e->order > 0 && e->tolerance > 0))
         return br_fail(err, BR_BAD_INPUT,

@@ -59,8 +59,8 @@ static size_t count_switches(const struct br_exact *exact)
 static double own_error(const struct br_exact *exact)
 {
     double most = 0;
-    for (int i = 0; i < BR_EXACT_FIELDS; i++) {
-        const struct br_exact_report r = br_exact_report(exact, (enum br_exact_field)i);
+    for (int i = 0; i < BR_FIELDS; i++) {
+        const struct br_exact_report r = br_exact_report(exact, (enum br_field_kind)i);
         if (r.modes)
             most = fmax(most, r.error.displacement / r.largest.displacement);
     }

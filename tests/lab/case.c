@@ -147,14 +147,14 @@ static void draw_wild(struct br_random *r, struct br_extreme_case *c)
     c->duration = br_random_decades(r, -6, 6);
     c->density = wild(r, -8, 6);
     const size_t fields = br_random_index(r, 6);
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         struct br_extreme_field *p = &c->field[kind];
         if (fields == (size_t)kind)
             continue;
         p->modelled = true;
         p->stiffness = wild(r, -6, 6);
         p->viscosity = wild(r, -6, 6);
-        draw_forces(r, c, (enum br_field_kind)kind, br_random_decades(r, -6, 12));
+        draw_forces(r, c, kind, br_random_decades(r, -6, 12));
         draw_start(r, p, br_random_decades(r, -9, 0) * c->length, br_random_decades(r, -6, 6),
                    c->density);
     }
@@ -253,7 +253,7 @@ static void drop_some(struct br_random *r, struct br_extreme_case *c)
     for (size_t i = 0; i < sizeof may_be_zero / sizeof *may_be_zero; i++)
         if (br_random_once_in(r, 4))
             *may_be_zero[i] = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING && c->density == 0; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && c->density == 0; kind++)
         c->field[kind].velocity.size = 0;
 }
 
@@ -270,7 +270,7 @@ static void scale_forces(struct br_extreme_case *c, double to)
     for (size_t i = 0; i < FORCES; i++)
         if (force_of(c, i)->size != 0)
             force_of(c, i)->size = to;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         c->field[kind].displacement.size = c->field[kind].velocity.size = 0;
 }
 

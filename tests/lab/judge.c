@@ -85,11 +85,11 @@ static void compare(struct trial *t)
     struct br_extreme_verdict *v = t->verdict;
     v->error = v->stated = v->nearest = 0;
     t->beyond = 0;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         double sure;
-        const double e = br_track_error(t->own, t->other, (enum br_field_kind)kind, &sure);
+        const double e = br_track_error(t->own, t->other, kind, &sure);
         const double divisor = t->judging->stated_divisor > 0 ? t->judging->stated_divisor : 1;
-        const double stated = br_predicted_most(&t->prediction, (enum br_field_kind)kind) / divisor;
+        const double stated = br_predicted_most(&t->prediction, kind) / divisor;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
         const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
         if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= v->nearest))) {
@@ -156,8 +156,8 @@ static enum br_status ask_again(struct trial *t, struct br_error *err)
     const enum br_status status = march_finer(t, 2 * finer_mesh(t), 2, finest, err);
     if (!status && !finest->failure.status) {
         double sure;
-        for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-            t->judge_error[kind] = br_track_error(other, finest, (enum br_field_kind)kind, &sure);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+            t->judge_error[kind] = br_track_error(other, finest, kind, &sure);
         t->other = finest;
         compare(t);
         t->other = other;

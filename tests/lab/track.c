@@ -83,9 +83,9 @@ static enum br_status record(void *self, const struct br_march *march,
             br_allocate(4 * (l->request->samples->n * l->request->finer + 1), sizeof *l->nodal);
     if (!l->nodal)
         return br_no_memory(err, "a march's values");
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        if (br_march_models(march, (enum br_field_kind)kind))
-            record_field(l, march, (enum br_field_kind)kind);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (br_march_models(march, kind))
+            record_field(l, march, kind);
     l->track->seen++;
     return BR_OK;
 }
@@ -96,9 +96,8 @@ static enum br_status record_step(void *self, const struct br_march *march,
     struct br_track *t = ((struct recorder *)self)->track;
     (void)err;
     (void)row;
-    for (int kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        t->largest[kind] = fmax(t->largest[kind],
-                                fabs(br_march_tip_displacement(march, (enum br_field_kind)kind)));
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        t->largest[kind] = fmax(t->largest[kind], fabs(br_march_tip_displacement(march, kind)));
     return BR_OK;
 }
 
@@ -161,8 +160,7 @@ static enum br_status read_exact(const struct br_exact *exact, struct br_track *
                                  enum br_field_kind kind, double length,
                                  const struct br_exact_state *state)
 {
-    struct br_exact_quantity part = {kind == BR_AXIAL ? BR_EXACT_AXIAL : BR_EXACT_BENDING, false,
-                                     0};
+    struct br_exact_quantity part = {kind, false, 0};
     double *value = t->value[kind][t->seen], slope[BR_TRACK_POINTS];
     enum br_status status = evaluate(exact, t, &part, length, state, value);
     for (size_t p = 0; p < t->samples.points && !status; p++)
@@ -187,9 +185,9 @@ static void record_exact(const struct br_exact *exact, const struct br_scene *sc
         br_exact_at(exact,
                     scene->duration * (double)t->samples.level[t->seen] / (double)t->samples.steps,
                     state);
-        for (int kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-            if (kind == BR_AXIAL ? scene->axial.modelled : scene->bending.modelled)
-                status = read_exact(exact, t, (enum br_field_kind)kind, scene->length, state);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
+            if (scene->field[kind].modelled)
+                status = read_exact(exact, t, kind, scene->length, state);
     }
     br_exact_state_free(state);
 }

@@ -51,7 +51,7 @@ static void take_lowest(struct br_beam_mode *mode, const gsl_vector *values,
 enum br_status br_beam_mode_find(struct br_beam_mode *mode, const struct br_scene *scene,
                                  enum br_field_kind kind, struct br_error *err)
 {
-    const struct br_field f = br_field_of_scene(scene, kind, BR_MODE_ELEMENTS, NAN);
+    const struct br_field f = br_field_of_scene(scene, kind, BR_MODE_ELEMENTS, NAN, 1);
     const size_t size = br_field_unknowns(&f) * f.n;
     *mode = (struct br_beam_mode){.kind = kind};
     double room[4][BR_MODE_UNKNOWNS * BR_MODE_UNKNOWNS] = {{0}}, value[BR_MODE_UNKNOWNS];
@@ -156,7 +156,7 @@ static void set_scene(struct trial *t)
     const double k = t->k = 2 * M_PI / t->mode.omega / (double)t->v->per_period;
     t->scene.duration = k * (double)steps_of(t->v);
     t->scene.axial.viscosity = t->scene.bending.viscosity = viscosity;
-    t->field = br_field_of_scene(&t->scene, t->v->kind, BR_MODE_ELEMENTS, k);
+    t->field = br_field_of_scene(&t->scene, t->v->kind, BR_MODE_ELEMENTS, k, 1);
     memcpy(t->nodal + br_field_unknowns(&t->field), t->mode.phi, sizeof t->mode.phi);
     for (int slope = 0; slope < 2; slope++)
         t->shape[slope] = (struct br_nodal_shape){&t->field, t->nodal, slope};

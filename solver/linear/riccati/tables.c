@@ -205,7 +205,7 @@ enum br_status br_pieces_tables(struct br_pieces *s, struct br_error *err)
     enum br_status status = gain && p ? BR_OK : br_no_memory(err, "the tables of a solver");
     if (!status && !fill_gains(&lq, longest, of->gain, gain, p))
         status = br_fail(err, BR_SINGULAR, "%s: the step is not positive definite",
-                         s->field.kind == BR_AXIAL ? "axial" : "bending");
+                         br_field_names[s->field.kind]);
     struct whole span[BR_MOST_STRANDS];
     for (int i = 0; i < s->strands && !status; i++) {
         struct br_strip *strip = &s->strand[i].strip;

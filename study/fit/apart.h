@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Orders that a grid hides: the error in k hides the one in h, or the other way round. Differences
+ * of marches that are no cells of the grid show them. */
+#ifndef BR_STUDY_FIT_APART_H
+#define BR_STUDY_FIT_APART_H
+
+#include "study/base/observer.h"
+#include "study/fit/report.h"
+#include "study/grid/differences.h"
+
+enum {
+    BR_APART_MESHES = 4, /* an order needs three differences */
+    BR_APART_STEPS = 8,  /* at most, each half of the one before */
+};
+
+/* The differences of a study, by its chain of norms. Begins as zeros. The reports borrow them. */
+struct br_apart {
+    size_t mesh[BR_APART_MESHES];       /* where those of the grid do not suffice */
+    size_t cheap, step[BR_APART_STEPS]; /* a mesh, and numbers of steps */
+    struct br_error no_meshes;          /* why there are no differences of meshes */
+    struct br_differences of[BR_MOST_NORMS];
+};
+void br_apart_clear(struct br_apart *apart);
+
+/* Both take the reports of one study in `norms` norms, in the order of its chain, whose cells have
+ * been marched. A march that fails is no failure: it ends what there is to see. They fail with
+ * BR_NO_MEMORY or BR_INTERRUPTED. */
+
+/* Compares each mesh with the next at one time step, for br_report_finish. */
+enum br_status br_apart_meshes(struct br_apart *apart, struct br_report *report, size_t norms,
+                               int threads, const struct br_observer *observer,
+                               struct br_error *err);
+
+/* Where the finished reports do not settle the order in k: compares ever smaller steps on a cheap
+ * mesh, until they settle it, or cost more than the grid. */
+enum br_status br_apart_steps(struct br_apart *apart, struct br_report *report, size_t norms,
+                              int threads, const struct br_observer *observer,
+                              struct br_error *err);
+
+#endif
