@@ -400,7 +400,7 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     for (size_t i = 1; i <= s->columns; i++)
         counted |= s->column[i].size && s->column[i].size->is_volume;
     if (!counted)
-        return refuse_columns(s, "--dimension: found no numbers of unknowns or cells", err);
+        return refuse_columns(s, "--dimension: found no numbers of unknowns or cells", NULL, err);
     numbers->column[axis] = c->size;
     for (size_t i = 0; i < s->rows; i++) {
         struct br_numbers_row *row = &numbers->row[i];
