@@ -733,7 +733,7 @@ static const struct planted_bug planted_bugs[] = {
     {"index_of_one_shifts", "lost", "study/orders/split.c", "tests/test_orders test_foreign_tables",
      "strcmp(first, \"1\") == 0 && second", "strcmp(first, \"7\") == 0 && second"},
     {"brackets_are_units", "lost", "study/orders/table.c", "tests/test_orders test_foreign_tables",
-     "if (twice && restore_heading(", "if (twice && !s && restore_heading("},
+     "c->unit && !c->size; j++)", "c->unit && !c; j++)"},
     {"printed_sizes_contradict", "refused", "study/orders/table.c", "tests/test_orders test_foreign_tables",
      "factor - 1) <= 5e-3", "factor - 1) <= 1e-6"},
     {"dimension_without_a_count", "lost", "study/orders/table.c", "tests/test_orders test_headings",

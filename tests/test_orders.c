@@ -956,6 +956,7 @@ TEST(test_limit_of_a_grid)
     CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
     /* Both intervals, and the product at the finest sizes, which neither line shows alone. */
     find(grid_of(4, 4, with_a_product), "l2");
+    of = &found.orders.of[0];
     double half = pow(2, -7);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limit.value;

@@ -31,14 +31,12 @@ static bool is_blank(char c)
 /* Whether a line has the types of columns alone, as Julia, polars and R print them. */
 static bool has_types(const char *line, const char *end)
 {
-    static const char *const types[] = {"Int64", "Float64", "String", "i64",   "i32",  "u32",
-                                        "f64",   "str",     "<dbl>",  "<int>", "<chr>"};
+    static const char types[] = " Int64 Float64 String i64 i32 u32 f64 str <dbl> <int> <chr> ";
     for (line += strspn(line, " |"); line < end; line += strspn(line, " |\t\r")) {
+        char word[12];
         const size_t length = strcspn(line, " |\t\r\n");
-        bool found = false;
-        for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-            found |= strlen(types[i]) == length && strncmp(line, types[i], length) == 0;
-        if (!found)
+        snprintf(word, sizeof word, " %.*s ", length < 9 ? (int)length : 9, line);
+        if (!strstr(types, word))
             return false;
         line += length;
     }
