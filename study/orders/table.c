@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -100,19 +101,12 @@ static void find_size(struct column *c)
 /* Whether a name has one of the first `count` words of of_runs. */
 static bool is_of_run(const char *name, size_t count)
 {
-    char word[LONGEST_NAME];
-    while (*name) {
-        size_t length = 0;
-        for (; *name && !isalpha((unsigned char)*name); name++)
-            continue;
-        for (; isalpha((unsigned char)*name) && length + 1 < LONGEST_NAME; name++)
-            word[length++] = (char)tolower((unsigned char)*name);
-        word[length] = '\0';
-        for (size_t i = 0; i < count && length; i++)
-            if (strcmp(word, of_runs[i]) == 0)
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    for (size_t length; *(name += strcspn(name, letters)); name += length) {
+        length = strspn(name, letters);
+        for (size_t i = 0; i < count; i++)
+            if (strlen(of_runs[i]) == length && strncasecmp(of_runs[i], name, length) == 0)
                 return true;
-        if (length + 1 == LONGEST_NAME)
-            return false;
     }
     return false;
 }
