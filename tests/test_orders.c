@@ -673,16 +673,16 @@ TEST(test_values)
                 assert_int_equal(line->observed.point[i].flag, BR_FLAG_NONE);
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
-            CLOSE(line->gci.order, p, 1e-8);
-            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
-            CLOSE(line->gci.fine.limit, 5, 1e-9);
-            assert_int_equal(line->triples, kind ? 4 : 3);
-            for (size_t i = 0; i < line->triples; i++) {
-                CLOSE(line->triple[i].order, p, 1e-8);
-                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+            CLOSE(line->limits.gci.order, p, 1e-8);
+            CLOSE(line->limits.gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
+            CLOSE(line->limits.gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->limits.triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->limits.triples; i++) {
+                CLOSE(line->limits.triple[i].order, p, 1e-8);
+                CLOSE(line->limits.triple[i].fine.limit, 5, 1e-9);
                 CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
             }
-            assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
+            assert_true(line->limits.limit.value.low <= 5 && line->limits.limit.value.high >= 5);
         }
 }
 
@@ -926,7 +926,7 @@ TEST(test_orders_that_a_grid_hides)
     const struct br_orders_answer *answer = found.orders.of[0].answer;
     assert_true(isnan(answer[BR_AXIS_SPACE].order.value));
     assert_string_equal(answer[BR_AXIS_SPACE].open,
-                        "no error in h is seen, that in k is larger everywhere: a finer k, or a "
+                        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
                         "coarser h, would show it");
     CLOSE(answer[BR_AXIS_TIME].order.value, 1, 1e-6);
     const char *open = answer[BR_AXIS_SPACE].open; /* a new find clears the answer, not its text */
@@ -957,13 +957,13 @@ TEST(test_limit_of_a_grid)
     const struct br_quantity_orders *of = &found.orders.of[0];
     CLOSE(of->limit.value.value, 5, 1e-9);
     assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
-    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
+    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limits.limit.value.value, 5 - pow(2, -5), 1e-9);
     /* Both intervals, and the product at the finest sizes, which neither line shows alone. */
     find(grid_of(4, 4, with_a_product), "l2");
     of = &found.orders.of[0];
     double half = pow(2, -7);
     for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limit.value;
+        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limits.limit.value;
         const double finest = with_a_product(0.125, 0.125);
         half += fmax(e.high - finest, finest - e.low);
     }
