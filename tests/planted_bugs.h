@@ -791,7 +791,7 @@ static const struct planted_bug planted_bugs[] = {
      "i + 1 == json_array_size(table) && is_footer(table, i)",
      "i > json_array_size(table) && is_footer(table, i)"},
     {"index_is_n", "lost", "study/orders/split.c", "tests/test_orders",
-     "columns == names + 1 && first", "columns == names + 9 && first"},
+     "columns == names + 1 && counted", "columns == names + 9 && counted"},
     {"least_squares_without_their_mean", "lost", "study/fit/line_order.c",
      "tests/test_orders test_lines", "xy = s->xy - s->x * s->y / s->w;", "xy = s->xy;"},
     {"order_95_of_50", "interval", "study/fit/line_order.c", "tests/test_verdict test_coverage",
