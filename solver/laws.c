@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 /* ---- contact ---- */
 
 double br_penetration(const struct br_contact *contact, double displacement)

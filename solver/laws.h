@@ -6,6 +6,8 @@
 
 #include "solver/field.h"
 
+struct br_contact;
+
 /* ---- contact ---- */
 
 /* The tip before and during a step. */

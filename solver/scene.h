@@ -5,6 +5,7 @@
 #define BR_SOLVER_SCENE_H
 
 #include "solver/function.h"
+#include "solver/kind.h"
 
 /* space(x, t) * time(t), N/m. Where space does not use t it is assembled once; where it does not
  * use x either, without quadrature. */
@@ -30,9 +31,6 @@ double br_load_value(const struct br_load *load, double x, double t);
  * (BR_NO_MEMORY). */
 enum br_status br_load_clone(const struct br_load *load, struct br_load *out, struct br_error *err);
 void br_load_clear(struct br_load *load);
-
-enum br_field_kind { BR_AXIAL, BR_BENDING, BR_FIELDS };
-extern const char *const br_field_names[BR_FIELDS]; /* "axial", "bending" */
 
 /* A field: the rod of (3) and (8), or the beam of (4), (9) and (11). What a rod does not have is
  * zero. */

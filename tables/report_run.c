@@ -373,7 +373,7 @@ static void put_energies(struct br_document *d, const struct br_run_report *r)
             .heading = "lost to friction", .unit = "J");
     BR_FACT(d, br_truth(r->summed), .key = "energies.summed",
             .heading = r->summed ? NULL : "works, losses, balance");
-    br_put_shown(d, "not summed; --check sums them, from the fields of every step");
+    br_put_shown(d, "not summed; --check sums them");
     if (r->summed)
         put_works(d, r);
 }

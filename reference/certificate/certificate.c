@@ -2,6 +2,7 @@
 /* The residual, the laws at the tip and the update of the displacement, as pure numbers. */
 #include "reference/certificate/certificate.h"
 #include "reference/textbook.h"
+#include "solver/scene.h"
 
 #include <float.h>
 #include <math.h>

@@ -8,6 +8,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/certificate/watched.h"
 #include "reference/textbook.h"
+#include "solver/scene.h"
 
 typedef long double real;
 

@@ -8,6 +8,7 @@
 
 #include "reference/long_plain.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/resolution.h"

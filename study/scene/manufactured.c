@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The method of manufactured solutions: a scene whose loads, tip forces and initial data are
  * derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
+#include "solver/scene.h"
 #include "study/known/expression.h"
 
 #include <float.h>
