@@ -728,6 +728,8 @@ static const struct planted_bug planted_bugs[] = {
      "(has_pairs(lines, 1) ||", "(false ||"},
     {"boxes_are_letters", "lost", "study/orders/split.c", "tests/test_orders",
      "*to++ = upright ? '|' : '-';", "*to++ = '-';"},
+    {"one_over_h_is_no_size", "lost", "study/orders/table.c", "tests/test_orders test_foreign_tables",
+     "intervals 1h 1dx", "intervals"},
     {"types_are_a_row", "lost", "study/orders/split.c", "tests/test_orders test_foreign_tables",
      "|| has_types(line, end))", "|| !end)"},
     {"lone_bar_separates", "lost", "study/orders/split.c", "tests/test_orders test_foreign_tables",
