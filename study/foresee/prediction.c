@@ -7,6 +7,7 @@
 #include "solver/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
@@ -333,8 +334,7 @@ static const double of_round_off = 4;
 
 static bool can_switch(const struct br_scene *scene)
 {
-    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
-           scene->friction.law != BR_FRICTIONLESS;
+    return br_contact_pushes(&scene->contact) || scene->friction.law != BR_FRICTIONLESS;
 }
 
 /* A factor, in L2, by which a layer at the tip moves more than n elements that are wider than the
@@ -459,8 +459,8 @@ static const char *unseen_start(const struct marches *m, double k)
             continue;
         if (rod)
             br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
-        if (rod && s->contact.modelled && tip > s->contact.gap &&
-            s->contact.stiffness > br_contact_limit_stiffness(&f))
+        const double force = rod && s->contact.modelled ? br_contact_force(&s->contact, tip) : 0;
+        if (br_contact_slope(&s->contact, force) > br_contact_limit_stiffness(&f))
             return "how the contact, closed at t = 0, pushes the tip back";
         if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
             return "the oscillations after t = 0, in which the tip may switch";

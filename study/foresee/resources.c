@@ -2,6 +2,7 @@
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/march.h"
+#include "solver/scene.h"
 #include "study/foresee/warnings.h"
 
 #include <math.h>

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/batches.h"
