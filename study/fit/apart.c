@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 enum {
     PAIRS = 3,  /* differences at least: an order needs three */
     LARGER = 4, /* time steps that are kept for the end */
@@ -151,16 +153,24 @@ enum br_status br_apart_meshes(struct br_apart *a, struct br_report *report, siz
     return BR_OK;
 }
 
-/* Sets the orders along an axis; settled: out. */
+/* Sets the orders along an axis; settled: out. larger: the sizes that have come last; they may
+ * settle an order, and then it is taken, but they take none away. */
 static enum br_status see(const struct br_apart *a, struct br_report *report, size_t norms,
-                          enum br_axis axis, bool *settled, struct br_error *err)
+                          enum br_axis axis, bool larger, bool *settled, struct br_error *err)
 {
     *settled = true;
     for (size_t m = 0; m < norms; m++) {
         const struct br_study *over = &a->of[m].over[axis];
+        struct br_seen_order before[BR_PARTS];
+        for (int part = 0; part < BR_PARTS; part++)
+            before[part] = report[m].seen[part][axis];
         report[m].apart[axis] = over->cell ? over : NULL;
         if (over->cell && br_report_see_orders(&report[m], axis, err))
             return err->status;
+        for (int part = 0; part < BR_PARTS && larger; part++)
+            if (br_order_determined(&before[part].order) &&
+                !br_seen_settles(&report[m].seen[part][axis]))
+                report[m].seen[part][axis] = before[part];
         *settled = *settled && br_report_settles(&report[m], axis);
     }
     return BR_OK;
@@ -177,7 +187,7 @@ enum br_status br_apart_settle(struct br_apart *a, struct br_report *report, siz
     for (size_t c = 0; c < br_study_cells(s); c++)
         left += work_of(s->cell[c].at.n, s->cell[c].at.steps);
     left = fmax(left, no_matter);
-    enum br_status status = see(a, report, norms, axis, &settled, err);
+    enum br_status status = see(a, report, norms, axis, false, &settled, err);
     while (!status && !settled && !why.status) {
         const size_t end = a->end[axis], first = a->first[axis];
         size_t from = end ? end - 1 : first, to = end ? end + 1 : first + PAIRS + 2;
@@ -190,7 +200,7 @@ enum br_status br_apart_settle(struct br_apart *a, struct br_report *report, siz
         }
         status = compare(a, report, norms, axis, from, to, threads, observer, &why, err);
         if (!status)
-            status = see(a, report, norms, axis, &settled, err);
+            status = see(a, report, norms, axis, from < first, &settled, err);
     }
     return status;
 }

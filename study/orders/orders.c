@@ -178,10 +178,10 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
                                            const struct br_quantity_orders *of, enum br_axis axis)
 {
     static const char *const hidden[BR_AXES] = {
-        "no error in h is seen, that in k is larger everywhere: a finer k, or a coarser h, would "
-        "show it",
-        "no error in k is seen, that in h is larger everywhere: a finer h, or a coarser k, would "
-        "show it"};
+        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
+        "coarser h, would show it",
+        "the order in k is hidden, since the error in h is larger everywhere: a finer h, or a "
+        "coarser k, would show it"};
     static const char *const open[BR_AXES] = {
         "the joint fit does not determine the order in h: more sizes of both would",
         "the joint fit does not determine the order in k: more sizes of both would"};
