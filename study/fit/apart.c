@@ -167,10 +167,13 @@ static enum br_status see(const struct br_apart *a, struct br_report *report, si
         report[m].apart[axis] = over->cell ? over : NULL;
         if (over->cell && br_report_see_orders(&report[m], axis, err))
             return err->status;
-        for (int part = 0; part < BR_PARTS && larger; part++)
-            if (br_order_determined(&before[part].order) &&
-                !br_seen_settles(&report[m].seen[part][axis]))
-                report[m].seen[part][axis] = before[part];
+        for (int part = 0; part < BR_PARTS && larger; part++) {
+            struct br_seen_order *o = &report[m].seen[part][axis];
+            const struct br_estimate *old = &before[part].order, *new = &o->order;
+            if (br_order_determined(old) && !br_seen_settles(o) &&
+                !(new->high - new->low < old->high - old->low))
+                *o = before[part];
+        }
         *settled = *settled && br_report_settles(&report[m], axis);
     }
     return BR_OK;
