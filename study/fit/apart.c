@@ -8,6 +8,7 @@
 
 enum {
     PAIRS = 3,  /* differences at least: an order needs three */
+    FINER = 8,  /* sizes at most, before these: */
     LARGER = 4, /* time steps that are kept for the end */
     CHEAP = 10, /* elements of the mesh for differences in k, at most */
     BESIDE = 60 /* elements' worth of what a step takes beside its elements */
@@ -185,6 +186,7 @@ enum br_status br_apart_settle(struct br_apart *a, struct br_report *report, siz
 {
     const struct br_study *s = report->study;
     struct br_error why = axis == BR_AXIS_SPACE ? a->no_meshes : (struct br_error){0};
+    const size_t most = a->first[axis] + FINER;
     bool settled = false;
     double left = 0;
     for (size_t c = 0; c < br_study_cells(s); c++)
@@ -194,9 +196,9 @@ enum br_status br_apart_settle(struct br_apart *a, struct br_report *report, siz
     while (!status && !settled && !why.status) {
         const size_t end = a->end[axis], first = a->first[axis];
         size_t from = end ? end - 1 : first, to = end ? end + 1 : first + PAIRS + 2;
-        for (size_t i = from; i + 1 < to && to <= BR_APART_SIZES; i++)
+        for (size_t i = from; i + 1 < to && to <= most; i++)
             left -= work_of_pair(a, axis, i);
-        if (to > BR_APART_SIZES || left < 0) {
+        if (to > most || left < 0) {
             if (first == 0 || end == 0)
                 break;
             from = first - 1, to = first + 1;
