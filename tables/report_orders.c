@@ -211,7 +211,7 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
                                                                                   "rate in k"};
     const struct br_numbers *numbers = o->numbers;
     const struct br_quantity *q = quantity_of(o, of);
-    char key[80], title[160];
+    char key[80], title[160], name[64], text[80];
     snprintf(key, sizeof key, "rows-%zu", of->quantity + 1);
     snprintf(title, sizeof title, "%s %s, row by row", q->is_value ? "Value" : "Error", q->name);
     br_put_table(d, key, title, BR_LONG);
@@ -219,6 +219,7 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
         const struct br_numbers_row *row = &numbers->row[i];
         const double number = row->number[of->quantity];
         const char *left_out = row->failure || isnan(number) ? br_flag_name(BR_FLAG_FAILED) : "";
+        const enum br_axis lost = isnan(row->given[BR_AXIS_SPACE]) ? BR_AXIS_SPACE : BR_AXIS_TIME;
         br_put_row(d);
         BR_PUT(d, br_text(q->name), .key = "quantity");
         put_given(d, numbers, i);
@@ -236,6 +237,11 @@ static void put_rows(struct br_document *d, const struct br_orders *o,
                        .key = rates[axis], .heading = headings[axis], .format = "%.2f");
             if (flag && flag != BR_FLAG_FAILED) /* the next finer one may have failed */
                 left_out = br_flag_name(flag);
+        }
+        if (row->failure && numbers->column[lost] && isnan(row->given[lost])) {
+            br_numbers_name(numbers, row, lost, name);
+            snprintf(text, sizeof text, "failed, %s", name);
+            left_out = text;
         }
         BR_PUT(d, br_text(left_out), .key = "left_out", .heading = "left out");
         BR_PUT(d, br_text(row->failure), .key = "failure", .flags = BR_FILES_ONLY);

@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The answer, the table, the JSON and the verdict of the same data state the same order: of a line
-# with rows that do not count, a grid with a joint fit, a grid without one, and values.
+# The answer, the table, the JSON and the verdict of the same data state the same numbers: of a line
+# with rows that do not count, a grid with a joint fit, a grid without one, and values, also on a
+# grid.
 # usage: same_numbers.sh; $BEAMRATE is the program
 set -u
 : "${BEAMRATE:?is the program}"
@@ -38,6 +39,70 @@ cases_of() {
         on && /"ceiling"/ { print axis, order, low, high, verdict }' "$1"
 }
 
+# The numbers of the keys $3 in each row of table $2 in JSON $1, one a line; "-" for null.
+in_json() {
+    awk -F'[:,]' -v table="\"$2\": [" -v keys=" $3 " '{ sub(/^ */, "") }
+        index($0, table) == 1 { on = !/\[\]/ } /^\],?$/ { on = 0 }
+        on { gsub(/"/, "", $1); gsub(/ /, "", $2) }
+        on && index(keys, " " $1 " ") { print $2 == "null" ? "-" : $2 }' "$1"
+}
+
+# The numbers in the rows of the table of the text $1 whose title begins with $2, one a line, without
+# names and sizes.
+in_table() {
+    awk -v title="$2" 'index($0, title) == 1 { on = 1; next } !NF { on = 0 }
+        on && on++ > 1 { $1 = ""; gsub(/[a-zA-Z]+ = [^ ]+/, ""); gsub(/[][,]/, " "); print }' "$1" |
+        tr -s ' ' '\n' | grep -E '^(-|-?[0-9.]+(e[-+][0-9]+)?)$'
+}
+
+# The numbers of the answer $1 that the table $2 has, too; those in % over 100.
+in_answer() {
+    tr '\n' ' ' <"$1" | tr -s ' ' | grep -oE "$2" | tr -d '[],;:' |
+        awk '{ for (i = 1; i <= NF; i++) if ($i ~ /^-?[0-9]/) print $i (($(i + 1) == "%") ? " 100" : "") }'
+}
+
+# Fails where a printed number of $1 ("NUMBER" or "NUMBER FACTOR") is not that in the same line of $2.
+agree() { # PRINTED EXACT
+    paste -d' ' "$1" "$2" | awk '{ exact = $NF * (NF == 3 ? $2 : 1); at = index($1, "e")
+        digits = at ? substr($1, 1, at - 1) : $1; point = index(digits, ".")
+        last = 10 ^ ((at ? substr($1, at + 1) : 0) - (point ? length(digits) - point : 0))
+        off = $1 - exact; if (off < 0) off = -off
+        if (NF < 2 || ($1 == "-") != ($NF == "-") || !(off <= 0.500001 * last)) print }'
+    [ -s "$1" ] || echo "found no number"
+}
+
+# What the joint fit, or the limits, say in the text, in the JSON and in the table.
+details() { # NAME
+    case $1 in
+    grid | hidden)
+        in_json all.json joint "order_h order_h_low order_h_high order_k order_k_low order_k_high \
+            c_h c_k rows misfit" | grep -v '^-$' >exact
+        in_table text "Joint fit" | grep -v '^-$' >shown
+        agree shown exact >why
+        report "$1" "the table of joint fits is that in JSON"
+        in_json all.json joint "order_h order_h_low order_h_high order_k order_k_low order_k_high \
+            rows misfit" | grep -v '^-$' >exact
+        in_answer text 'order in [hk] -?[0-9.]+ \[-?[0-9.]+, -?[0-9.]+\]|fit of [0-9]+ rows|misfit [^ ]+ %' >shown
+        agree shown exact >why
+        report "$1" "the answer states that joint fit"
+        ;;
+    values | both)
+        in_json all.json limits "limit low high p gci_fine gci_coarse asymptotic" >exact
+        in_table text "Limits of values" >shown
+        agree shown exact >why
+        report "$1" "the table of limits is that in JSON"
+        if [ "$1" = values ]; then
+            in_json all.json limits "limit low high p gci_fine asymptotic" >exact
+        else
+            in_json all.json limits "limit low high" | tail -3 >exact
+        fi
+        in_answer text 'limit [^ ]+ \[[^ ]+, [^ ]+\]|, p = [0-9.]+|GCI [^ ]+ %, asymptotic [0-9.]+' >shown
+        agree shown exact >why
+        report "$1" "the answer states that limit"
+        ;;
+    esac
+}
+
 compare() { # NAME EXPECTATION OPTION...
     name=$1 expect=$2
     shift 2
@@ -53,6 +118,7 @@ compare() { # NAME EXPECTATION OPTION...
     cases_of case.json >cases && as_printed answer cases >from_cases
     diff answer from_cases >why
     report "$name" "the verdict is on the order of the answer"
+    details "$name"
     : >why
     while read -r _ order low high outcome; do
         grep -qE "(^| )$outcome( |\$)" verdict || echo "no row of $outcome" >>why
@@ -84,6 +150,9 @@ awk 'BEGIN { print "n k l2"
         printf "%d %g %.5e\n", n, k, 1e-6 / n ^ 2 + .3 * k }' >hidden.txt
 awk 'BEGIN { print "n drag"
     for (n = 10; n < 200; n *= 2) printf "%d %.9g\n", n, 1.5 + 3 / n ^ 2 * (1 + 3 / n) }' >values.txt
+awk 'BEGIN { print "n k drag"
+    for (n = 10; n < 200; n *= 2) for (k = .1; k > .01; k /= 2)
+        printf "%d %g %.9g\n", n, k, 1.5 + 3 / n ^ 2 * (1 + 3 / n) + k }' >both.txt
 
 echo 'TAP version 13'
 failed=
@@ -91,5 +160,6 @@ compare line 'l2: h 2 +- 0.1'
 compare grid 'l2: h 2 +- 0.1, k 1 +- 0.1'
 compare hidden 'l2: h 2 +- 0.1, k 1 +- 0.1'
 compare values 'drag: h 2 +- 0.1' --value drag
+compare both 'drag: h 2 +- 0.1, k 1 +- 0.1' --value drag
 echo "1..$number"
 [ -z "$failed" ]

@@ -569,6 +569,47 @@ TEST(test_coverage)
 
 /* ---- bad input ---- */
 
+/* Means of values that do not change, and of values that fall to 1: no word of divergence, and the
+ * limit is within its interval. Each value is known to +- half. */
+TEST(test_scatter)
+{
+    enum { TRIALS = 1000 };
+    static const double slopes[] = {0, 0.02, 2};
+    struct br_test_random random = {20261231};
+    for (size_t s = 0; s < 3; s++)
+        for (size_t count = 3; count < 7; count++) {
+            size_t scatter = 0, diverges = 0, stated = 0, right = 0;
+            for (int trial = 0; trial < TRIALS; trial++) {
+                double h[6], value[6], half[6];
+                struct br_limits limits;
+                for (size_t i = 0; i < count; i++) {
+                    double sum = -6; /* of deviation 1 */
+                    for (int j = 0; j < 12; j++)
+                        sum += br_test_uniform(&random, 0, 1);
+                    h[i] = ldexp(1, -(int)i);
+                    half[i] = 1.96 * 0.05;
+                    value[i] = 1 + slopes[s] * h[i] + 0.05 * sum;
+                }
+                MUST(br_limits_find(h, value, half, count, 1, &limits, &err));
+                const struct br_grid_limit *l = &limits.limit;
+                scatter += l->sequence == BR_SEQUENCE_SCATTER;
+                diverges += l->sequence == BR_MONOTONE_DIVERGENCE ||
+                            l->sequence == BR_OSCILLATORY_DIVERGENCE;
+                stated += isfinite(l->value.low);
+                right += l->value.low <= 1 && 1 <= l->value.high;
+                for (size_t i = 0; i < limits.triples; i++)
+                    if (fabs(value[i + 1] - value[i]) <= hypot(half[i], half[i + 1]))
+                        IS_NAN(limits.triple[i].fine.index);
+                br_limits_clear(&limits);
+            }
+            assert_true(s < 2 ? scatter > 0.98 * TRIALS : scatter < 0.01 * TRIALS);
+            assert_true(diverges < 0.01 * TRIALS && stated > 0.98 * TRIALS);
+            if (!((double)right >= 0.93 * (double)stated))
+                fail_msg("%zu values, slope %g: %zu of %zu intervals hold the limit", count,
+                         slopes[s], right, stated);
+        }
+}
+
 TEST(test_bad_input)
 {
     static const struct {
@@ -608,7 +649,8 @@ TEST(test_bad_input)
         const size_t count = few[i].count;
         const double formal = few[i].formal;
         REFUSED(br_least_squares(h, v, count, formal, &r, &err), BR_BAD_INPUT, few[i].message);
-        REFUSED(br_limit_of_values(h, v, NULL, count, formal, &l, &err), BR_BAD_INPUT, few[i].message);
+        REFUSED(br_limit_of_values(h, v, NULL, count, formal, &l, &err), BR_BAD_INPUT,
+                few[i].message);
     }
     REFUSED(br_gci(h, v, 2, &g, &err), BR_BAD_INPUT, "2 grids, expected at least 3");
 }

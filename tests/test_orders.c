@@ -1013,6 +1013,14 @@ TEST(test_limit_of_a_grid)
         half += fmax(e.high - finest, finest - e.low);
     }
     CLOSE(of->limit.value.high - of->limit.value.low, 2 * half, 1e-3);
+    /* Without the finest cell, from the one beside it. */
+    static char missing[MOST_TEXT];
+    snprintf(missing, sizeof missing, "%s", grid_of(5, 6, value_of_both));
+    strcpy(strrchr(missing, ',') + 1, "-\n");
+    find(missing, "l2");
+    of = &found.orders.of[0];
+    CLOSE(of->limit.value.value, 5, 1e-9);
+    assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
     find("h,l2\n1,0\n.5,1\n.25,2\n.125,3.000000001\n.0625,4\n", "l2");
     assert_true(isnan(found.orders.of[0].limit.value.value));
     find(grid_of(5, 5, logarithm), "l2");

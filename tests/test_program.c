@@ -328,9 +328,13 @@ TEST(test_places)
     assert_string_equal(numbers.column[BR_AXIS_SPACE]->name, "dofs");
     for (int i = 0; i < 4; i++) {
         const struct br_numbers_row *row = &numbers.row[i];
-        if (i == 2) { /* placed beside its neighbours: the size of its level, times theirs */
+        if (i == 2) { /* it stands between its neighbours, but states no size */
+            char name[64];
             assert_non_null(strstr(row->failure, "exit code 3"));
             CLOSE(row->z[0], ldexp(numbers.row[1].z[0], -8), 1e-15);
+            assert_true(isnan(row->given[0]));
+            br_numbers_name(&numbers, row, BR_AXIS_SPACE, name);
+            assert_string_equal(name, "the run of level = 16");
             continue;
         }
         CLOSE(row->given[0], list[i] * list[i] + 1, 0);

@@ -8,6 +8,7 @@
 
 enum {
     PAIRS = 3,  /* differences at least: an order needs three */
+    FINER = 8,  /* sizes at most, before these: */
     LARGER = 4, /* time steps that are kept for the end */
     CHEAP = 10, /* elements of the mesh for differences in k, at most */
     BESIDE = 60 /* elements' worth of what a step takes beside its elements */
@@ -153,16 +154,27 @@ enum br_status br_apart_meshes(struct br_apart *a, struct br_report *report, siz
     return BR_OK;
 }
 
-/* Sets the orders along an axis; settled: out. */
+/* Sets the orders along an axis; settled: out. larger: the sizes that have come last; they may
+ * settle an order, and then it is taken, but they take none away. */
 static enum br_status see(const struct br_apart *a, struct br_report *report, size_t norms,
-                          enum br_axis axis, bool *settled, struct br_error *err)
+                          enum br_axis axis, bool larger, bool *settled, struct br_error *err)
 {
     *settled = true;
     for (size_t m = 0; m < norms; m++) {
         const struct br_study *over = &a->of[m].over[axis];
+        struct br_seen_order before[BR_PARTS];
+        for (int part = 0; part < BR_PARTS; part++)
+            before[part] = report[m].seen[part][axis];
         report[m].apart[axis] = over->cell ? over : NULL;
         if (over->cell && br_report_see_orders(&report[m], axis, err))
             return err->status;
+        for (int part = 0; part < BR_PARTS && larger; part++) {
+            struct br_seen_order *o = &report[m].seen[part][axis];
+            const struct br_estimate *old = &before[part].order, *new = &o->order;
+            if (br_order_determined(old) && !br_seen_settles(o) &&
+                !(new->high - new->low < old->high - old->low))
+                *o = before[part];
+        }
         *settled = *settled && br_report_settles(&report[m], axis);
     }
     return BR_OK;
@@ -174,25 +186,26 @@ enum br_status br_apart_settle(struct br_apart *a, struct br_report *report, siz
 {
     const struct br_study *s = report->study;
     struct br_error why = axis == BR_AXIS_SPACE ? a->no_meshes : (struct br_error){0};
+    const size_t most = a->first[axis] + FINER;
     bool settled = false;
     double left = 0;
     for (size_t c = 0; c < br_study_cells(s); c++)
         left += work_of(s->cell[c].at.n, s->cell[c].at.steps);
     left = fmax(left, no_matter);
-    enum br_status status = see(a, report, norms, axis, &settled, err);
+    enum br_status status = see(a, report, norms, axis, false, &settled, err);
     while (!status && !settled && !why.status) {
         const size_t end = a->end[axis], first = a->first[axis];
         size_t from = end ? end - 1 : first, to = end ? end + 1 : first + PAIRS + 2;
-        for (size_t i = from; i + 1 < to && to <= BR_APART_SIZES; i++)
+        for (size_t i = from; i + 1 < to && to <= most; i++)
             left -= work_of_pair(a, axis, i);
-        if (to > BR_APART_SIZES || left < 0) {
+        if (to > most || left < 0) {
             if (first == 0 || end == 0)
                 break;
             from = first - 1, to = first + 1;
         }
         status = compare(a, report, norms, axis, from, to, threads, observer, &why, err);
         if (!status)
-            status = see(a, report, norms, axis, &settled, err);
+            status = see(a, report, norms, axis, from < first, &settled, err);
     }
     return status;
 }

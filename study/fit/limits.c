@@ -20,7 +20,7 @@ static bool agree(const double *value, const double *half, size_t count)
     }
     for (size_t i = 0; i < count; i++)
         squares += pow(normal95 * (value[i] - mean) / half[i], 2);
-    return squares <= gsl_cdf_chisq_Pinv(0.95, (double)count - 1); /* NaN: no means */
+    return squares <= gsl_cdf_chisq_Pinv(0.99, (double)count - 1); /* NaN: no means */
 }
 
 /* Names a sequence that shows its scatter alone. */
@@ -48,6 +48,23 @@ static void leave_scatter(struct br_gci *gci, const double *half)
             NAN;
 }
 
+/* By how much the uncertainty of three means changes as each goes to the ends of its interval; NaN:
+ * there they do not converge. */
+static double carried(const double *h, const double *value, const double *half, double uncertainty)
+{
+    double squares = 0;
+    for (int i = 0; i < 6; i++) {
+        double moved[3] = {value[0], value[1], value[2]};
+        struct br_error why;
+        struct br_gci gci;
+        moved[i / 2] += i % 2 ? half[i / 2] : -half[i / 2];
+        if (br_gci(h, moved, 3, &gci, &why))
+            return NAN;
+        squares += pow(gci.fine.uncertainty - uncertainty, 2) / 2;
+    }
+    return sqrt(squares);
+}
+
 enum br_status br_limit_of_values(const double *h, const double *value, const double *half,
                                   size_t count, double formal, struct br_grid_limit *limit,
                                   struct br_error *err)
@@ -70,6 +87,10 @@ enum br_status br_limit_of_values(const double *h, const double *value, const do
         *limit = (struct br_grid_limit){
             {gci.fine.limit, NAN, NAN}, gci.order, BR_LIMIT_GCI, gci.sequence};
         uncertainty = gci.fine.uncertainty;
+        if (half && isfinite(uncertainty)) {
+            uncertainty += carried(h, value, half, uncertainty);
+            limit->sequence = isnan(uncertainty) ? BR_SEQUENCE_UNKNOWN : limit->sequence;
+        }
     }
     const double finest = value[count - 1], own = half && half[count - 1] > 0 ? half[count - 1] : 0;
     if (limit->sequence == BR_MONOTONE_CONVERGENCE && !(limit->order >= least_order))

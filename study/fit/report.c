@@ -356,9 +356,7 @@ static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
     return judge_line(o, &l, part, err);
 }
 
-/* Whether an order is known to a tenth either way, and is the one of theory. Another one needs all
- * steps that can be had: errors may fall evenly for a while by an order that is not theirs. */
-static bool settles(const struct br_seen_order *o)
+bool br_seen_settles(const struct br_seen_order *o)
 {
     return br_order_determined(&o->order) && width_of(&o->order) <= 2 * near * o->order.value &&
            agrees(o);
@@ -372,10 +370,10 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     const struct br_study *s = br_report_fitted(r);
     struct br_seen_order apart = *o;
     enum br_status status = see_in_grid(r, part, o, err);
-    if (status || !r->apart[BR_AXIS_TIME] || settles(o))
+    if (status || !r->apart[BR_AXIS_TIME] || br_seen_settles(o))
         return status;
     status = see_apart(r->apart[BR_AXIS_TIME], part, BR_AXIS_TIME, &apart, err);
-    if (isnan(o->order.value) || settles(&apart) || width_of(&apart.order) < width_of(&o->order))
+    if (isnan(o->order.value) || br_seen_settles(&apart) || width_of(&apart.order) < width_of(&o->order))
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 16 * s->steps[s->k_count - 1];
@@ -389,7 +387,7 @@ bool br_report_settles(const struct br_report *r, enum br_axis axis)
 {
     bool all = true;
     for (enum br_part part = 0; part < BR_PARTS; part++)
-        all = all && (!r->seen[part][axis].asked || settles(&r->seen[part][axis]));
+        all = all && (!r->seen[part][axis].asked || br_seen_settles(&r->seen[part][axis]));
     return all;
 }
 

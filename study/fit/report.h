@@ -58,6 +58,10 @@ struct br_study *br_report_fitted(const struct br_report *report);
 enum br_status br_report_see_orders(struct br_report *report, enum br_axis axis,
                                     struct br_error *err);
 
+/* Whether an order is known to a tenth either way, and is the one of theory. Another one needs all
+ * steps that can be had: errors may fall evenly for a while by an order that is not theirs. */
+bool br_seen_settles(const struct br_seen_order *order);
+
 /* Whether all orders in h, or in k, that are asked for are known to a tenth either way, the usual
  * tolerance of a check, and are as in theory. */
 bool br_report_settles(const struct br_report *report, enum br_axis axis);

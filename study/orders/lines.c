@@ -33,13 +33,6 @@ static double z_of(const struct br_numbers *numbers, size_t row, enum br_axis ax
     return numbers->row[row].z[axis];
 }
 
-/* "n = 40", with the number as given. */
-static void name_size(const struct br_numbers *numbers, size_t row, enum br_axis axis,
-                      char text[64])
-{
-    snprintf(text, 64, "%s = %.6g", numbers->column[axis]->name, numbers->row[row].given[axis]);
-}
-
 static const char *failure_of(const struct br_numbers_row *row, double number)
 {
     return row->failure ? row->failure : isnan(number) ? "has no number" : "";
@@ -98,7 +91,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
         p.rounding = hypot(p.rounding, rounding_of(o, quantity, finer));
     }
-    name_size(numbers, named, line->axis, p.label);
+    br_numbers_name(numbers, &numbers->row[named], line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
     p.deviation = p.deviation > 0 ? p.deviation : 0; /* NaN: it is no mean */
     p.flag = *failure       ? BR_FLAG_FAILED
@@ -179,7 +172,7 @@ static enum br_status add_line(const struct br_orders *o, struct br_quantity_ord
     for (size_t i = 0; i < rows; i++)
         line->row[i] = sorted[i].row;
     if (numbers->column[other(axis)] && !o->tied)
-        name_size(numbers, line->row[0], other(axis), line->at);
+        br_numbers_name(numbers, &numbers->row[line->row[0]], other(axis), line->at);
     const enum br_status status = make_points(o, of->quantity, line, rows, err);
     if (status)
         return status;

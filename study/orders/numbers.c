@@ -47,6 +47,15 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
     return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
 }
 
+void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                     enum br_axis axis, char text[64])
+{
+    const bool by_list = isnan(row->given[axis]) && numbers->listed[axis];
+    snprintf(text, 64, "%s%s = %.6g", by_list ? "the run of " : "",
+             (by_list ? numbers->listed : numbers->column)[axis]->name,
+             (by_list ? row->listed : row->given)[axis]);
+}
+
 const char *br_list_next(const char *list, const char **name, size_t *length)
 {
     *name = list + strspn(list, " ");
@@ -193,12 +202,12 @@ enum { SOURCE = 400 };
 static void name_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      const char *path, char text[SOURCE])
 {
-    const int axis = numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
+    char size[64];
+    br_numbers_name(numbers, row, numbers->column[0] ? BR_AXIS_SPACE : BR_AXIS_TIME, size);
     if (row->line)
         snprintf(text, SOURCE, "%.300s:%zu", path, row->line);
     else
-        snprintf(text, SOURCE, "%.300s: %s = %.6g", path, numbers->column[axis]->name,
-                 row->given[axis]);
+        snprintf(text, SOURCE, "%.300s: %s", path, size);
 }
 
 static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
@@ -208,7 +217,8 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
     name_row(numbers, row, path, source);
     for (int axis = 0; axis < BR_AXES; axis++) {
         const struct br_resolution_column *column = numbers->column[axis];
-        const double given = row->given[axis], z = row->z[axis];
+        const double z = row->z[axis];
+        const double given = row->failure && isnan(row->given[axis]) ? 1 : row->given[axis];
         if (column && !((given > 0 || (column->is_power && given >= 0)) && isfinite(given)))
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
                            column->name, given);
@@ -284,7 +294,7 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         bool equal = true;
         for (int axis = 0; axis < BR_AXES; axis++)
             equal &= !numbers->column[axis] || a->z[axis] == b->z[axis];
-        if (!equal)
+        if (!equal || a->failure || b->failure)
             continue;
         char source[SOURCE];
         name_row(numbers, b, path, source);
@@ -309,9 +319,10 @@ enum br_status br_numbers_check_runs(const struct br_numbers *numbers, struct br
             first = first ? first : &numbers->row[i];
             failed++;
         }
-    const int axis = numbers->column[BR_AXIS_SPACE] ? BR_AXIS_SPACE : BR_AXIS_TIME;
-    return failed ? br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s = %.6g: %s",
-                            failed, numbers->rows, numbers->column[axis]->name, first->given[axis],
-                            first->failure)
-                  : BR_OK;
+    char size[64];
+    if (!failed)
+        return BR_OK;
+    br_numbers_name(numbers, first, numbers->column[0] ? BR_AXIS_SPACE : BR_AXIS_TIME, size);
+    return br_fail(err, BR_NOT_FINITE, "%zu of %zu runs failed; the first, %s: %s", failed,
+                   numbers->rows, size, first->failure);
 }

@@ -40,7 +40,9 @@ double br_numbers_rounding(const struct br_quantity *quantity, double number);
 
 /* One run of the program that made the numbers. */
 struct br_numbers_row {
-    double given[BR_AXES]; /* as the source has it; NaN: no such column */
+    double given[BR_AXES]; /* as the source has it; NaN: no such column, or a run that failed before
+                              it stated its size: z is then about its place */
+    double listed[BR_AXES]; /* of a run: as its list has it */
     double z[BR_AXES];     /* size of elements and steps, in a unit of the source; NaN: none */
     double *number;        /* by quantity; NaN: missing; owned */
     double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
@@ -58,6 +60,7 @@ enum { BR_MOST_ROWS = 10000, BR_MOST_SIZES = 1000 /* along an axis */ };
 
 struct br_numbers {
     const struct br_resolution_column *column[BR_AXES]; /* NULL: that axis is not refined */
+    const struct br_resolution_column *listed[BR_AXES]; /* of runs: that of their list */
     char *unit[BR_AXES];                                /* of the numbers; NULL; owned */
     struct br_quantity *quantity;                       /* owned */
     size_t quantities;
@@ -80,6 +83,10 @@ enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *n
 
 /* From coarse to fine, first over space. */
 void br_numbers_sort(struct br_numbers *numbers);
+
+/* "n = 40", with the number as given; "the run of n = 40" where a run did not state its size. */
+void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
+                     enum br_axis axis, char text[64]);
 
 /* z of a number of the column. */
 double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);

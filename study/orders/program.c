@@ -394,10 +394,11 @@ static enum br_status make_rows(const struct br_orders_request *p, struct br_num
         struct br_numbers_row *row = &numbers->row[r];
         row->repeat = repeat > 1 ? r % repeat + 1 : 0;
         for (int i = 0; i < BR_AXES; i++) {
-            const struct br_resolution_column *column = numbers->column[i] = p->axis[i].column;
+            const struct br_resolution_column *column = p->axis[i].column;
+            numbers->listed[i] = numbers->column[i] = column;
             if (!column)
                 continue;
-            row->given[i] = p->axis[i].given[at[i]];
+            row->listed[i] = row->given[i] = p->axis[i].given[at[i]];
             row->z[i] = br_numbers_z(column, row->given[i], br_orders_dimension(p, column));
         }
     }
@@ -442,8 +443,8 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     return status;
 }
 
-/* Takes the sizes that the runs state. A run that failed states none: its size is that of its list,
- * times what the run before it has; where all failed, that of its list. */
+/* Takes the sizes that the runs state. A run that failed states none: it stands where its list puts
+ * it, times what the run before it has; where all failed, where its list puts it. */
 static void take_stated_sizes(const struct br_orders_request *p, struct br_numbers *n, int axis)
 {
     const struct br_resolution_column *stated = n->column[axis], *list = p->axis[axis].column;
@@ -460,8 +461,8 @@ static void take_stated_sizes(const struct br_orders_request *p, struct br_numbe
         double z = stated == list ? listed : br_numbers_z(stated, row->given[axis], n->dimension);
         factor = isnan(z) ? factor : z / listed;
         row->z[axis] = z = isnan(z) ? listed * factor : z;
-        if (isnan(row->given[axis]))
-            row->given[axis] = br_numbers_given(stated, z, n->dimension);
+        if (stated == list)
+            row->given[axis] = row->listed[axis];
     }
 }
 
