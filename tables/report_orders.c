@@ -55,12 +55,6 @@ static void say_rates(struct br_document *d, const struct br_orders_line *line)
     }
 }
 
-/* Whether the answer of a value has p, which then states the assumed dimension. */
-static bool says_p(const struct br_orders *o, const struct br_quantity_orders *of)
-{
-    return quantity_of(o, of)->is_value && of->lines == 1 && isfinite(of->line[0].gci.fine.index);
-}
-
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -75,7 +69,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
                 none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
-    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE && !says_p(o, of))
+    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
         br_put_more(d, " (--value, if its limit is not known)");
@@ -162,7 +156,7 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
                     br_interval_text(&limit->value, (char[128]){0}, 128));
     else
         br_put_more(d, "%sno limit", separator(first));
-    if (says_p(o, of)) {
+    if (quantity_of(o, of)->is_value && of->lines == 1 && isfinite(g->fine.index)) {
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
             say_dimension(d, o, g->order);

@@ -1484,6 +1484,18 @@ static const struct planted_bug planted_bugs[] = {
      "ratio >= 0.95 && ratio <= 2"},
     {"wider_band_unsaid", "lost", "study/verify/comparison.c", "tests/test_report_values",
      "fmax(e->order, e->highest) + e->tolerance, 1)", "e->order + e->tolerance, 1)"},
+    {"files_of_readings_keep_braces", "lost", "study/orders/program_words.c",
+     "tests/test_program test_places", "        if (*s->rest != '{')\n", "        if (*s->rest)\n"},
+    {"large_numbers_are_cut", "tolerance", "study/orders/numbers.c", "tests/test_orders test_given",
+     "fmin(1e-9 * given, 0.1)", "1e-9 * given"},
+    {"tiny_numbers_are_zero", "lost", "study/base/words.c", "tests/test_orders test_refused_tables",
+     "errno == ERANGE && *value == 0;", "false;"},
+    {"dimension_beside_p_alone", "lost", "tables/report_orders.c", "golden orders_cells",
+     "!none && o->numbers->assumed && axis == BR_AXIS_SPACE", "none && o->numbers->assumed"},
+    {"farthest_name_unsaid", "lost", "study/base/words.c",
+     "tests/test_suggestions methods_and_varied_keys", "best + !nearest", "best"},
+    {"units_of_any_dimension_suggested", "unit", "study/scene/units.c", "tests/test_suggestions units",
+     "br_unit_read(whole, &unit) && br_dimension_is(unit.of, of)", "br_unit_read(whole, &unit)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

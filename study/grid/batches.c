@@ -35,10 +35,15 @@ double br_reference_cost(const struct br_study *s)
            sample_fine_ns * (double)levels * (double)s->reference.n;
 }
 
+double br_measure_cost(size_t n)
+{
+    return measure_ns * (double)n;
+}
+
 double br_cell_cost(const struct br_study *s, size_t cell)
 {
     const struct br_resolution at = br_study_resolution(s, cell);
-    return (br_method_cost(br_study_method(s, cell), s->scene, at.n) + measure_ns * (double)at.n) *
+    return (br_method_cost(br_study_method(s, cell), s->scene, at.n) + br_measure_cost(at.n)) *
            (double)at.steps;
 }
 
