@@ -409,8 +409,6 @@ static const struct planted_bug planted_bugs[] = {
      "axial ? root / h :", "axial ? 1.015 * root / h :"},
 
     /* ---- what the certificate of a march sees, and an order may not ---- */
-    {"estimate_of_another_order", "order", "solver/scheme.c", "tests/test_schemes scheme_orders",
-     ".estimate_order = 4,", ".estimate_order = 3,"},
     {"row_of_another_order", "order", "solver/scheme.c", "tests/test_schemes scheme_orders",
      ".order = 2,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},",
      ".order = 3,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},"},
@@ -900,8 +898,6 @@ static const struct planted_bug planted_bugs[] = {
      "br_axis_size(l->study->scene, axis, c->at);", "br_axis_size(l->study->scene, axis, l->study->cell->at);"},
     {"a_printed_grid_is_refined", "printed", "study/fit/report.c", "tests/test_seen_orders",
      "if (!agrees(o) && !r->printed) {", "if (!agrees(o)) {"},
-    {"stopped_keeper_is_left", "lost", "study/orders/process.c",
-     "tests/test_program test_stopped_keeper", "kill(p->keeper, SIGCONT);", ";"},
     {"branch_of_the_last_stage", "law", "reference/certificate/step_checker.c",
      "tests/test_watched test_one_branch",
      "f->branch[i] = br_worse_of(distance[i], f->branch[i]);", "f->branch[i] = distance[i];"},
