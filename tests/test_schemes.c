@@ -62,8 +62,7 @@ static double size_of(enum br_field_kind kind, const struct state *a)
 
 /* ---- what a row claims ---- */
 
-/* y' = rate y + sin t by the stages of a scheme, from y = 1 in `steps` steps to `end`. *estimate
- * (out): the last step's own. */
+/* y' = rate y + sin t by the stages of a scheme, from y = 1 in `steps` steps to `end`. */
 static double scalar(const struct br_time_scheme *scheme, double rate, double end, size_t steps)
 {
     const double k = end / (double)steps;
