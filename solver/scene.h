@@ -57,6 +57,11 @@ struct br_contact {
     double stiffness; /* c_H, N/m */
 };
 
+/* The stiffness, N/m, of a contact whose force is c_H (u - g)_+; NaN where a law is not linear in
+ * u - g. All that holds for a linear force alone asks for it: closed forms, exact and given
+ * solutions, certificates, energies. They refuse NaN, or pass it on to a check that fails. */
+double br_contact_stiffness(const struct br_contact *contact);
+
 enum br_friction_law { BR_FRICTIONLESS, BR_TRESCA, BR_COULOMB };
 
 /* Friction (12); the bound h(t) is c_V (Tresca) or c_V (u(L,t) - g)_+ (Coulomb). */

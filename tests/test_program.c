@@ -846,7 +846,7 @@ TEST(test_killed_keeper)
     assert_true(child >= 0);
     if (child == 0)
         _exit(br_program_run(&p, &numbers, &err) == BR_IO &&
-                      strstr(err.message, "what watched a program was killed")
+                      strstr(err.message, "the process that watches a program was killed")
                   ? 0
                   : 1);
     shell("for i in $(seq 1000); do [ -e left.keeper ] && exit 0; sleep 0.01; done; exit 1");

@@ -148,7 +148,7 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
     if (end.known)
         return BR_OK;
     br_remove_folder(end.folder);
-    return br_fail(err, BR_IO, "what watched a program was killed");
+    return br_fail(err, BR_IO, "the process that watches a program was killed");
 }
 
 /* ---- its output ---- */
@@ -435,7 +435,7 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     }
     if (!status && !numbers->quantities)
         status =
-            br_fail(err, BR_BAD_INPUT, "found no reading but of resolutions, expected a number");
+            br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
@@ -495,6 +495,7 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             free(other->number);
             free(other->failure);
         }
+        row.repeat = repeat;
         row.seconds /= (double)repeat;
         row.wall /= (double)repeat;
         n->row[n->rows++] = row;

@@ -112,8 +112,9 @@ static enum br_status add_law(const struct br_scene *s, enum br_field_kind kind,
 {
     struct br_tree_builder b = {0};
     struct br_tree tree;
-    const unsigned force =
-        kind == BR_AXIAL ? pressed(&b, s, &p->u, s->contact.stiffness) : friction(&b, s, p);
+    const unsigned force = kind == BR_AXIAL
+                               ? pressed(&b, s, &p->u, br_contact_stiffness(&s->contact))
+                               : friction(&b, s, p);
     const unsigned sum = br_tree_node(&b, BR_OP_ADD, graft(&b, &p->stress, BR_NO_NODE), force, 0);
     const enum br_status status = br_tree_finish(&b, sum, &tree, err);
     return status ? status : br_tree_function(&tree, f, err);
