@@ -1485,6 +1485,8 @@ static const struct planted_bug planted_bugs[] = {
      "if (!p->columns || width <= p->columns) {", "if (width >= 0) {"},
     {"messages_are_not_wrapped", "lost", "tables/markup.c", "tests/test_document test_width",
      "if (wraps)", "if (!p->out)"},
+    {"digits_of_a_hexadecimal_number", "lost", "study/orders/program_reading.c",
+     "tests/test_program test_exponents", "strchr(text, 'x') || strchr(text, 'X') ? NULL : ", ""},
     {"farthest_name_unsaid", "lost", "study/base/words.c",
      "tests/test_suggestions methods_and_varied_keys", "best + !nearest", "best"},
     {"units_of_any_dimension_suggested", "unit", "study/scene/units.c", "tests/test_suggestions units",
