@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "solver/scene.h"
 #include "study/extremes/extremes.h"
 
 /* ---- floors: deviation over n, or over N ---- */

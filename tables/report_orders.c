@@ -150,7 +150,7 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, bool *first)
 {
     const struct br_grid_limit *limit = &of->limit;
-    const struct br_gci *g = &of->line[0].gci;
+    const struct br_gci *g = &of->line[0].limits.gci;
     if (isfinite(limit->value.low))
         br_put_more(d, "%slimit %s", separator(first),
                     br_interval_text(&limit->value, (char[128]){0}, 128));
@@ -170,16 +170,16 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    const struct br_estimate *limit = &line->limit.value, *other = &line->first_order.value;
+    const struct br_estimate *limit = &line->limits.limit.value, *other = &line->limits.first_order.value;
     char text[128];
     if (!quantity_of(o, of)->is_value || of->lines != 1)
         return;
-    if (br_gci_is_far(&line->gci, o->formal))
+    if (br_gci_is_far(&line->limits.gci, o->formal))
         br_put_more(d,
                     " p is far from the formal order %g%s: with the limits of Oberkampf and Roy "
                     "(2010) the GCI is %.2g %%.",
                     o->formal, o->assumed_formal ? " (assumed)" : "",
-                    100 * br_gci_limited(&line->gci, o->formal));
+                    100 * br_gci_limited(&line->limits.gci, o->formal));
     if (o->assumed_formal && isfinite(other->low) &&
         (other->low != limit->low || other->high != limit->high))
         br_put_more(d, " Formal order 2 assumed; --formal-order 1 gives %s.",
@@ -326,8 +326,8 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
-            for (size_t t = 0; t < line->triples && line->triples > 1; t++) {
-                const struct br_gci *g = &line->triple[t];
+            for (size_t t = 0; t < line->limits.triples && line->limits.triples > 1; t++) {
+                const struct br_gci *g = &line->limits.triple[t];
                 BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
                            br_number(line->finest_of[t]), br_number(g->order),
@@ -479,8 +479,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_grid_limit *limit = &line->limit;
-            const struct br_gci *g = &line->gci;
+            const struct br_grid_limit *limit = &line->limits.limit;
+            const struct br_gci *g = &line->limits.gci;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));

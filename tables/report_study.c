@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "reference/exact/exact.h"
+#include "solver/scene.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "solver/march.h"
+#include "solver/scene.h"
 #include "study/known/expression.h"
 #include "study/known/operations.h"
 #include "support.h"

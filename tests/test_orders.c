@@ -17,7 +17,7 @@ static struct br_error err;
 /* Which columns of a table are read. */
 struct columns {
     const char *errors, *values;
-    double dimension; /* 2: nobody states it */
+    double dimension;  /* 2: nobody states it */
     const char *names; /* as --column has them */
 };
 static const struct columns plain = {NULL, NULL, 2, NULL};
@@ -212,12 +212,12 @@ static const struct {
     {"Row \u2502 N      L2\n     \u2502 Int64  Float64\n\u2500\u2500\u253c\u2500\u2500\n"
      "   1 \u2502     8  1.6\n   2 \u2502    16  0.4\n   3 \u2502    32  0.1\n",
      "L2", 2, "h = 1/n from column N; errors: L2; left aside: Row", NULL},
-    {"shape: (3, 4)\n\u250c\u2500\u252c\u2500\u2510\n\u2502 h \u2506 l2 \u2506 h1 \u2506 s \u2502\n"
-     "\u2502 --- \u2506 --- \u2506 --- \u2506 --- \u2502\n"
-     "\u2502 f64 \u2506 f64 \u2506 f64 \u2506 str \u2502\n"
-     "\u2502 1 \u2506 1.6 \u2506 4 \u2506 a \u2502\n\u2502 .5 \u2506 .4 \u2506 2 \u2506 b \u2502\n"
-     "\u2502 .25 \u2506 .1 \u2506 1 \u2506 c \u2502\n",
-     "h1", 1, "h from column h; errors: l2, h1; left aside: s", NULL},
+    {"shape: (3, 3)\n\u250c\u2500\u252c\u2500\u2510\n\u2502 h \u2506 l2 \u2506 h1 \u2502\n"
+     "\u2502 --- \u2506 --- \u2506 --- \u2502\n"
+     "\u2502 f64 \u2506 f64 \u2506 f64 \u2502\n"
+     "\u2502 1 \u2506 1.6 \u2506 4 \u2502\n\u2502 .5 \u2506 .4 \u2506 2 \u2502\n"
+     "\u2502 .25 \u2506 .1 \u2506 1 \u2502\n",
+     "h1", 1, "h from column h; errors: l2, h1", NULL},
     {"# A tibble: 3 x 2\n     h    l2\n <dbl> <dbl>\n1 1 1.6\n2 .5 .4\n3 .25 .1\n", "l2", 2,
      "h from column h; errors: l2", NULL},
     /* a title above a heading that is a comment; sizes of three digits beside a level */
@@ -293,6 +293,8 @@ TEST(test_headings)
     CLOSE(n.row[2].z[BR_AXIS_SPACE], 1. / 512, 0);
     assert_true(n.assumed && n.dimension == 1);
     br_numbers_clear(&n);
+    refuse_with("N,e\n10,9\n100,3\n1000,1\n", &(struct columns){NULL, NULL, 3, NULL},
+                "--dimension: found no numbers of unknowns or cells among N, e;");
 }
 
 /* No verdict on a mesh whose dimension nobody stated. */
@@ -667,16 +669,16 @@ TEST(test_values)
                 assert_int_equal(line->observed.point[i].flag, BR_FLAG_NONE);
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
-            CLOSE(line->gci.order, p, 1e-8);
-            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
-            CLOSE(line->gci.fine.limit, 5, 1e-9);
-            assert_int_equal(line->triples, kind ? 4 : 3);
-            for (size_t i = 0; i < line->triples; i++) {
-                CLOSE(line->triple[i].order, p, 1e-8);
-                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+            CLOSE(line->limits.gci.order, p, 1e-8);
+            CLOSE(line->limits.gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
+            CLOSE(line->limits.gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->limits.triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->limits.triples; i++) {
+                CLOSE(line->limits.triple[i].order, p, 1e-8);
+                CLOSE(line->limits.triple[i].fine.limit, 5, 1e-9);
                 CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
             }
-            assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
+            assert_true(line->limits.limit.value.low <= 5 && line->limits.limit.value.high >= 5);
         }
 }
 
@@ -951,13 +953,13 @@ TEST(test_limit_of_a_grid)
     const struct br_quantity_orders *of = &found.orders.of[0];
     CLOSE(of->limit.value.value, 5, 1e-9);
     assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
-    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
+    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limits.limit.value.value, 5 - pow(2, -5), 1e-9);
     /* Both intervals, and the product at the finest sizes, which neither line shows alone. */
     find(grid_of(4, 4, with_a_product), "l2");
     of = &found.orders.of[0];
     double half = pow(2, -7);
     for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limit.value;
+        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limits.limit.value;
         const double finest = with_a_product(0.125, 0.125);
         half += fmax(e.high - finest, finest - e.low);
     }

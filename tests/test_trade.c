@@ -5,6 +5,7 @@
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
 #include "support.h"

@@ -211,10 +211,11 @@ static double least_error(const struct problem *problem)
 }
 
 /* Start values; for the constants the least errors at the largest h and at the largest k. */
-static void start_at(const struct problem *problem, double p, double r, double full[UNKNOWNS])
+static void start_at(const struct problem *problem, const double order[BR_AXES], double r,
+                     double full[UNKNOWNS])
 {
-    full[ORDER(BR_AXIS_SPACE)] = p;
-    full[ORDER(BR_AXIS_TIME)] = 1;
+    full[ORDER(BR_AXIS_SPACE)] = order[BR_AXIS_SPACE];
+    full[ORDER(BR_AXIS_TIME)] = order[BR_AXIS_TIME];
     full[THETA] = asin(r);
     full[DRIFT] = full[DRIFT + 1] = 0;
     full[LOG_F] = log(least_error(problem) / 2) - shift(problem, LOG_F, full);
@@ -312,11 +313,12 @@ static struct attempt attempt_from(const struct problem *problem, const double f
  * starts from that without them, too. */
 static struct attempt best_attempt(const struct problem *problem, const struct attempt *plain)
 {
-    static const double orders[] = {1, 2, 4}, correlations[] = {-0.9, 0, 0.9};
+    static const double orders[][BR_AXES] = {{1, 1}, {2, 1}, {4, 1}, {1, 4}, {4, 4}},
+                        correlations[] = {-0.9, 0, 0.9};
     struct attempt best = {.sum = INFINITY};
     double full[UNKNOWNS];
     if (plain) {
-        start_at(problem, 1, 0, full);
+        start_at(problem, orders[0], 0, full);
         for (size_t i = 0; i < problem->model->count; i++) {
             const int u = problem->model->unknown[i];
             full[u] = u < LOG_F ? plain->value[u] : full[u];
@@ -597,8 +599,9 @@ static size_t next_best(const struct candidate *candidate, const bool *done)
     return best;
 }
 
-/* Models whose criterion is within this of the best one's are not ruled out. */
-static const double not_ruled_out = 4;
+/* Models whose criterion is within this of the best one's are not ruled out (Burnham, Anderson and
+ * Huyvaert, Behavioral Ecology and Sociobiology 65, 23-35, 2011). */
+static const double not_ruled_out = 7;
 
 /* A misfit of all powers below this is round-off, and no extras explain it. */
 static const double exact = 1e-5;

@@ -9,7 +9,6 @@
  * is the mixture of all these distributions. */
 #include "study/fit/line_order.h"
 
-#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
@@ -56,6 +55,7 @@ static const double least_order = 0.25;
 struct family {
     enum br_law law;
     double s, low, high, prior;
+    double curve; /* of a second correction, b z^curve of either sign, which follows by regression */
 };
 
 #define NEXT_TERM(s, share)                              \
@@ -71,6 +71,8 @@ static const struct family families[] = {
     NEXT_TERM(2, 0.3),
     NEXT_TERM(3, 0.06),
     NEXT_TERM(4, 0.06),
+    {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
+    {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
     {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004},
     {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004},
     {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
@@ -95,6 +97,7 @@ struct rows {
     double *given;          /* the weight that is given, relative; 1: none is */
     double order;           /* of the regression over all rows */
     double *bent, *weight;  /* of a law: y - correction; relative to 1/sigma^2 */
+    double *curve;          /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
     double *log_density;    /* the part of the density of y that the weight does not cancel */
     double *least;          /* the smallest standard deviation in a window that begins here */
 };
@@ -221,12 +224,25 @@ static void normalise(struct mixture *all)
         all->part[i].weight /= used;
 }
 
+/* Student's distribution of whole freedom (Abramowitz and Stegun 1964, 26.7.3 and 26.7.4). */
+static double student_below(double t, double freedom)
+{
+    const double square = freedom / (freedom + t * t), sine = t / sqrt(freedom + t * t);
+    const bool odd = fmod(freedom, 2) > 0;
+    double term = odd ? sqrt(square) : 1, sum = 0;
+    for (double k = odd ? 3 : 2; k <= freedom; k += 2) {
+        sum += term;
+        term *= square * (k - 1) / k;
+    }
+    return 0.5 + (odd ? (atan(t / sqrt(freedom)) + sine * sum) / M_PI : sine * sum / 2);
+}
+
 static double probability_below(const struct mixture *all, double order)
 {
     double sum = 0;
     for (size_t i = 0; i < all->count; i++) {
         const struct part *p = &all->part[i];
-        sum += p->weight * gsl_cdf_tdist_P((order - p->mean) / p->scale, p->freedom);
+        sum += p->weight * student_below((order - p->mean) / p->scale, p->freedom);
     }
     return sum;
 }
@@ -237,7 +253,7 @@ static double quantile(const struct mixture *all, double share)
     double low = INFINITY, high = -INFINITY, least = INFINITY;
     for (size_t i = 0; i < all->count; i++) {
         const struct part *p = &all->part[i];
-        const double width = p->scale * gsl_cdf_tdist_Qinv(0.0005, p->freedom);
+        const double width = p->scale * (p->freedom < 2 ? 640 : 35); /* 0.1 % are outside */
         low = fmin(low, p->mean - width);
         high = fmax(high, p->mean + width);
         least = fmin(least, p->scale);
@@ -266,6 +282,7 @@ static double quantile(const struct mixture *all, double share)
 
 struct sums {
     double w, x, y, xx, xy, yy, log_density; /* y: less start + order x, else digits cancel */
+    double q, xq, yq, qq, unit; /* q: the curve; unit: it at the first row */
     double start, order;
     size_t rows;
 };
@@ -274,8 +291,10 @@ struct sums {
 static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
 {
     const double w = sign * r->weight[i], x = r->x[i], y = r->bent[i] - s->start - s->order * x;
+    const double q = r->curve[i];
     s->w += w, s->x += w * x, s->y += w * y;
     s->xx += w * x * x, s->xy += w * x * y, s->yy += w * y * y;
+    s->q += w * q, s->xq += w * x * q, s->yq += w * y * q, s->qq += w * q * q;
     s->log_density += sign * r->log_density[i];
     s->rows = sign > 0 ? s->rows + 1 : s->rows - 1;
 }
@@ -284,19 +303,27 @@ static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
  * their prior; least: the smallest standard deviation of a logarithm. */
 static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
 {
-    const double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
-    const double left = fmax(0, s->yy - s->y * s->y / s->w - xy * xy / xx);
-    if (!(s->rows >= 3 && xx > 0))
+    double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
+    double yy = s->yy - s->y * s->y / s->w, qq = 1;
+    const bool curved = s->unit > 0;
+    if (curved) { /* what is left of x and y beside the curve */
+        const double xq = s->xq - s->x * s->q / s->w, yq = s->yq - s->y * s->q / s->w;
+        qq = s->qq - s->q * s->q / s->w;
+        xx -= xq * xq / qq, xy -= xq * yq / qq, yy -= yq * yq / qq;
+        qq /= s->unit * s->unit;
+    }
+    const double left = fmax(0, yy - xy * xy / xx);
+    const double freedom = (double)s->rows - 2 - curved;
+    if (!(freedom >= 1 && xx > 0 && qq > 0))
         return;
-    const double freedom = (double)s->rows - 2;
     const double seen = all->only_best ? cell_scatter : least_scatter;
     const double squares = left + seen * seen * freedom;
     p.mean = s->order + xy / xx;
     p.freedom = freedom;
     p.scale = sqrt((left / freedom + least * least) / xx);
     p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) -
-                freedom / 2 * log(M_PI * squares) - 0.5 * log(s->w * xx) -
-                log1p(squares / freedom / (usual_scatter * usual_scatter));
+                freedom / 2 * log(M_PI * squares) - 0.5 * log(s->w * xx * qq) -
+                log1p(sqrt(squares / freedom) / usual_scatter);
     if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > least_order))
         add_part(all, &p);
 }
@@ -323,7 +350,7 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double prior = p.weight;
     for (p.first = 0; p.first + 3 <= n; p.first += stride) {
-        struct sums s = {.start = r->y[n - 1], .order = r->order};
+        struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
         for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
@@ -399,6 +426,7 @@ static double bend(const struct rows *r, size_t i, const struct family *f, doubl
         break;
     }
     r->bent[i] = r->y[i] - correction;
+    r->curve[i] = f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) : 0;
     r->weight[i] = weight * r->given[i];
     r->log_density[i] = (density ? 0.5 * log(weight) : 0) + 0.5 * log(r->given[i]);
     return change;
@@ -427,7 +455,7 @@ static void add_law(struct mixture *all, const struct rows *r, const struct fami
 /* Parameters are first tried in coarse cells, then within the cells that may matter. */
 enum { MOST_CELLS = 80, WITHIN = 6 };
 static const double cell = 0.16;    /* of the logarithm of the parameter */
-static const double matters = 8; /* logarithm of the weight below the best one's */
+static const double matters = 10; /* logarithm of the weight below the best one's */
 
 static size_t cells_of(const struct family *f)
 {
@@ -492,7 +520,7 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
                                       size_t count, struct br_line_order *found,
                                       struct br_error *err)
 {
-    enum { ARRAYS = 9 };
+    enum { ARRAYS = 10 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                   .low99 = NAN,
                                   .high99 = NAN,
@@ -505,7 +533,7 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
     if (!status) {
         struct rows r = {.index = index, .z = room};
         double **const array[] = {&r.x, &r.y, &r.ratio, &r.bent, &r.weight, &r.log_density,
-                                  &r.least, &r.given};
+                                  &r.least, &r.given, &r.curve};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, scatter, count);

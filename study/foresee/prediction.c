@@ -7,6 +7,7 @@
 #include "solver/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
@@ -205,12 +206,11 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->at[TIME] = place(c, s, s->own, fine, s->steps);
     c->at[SPACE] = place(c, s, s->check, s->n, some);
     c->at[STEPS] = place(c, s, s->check, fine, some);
-    const bool halves =
-        s->finer > 1 ? which == IN_SPACE && s->n < m->run->n && s->n % 2 == 0
-                     : which == IN_TIME && s->steps < m->run->steps && !chosen && s->steps % 2 == 0;
-    c->at[HALF] = !halves        ? -1
-                  : s->finer > 1 ? place(c, s, s->own, s->n / 2, s->steps)
-                                 : place(c, s, s->own, s->n, s->steps / 2);
+    const bool fewer_n = which == IN_SPACE && s->n < m->run->n;
+    const bool fewer_steps = which == IN_TIME && !chosen && s->steps < m->run->steps;
+    c->at[HALF] = fewer_n       ? place(c, s, s->own, s->n / 2, s->steps)
+                  : fewer_steps ? place(c, s, s->own, s->n, s->steps / 2)
+                                : -1;
     if (br_study_run_each(&c->study, 1, 1, NULL, &failure)) {
         if (failure.status != BR_INTERRUPTED) /* by itself, for its many steps */
             return br_fail(err, failure.status, "%s", failure.message);
@@ -334,8 +334,7 @@ static const double of_round_off = 4;
 
 static bool can_switch(const struct br_scene *scene)
 {
-    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
-           scene->friction.law != BR_FRICTIONLESS;
+    return br_contact_pushes(&scene->contact) || scene->friction.law != BR_FRICTIONLESS;
 }
 
 /* A factor, in L2, by which a layer at the tip moves more than n elements that are wider than the
@@ -460,8 +459,8 @@ static const char *unseen_start(const struct marches *m, double k)
             continue;
         if (rod)
             br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
-        if (rod && s->contact.modelled && tip > s->contact.gap &&
-            s->contact.stiffness > br_contact_limit_stiffness(&f))
+        const double force = rod && s->contact.modelled ? br_contact_force(&s->contact, tip) : 0;
+        if (br_contact_slope(&s->contact, force) > br_contact_limit_stiffness(&f))
             return "how the contact, closed at t = 0, pushes the tip back";
         if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
             return "the oscillations after t = 0, in which the tip may switch";
@@ -527,8 +526,8 @@ static void judge(struct br_prediction *p, const struct marches *m)
         double size;
         if (!m->run->scene->field[kind].modelled)
             continue;
-        struct br_predicted e = relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
-        p->field[kind] = e;
+        const struct br_predicted e = p->field[kind] =
+            relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
         finite = finite && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (!(e.high > p->whole.high))

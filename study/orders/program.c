@@ -495,6 +495,7 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             free(other->number);
             free(other->failure);
         }
+        row.repeat = repeat;
         row.seconds /= (double)repeat;
         row.wall /= (double)repeat;
         n->row[n->rows++] = row;

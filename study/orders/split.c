@@ -31,14 +31,12 @@ static bool is_blank(char c)
 /* Whether a line has the types of columns alone, as Julia, polars and R print them. */
 static bool has_types(const char *line, const char *end)
 {
-    static const char *const types[] = {"Int64", "Float64", "String", "i64",   "i32",  "u32",
-                                        "f64",   "str",     "<dbl>",  "<int>", "<chr>"};
+    static const char types[] = " Int64 Float64 String i64 i32 u32 f64 str <dbl> <int> <chr> ";
     for (line += strspn(line, " |"); line < end; line += strspn(line, " |\t\r")) {
+        char word[12];
         const size_t length = strcspn(line, " |\t\r\n");
-        bool found = false;
-        for (size_t i = 0; i < sizeof types / sizeof *types; i++)
-            found |= strlen(types[i]) == length && strncmp(line, types[i], length) == 0;
-        if (!found)
+        snprintf(word, sizeof word, " %.*s ", length < 9 ? (int)length : 9, line);
+        if (!strstr(types, word))
             return false;
         line += length;
     }
@@ -500,8 +498,8 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
         }
         const size_t above = fields(lines, 0), below = fields(lines, 1);
         title = !has_pairs(lines, 0) &&
-                ((below_title && above != below && !numbers(lines, 0) && has_data(lines, 1)) ||
-                 has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                (has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                 (above != below && below_title && !numbers(lines, 0) && has_data(lines, 1)) ||
                  ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
                   has_data(lines, 2) && !has_groups(lines, 0)));
         json_decref(lines);

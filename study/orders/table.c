@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -100,19 +101,12 @@ static void find_size(struct column *c)
 /* Whether a name has one of the first `count` words of of_runs. */
 static bool is_of_run(const char *name, size_t count)
 {
-    char word[LONGEST_NAME];
-    while (*name) {
-        size_t length = 0;
-        for (; *name && !isalpha((unsigned char)*name); name++)
-            continue;
-        for (; isalpha((unsigned char)*name) && length + 1 < LONGEST_NAME; name++)
-            word[length++] = (char)tolower((unsigned char)*name);
-        word[length] = '\0';
-        for (size_t i = 0; i < count && length; i++)
-            if (strcmp(word, of_runs[i]) == 0)
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    for (size_t length; *(name += strcspn(name, letters)); name += length) {
+        length = strspn(name, letters);
+        for (size_t i = 0; i < count; i++)
+            if (strlen(of_runs[i]) == length && strncasecmp(of_runs[i], name, length) == 0)
                 return true;
-        if (length + 1 == LONGEST_NAME)
-            return false;
     }
     return false;
 }
@@ -298,14 +292,6 @@ static enum br_status rename_column(struct source *s, const char *item, size_t l
     return BR_OK;
 }
 
-/* The name of a column becomes its whole heading. */
-static enum br_status restore_heading(struct column *c, struct br_error *err)
-{
-    free(c->name);
-    c->unit = NULL;
-    return (c->name = strdup(c->shown)) ? BR_OK : br_no_memory(err, "the table");
-}
-
 /* Takes the names and units out of the headings, and finds what they state. */
 static enum br_status name_columns(struct source *s, struct br_error *err)
 {
@@ -316,21 +302,17 @@ static enum br_status name_columns(struct source *s, struct br_error *err)
             continue;
         const size_t digits = strspn(c->shown, "0123456789"); /* gnuplot: "1:n" */
         const bool counted = digits && c->shown[digits] == ':' && c->shown[digits + 1];
-        if (!(c->name = strdup(c->shown + (counted ? digits + 1 : 0))))
+        const char *text = c->shown + (counted ? digits + 1 : 0);
+        if (!(c->name = strdup(text)))
             return br_no_memory(err, "the table");
         c->unit = split_unit(c->name);
         find_size(c);
-    }
-    for (size_t i = 1; i <= s->columns; i++) { /* "L2(u)", "L2(p)": no units */
-        bool twice = false;
-        for (size_t j = i + 1; j <= s->columns && s->column[i].unit; j++)
-            if (s->column[j].unit && strcmp(s->column[i].name, s->column[j].name) == 0) {
-                twice = true;
-                if (restore_heading(&s->column[j], err))
-                    return err->status;
+        for (size_t j = 1; j <= s->columns && c->unit && !c->size; j++)
+            if (j != i && heading(s, j) &&
+                strncmp(heading(s, j), text, (size_t)(c->unit - c->name)) == 0) {
+                strcpy(c->name, text); /* "L2(u)", "L2(p)": no units */
+                c->unit = NULL;
             }
-        if (twice && restore_heading(&s->column[i], err))
-            return err->status;
     }
     const char *item;
     size_t length;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/base/words.h"
 #include "study/scene/method_fields.h"
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/foresee/warnings.h"
 #include "study/grid/batches.h"
@@ -151,7 +152,7 @@ static double marches(const struct br_trial_request *r, const struct br_trial *t
 {
     const struct br_method *m = &t->named->method;
     const double march = pace * br_trial_work(r->scene, t), soon = r->repeat_seconds;
-    const double measured = march + 1e-9 * br_measure_cost(t->at.n) * (double)t->at.steps;
+    const double measured = march + 1e-9 * br_measure_cost(r->scene, t->at.n) * (double)t->at.steps;
     const bool whole = m->scheme->adaptive || m->friction->iterates;
     if (r->time_limit > 0 && march > r->time_limit)
         return whole ? r->time_limit : soon;
