@@ -1507,6 +1507,8 @@ static const struct planted_bug planted_bugs[] = {
      "if (wraps)", "if (!p->out)"},
     {"digits_of_a_hexadecimal_number", "lost", "study/orders/program_reading.c",
      "tests/test_program test_exponents", "strchr(text, 'x') || strchr(text, 'X') ? NULL : ", ""},
+    {"a_clear_failure_asks_for_finer_grids", "lost", "study/verify/verdict.c",
+     "tests/test_orders test_advice", "(outside ? 0.9 : 1)", "1"},
     {"farthest_name_unsaid", "lost", "study/base/words.c",
      "tests/test_suggestions methods_and_varied_keys", "best + !nearest", "best"},
     {"units_of_any_dimension_suggested", "unit", "study/scene/units.c", "tests/test_suggestions units",
