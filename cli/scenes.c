@@ -78,6 +78,9 @@ static enum br_status begin(const char *path, struct br_error *err)
         status = br_whole_file_commit(&file, err);
     }
     br_whole_file_discard(&file);
+    if (!status && strcmp(path, "-") != 0)
+        printf("%s is a scene with every key. Edit it, and then march it: beamrate run %s\n", path,
+               path);
     return status;
 }
 
