@@ -79,7 +79,8 @@ static enum br_status begin(const char *path, struct br_error *err)
         status = br_whole_file_commit(&file, err);
     }
     br_whole_file_discard(&file);
-    if (!status && strcmp(path, "-") != 0)
+    const bool is_file = !status && strcmp(path, "-") != 0;
+    if (is_file)
         printf("This scene has every key. Edit it, and then march it: beamrate run %s\n",
                br_quoted(shown, sizeof shown, &br_for_shell, path));
     return status;
