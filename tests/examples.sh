@@ -52,7 +52,7 @@ pages() {
         }' "$3"
 }
 
-commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
 {
     beamrate --help | pages help --help -
     for command in $commands; do

@@ -898,6 +898,16 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     return verdict;
 }
 
+/* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */
+TEST(test_advice)
+{
+    static const char table[] = "n,l2\n10,3.6960e-3\n20,9.2422e-4\n40,2.3107e-4\n80,5.7767e-5\n";
+    char why[768];
+    assert_int_equal(verdict_of(table, NULL, "l2: h 3 +- 0.1", why), BR_FAIL);
+    if (!strstr(why, "finer grids do not help: the two finest show 2.00"))
+        fail_msg("%s", why);
+}
+
 /* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
 static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
 {

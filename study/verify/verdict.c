@@ -174,12 +174,14 @@ static void advise(struct br_case *c)
     const double high = fmax(e->order, e->highest);
     const double off = fabs(last - fmin(fmax(last, e->order), high));
     const double before = fabs(first - fmin(fmax(first, e->order), high));
+    const bool outside =
+        c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
     if (off < 0.75 * before)
         br_append(c->reason, sizeof c->reason,
                   "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
                   "asymptotic. Start finer, or refine further",
                   last, first);
-    else if (off > e->tolerance && off >= before)
+    else if (off > e->tolerance && off >= (outside ? 0.9 : 1) * before)
         br_append(c->reason, sizeof c->reason,
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
                   "Find what lowers the order, or expect another order",
