@@ -13,6 +13,7 @@ struct br_error_line {
     size_t rows;
     double h[BR_MOST_ERRORS]; /* from coarse to fine */
     double e[BR_MOST_ERRORS]; /* errors, or values */
+    double deviation[BR_MOST_ERRORS]; /* of errors that are means; 0: they are not */
     bool values;              /* their limit is not known */
     double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
 };

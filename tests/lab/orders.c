@@ -42,7 +42,8 @@ static void observe(const struct br_error_line *line, struct br_point *point, st
         .point = point,
         .points = line->rows - line->values};
     for (size_t i = 0; i < c->points; i++) {
-        point[i] = (struct br_point){.z = line->h[i], .error = line->e[i]};
+        point[i] = (struct br_point){
+            .z = line->h[i], .error = line->e[i], .deviation = line->deviation[i]};
         snprintf(point[i].label, sizeof point[i].label, "h = %g", line->h[i]);
         if (line->values) {
             point[i].z_against = line->h[i + 1];
@@ -132,7 +133,7 @@ static void find_grid(const struct br_grid *g, bool values, struct br_numbers *n
     struct br_error err = {0};
     *n = (struct br_numbers){0};
     n->column[0] = br_resolution_column_find("h");
-    n->column[1] = br_resolution_column_find("k");
+    n->column[1] = g->steps > 1 ? br_resolution_column_find("k") : NULL;
     enum br_status status = br_numbers_make_room(n, g->rows, 1, &err);
     if (!status)
         status = br_numbers_add_quantity(n, "e", NULL, values, &err);
@@ -187,7 +188,7 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
     br_numbers_clear(&n);
 }
 
-/* The limit of the values of a grid; width: half of its interval, over the distance from it. */
+/* The limit of the values of a grid, or of a line; width: half of its interval, over the distance from it. */
 static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     double truth;
@@ -302,7 +303,7 @@ int main(int arguments, char **argument)
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
         bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
                           try_grid, seed, grids, only, width);
-    printf("# limits of values on grids\n");
+    printf("# %zu limits of values\n", grids);
     for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
         bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
                           BR_NOISY_ERRORS, i, try_limit, seed, grids, only, width);
