@@ -5,6 +5,7 @@
 
 #include "cli/command.h"
 #include "study/scene/named_method.h"
+#include "tables/document.h"
 
 enum { WIDTH = 98, COLUMN = 34 };
 
@@ -13,12 +14,15 @@ static const char methods_hint[] =
 
 /* ---- text ---- */
 
-/* Writes words in lines up to WIDTH. The first line has `at` letters already. */
+/* Writes words in lines up to WIDTH, or as wide as the terminal is. The first line has `at` letters
+ * already. */
 static void wrap(FILE *out, const char *text, size_t at, size_t indent)
 {
+    const int columns = br_document_columns(out);
+    const size_t width = columns && columns < WIDTH ? (size_t)columns : WIDTH;
     for (const char *word = text; *word; word += strspn(word, " ")) {
         const size_t length = strcspn(word, " ");
-        if (at > indent && at + 1 + length > WIDTH) {
+        if (at > indent && at + 1 + length > width) {
             fprintf(out, "\n%*s", (int)indent, "");
             at = indent;
         } else if (at > indent) {
@@ -69,25 +73,30 @@ void br_print_command_help(FILE *out, const struct br_command *c)
     fprintf(out, "\nExamples:\n");
     for (size_t i = 0; i < BR_MOST_EXAMPLES && c->example[i]; i++)
         fprintf(out, "  %s\n", c->example[i]);
-    fprintf(out, "\n%s\n", methods_hint);
+    fputc('\n', out);
+    wrap(out, methods_hint, 0, 0);
 }
 
 static void print_commands(FILE *out)
 {
-    fprintf(out,
-            "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic "
-            "beam\n\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
-    for (const struct br_command *const *c = br_commands; *c; c++)
-        fprintf(out, "  %-11s %-13s %s\n", (*c)->name, (*c)->arguments, (*c)->title);
+    wrap(out,
+         "beamrate: convergence studies of the dynamic frictional contact of a viscoelastic beam", 0,
+         0);
+    fprintf(out, "\nUsage: beamrate COMMAND [OPTION...]\n\nCommands:\n");
+    for (const struct br_command *const *c = br_commands; *c; c++) {
+        fprintf(out, "  %-11s %-17s ", (*c)->name, (*c)->arguments);
+        wrap(out, (*c)->title, 32, 32);
+    }
     fprintf(out,
             "\nTo begin with:\n"
             "  beamrate tables --n 100,200,400 --k 0.01,0.005 --reference fine:1600,1e-3\n"
             "  beamrate study example2 --norm l2,energy,tip\n"
             "  beamrate check example2 example3\n"
-            "  beamrate scenes --new my_scene.yaml\n\n"
-            "'beamrate COMMAND --help' lists a command's options, with examples;\n%s\n"
-            "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.\n",
-            methods_hint);
+            "  beamrate scenes --new my_scene.yaml\n\n");
+    wrap(out, "'beamrate COMMAND --help' lists a command's options, with examples.", 0, 0);
+    wrap(out, methods_hint, 0, 0);
+    wrap(out, "Exit codes: 0 done, 1 a verdict failed, 2 bad input, 3 the computation failed.", 0,
+         0);
 }
 
 /* ---- registries ---- */
@@ -118,20 +127,26 @@ static void print_methods(FILE *out)
     const size_t count = br_registries(list);
     for (size_t i = 0; i < count; i++) {
         fprintf(out, "--%s: %s\n", list[i].option, list[i].title);
-        for (size_t row = 0; list[i].words->name(row); row++)
-            fprintf(out, "  %-15s %s\n", list[i].words->name(row),
-                    list[i].words->title                    ? list[i].words->title(row)
-                    : br_word_available(list[i].words, row) ? "available here"
-                                                            : "not available on this machine");
+        for (size_t row = 0; list[i].words->name(row); row++) {
+            fprintf(out, "  %-15s ", list[i].words->name(row));
+            wrap(out,
+                 list[i].words->title                    ? list[i].words->title(row)
+                 : br_word_available(list[i].words, row) ? "available here"
+                                                         : "not available on this machine",
+                 18, 18);
+        }
     }
     fprintf(out, "\nOptions that some of these use:\n");
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
         print_users(out, i);
-    fprintf(out,
-            "\nNames of methods (--methods): these words joined by '+', at most one of a kind:\n");
+    fputc('\n', out);
+    wrap(out, "Names of methods (--methods): these words joined by '+', at most one of a kind:", 0,
+         0);
     const char *title;
-    for (size_t i = 0; (title = br_named_method_kind(i, text, sizeof text)); i++)
-        fprintf(out, "  %-30s %s\n", title, text);
+    for (size_t i = 0; (title = br_named_method_kind(i, text, sizeof text)); i++) {
+        fprintf(out, "  %-30s ", title);
+        wrap(out, text, 33, 33);
+    }
 }
 
 /* ---- the command ---- */

@@ -50,10 +50,10 @@ static enum br_status unknown(const char *word, struct br_error *err)
     size_t count = 2;
     for (const struct br_command *const *c = br_commands; *c && count < 64; c++)
         names[count++] = (*c)->name;
-    const char *nearest = br_nearest(word, names, count);
-    if (nearest)
-        return br_fail(err, BR_BAD_INPUT, "'%s' is no command; did you mean '%s'?", word, nearest);
-    return br_fail(err, BR_BAD_INPUT, "'%s' is no command; 'beamrate --help' lists them", word);
+    char suggestion[BR_SUGGESTION];
+    br_suggestion(word, names, count, suggestion);
+    return br_fail(err, BR_BAD_INPUT, "'%s' is no command%s", word,
+                   *suggestion ? suggestion : "; 'beamrate --help' lists them");
 }
 
 static enum br_status run_command(int argc, const char **argv, struct br_error *err)

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "solver/scene.h"
 #include "study/base/words.h"
 #include "study/grid/study.h"
 

@@ -56,13 +56,13 @@ static const struct br_option rows[] = {
     {BR_OPT_RUN, "run", 0, "COMMAND", "runs it at each resolution; {n}, {k}, ... are replaced",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "Words are as in a shell, with quotes and backslashes, but no shell is used. Each run "
-             "has an empty folder of its own, no input and LC_ALL=C: files that words name need "
-             "absolute paths."},
+             "has an empty folder of its own, no input and LC_ALL=C. A word that names a file "
+             "becomes its whole path."},
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "May be given several times. last:REGEX takes the last match of many. stderr: before "
-             "it reads standard error, file:PATH: a file that the run writes. The NAME h, n, dofs, "
+             "it reads standard error, file:PATH: a file that the run writes, as out_{n}.txt. The NAME h, n, dofs, "
              "cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
     {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",

@@ -56,23 +56,20 @@ static enum br_status read_list(const char *list, const char *usual, struct br_o
                                 struct br_error *err)
 {
     const enum br_axis axis = br_resolution_column_find(usual)->axis;
-    const char *equals = list ? strchr(list, '=') : NULL, *names[16], *nearest;
-    char word[32], known[100] = "";
+    const char *equals = list ? strchr(list, '=') : NULL, *names[16];
+    char word[32], expected[BR_EXPECTED];
     size_t count = 0;
     snprintf(word, sizeof word, "%.*s", equals ? (int)(equals - list) : 0, equals ? list : "");
     if (!equals)
         return list ? br_orders_request_axis(q, usual, list, err) : BR_OK;
     for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
         if (c->axis == axis) {
-            br_append(known, sizeof known, "%s%s", count ? ", " : "", c->name);
             names[count++] = c->name;
             if (strcmp(c->name, word) == 0)
                 return br_orders_request_axis(q, word, equals + 1, err);
         }
-    nearest = br_nearest(word, names, count);
-    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s=', expected one of: %s%s%s%s", usual, word,
-                   known, nearest ? "; did you mean '" : "", nearest ? nearest : "",
-                   nearest ? "'?" : "");
+    return br_fail(err, BR_BAD_INPUT, "--%s: found '%s=', %s", usual, word,
+                   br_expected(word, names, count, expected));
 }
 
 /* Reads the options that come with a table or with --run. A table refuses those of a run. */
@@ -210,7 +207,7 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
     br_report_orders(&r->study.orders, growth, caption, d);
     if (br_output_is_open(&r->session.output))
         br_session_draw(&r->session, d, br_orders_draw(&r->study.orders, caption),
-                        "Errors over the size of elements and steps");
+                        "Errors, or differences of values, over sizes");
     br_put_provenance(d, &provenance);
     return BR_OK;
 }

@@ -4,6 +4,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
+#include <string.h>
 #include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
@@ -55,7 +56,7 @@ void br_signals_raise_again(void)
 
 /* ---- progress ---- */
 
-enum { BAR = 40, TEXT = 46 /* beside the bar, at most */ };
+enum { BAR = 40, TEXT = 38 /* beside the bar and the name, at most */ };
 
 /* After less time, s, or less of the work, the time left cannot be estimated. */
 static const double least_elapsed = 1, least_fraction = 0.05;
@@ -76,7 +77,8 @@ static void draw_bar(void)
     char bar[BAR + 1];
     struct winsize size;
     const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    const int room = known ? (int)size.ws_col - TEXT : BAR, width = room < BAR ? room : BAR;
+    const int room = known ? (int)size.ws_col - TEXT - (int)strlen(progress.what) : BAR;
+    const int width = room < BAR ? room : BAR;
     int i = 0;
     for (; i < width && width >= 5; i++)
         bar[i] = i < progress.fraction * width ? '#' : '.';

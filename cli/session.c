@@ -100,13 +100,17 @@ enum br_status br_session_report(struct br_session *s, size_t documents, struct 
     return s->document ? BR_OK : br_no_memory(err, "the reports");
 }
 
-/* A shorter forecast is not printed, s. */
-static const double worth_printing = 3;
+/* A shorter forecast is not measured, and not printed, s. */
+static const double worth_measuring = 1, worth_printing = 3;
 
 void br_session_announce(const struct br_session *s, const struct br_foreseen *w)
 {
-    const double seconds = br_foreseen_seconds(w, br_threads(s->threads));
-    if (s->quiet || !(seconds >= worth_printing))
+    struct br_foreseen here = *w;
+    if (s->quiet || !(br_foreseen_seconds(w, br_threads(s->threads)) >= worth_measuring))
+        return;
+    br_foreseen_measure(&here);
+    const double seconds = br_foreseen_seconds(&here, br_threads(s->threads));
+    if (!(seconds >= worth_printing))
         return;
     fprintf(stderr, "%zu march%s, about %.2g s, %.2g GB", w->marches, w->marches == 1 ? "" : "es",
             seconds, w->bytes / 1e9);

@@ -8,6 +8,7 @@
 #include "cli/option.h"
 #include "cli/output.h"
 #include "plots/pictures.h"
+#include "solver/scene.h"
 #include "study/foresee/foreseen.h"
 #include "study/foresee/warnings.h"
 #include "study/kept/kept.h"

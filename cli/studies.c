@@ -202,7 +202,8 @@ enum br_status br_studies_compute(struct br_studies *r, bool alone, struct br_er
         for (size_t m = 0; m < norms && !status; m++)
             status = br_report_finish(&w->report[m], threads, err);
     for (struct br_study_work *w = r->work; w < end && !status && !alone; w++)
-        status = br_apart_steps(&w->apart, w->report, norms, threads, observer, err);
+        for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
+            status = br_apart_settle(&w->apart, w->report, norms, axis, threads, observer, err);
     br_progress_end();
     for (struct br_study_work *w = r->work; w < end; w++) {
         br_session_report_kept(r->session, &w->kept);

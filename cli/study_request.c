@@ -26,13 +26,18 @@ static enum br_status read_fine(const char *text, const char *arguments, struct 
 static enum br_status read_reference(const char *text, struct br_study_request *r,
                                      struct br_error *err)
 {
-    char name[32], all[256];
+    const char *names[8];
+    char name[32], all[256], suggestion[BR_SUGGESTION];
     const size_t length = strcspn(text, ":");
+    size_t count = 0;
+    for (; br_judges[count] && count < 8; count++)
+        names[count] = br_judges[count]->name;
     snprintf(name, sizeof name, "%.*s", (int)(length < 31 ? length : 31), text);
     r->judge = br_judge_find(name);
     if (!r->judge || (text[length] == ':' && !r->judge->nests))
-        return br_fail(err, BR_BAD_INPUT, "--reference: found '%s', expected one of: %s", text,
-                       br_words_join(&br_judge_words, ", ", all, sizeof all));
+        return br_fail(err, BR_BAD_INPUT, "--reference: found '%s', expected one of: %s%s", text,
+                       br_words_join(&br_judge_words, ", ", all, sizeof all),
+                       r->judge ? "" : br_suggestion(name, names, count, suggestion));
     if (!r->judge->nests)
         return BR_OK;
     return read_fine(text, text + length + (text[length] == ':'), r, err);

@@ -154,6 +154,7 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     trade->request.observer = br_progress_start(name, r->session.quiet);
     enum br_status status = br_trade_foresee(trade, err);
     if (!status && !r->session.quiet && (o->seconds >= worth_printing || o->left > 0)) {
+        br_progress_end();
         fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->planned, o->seconds);
         if (o->left)
             fprintf(stderr,

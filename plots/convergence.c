@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "solver/scene.h"
 #include "study/base/words.h"
 #include "study/fit/report.h"
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "plots/pictures.h"
+#include "solver/scene.h"
 #include "study/extremes/extremes.h"
 
 /* ---- floors: deviation over n, or over N ---- */
@@ -107,7 +108,7 @@ static void draw_plane(const struct br_stability *s, const struct br_stability_p
     if (p->over_stiffness)
         BR_SAY(panel->title, "%s, n = %zu", p->by->name, p->column[0].n);
     else if (s->own > 0)
-        BR_SAY(panel->title, "%.60s, c_H = %.3g N/m", p->by->name, s->own);
+        BR_SAY(panel->title, "%.60s, c_H = %.6g N/m", p->by->name, s->own);
     else
         BR_SAY(panel->title, "%s", p->by->name);
     for (int outcome = BR_STABLE; outcome <= BR_REFUSED; outcome++)

@@ -129,8 +129,8 @@ struct br_figure br_orders_draw(const struct br_orders *orders, const char *capt
 {
     struct br_figure f = {0};
     BR_SAY(f.stem, "orders");
-    BR_SAY(f.title, "%s. Errors and their orders", caption);
-    BR_SAY(f.about, "errors over the size of elements and of steps");
+    BR_SAY(f.title, "%s. Orders of convergence", caption);
+    BR_SAY(f.about, "errors, or differences of values, over the size of elements and of steps");
     BR_SAY(f.hollow, "left out of the order");
     for (int axis = 0; axis < BR_AXES; axis++) {
         bool any = false;

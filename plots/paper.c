@@ -139,7 +139,7 @@ static void fill10(const struct br_paper *paper, struct br_figure *f)
         }
         br_mark_add(f, s->paper, "the paper's coefficient");
         if (unstable < s->points)
-            br_mark_add(f, s->point[unstable].coefficient, "right of this amplifies, as printed");
+            br_mark_add(f, s->point[unstable].coefficient, "unstable on the right, as printed");
     }
 }
 

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "plots/pictures.h"
+#include "solver/scene.h"
 #include "study/run/history.h"
 
 void br_rows_add(struct br_figure *f, enum br_pen pen, const char *title,

@@ -4,6 +4,7 @@
 
 #include "plots/pictures.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/split.h"
 

@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "solver/scene.h"
+
 const struct br_judge br_judge_none = {
     .name = "none",
 };

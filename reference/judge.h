@@ -7,6 +7,7 @@
 #include <stdio.h>
 
 #include "solver/march.h"
+#include "solver/method.h"
 
 struct br_judge_request {
     const struct br_scene *scene;  /* must outlive the judge */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 static const struct br_textbook implicit_euler = {.rows = 1, .a = {{1}}, .c = {1}};
 
 /* ---- Alexander, SIAM J. Numer. Anal. 14 (1977) 1006-1021 ---- */

@@ -74,8 +74,8 @@ static bool has_branches(const struct br_march *m, enum br_field_kind kind)
 {
     const struct br_contact *contact = &m->scene->contact;
     if (kind == BR_AXIAL)
-        return contact->modelled &&
-               (contact->stiffness > 0 || m->scene->friction.law == BR_COULOMB);
+        return br_contact_pushes(contact) ||
+               (contact->modelled && m->scene->friction.law == BR_COULOMB);
     return m->scene->friction.law != BR_FRICTIONLESS && !m->method.friction->needs_regularisation;
 }
 

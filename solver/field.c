@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 const double br_axial_mass[2][2] = {{1.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 3}};
 
 const double br_bending_mass[4][4] = {

@@ -10,7 +10,14 @@
 #ifndef BR_SOLVER_FIELD_H
 #define BR_SOLVER_FIELD_H
 
-#include "solver/scene.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/kind.h"
+#include "solver/status.h"
+
+struct br_function;
+struct br_scene;
 
 /* The operator of one Euler step in velocity form: M/k + C + k K. */
 struct br_field {

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 /* ---- contact ---- */
 
 double br_penetration(const struct br_contact *contact, double displacement)
@@ -14,17 +16,49 @@ double br_penetration(const struct br_contact *contact, double displacement)
     return depth < 0 ? 0 : depth; /* NaN stays NaN */
 }
 
+double br_contact_force(const struct br_contact *contact, double displacement)
+{
+    return contact->stiffness * br_penetration(contact, displacement);
+}
+
+double br_contact_slope(const struct br_contact *contact, double force)
+{
+    return force > 0 ? contact->stiffness : 0;
+}
+
+double br_contact_depth(const struct br_contact *contact, double force)
+{
+    return force / contact->stiffness;
+}
+
+bool br_contact_pushes(const struct br_contact *contact)
+{
+    return contact->modelled && contact->stiffness > 0;
+}
+
+/* r = c_H (u_n - g) with u_n = u_{n-1} + k (v* - r z); depth: u_n - g without the force */
+static double force_at_end(const struct br_contact *contact, const struct br_contact_state *s,
+                           double depth)
+{
+    return contact->stiffness * depth / (1 + contact->stiffness * s->k * s->compliance);
+}
+
+double br_contact_closed_force(const struct br_contact *contact, const struct br_contact_state *s)
+{
+    return force_at_end(contact, s, s->displacement + s->k * s->free_velocity - contact->gap);
+}
+
 /* r = c_H (u_{n-1} - g)_+ */
 static double lagged_force(const struct br_contact *contact, const struct br_contact_state *s)
 {
-    return contact->stiffness * br_penetration(contact, s->displacement);
+    return br_contact_force(contact, s->displacement);
 }
 
-/* r = c_H (u_n - g)_+ with u_n = u_{n-1} + k (v* - r z): piecewise linear in r. */
+/* r = c_H (u_n - g)_+ */
 static double implicit_force(const struct br_contact *contact, const struct br_contact_state *s)
 {
-    const double depth = br_penetration(contact, s->displacement + s->k * s->free_velocity);
-    return contact->stiffness * depth / (1 + contact->stiffness * s->k * s->compliance);
+    return force_at_end(contact, s,
+                        br_penetration(contact, s->displacement + s->k * s->free_velocity));
 }
 
 static const struct br_contact_rule lagged = {

@@ -6,6 +6,8 @@
 
 #include "solver/field.h"
 
+struct br_contact;
+
 /* ---- contact ---- */
 
 /* The tip before and during a step. */
@@ -29,8 +31,24 @@ struct br_contact_rule {
 extern const struct br_contact_rule *const br_contact_rules[];
 const struct br_contact_rule *br_contact_rule_find(const char *name);
 
+/* The law itself. All of the solver and of study/ that needs a force or a slope asks here. */
+
 /* Penetration (u - g)_+, m. */
 double br_penetration(const struct br_contact *contact, double displacement);
+
+/* c_H (u - g)_+, N, and its derivative by u where the force is that, N/m. */
+double br_contact_force(const struct br_contact *contact, double displacement);
+double br_contact_slope(const struct br_contact *contact, double force);
+
+/* The penetration, m, that has that force > 0. */
+double br_contact_depth(const struct br_contact *contact, double force);
+
+/* Whether a contact is modelled and has a force. */
+bool br_contact_pushes(const struct br_contact *contact);
+
+/* The force at u_n of a contact that stays closed in the step, whatever its sign, N. */
+double br_contact_closed_force(const struct br_contact *contact,
+                               const struct br_contact_state *state);
 
 /* ---- friction ---- */
 

@@ -6,6 +6,7 @@
 #define BR_SOLVER_LOAD_H
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 
 /* The largest magnitude of a load at some points of a field's mesh at time t, s; NaN is ignored. */
 double br_load_peak(const struct br_field *field, const struct br_function *f, double t);

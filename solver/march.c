@@ -50,13 +50,13 @@ static enum br_status find_start(struct br_march *m, size_t n, struct br_error *
     if (!velocity)
         return br_no_memory(err, "the tip's start");
     m->tip.displacement = br_march_tip_displacement(m, BR_AXIAL);
-    const double depth =
-        scene->contact.modelled ? br_penetration(&scene->contact, m->tip.displacement) : 0;
+    const struct br_contact *contact = &scene->contact;
+    const double u = m->tip.displacement;
     m->start = (struct br_tip){
-        .displacement = m->tip.displacement,
-        .contact_force = scene->contact.stiffness * depth,
+        .displacement = u,
+        .contact_force = contact->modelled ? br_contact_force(contact, u) : 0,
         .friction_force = scene->friction.law == BR_FRICTIONLESS ? 0 : NAN,
-        .friction_bound = br_friction_bound(scene, depth),
+        .friction_bound = br_friction_bound(scene, br_penetration(contact, u)),
     };
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         br_march_get(m, kind, NULL, velocity);
@@ -313,7 +313,7 @@ bool br_march_contact_unstable(const struct br_march *m)
 {
     if (!m->was_closed || m->method.contact->at_new_step)
         return false;
-    return br_contact_grows(&m->field[BR_AXIAL].field, m->scene->contact.stiffness);
+    return br_contact_grows(&m->field[BR_AXIAL].field, br_contact_stiffness(&m->scene->contact));
 }
 
 double br_march_round_off(const struct br_march *m)

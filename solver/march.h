@@ -4,8 +4,11 @@
 #ifndef BR_SOLVER_MARCH_H
 #define BR_SOLVER_MARCH_H
 
-#include "solver/method.h"
 #include "solver/modes.h"
+#include "solver/status.h"
+
+struct br_method;
+struct br_scene;
 
 /* What a march has cost so far. */
 struct br_counts {

@@ -6,6 +6,7 @@
 #include "solver/linear/states.h"
 #include "solver/load.h"
 #include "solver/march.h"
+#include "solver/method.h"
 #include "solver/scheme.h"
 
 /* ---- one field of a march ---- */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 
 struct br_method br_method_default(void)
 {

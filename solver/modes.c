@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "solver/field.h"
+
 size_t br_mode_count(struct br_elements elements, enum br_measure measure)
 {
     const size_t derived = measure == BR_STRAIN_RATE;

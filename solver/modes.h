@@ -5,7 +5,12 @@
 #ifndef BR_SOLVER_MODES_H
 #define BR_SOLVER_MODES_H
 
-#include "solver/field.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "solver/kind.h"
+
+struct br_field;
 
 enum br_measure {
     BR_DISPLACEMENT, /* u or w in L2 */

@@ -72,6 +72,11 @@ enum br_status br_scene_check(const struct br_scene *s, struct br_error *err)
     return status;
 }
 
+double br_contact_stiffness(const struct br_contact *contact)
+{
+    return contact->stiffness;
+}
+
 bool br_product_is_zero(const struct br_product *p)
 {
     return br_function_is_zero(&p->space) || br_function_is_zero(&p->time);

@@ -5,6 +5,7 @@
 #define BR_SOLVER_SCENE_H
 
 #include "solver/function.h"
+#include "solver/kind.h"
 
 /* space(x, t) * time(t), N/m. Where space does not use t it is assembled once; where it does not
  * use x either, without quadrature. */
@@ -31,9 +32,6 @@ double br_load_value(const struct br_load *load, double x, double t);
 enum br_status br_load_clone(const struct br_load *load, struct br_load *out, struct br_error *err);
 void br_load_clear(struct br_load *load);
 
-enum br_field_kind { BR_AXIAL, BR_BENDING, BR_FIELDS };
-extern const char *const br_field_names[BR_FIELDS]; /* "axial", "bending" */
-
 /* A field: the rod of (3) and (8), or the beam of (4), (9) and (11). What a rod does not have is
  * zero. */
 struct br_scene_field {
@@ -58,6 +56,11 @@ struct br_contact {
     double gap;       /* g, m */
     double stiffness; /* c_H, N/m */
 };
+
+/* The stiffness, N/m, of a contact whose force is c_H (u - g)_+; NaN where a law is not linear in
+ * u - g. All that holds for a linear force alone asks for it: closed forms, exact and given
+ * solutions, certificates, energies. They refuse NaN, or pass it on to a check that fails. */
+double br_contact_stiffness(const struct br_contact *contact);
 
 enum br_friction_law { BR_FRICTIONLESS, BR_TRESCA, BR_COULOMB };
 

@@ -16,18 +16,16 @@ static double contact_force(const struct br_march *m, const struct br_contact_st
     const struct br_contact *contact = &m->scene->contact;
     if (!contact->modelled || (m->keeps_branch[BR_AXIAL] && m->regime[BR_AXIAL] == BR_REGIME_OPEN))
         return 0;
-    if (!m->keeps_branch[BR_AXIAL])
-        return m->method.contact->force(contact, state);
-    const double depth = state->displacement + state->k * state->free_velocity - contact->gap;
-    return contact->stiffness * depth / (1 + contact->stiffness * state->k * state->compliance);
+    return m->keeps_branch[BR_AXIAL] ? br_contact_closed_force(contact, state)
+                                     : m->method.contact->force(contact, state);
 }
 
 /* (u - g)_+ at the stage's time. A contact force at u_n gives it without cancellation. */
 static double penetration(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;
-    if (contact->modelled && m->method.contact->at_new_step && contact->stiffness > 0)
-        return m->tip.contact_force / contact->stiffness;
+    if (m->method.contact->at_new_step && br_contact_pushes(contact))
+        return br_contact_depth(contact, m->tip.contact_force);
     return br_penetration(contact, m->tip.displacement);
 }
 
@@ -212,8 +210,8 @@ void br_march_accept(struct br_march *m, enum br_field_kind kind, const struct b
 static bool is_closed(const struct br_march *m)
 {
     const struct br_contact *contact = &m->scene->contact;
-    return contact->stiffness > 0 || !m->adaptive ? m->tip.contact_force > 0
-                                                  : m->tip.displacement > contact->gap;
+    return br_contact_pushes(contact) || !m->adaptive ? m->tip.contact_force > 0
+                                                      : m->tip.displacement > contact->gap;
 }
 
 enum br_regime br_march_regime(const struct br_march *m, enum br_field_kind kind)

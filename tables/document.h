@@ -341,6 +341,9 @@ enum br_status br_document_print(FILE *out, const struct br_document_format *for
 enum br_status br_document_print_page(FILE *out, const struct br_document *documents, size_t count,
                                       const char *folder, struct br_error *err);
 
+/* How many columns the terminal behind `out` has; 0: there is no terminal, or it does not say. */
+int br_document_columns(FILE *out);
+
 /* For a terminal: short tables that are not for files only, facts, verdicts that did not pass, and
  * last the answers and the commands. Where `out` is a terminal, no table is wider than it: headings
  * and long texts are wrapped, and columns that still find no room stand on further lines of their

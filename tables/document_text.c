@@ -37,14 +37,6 @@ static void print_blanks(const struct br_markup_page *p, int count)
     fprintf(p->out, "%*s", count > 0 ? count : 0, "");
 }
 
-static void print_title(const struct br_markup_page *p, int level, const char *title)
-{
-    br_markup_put(p, level == p->level ? "" : "\n", title, "\n");
-    for (int i = width_of(p, title); i > 0; i--)
-        fputc(level == p->level ? '=' : '-', p->out);
-    fputc('\n', p->out);
-}
-
 /* Prints lines of at most WIDTH columns, and no more than the terminal has; all but the first are
  * indented. */
 static void print_paragraph(const struct br_markup_page *p, const char *paragraph)
@@ -69,6 +61,28 @@ static void print_paragraph(const struct br_markup_page *p, const char *paragrap
         text += word;
         text += strspn(text, " ");
     }
+}
+
+/* In one line, unless a terminal is narrower. */
+static int print_heading(const struct br_markup_page *p, const char *text)
+{
+    const int width = width_of(p, text);
+    if (!p->columns || width <= p->columns) {
+        br_markup_put(p, NULL, text, NULL);
+        return width;
+    }
+    print_paragraph(p, text);
+    return p->columns;
+}
+
+static void print_title(const struct br_markup_page *p, int level, const char *title)
+{
+    fputs(level == p->level ? "" : "\n", p->out);
+    const int width = print_heading(p, title);
+    fputc('\n', p->out);
+    for (int i = 0; i < width; i++)
+        fputc(level == p->level ? '=' : '-', p->out);
+    fputc('\n', p->out);
 }
 
 struct layout {
@@ -250,7 +264,9 @@ static void print_table(struct br_markup_page *p, const struct br_document_table
         last = l[c].shown ? c + 1 : last;
     }
     arrange(p->columns, l, l + last);
-    br_markup_put(p, "\n", t->title, "\n");
+    fputc('\n', p->out);
+    print_heading(p, t->title);
+    fputc('\n', p->out);
     print_row(p, t, l, last, t->rows);
     for (size_t r = 0; r < t->rows; r++)
         print_row(p, t, l, last, r);
@@ -282,17 +298,21 @@ static const struct br_markup text = {
     .picture = print_picture,
 };
 
+int br_document_columns(FILE *out)
+{
+    struct winsize size;
+    const int descriptor = fileno(out); /* -1: memory */
+    const bool known = isatty(descriptor) == 1 && ioctl(descriptor, TIOCGWINSZ, &size) == 0;
+    return known && size.ws_col > 0 ? larger(size.ws_col, NARROW) : 0;
+}
+
 /* What the terminal has, if there is one behind `out`. */
 static void ask_terminal(struct br_markup_page *p)
 {
     const char *plain = getenv("NO_COLOR"), *term = getenv("TERM");
-    const int descriptor = fileno(p->out); /* -1: memory */
-    struct winsize size;
-    if (isatty(descriptor) != 1)
-        return;
-    if (ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        p->columns = larger(size.ws_col, NARROW);
-    p->colour = !(plain && *plain) && term && strcmp(term, "dumb") != 0;
+    p->columns = br_document_columns(p->out);
+    p->colour = isatty(fileno(p->out)) == 1 && !(plain && *plain) && term &&
+                strcmp(term, "dumb") != 0;
 }
 
 static enum br_status print_page(FILE *out, const struct br_document *d, bool terminal,

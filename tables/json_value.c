@@ -29,15 +29,6 @@ bool br_json_lacked_memory(void)
     return atomic_load(&lacked);
 }
 
-json_t *br_json_read(int file, json_error_t *why)
-{
-    br_json_lacked_memory();
-    atomic_store(&parsing, true);
-    json_t *json = json_loadfd(file, 0, why);
-    atomic_store(&parsing, false);
-    return json;
-}
-
 json_t *br_json_parse(const char *text, json_error_t *why)
 {
     br_json_lacked_memory();

@@ -13,11 +13,10 @@
  * is made, and before one is put in place. */
 bool br_json_lacked_memory(void);
 
-/* The document in an open file, or NULL, with the reason. After a failed allocation jansson's
- * parser loses characters, and frees what it must not. So the program ends there, with a message
- * and exit code 3; results that were not yet in place stay whole for the next command. */
-json_t *br_json_read(int file, json_error_t *why);
-json_t *br_json_parse(const char *text, json_error_t *why); /* the same of a text */
+/* The document in a text, or NULL, with the reason. After a failed allocation jansson's parser loses
+ * characters, and frees what it must not. So the program ends there, with a message and exit code 3;
+ * results that were not yet in place stay whole for the next command. */
+json_t *br_json_parse(const char *text, json_error_t *why);
 
 json_t *br_json_number(double value);     /* what is not finite is null */
 json_t *br_json_string(const char *text); /* NULL is null; bytes that are not UTF-8 become \xff */

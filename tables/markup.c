@@ -291,8 +291,14 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
     br_markup_text(p, v->group);
     fputs(v->group ? ", " : "", p->out);
     br_markup_text(p, v->name);
-    fputs(v->message ? ": " : "", p->out);
-    br_markup_text(p, v->message);
+    const size_t letters = strlen(v->name) + strlen(v->message ? v->message : "") +
+                           (v->group ? strlen(v->group) : 0) + strlen("INCONCLUSIVE , : ");
+    const bool wraps = v->message && p->columns && letters > (size_t)p->columns;
+    fputs(!v->message ? "" : wraps ? ":\n" : ": ", p->out);
+    if (wraps)
+        p->markup->paragraph(p, v->message);
+    else
+        br_markup_text(p, v->message);
     say(p, p->markup->verdict.after);
     for (size_t i = 0; i < v->details; i++)
         put(p, &p->markup->detail, v->detail[i]);

@@ -6,12 +6,14 @@
 #include "study/paper/paper.h"
 #include "tables/reports.h"
 
-/* "0.7990 +- 0.0020 s" */
+/* "0.7990 +- 0.0020 s"; where the error is less than what four digits show: "1.009" */
 static void show_value(struct br_document *d, double value, double error, const char *unit)
 {
     char text[64];
     const char *named = strcmp(unit, "1") == 0 ? "" : unit;
-    if (isfinite(value))
+    if (isfinite(value) && error < 5e-5 * fabs(value))
+        br_put_shown(d, "%.4g%s%s", value, *named ? " " : "", named);
+    else if (isfinite(value))
         br_put_shown(d, "%s%s%s", br_uncertain_text(value, error, text, sizeof text),
                      *named ? " " : "", named);
 }

@@ -3,6 +3,7 @@
  * step; and the contradictions in the printed table. */
 #include <math.h>
 
+#include "solver/scene.h"
 #include "study/fit/report.h"
 #include "tables/report_parts.h"
 

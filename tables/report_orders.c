@@ -55,12 +55,6 @@ static void say_rates(struct br_document *d, const struct br_orders_line *line)
     }
 }
 
-/* Whether the answer of a value has p, which then states the assumed dimension. */
-static bool says_p(const struct br_orders *o, const struct br_quantity_orders *of)
-{
-    return quantity_of(o, of)->is_value && of->lines == 1 && isfinite(of->line[0].gci.fine.index);
-}
-
 static void say_order(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, const struct br_orders_line *line,
                       enum br_axis axis, bool *first)
@@ -75,7 +69,7 @@ static void say_order(struct br_document *d, const struct br_orders *o,
                 none ? "not measurable" : br_order_text(order, text, sizeof text),
                 !none && !br_order_determined(order) ? " (not determined)" : "",
                 !joint && *line->at ? " at " : "", joint ? "" : line->at);
-    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE && !says_p(o, of))
+    if (!none && o->numbers->assumed && axis == BR_AXIS_SPACE)
         say_dimension(d, o, order->value);
     if (none && line && !value && br_orders_stays(line))
         br_put_more(d, " (--value, if its limit is not known)");
@@ -156,13 +150,13 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
                       const struct br_quantity_orders *of, bool *first)
 {
     const struct br_grid_limit *limit = &of->limit;
-    const struct br_gci *g = &of->line[0].gci;
+    const struct br_gci *g = &of->line[0].limits.gci;
     if (isfinite(limit->value.low))
         br_put_more(d, "%slimit %s", separator(first),
                     br_interval_text(&limit->value, (char[128]){0}, 128));
     else
         br_put_more(d, "%sno limit", separator(first));
-    if (says_p(o, of)) {
+    if (quantity_of(o, of)->is_value && of->lines == 1 && isfinite(g->fine.index)) {
         br_put_more(d, ", p = %.2f", g->order);
         if (o->numbers->assumed && of->line[0].axis == BR_AXIS_SPACE)
             say_dimension(d, o, g->order);
@@ -176,16 +170,16 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    const struct br_estimate *limit = &line->limit.value, *other = &line->first_order.value;
+    const struct br_estimate *limit = &line->limits.limit.value, *other = &line->limits.first_order.value;
     char text[128];
     if (!quantity_of(o, of)->is_value || of->lines != 1)
         return;
-    if (br_gci_is_far(&line->gci, o->formal))
+    if (br_gci_is_far(&line->limits.gci, o->formal))
         br_put_more(d,
                     " p is far from the formal order %g%s: with the limits of Oberkampf and Roy "
                     "(2010) the GCI is %.2g %%.",
                     o->formal, o->assumed_formal ? " (assumed)" : "",
-                    100 * br_gci_limited(&line->gci, o->formal));
+                    100 * br_gci_limited(&line->limits.gci, o->formal));
     if (o->assumed_formal && isfinite(other->low) &&
         (other->low != limit->low || other->high != limit->high))
         br_put_more(d, " Formal order 2 assumed; --formal-order 1 gives %s.",
@@ -206,7 +200,8 @@ static void put_given(struct br_document *d, const struct br_numbers *numbers, s
     for (int axis = 0; axis < BR_AXES; axis++)
         if (numbers->column[axis])
             BR_PUT(d, br_number(numbers->row[row].given[axis]), .key = numbers->column[axis]->name,
-                   .unit = numbers->unit[axis], .format = "%.6g");
+                   .unit = numbers->unit[axis],
+                   .format = numbers->column[axis]->is_size ? "%.6g" : "%.15g");
 }
 
 static void put_rows(struct br_document *d, const struct br_orders *o,
@@ -320,19 +315,19 @@ static void put_triples(struct br_document *d, const struct br_orders *o)
         {.key = "quantity"},
         {.key = "in"},
         {.key = "at"},
-        {.key = "finest", .heading = "finest of three", .format = "%.6g"},
+        {.key = "finest", .heading = "finest of three", .format = "%.10g"},
         {.key = "p", .format = "%.4f"},
         {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
         {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "gci_limited", .heading = "GCI, p limited", .format = "%.3e"},
         {.key = "sequence"},
     };
-    BR_TABLE(d, "triples", "Grid convergence index of each three neighbours", 0, columns);
+    BR_TABLE(d, "triples", "Grid convergence index of three neighbouring sizes", 0, columns);
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
-            for (size_t t = 0; t < line->triples && line->triples > 1; t++) {
-                const struct br_gci *g = &line->triple[t];
+            for (size_t t = 0; t < line->limits.triples && line->limits.triples > 1; t++) {
+                const struct br_gci *g = &line->limits.triple[t];
                 BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                            br_text(br_axis_letters[line->axis]), br_text(line->at),
                            br_number(line->finest_of[t]), br_number(g->order),
@@ -395,16 +390,16 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     if (o->numbers->taken[0])
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
-        br_put_answer(d, "Columns that only the tables have: %zu.", o->count - MOST_NAMED);
+        br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
         say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
     if (o->tied)
-        br_put_answer(d, "Mesh and time step go along: the orders in h are of both together.");
+        br_put_answer(d, "h and k change together: the orders in h are those of both.");
     for (size_t i = 0; i < o->numbers->rows; i++)
         kept += o->numbers->row[i].kept;
     if (kept) /* their numbers are those of the program at that time */
-        br_put_answer(d, "%zu of %zu runs were kept from before, and not run again.", kept,
-                      o->numbers->rows);
+        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.",
+                      kept, o->numbers->rows);
 
     static const struct br_column orders_columns[] = {
         {.key = "quantity"},
@@ -466,14 +461,14 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         {.key = "high", .flags = BR_FOR_PROGRAMS},
         {.key = "method", .flags = BR_FILES_ONLY},
         {.key = "p", .heading = "p of three", .format = "%.4f"},
+        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
+        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
+        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "r21", .format = "%.4g", .flags = BR_FILES_ONLY},
         {.key = "r32", .format = "%.4g", .flags = BR_FILES_ONLY},
         {.key = "phi_ext", .format = "%.9g", .flags = BR_FILES_ONLY},
         {.key = "e_a", .format = "%.3e", .flags = BR_FILES_ONLY},
         {.key = "e_ext", .format = "%.3e", .flags = BR_FILES_ONLY},
-        {.key = "gci_fine", .heading = "GCI fine", .format = "%.3e"},
-        {.key = "gci_coarse", .heading = "GCI coarse", .format = "%.3e"},
-        {.key = "asymptotic", .heading = "asymptotic ratio", .format = "%.4f"},
         {.key = "of_three", .flags = BR_FOR_PROGRAMS},
         {.key = "gci_limited",
          .heading = "GCI, p limited",
@@ -484,17 +479,18 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     for (size_t i = 0; i < o->count; i++)
         for (size_t l = 0; l < o->of[i].lines && quantity_of(o, &o->of[i])->is_value; l++) {
             const struct br_orders_line *line = &o->of[i].line[l];
-            const struct br_grid_limit *limit = &line->limit;
-            const struct br_gci *g = &line->gci;
+            const struct br_grid_limit *limit = &line->limits.limit;
+            const struct br_gci *g = &line->limits.gci;
             BR_PUT_ROW(d, br_text(quantity_of(o, &o->of[i])->name),
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
-            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.ratio),
-                         br_number(g->coarse.ratio), br_number(g->fine.limit),
-                         br_number(g->fine.relative), br_number(g->fine.relative_extrapolated),
-                         br_number(g->fine.index), br_number(g->coarse.index),
-                         br_number(g->asymptotic), br_text(br_sequence_text(g->sequence)),
+            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
+                         br_number(g->coarse.index), br_number(g->asymptotic),
+                         br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                         br_number(g->fine.limit), br_number(g->fine.relative),
+                         br_number(g->fine.relative_extrapolated),
+                         br_text(br_sequence_text(g->sequence)),
                          br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */

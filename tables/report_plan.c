@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
+#include "solver/scene.h"
 #include "study/base/quote.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/plan.h"

@@ -233,7 +233,9 @@ static void put_tip(struct br_document *d, const struct br_run_findings *f)
     if (rests(f))
         br_put_shown(d, "0");
     put_number(d, f, contact ? row->contact_force : NAN,
-               row->contact_force > 0 ? r->marched.contact.stiffness * error[BR_AXIAL] : NAN,
+               row->contact_force > 0
+                   ? br_contact_slope(&r->marched.contact, row->contact_force) * error[BR_AXIAL]
+                   : NAN,
                "contact force", "N", "tip.contact_force");
     BR_FACT(d, br_if(contact, br_truth(r->watch.closed)), .key = "tip.closed",
             .heading = "contact");
@@ -371,7 +373,7 @@ static void put_energies(struct br_document *d, const struct br_run_report *r)
             .heading = "lost to friction", .unit = "J");
     BR_FACT(d, br_truth(r->summed), .key = "energies.summed",
             .heading = r->summed ? NULL : "works, losses, balance");
-    br_put_shown(d, "not summed; --check sums them, from the fields of every step");
+    br_put_shown(d, "not summed; --check sums them");
     if (r->summed)
         put_works(d, r);
 }

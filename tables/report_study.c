@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "reference/exact/exact.h"
+#include "solver/scene.h"
 #include "study/fit/report.h"
 #include "study/scene/method_fields.h"
 #include "tables/report_parts.h"
@@ -278,9 +279,7 @@ static void put_fits(struct br_document *d, const struct br_report *r)
         br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
         BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
         BR_PUT(d, br_truth(claims), .key = "describes_the_errors",
-               .heading = "describes the "
-                          "errors",
-               .flags = BR_FILES_ONLY);
+               .heading = "usable", .flags = BR_FILES_ONLY);
         br_hide(d, "reference_error", r->study->norm->unit,
                 br_number(r->fits[part].reference_error));
     }

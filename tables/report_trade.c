@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/trade/trade.h"
 #include "tables/report_parts.h"
 

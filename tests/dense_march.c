@@ -5,6 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/field.h"
+#include "solver/function.h"
+#include "solver/method.h"
+#include "solver/scene.h"
+
 #if defined __SIZEOF_FLOAT128__ && !defined __clang_analyzer__
 typedef __float128 real;
 #define BR_HAS_QUAD 1

@@ -2,6 +2,9 @@
 #include <math.h>
 #include <stdarg.h>
 
+#include "solver/function.h"
+#include "solver/scene.h"
+
 #include "tests/exact_scenes.h"
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)

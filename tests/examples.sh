@@ -99,6 +99,15 @@ cp "$BEAMRATE_DATA"/study/scenes/example3.yaml few/study/scenes
         beamrate study example2 -n 4,8,16 -k 0.1,0.05,0.025 --no-plots --quiet
 ) >output 2>&1 || { cat output; exit 99; }
 
+# What the line has printed says something, and no number in it is nan.
+speaks() {
+    case $line in
+    *--quiet* | *' -q'* | *'>'*) ;;
+    beamrate*) [ "$(wc -w <output)" -ge 10 ] || { echo "# it printed next to nothing"; return 1; } ;;
+    esac
+    ! grep -niw nan output | sed 's/^/# /' | grep .
+}
+
 # In a copy of the folder; a scene that is to be made is not there yet.
 number=0
 while IFS='	' read -r how origin line; do
@@ -115,7 +124,8 @@ while IFS='	' read -r how origin line; do
     (
         cd here && case $line in *--all*) export BEAMRATE_DATA="$work/few" ;; esac
         beamrate=beamrate sh -c "$line"
-    ) >output 2>&1 </dev/null && [ "$how" != bad ] && echo "ok $number - ${origin##*/}: $line" && continue
+    ) >output 2>&1 </dev/null && [ "$how" != bad ] && speaks && echo "ok $number - ${origin##*/}: $line" &&
+        continue
     echo "not ok $number - ${origin##*/}: $line"
     sed 's/^/# /' output
 done <examples

@@ -140,7 +140,7 @@ END
 
 expect 0 "err: order in h 2.00" \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)'
-expect 0 "5 of 5 runs were kept from before, and not run again." \
+expect 0 "5 of 5 runs are from an earlier start, and were not run again." \
     beamrate orders --run './bad.sh never {n}' --n 4,8,16,32,64 --read 'err=err=(.+)' --resume
 none_has_a_number
 failed_run_of_a_study

@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "solver/laws.h"
+#include "solver/method.h"
 #include "study/scene/file.h"
 #include "tests/dense_march.h"
 

@@ -183,6 +183,14 @@ def check_refusals():
     refused("n: found 'it twice'", lambda: br.orders({"n": N, "e": N}, n=N))
     refused("e: found array", lambda: br.orders({"n": N, "e": 1j * N}))
     refused("e: found masked_array", lambda: br.orders({"n": N, "e": np.ma.array(N, mask=N > 20)}))
+    refused("column: found 'e\\x00x'", lambda: br.orders({"n": N, "e\0x": N}))
+    refused("column: found 'e\\ud800'", lambda: br.orders({"n": N, "e\ud800": N}))
+    refused("values: found 'e\\ud800'", lambda: br.orders({"n": N, "e": N}, values="e\ud800"))
+    small = np.array([4, 2, 1], np.longdouble) * np.longdouble("1e-4000")
+    if small[0] != 0:  # where it has more exponents than a double
+        refused("number: found array", lambda: br.Orders(small, h=[4, 2, 1]))
+        refused("number: found array", lambda: br.Orders(1 / small, h=[4, 2, 1]))
+        refused("found no column of numbers", lambda: br.orders({"h": [4, 2, 1], "e": small}))
     refused("values: found True", lambda: br.orders({"n": N, "e": N}, values=True))
     for wrong in (-1, math.nan, math.inf, "2"):
         refused("dimension, formal: found", lambda: br.orders({"n": N, "e": N}, dimension=wrong))

@@ -4,6 +4,7 @@
 #ifndef BR_TESTS_MADE_REPORT_H
 #define BR_TESTS_MADE_REPORT_H
 
+#include "solver/scene.h"
 #include "study/fit/report.h"
 #include "support.h"
 

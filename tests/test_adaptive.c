@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "reference/textbook.h"
+#include "solver/scene.h"
 #include "support.h"
 
 /* ---- the estimate, by the tables as they are printed ---- */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "reference/certificate/certificate.h"
+#include "solver/scene.h"
 #include "support.h"
 
 enum { N = 20, SIZE = 2 * (N + 1) };

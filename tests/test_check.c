@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
+#include "solver/scene.h"
 #include "study/verify/comparison.h"
 #include "support.h"
 

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
 #include "solver/laws.h"
+#include "solver/scene.h"
 #include "study/foresee/warnings.h"
 #include "support.h"
 

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "solver/method.h"
+#include "solver/scene.h"
 #include "support.h"
 
 /* Whether bdf3 lets a solution of y' = (z / k) y grow: a root of

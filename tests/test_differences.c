@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Differences of successive grids, against studies of single cells. */
 
+#include "solver/scene.h"
 #include "study/grid/differences.h"
 #include "study/grid/sweep.h"
 #include "support.h"

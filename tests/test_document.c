@@ -231,6 +231,15 @@ static void build_wide(struct br_document *d)
                .key = "long");
         BR_PUT(d, br_number(1e-9 / 3), .key = "last", .format = "%.4e");
     }
+    br_put_table(d, "u", "A title of many words, more than a narrow terminal has room for", 0);
+    br_put_row(d);
+    BR_PUT(d, br_text("a"), .key = "b");
+    br_put_verdict(d, &(struct br_document_verdict){
+                          .outcome = BR_OUTCOME_FAIL,
+                          .group = "group",
+                          .name = "name",
+                          .message = "a message of many words that goes on and on until a line "
+                                     "ends, and then some more of them"});
 }
 
 /* Shows the document on a terminal of so many columns (0: not known), at most 8191 bytes. */
@@ -352,8 +361,8 @@ TEST(test_colours)
         rows[i].term ? setenv("TERM", rows[i].term, 1) : unsetenv("TERM");
         show_on_terminal(200, text);
         assert_int_equal(count_of(text, "\033[1;32mPASS\033[0m"), rows[i].coloured);
-        assert_int_equal(count_of(text, "\033[1;31mFAIL\033[0m"), 2 * rows[i].coloured);
-        assert_int_equal(count_of(text, "\033"), 6 * rows[i].coloured);
+        assert_int_equal(count_of(text, "\033[1;31mFAIL\033[0m"), 3 * rows[i].coloured);
+        assert_int_equal(count_of(text, "\033"), 8 * rows[i].coloured);
     }
 }
 

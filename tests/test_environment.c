@@ -13,6 +13,7 @@
 #include "reference/certificate/certificate.h"
 #include "rescale.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/method.h"
 #include "study/scene/file.h"
 #include "support.h"
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "support.h"
 
 /* The scheme as printed, to 1e-11 by the default solver whatever the mesh. */

@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <string.h>
 
+#include "solver/function.h"
+#include "solver/scene.h"
 #include "tests/exact_scenes.h"
 
 /* The derivatives belong together: each is the integral of the next. */

@@ -6,6 +6,7 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
+#include "solver/scene.h"
 #include "tests/exact_scenes.h"
 
 /* y' + rate y = amplitude sin(omega t) + constant, y(start) = value */

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/function.h"
+#include "solver/scene.h"
 #include "tests/exact_scenes.h"
 
 static const struct br_exact_quantity u = {BR_AXIAL, false, 0}, v = {BR_AXIAL, true, 0},

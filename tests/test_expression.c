@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "solver/march.h"
+#include "solver/scene.h"
 #include "study/known/expression.h"
 #include "study/known/operations.h"
 #include "support.h"
@@ -115,7 +116,7 @@ static const struct {
 } refusals[] = {
     {"", 1, "found the end, expected a number, a name or '('"},
     {"  ", 3, "found the end"},
-    {"100*tt", 5, "unknown name 'tt', expected x, t, pi, e or a function: ln sin cos"},
+    {"100*tt", 5, "unknown name 'tt', expected one of: x, t, pi, e, ln, sin, cos"},
     {"y", 1, "unknown name 'y'"},
     {"X", 1, "unknown name 'X'"},
     {"rint(x)", 1, "unknown name 'rint'"},

@@ -10,8 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/method.h"
+#include "solver/scene.h"
 #include "support.h"
 #include "tests/dense_march.h"
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/fit/fit.h"
 #include "support.h"
 

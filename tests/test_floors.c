@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/extremes/extremes.h"
 #include "support.h"
 

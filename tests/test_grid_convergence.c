@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Limits and uncertainties of values on finer and finer grids: published examples, exact power
  * laws, and an independent least squares in long double. */
-#include "study/fit/grid_convergence.h"
+#include "study/fit/limits.h"
 
 #include <float.h>
 #include <math.h>
@@ -473,7 +473,7 @@ TEST(test_sequence_kinds)
         const struct named *c = &cases[i];
         const bool constant = c->sequence == BR_SEQUENCE_CONSTANT;
         struct br_grid_limit limit;
-        MUST(br_limit_of_values(c->h, c->value, c->count, 2, &limit, &err));
+        MUST(br_limit_of_values(c->h, c->value, NULL, c->count, 2, &limit, &err));
         if (limit.sequence != c->sequence)
             fail_msg("case %zu is %s, expected %s (p = %g)", i, br_sequence_text(limit.sequence),
                      br_sequence_text(c->sequence), limit.order);
@@ -521,7 +521,7 @@ TEST(test_limit)
     struct br_grid_limit limit;
     struct br_gci g;
     struct br_least_squares fit;
-    MUST(br_limit_of_values(h, value, 3, 2, &limit, &err));
+    MUST(br_limit_of_values(h, value, NULL, 3, 2, &limit, &err));
     MUST(br_gci(h, value, 3, &g, &err));
     assert_int_equal(limit.method, BR_LIMIT_GCI);
     assert_int_equal(limit.sequence, BR_MONOTONE_CONVERGENCE);
@@ -529,7 +529,7 @@ TEST(test_limit)
     CLOSE(limit.value.value, 1.12 - 0.28 / 1.5, 1e-13);
     CLOSE(limit.value.low, 1.12 * (1 - g.fine.index), 1e-13);
     CLOSE(limit.value.high, 1.12 * (1 + g.fine.index), 1e-13);
-    MUST(br_limit_of_values(h, value, 4, 2, &limit, &err));
+    MUST(br_limit_of_values(h, value, NULL, 4, 2, &limit, &err));
     MUST(br_least_squares(h, value, 4, 2, &fit, &err));
     assert_int_equal(limit.method, BR_LIMIT_LEAST_SQUARES);
     CLOSE(limit.order, fit.order, 0);
@@ -553,7 +553,7 @@ static double coverage(size_t count, double finest)
             h[j] = finest * pow(1.5, (double)(count - 1 - j));
             value[j] = 1 + h[j] * (a + h[j] * (b + h[j] * c));
         }
-        MUST(br_limit_of_values(h, value, count, 2, &limit, &err));
+        MUST(br_limit_of_values(h, value, NULL, count, 2, &limit, &err));
         told += isfinite(limit.value.low);
         right += limit.value.low <= 1 && limit.value.high >= 1;
     }
@@ -604,14 +604,14 @@ TEST(test_bad_input)
         const double *h = bad[i].h, *v = bad[i].value;
         REFUSED(br_gci(h, v, 4, &g, &err), BR_BAD_INPUT, bad[i].message);
         REFUSED(br_least_squares(h, v, 4, 2, &r, &err), BR_BAD_INPUT, bad[i].message);
-        REFUSED(br_limit_of_values(h, v, 4, 2, &l, &err), BR_BAD_INPUT, bad[i].message);
+        REFUSED(br_limit_of_values(h, v, NULL, 4, 2, &l, &err), BR_BAD_INPUT, bad[i].message);
     }
     static const double h[] = {4, 2, 1, 0.5}, v[] = {3, 2, 1.5, 1.3};
     for (size_t i = 0; i < sizeof few / sizeof *few; i++) {
         const size_t count = few[i].count;
         const double formal = few[i].formal;
         REFUSED(br_least_squares(h, v, count, formal, &r, &err), BR_BAD_INPUT, few[i].message);
-        REFUSED(br_limit_of_values(h, v, count, formal, &l, &err), BR_BAD_INPUT, few[i].message);
+        REFUSED(br_limit_of_values(h, v, NULL, count, formal, &l, &err), BR_BAD_INPUT, few[i].message);
     }
     REFUSED(br_gci(h, v, 2, &g, &err), BR_BAD_INPUT, "2 grids, expected at least 3");
 }
@@ -620,7 +620,7 @@ static enum br_status attempt(const void *data, struct br_error *why)
 {
     const struct named *c = data;
     struct br_grid_limit limit;
-    return br_limit_of_values(c->h, c->value, c->count, 2, &limit, why);
+    return br_limit_of_values(c->h, c->value, NULL, c->count, 2, &limit, why);
 }
 
 /* An oscillating sequence needs the order of its differences too. */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "reference/exact/exact.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "support.h"
 

@@ -10,6 +10,7 @@
 
 #include "solver/linear/linear_solver.h"
 #include "solver/method.h"
+#include "solver/scene.h"
 #include "support.h"
 
 /* The friction rules in turn; those that iterate. */

@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "support.h"
 
 enum { STEPS = 30, MOST_N = 60, MOST_SIZE = 2 * (MOST_N + 1) };

@@ -6,6 +6,7 @@
 
 #include "dense_march.h"
 #include "reference/long_plain.h"
+#include "solver/scene.h"
 #include "support.h"
 
 enum { N = 40, STEPS = 24 };

@@ -17,7 +17,7 @@ static struct br_error err;
 /* Which columns of a table are read. */
 struct columns {
     const char *errors, *values;
-    double dimension;
+    double dimension;  /* 2: nobody states it */
     const char *names; /* as --column has them */
 };
 static const struct columns plain = {NULL, NULL, 2, NULL};
@@ -31,7 +31,8 @@ static enum br_status read_table(const char *text, const struct columns *columns
                                         .values = (char *)columns->values,
                                         .dimension = columns->dimension,
                                         .columns = (char *)columns->names,
-                                        .assumed_dimension = columns == &plain || columns->names};
+                                        .assumed_dimension =
+                                            columns->dimension == 2 || columns->names};
     return br_orders_read(&q, numbers, &err);
 }
 
@@ -153,9 +154,9 @@ static const struct {
     const char *taken, *names;
 } foreign[] = {
     {"dealii.txt", "L2", 2,
-     "h = dofs^(-1/d) from column dofs; errors: L2, H1; left aside: cells, cycle", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2, H1; left aside: cells, cycle", NULL},
     {"dealii_org.txt", "L2 error", 2,
-     "h = dofs^(-1/d) from column dofs; errors: L2 error; left aside: cells, L2 rate", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2 error; left aside: cells, L2 rate", NULL},
     {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler", NULL},
     {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r", NULL},
     {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error", NULL},
@@ -178,7 +179,7 @@ static const struct {
     /* two columns of rates, and a bar behind the last field */
     {"| cycle | # dofs | L2 | rate | H1 | rate |\n| 0 | 81 | 1.6e-2 | - | 2.56e-1 | - |\n"
      "| 1 | 324 | 4e-3 | 2 | 1.28e-1 | 1 |\n| 2 | 1296 | 1e-3 | 2 | 6.4e-2 | 1 |\n",
-     "H1", 1, "h = dofs^(-1/d) from column # dofs; errors: L2, H1; left aside: cycle, rate, rate",
+     "H1", 1, "h = dofs^(-1/d) from column # dofs, d = 2 assumed; errors: L2, H1; left aside: cycle, rate, rate",
      NULL},
     {"| level | e |\n|---|---|\n| 0 | 16 |\n| 1 | 4 |\n| 2 | 1 |\n", "e", 2,
      "h = 2^-level from column level; errors: e", NULL},
@@ -207,6 +208,24 @@ static const struct {
     {"p,resolution,e\n1,8,1.6\n2,16,.4\n3,32,.1\n", "e", 2,
      "h = 1/n from column resolution; errors: e; left aside: p", NULL},
     {"Time step size,e\n4,16\n2,4\n1,1\n", "e", 2, "k from column Time step size; errors: e", NULL},
+    /* frames of Julia, polars and R, with types; an index of R */
+    {"Row \u2502 N      L2\n     \u2502 Int64  Float64\n\u2500\u2500\u253c\u2500\u2500\n"
+     "   1 \u2502     8  1.6\n   2 \u2502    16  0.4\n   3 \u2502    32  0.1\n",
+     "L2", 2, "h = 1/n from column N; errors: L2; left aside: Row", NULL},
+    {"shape: (3, 3)\n\u250c\u2500\u252c\u2500\u2510\n\u2502 h \u2506 l2 \u2506 h1 \u2502\n"
+     "\u2502 --- \u2506 --- \u2506 --- \u2502\n"
+     "\u2502 f64 \u2506 f64 \u2506 f64 \u2502\n"
+     "\u2502 1 \u2506 1.6 \u2506 4 \u2502\n\u2502 .5 \u2506 .4 \u2506 2 \u2502\n"
+     "\u2502 .25 \u2506 .1 \u2506 1 \u2502\n",
+     "h1", 1, "h from column h; errors: l2, h1", NULL},
+    {"# A tibble: 3 x 2\n     h    l2\n <dbl> <dbl>\n1 1 1.6\n2 .5 .4\n3 .25 .1\n", "l2", 2,
+     "h from column h; errors: l2", NULL},
+    /* a title above a heading that is a comment; sizes of three digits beside a level */
+    {"Table: Error\n  #Level  h  ||u-u_h||\n\n 0 3.12e-2 1.6\n 1 1.56e-2 .4\n 2 7.81e-3 .1\n",
+     "||u-u_h||", 2, "h from column h; errors: ||u-u_h||", NULL},
+    /* brackets that are no units */
+    {"h [m],L2(u) [m],L2(v),L2(p)\n1,4,1.6,1\n.5,2,.4,1\n.25,1,.1,1\n", "L2(v)", 2,
+     "h from column h; errors: L2(u), L2(v), L2(p)", NULL},
     /* named by hand */
     {"Elemente;Gitterweite;Fehler\n8;0,125;1,6\n16;0,0625;0,4\n32;0,03125;0,1\n", "Fehler", 2,
      "h from column Gitterweite; errors: Fehler; left aside: Elemente", "Gitterweite=h"},
@@ -274,6 +293,8 @@ TEST(test_headings)
     CLOSE(n.row[2].z[BR_AXIS_SPACE], 1. / 512, 0);
     assert_true(n.assumed && n.dimension == 1);
     br_numbers_clear(&n);
+    refuse_with("N,e\n10,9\n100,3\n1000,1\n", &(struct columns){NULL, NULL, 3, NULL},
+                "--dimension: found no numbers of unknowns or cells among N, e;");
 }
 
 /* No verdict on a mesh whose dimension nobody stated. */
@@ -648,16 +669,16 @@ TEST(test_values)
                 assert_int_equal(line->observed.point[i].flag, BR_FLAG_NONE);
                 CLOSE(br_orders_rate(line, i), p, 1e-8);
             }
-            CLOSE(line->gci.order, p, 1e-8);
-            CLOSE(line->gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
-            CLOSE(line->gci.fine.limit, 5, 1e-9);
-            assert_int_equal(line->triples, kind ? 4 : 3);
-            for (size_t i = 0; i < line->triples; i++) {
-                CLOSE(line->triple[i].order, p, 1e-8);
-                CLOSE(line->triple[i].fine.limit, 5, 1e-9);
+            CLOSE(line->limits.gci.order, p, 1e-8);
+            CLOSE(line->limits.gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
+            CLOSE(line->limits.gci.fine.limit, 5, 1e-9);
+            assert_int_equal(line->limits.triples, kind ? 4 : 3);
+            for (size_t i = 0; i < line->limits.triples; i++) {
+                CLOSE(line->limits.triple[i].order, p, 1e-8);
+                CLOSE(line->limits.triple[i].fine.limit, 5, 1e-9);
                 CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
             }
-            assert_true(line->limit.value.low <= 5 && line->limit.value.high >= 5);
+            assert_true(line->limits.limit.value.low <= 5 && line->limits.limit.value.high >= 5);
         }
 }
 
@@ -689,6 +710,22 @@ TEST(test_finer)
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
     CLOSE(given, 4096, 0);
+}
+
+/* The number that a size was made of; of a size between two numbers, the larger one. */
+TEST(test_given)
+{
+    static const double list[] = {1, 7, 49, 1000, 65537, 1368999999, 99999999999.0};
+    static const char *const columns[] = {"n", "steps", "dofs", "cells"};
+    for (size_t c = 0; c < 4; c++)
+        for (int dimension = 1; dimension <= 3; dimension++)
+            for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+                const struct br_resolution_column *column = br_resolution_column_find(columns[c]);
+                const double z = br_numbers_z(column, list[i], dimension);
+                CLOSE(br_numbers_given(column, z, dimension), list[i], 0);
+                const double between = br_numbers_z(column, list[i] + 0.3, dimension);
+                CLOSE(br_numbers_given(column, between, dimension), list[i] + 1, 0);
+            }
 }
 
 /* A difference goes over a missing value; without any finer value it names the finest row. */
@@ -885,7 +922,7 @@ TEST(test_orders_that_a_grid_hides)
     const struct br_orders_answer *answer = found.orders.of[0].answer;
     assert_true(isnan(answer[BR_AXIS_SPACE].order.value));
     assert_string_equal(answer[BR_AXIS_SPACE].open,
-                        "no error in h is seen, that in k is larger everywhere: a finer k, or a "
+                        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
                         "coarser h, would show it");
     CLOSE(answer[BR_AXIS_TIME].order.value, 1, 1e-6);
     const char *open = answer[BR_AXIS_SPACE].open; /* a new find clears the answer, not its text */
@@ -916,12 +953,13 @@ TEST(test_limit_of_a_grid)
     const struct br_quantity_orders *of = &found.orders.of[0];
     CLOSE(of->limit.value.value, 5, 1e-9);
     assert_true(of->limit.value.low < 5 && of->limit.value.high > 5);
-    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limit.value.value, 5 - pow(2, -5), 1e-9);
+    CLOSE(br_orders_finest(of, BR_AXIS_SPACE)->limits.limit.value.value, 5 - pow(2, -5), 1e-9);
     /* Both intervals, and the product at the finest sizes, which neither line shows alone. */
     find(grid_of(4, 4, with_a_product), "l2");
+    of = &found.orders.of[0];
     double half = pow(2, -7);
     for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limit.value;
+        const struct br_estimate e = br_orders_finest(of, (enum br_axis)axis)->limits.limit.value;
         const double finest = with_a_product(0.125, 0.125);
         half += fmax(e.high - finest, finest - e.low);
     }

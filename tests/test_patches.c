@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "support.h"
 
 enum { MOST_N = 64 };

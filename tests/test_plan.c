@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/trade/plan.h"
 #include "support.h"
 

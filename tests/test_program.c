@@ -304,14 +304,14 @@ TEST(test_shell_lines)
 
 static const char talking[] =
     "echo \"err=9 dofs $(($1 * $1 + 1))\"; echo err=$1; echo err=-$1 >&2\n"
-    "mkdir d; echo \"{\\\"e\\\": 0.$1}\" > d/out.json; test $1 -ne 16 || exit 3";
+    "mkdir d; echo \"{\\\"e\\\": 0.$1}\" > d/out_$1.json; test $1 -ne 16 || exit 3";
 
 TEST(test_places)
 {
     static const double list[] = {4, 8, 16, 32};
     const char *const read[][2] = {{"last", "last:err=(.*)"},
                                    {"complaint", "stderr:err=(.*)"},
-                                   {"file", "file:d/out.json:json:/e"},
+                                   {"file", "file:d/out_{level}.json:json:/e"},
                                    {"dofs", "dofs (.*)"}};
     write_script("talking", talking);
     struct br_orders_request p = br_orders_request_default();
@@ -339,6 +339,8 @@ TEST(test_places)
         CLOSE(row->number[1], -list[i], 0);
         CLOSE(row->number[2], i == 3 ? 0.32 : list[i] / 10, 1e-15);
     }
+    MUST(br_orders_request_reading(&p, "q", "file:out_{n}:(.)", &err));
+    refuse(&p, BR_BAD_INPUT, "found '{' before 'n}', expected {level}");
     br_orders_request_clear(&p);
     static const char *const refused[] = {"file:x", "file::(.)", "file:/etc/passwd:(.)",
                                           "file:../x:(.)", "file:a/../../x:(.)"};
@@ -844,7 +846,7 @@ TEST(test_killed_keeper)
     assert_true(child >= 0);
     if (child == 0)
         _exit(br_program_run(&p, &numbers, &err) == BR_IO &&
-                      strstr(err.message, "what watched a program was killed")
+                      strstr(err.message, "the process that watches a program was killed")
                   ? 0
                   : 1);
     shell("for i in $(seq 1000); do [ -e left.keeper ] && exit 0; sleep 0.01; done; exit 1");

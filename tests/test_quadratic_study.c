@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/function.h"
+#include "solver/scene.h"
 #include "study/fit/fit.h"
 #include "study/grid/sweep.h"
 #include "support.h"

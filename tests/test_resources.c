@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The memory that a march is said to take against what it has allocated; what does not fit, or
  * would never end, is refused. */
+#include "solver/function.h"
+#include "solver/scene.h"
 #include "study/foresee/foreseen.h"
 
 #include <malloc.h>

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/fit/report.h"
 #include "support.h"
 

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "study/trade/split.h"
 #include "support.h"

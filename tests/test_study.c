@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "reference/exact/exact.h"
+#include "solver/scene.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "support.h"

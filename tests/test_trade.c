@@ -5,6 +5,7 @@
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
 #include "support.h"
@@ -321,6 +322,29 @@ TEST(test_forecast)
         assert_true(isnan(br_trial_bound(&t->trial[i])) == left);
     }
     drop(t);
+    br_scene_clear(&scene);
+}
+
+/* A judge's work for a mesh is forecast with the first trial that needs it, and passes to the next
+ * one when that trial is left out. */
+TEST(test_judge_is_forecast)
+{
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    struct br_trial trial[] = {{.named = &pair[0], .at = {10, 1000000}},
+                               {.named = &pair[0], .at = {10, 10}},
+                               {.named = &pair[0], .at = {20, 10}}};
+    struct br_trial_request request = br_trial_request_default(&scene);
+    struct br_trial_forecast forecast;
+    MUST(br_trials_foresee(trial, 3, &request, &forecast, &err));
+    const double beside = trial[1].foreseen;
+    assert_true(trial[2].foreseen > 10 * beside); /* its mesh is its own */
+    request.seconds = 0.5 * trial[0].foreseen;
+    MUST(br_trials_foresee(trial, 3, &request, &forecast, &err));
+    assert_int_equal(trial[0].end, BR_TRIAL_LEFT);
+    assert_int_equal(forecast.left, 1);
+    assert_true(trial[1].foreseen > 10 * beside);
+    CLOSE(forecast.seconds, trial[1].foreseen + trial[2].foreseen, 1e-12 * forecast.seconds);
     br_scene_clear(&scene);
 }
 

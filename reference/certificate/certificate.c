@@ -2,6 +2,7 @@
 /* The residual, the laws at the tip and the update of the displacement, as pure numbers. */
 #include "reference/certificate/certificate.h"
 #include "reference/textbook.h"
+#include "solver/scene.h"
 
 #include <float.h>
 #include <math.h>
@@ -137,7 +138,7 @@ static double velocity_round_off(const struct br_checked_step *s, enum br_field_
 static double force_error(const struct br_checked_step *s, double force, double wanted)
 {
     const double way = s->k * velocity_round_off(s, BR_AXIAL);
-    return positive(fabs(force - wanted) - s->scene->contact.stiffness * way);
+    return positive(fabs(force - wanted) - br_contact_stiffness(&s->scene->contact) * way);
 }
 
 /* The scale of a contact force, N. */
@@ -145,7 +146,7 @@ static double contact_scale(const struct br_checked_step *s, double force)
 {
     const struct br_contact *c = &s->scene->contact;
     const double ways = field_scale(s, BR_AXIAL) + static_distance(s, BR_AXIAL, force);
-    return fabs(force) + c->stiffness * (ways + c->gap);
+    return fabs(force) + br_contact_stiffness(c) * (ways + c->gap);
 }
 
 /* (10): at u_{n-1} or u_n, as the method's contact rule has it. */
@@ -163,7 +164,7 @@ static double contact_error(const struct br_checked_step *s)
         u = f->displacement;
     else
         return NAN;
-    const double wanted = c->stiffness * positive(at_tip(s, BR_AXIAL, u) - c->gap);
+    const double wanted = br_contact_stiffness(c) * positive(at_tip(s, BR_AXIAL, u) - c->gap);
     return over_scale(s, BR_AXIAL, BR_SCALE_LAW, force_error(s, force, wanted),
                       contact_scale(s, force));
 }
@@ -267,20 +268,20 @@ static double friction_error(const struct br_checked_step *s)
 static int contact_branches(const struct br_checked_step *s, double distance[BR_MOST_BRANCHES])
 {
     const struct br_contact *c = &s->scene->contact;
-    if (!c->modelled || !(c->stiffness > 0))
+    if (!c->modelled || !(br_contact_stiffness(c) > 0))
         return 0;
     const double force = s->tip.contact_force;
     const double depth = at_tip(s, BR_AXIAL, s->field[BR_AXIAL].displacement) - c->gap;
     const double scale = with_last_bit(s, BR_AXIAL, BR_SCALE_LAW, contact_scale(s, force));
     distance[0] = ratio(fabs(force), scale);
-    distance[1] = ratio(force_error(s, force, c->stiffness * depth), scale);
+    distance[1] = ratio(force_error(s, force, br_contact_stiffness(c) * depth), scale);
     return 2;
 }
 
 /* The bound of a contact whose phase is prolonged beyond its end: 0 for an open one. */
 static double prolonged_bound(const struct br_checked_step *s)
 {
-    const bool open = s->scene->contact.stiffness > 0 && s->tip.contact_force == 0;
+    const bool open = br_contact_stiffness(&s->scene->contact) > 0 && s->tip.contact_force == 0;
     return open ? 0 : s->scene->friction.coefficient * depth_of(s);
 }
 

@@ -22,6 +22,7 @@
 #define BR_REFERENCE_CERTIFICATE_CERTIFICATE_H
 
 #include "solver/march.h"
+#include "solver/method.h"
 
 /* How far a step, or the worst stage of one, is from each law; pure numbers, 0 for a perfect step,
  * NaN where the step has a value that is not finite or a law that is not known here. */

@@ -5,6 +5,7 @@
 
 #include "reference/certificate/certificate.h"
 #include "reference/certificate/watched.h"
+#include "solver/scene.h"
 
 typedef long double real;
 

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/method.h"
+
 typedef long double real;
 
 static void add(double *to, real factor, const double *from, size_t size)

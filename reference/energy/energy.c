@@ -8,6 +8,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/certificate/watched.h"
 #include "reference/textbook.h"
+#include "solver/scene.h"
 
 typedef long double real;
 
@@ -54,7 +55,7 @@ static struct field_energy energy_of_field(const struct br_field *f,
     if (f->kind != BR_AXIAL || !contact->modelled)
         return e;
     const real depth = (real)displacement[f->n * br_field_unknowns(f)] - contact->gap;
-    e.contact = depth <= 0 ? 0 : contact->stiffness * depth * depth / 2;
+    e.contact = depth <= 0 ? 0 : br_contact_stiffness(contact) * depth * depth / 2;
     return e;
 }
 

@@ -368,7 +368,7 @@ static struct br_exact_law law_of(const struct br_scene *s, enum br_field_kind w
         return (struct br_exact_law){
             .contact = true,
             .obstacle = s->contact.modelled,
-            .stiffness = s->contact.modelled ? s->contact.stiffness : 0,
+            .stiffness = s->contact.modelled ? br_contact_stiffness(&s->contact) : 0,
         };
     return (struct br_exact_law){
         .friction = f->law,

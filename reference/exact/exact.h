@@ -15,8 +15,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "solver/scene.h"
+#include "solver/kind.h"
 #include "solver/status.h"
+
+struct br_scene;
 
 struct br_exact;
 

@@ -6,6 +6,7 @@
 #include "reference/judge.h"
 #include "solver/clock.h"
 #include "solver/modes.h"
+#include "solver/scene.h"
 
 struct exact_judge {
     const struct br_exact *exact; /* shared */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/mms/mms.h"
+#include "solver/scene.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -8,6 +8,7 @@
 #include "reference/judge.h"
 #include "solver/clock.h"
 #include "solver/modes.h"
+#include "solver/scene.h"
 
 /* Twelve Gauss points give the modes up to degree 10 of a polynomial of degree 13 exactly; the last
  * two degrees measure the error. */

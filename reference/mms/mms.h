@@ -4,7 +4,11 @@
 #ifndef BR_REFERENCE_MMS_MMS_H
 #define BR_REFERENCE_MMS_MMS_H
 
-#include "solver/field.h"
+#include "solver/kind.h"
+#include "solver/status.h"
+
+struct br_function;
+struct br_scene;
 
 /* ---- the given solution ---- */
 

@@ -59,8 +59,6 @@ const struct br_quoting br_for_csv = {
     .stead = {{'"', "\"\""}},
 };
 
-const struct br_quoting br_for_yaml = {.around = "\"", .escaped = "\"\\"};
-
 const struct br_quoting br_for_github = {.around = "", .stead = {{'%', "%25"}}};
 
 const struct br_quoting br_for_github_property = {

@@ -38,7 +38,6 @@ extern const struct br_quoting br_for_latex;    /* running text, or a cell */
 extern const struct br_quoting br_for_markdown; /* the same; no HTML comes through */
 extern const struct br_quoting br_for_xml;      /* text, or an attribute's value */
 extern const struct br_quoting br_for_csv;      /* a field (RFC 4180), never a formula */
-extern const struct br_quoting br_for_yaml;     /* a double-quoted scalar */
 extern const struct br_quoting br_for_github;   /* the message of a GitHub annotation */
 extern const struct br_quoting br_for_github_property;
 extern const struct br_quoting br_for_shell;      /* a word */

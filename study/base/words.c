@@ -2,10 +2,13 @@
 #include "study/base/words.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "study/base/quote.h"
 
 enum { MOST_ROWS = 64 };
 
@@ -37,16 +40,14 @@ static enum br_status refuse(const struct br_words *w, const char *word, bool el
                              struct br_error *err)
 {
     const char *names[MOST_ROWS];
-    char all[512];
+    char expected[BR_EXPECTED];
     size_t count = 0;
     for (size_t i = 0; w->name(i) && count < MOST_ROWS; i++)
         if (br_word_available(w, i))
             names[count++] = w->name(i);
-    const char *nearest = elsewhere ? NULL : br_nearest(word, names, count);
-    return br_fail(err, BR_BAD_INPUT, "found '%s'%s, expected one of: %s%s%s%s", word,
+    return br_fail(err, BR_BAD_INPUT, "found '%s'%s, %s", word,
                    elsewhere ? ", which this machine does not have" : "",
-                   br_words_join(w, ", ", all, sizeof all), nearest ? "; did you mean '" : "",
-                   nearest ? nearest : "", nearest ? "'?" : "");
+                   br_expected(elsewhere ? "" : word, names, count, expected));
 }
 
 enum br_status br_words_read(const struct br_words *w, const char *text, size_t length, size_t *row,
@@ -62,30 +63,36 @@ enum br_status br_words_read(const struct br_words *w, const char *text, size_t 
 
 /* ---- similar names ---- */
 
-enum { MOST_LETTERS = 32 };
+enum { MOST_LETTERS = 32, LETTER = 4 /* quarters of a letter */ };
 
 static size_t least(size_t a, size_t b)
 {
     return a < b ? a : b;
 }
 
-/* The number of insertions, deletions, changes and swaps of neighbours that turn a into b. */
+/* What it takes to change a letter into another one. */
+static size_t change(char a, char b)
+{
+    return a == b ? 0 : tolower((unsigned char)a) == tolower((unsigned char)b) ? 1 : LETTER;
+}
+
+/* The insertions, deletions, changes and swaps of neighbours that turn a into b. */
 static size_t distance(const char *a, const char *b)
 {
     size_t d[MOST_LETTERS + 1][MOST_LETTERS + 1];
     const size_t m = strlen(a), n = strlen(b);
     if (m > MOST_LETTERS || n > MOST_LETTERS)
-        return MOST_LETTERS;
+        return LETTER * MOST_LETTERS;
     for (size_t i = 0; i <= m; i++)
         for (size_t j = 0; j <= n; j++) {
             if (i == 0 || j == 0) {
-                d[i][j] = i + j;
+                d[i][j] = LETTER * (i + j);
                 continue;
             }
-            d[i][j] = least(d[i - 1][j], d[i][j - 1]) + 1;
-            d[i][j] = least(d[i][j], d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
+            d[i][j] = least(d[i - 1][j], d[i][j - 1]) + LETTER;
+            d[i][j] = least(d[i][j], d[i - 1][j - 1] + change(a[i - 1], b[j - 1]));
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+                d[i][j] = least(d[i][j], d[i - 2][j - 2] + LETTER);
         }
     return d[m][n];
 }
@@ -93,15 +100,36 @@ static size_t distance(const char *a, const char *b)
 const char *br_nearest(const char *word, const char *const *names, size_t count)
 {
     const char *nearest = NULL;
-    size_t best = strlen(word) / 3 + 1; /* more differences make another word */
+    size_t best = LETTER * (strlen(word) / 3 + 1); /* more differences make another word */
     for (size_t i = 0; i < count; i++) {
         const size_t letters = distance(word, names[i]);
-        if (letters < best + !nearest && letters < strlen(word)) {
+        if (letters < best + !nearest && letters < LETTER * strlen(word)) {
             best = letters;
             nearest = names[i];
         }
     }
     return nearest;
+}
+
+char *br_suggestion(const char *word, const char *const *names, size_t count,
+                    char text[BR_SUGGESTION])
+{
+    char name[BR_SUGGESTION - sizeof "; did you mean ''?"];
+    const char *nearest = br_nearest(word, names, count);
+    text[0] = '\0';
+    return nearest ? br_append(text, BR_SUGGESTION, "; did you mean '%s'?",
+                               br_quoted(name, sizeof name, &br_for_text, nearest))
+                   : text;
+}
+
+char *br_expected(const char *word, const char *const *names, size_t count, char text[BR_EXPECTED])
+{
+    char name[80], suggestion[BR_SUGGESTION];
+    strcpy(text, "expected one of: ");
+    for (size_t i = 0; i < count; i++)
+        br_append(text, BR_EXPECTED - BR_SUGGESTION, "%s%s", i ? ", " : "",
+                  br_quoted(name, sizeof name, &br_for_text, names[i]));
+    return br_append(text, BR_EXPECTED, "%s", br_suggestion(word, names, count, suggestion));
 }
 
 /* ---- numbers ---- */
@@ -113,8 +141,10 @@ const char *br_read_number(const char *text, double *value)
     if (!isdigit((unsigned char)*text) && *text != '.' && *text != '-' && *text != '+')
         return NULL; /* strtod would take "nan", "inf" and leading blanks */
     char *end;
+    errno = 0;
     *value = strtod(text, &end);
-    return end != text && isfinite(*value) ? end : NULL;
+    const bool lost = errno == ERANGE && *value == 0; /* 1e-400 is not 0 */
+    return end != text && isfinite(*value) && !lost ? end : NULL;
 }
 
 static enum br_status not_in_range(const char *text, const struct br_number_range *r,

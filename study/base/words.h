@@ -43,8 +43,18 @@ __attribute__((format(printf, 3, 4))) char *br_append(char *text, size_t size, c
 
 /* ---- similar names ---- */
 
-/* The name that differs from the word in the fewest letters; NULL: none is similar. */
+/* The name that differs from the word in the fewest letters; a capital in place of a small letter
+ * counts as a quarter of one. Of several that are as near it is the first. NULL: none is similar. */
 const char *br_nearest(const char *word, const char *const *names, size_t count);
+
+/* How the refusal of an unknown word ends: "; did you mean 'x'?", or nothing; returns text (out). */
+enum { BR_SUGGESTION = 112 };
+char *br_suggestion(const char *word, const char *const *names, size_t count,
+                    char text[BR_SUGGESTION]);
+
+/* The same behind a list: "expected one of: a, b; did you mean 'b'?" */
+enum { BR_EXPECTED = 800 };
+char *br_expected(const char *word, const char *const *names, size_t count, char text[BR_EXPECTED]);
 
 /* ---- numbers ---- */
 

@@ -8,6 +8,7 @@
 
 #include "reference/long_plain.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/resolution.h"
@@ -76,7 +77,7 @@ static bool contact_grows(const struct br_scene *scene, const struct br_method *
     const struct br_field rod =
         br_field_of_scene(scene, BR_AXIAL, n, br_time_step(scene, steps), 1);
     return scene->contact.modelled && !m->contact->at_new_step &&
-           br_contact_grows(&rod, scene->contact.stiffness);
+           br_contact_grows(&rod, br_contact_stiffness(&scene->contact));
 }
 
 /* Whether a solver is measured on a mesh by default. An assembled matrix has no digits left at

@@ -262,7 +262,7 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
     size_t methods = 0;
     s->scene = job->scene[0];
     const struct br_contact *contact = &s->scene->contact;
-    s->own = contact->modelled ? contact->stiffness : NAN;
+    s->own = contact->modelled ? br_contact_stiffness(contact) : NAN;
     enum br_status status = take_steps(s, job, err);
     if (!status)
         status = take_methods(s, job, &methods, err);

@@ -8,16 +8,14 @@
 #include "study/fit/report.h"
 #include "study/grid/differences.h"
 
-enum {
-    BR_APART_MESHES = 4, /* an order needs three differences */
-    BR_APART_STEPS = 8,  /* at most, each half of the one before */
-};
+enum { BR_APART_SIZES = 12 }; /* at most; each half of the one before, unless the grid has others */
 
 /* The differences of a study, by its chain of norms. Begins as zeros. The reports borrow them. */
 struct br_apart {
-    size_t mesh[BR_APART_MESHES];       /* where those of the grid do not suffice */
-    size_t cheap, step[BR_APART_STEPS]; /* a mesh, and numbers of steps */
-    struct br_error no_meshes;          /* why there are no differences of meshes */
+    size_t size[BR_AXES][BR_APART_SIZES]; /* meshes, and numbers of steps, that are compared: */
+    size_t first[BR_AXES], end[BR_AXES];  /* ... those that have been marched; end 0: none */
+    size_t at[BR_AXES];                   /* the number of steps, or the mesh, at which they are */
+    struct br_error no_meshes;            /* why there are no differences of meshes */
     struct br_differences of[BR_MOST_NORMS];
 };
 void br_apart_clear(struct br_apart *apart);
@@ -31,10 +29,11 @@ enum br_status br_apart_meshes(struct br_apart *apart, struct br_report *report,
                                int threads, const struct br_observer *observer,
                                struct br_error *err);
 
-/* Where the finished reports do not settle the order in k: compares ever smaller steps on a cheap
- * mesh, until they settle it, or cost more than the grid. */
-enum br_status br_apart_steps(struct br_apart *apart, struct br_report *report, size_t norms,
-                              int threads, const struct br_observer *observer,
-                              struct br_error *err);
+/* Where the finished reports do not settle the order along an axis: compares ever smaller sizes, of
+ * time on a cheap mesh, until they settle it, or cost more than the grid; then larger time steps of
+ * the grid's range, which cost little. */
+enum br_status br_apart_settle(struct br_apart *apart, struct br_report *report, size_t norms,
+                               enum br_axis axis, int threads, const struct br_observer *observer,
+                               struct br_error *err);
 
 #endif

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "solver/scene.h"
+
 const double br_flag_margin = 3;
 
 bool br_order_determined(const struct br_estimate *order)

@@ -42,7 +42,7 @@ static enum br_status check_line(const double *h, const double *value, size_t co
     return BR_OK;
 }
 
-static enum br_status check_formal(double formal, struct br_error *err)
+enum br_status br_check_formal(double formal, struct br_error *err)
 {
     return formal >= 1 && formal <= 10
                ? BR_OK
@@ -436,7 +436,7 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
     *result = (struct br_least_squares){BR_SEQUENCE_UNKNOWN, NAN, none, NAN, NAN, NAN};
     enum br_status status = check_line(h, value, count, 4, err);
     if (!status)
-        status = check_formal(formal, err);
+        status = br_check_formal(formal, err);
     if (status)
         return status;
     double least = value[0], most = value[0];
@@ -459,48 +459,4 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
     }
     data_free(&data);
     return status;
-}
-
-/* ---- either ---- */
-
-/* Values that grow like log n have the order zero, and no limit: round-off makes it +1e-9. */
-static const double least_order = 0.05;
-
-enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
-                                  struct br_grid_limit *limit, struct br_error *err)
-{
-    *limit = (struct br_grid_limit){.value = {NAN, NAN, NAN}, .order = NAN};
-    if (check_line(h, value, count, 3, err) || check_formal(formal, err))
-        return err->status;
-    double uncertainty;
-    if (count > 3) {
-        struct br_least_squares fit;
-        if (br_least_squares(h, value, count, formal, &fit, err))
-            return err->status;
-        limit->method = BR_LIMIT_LEAST_SQUARES;
-        limit->sequence = fit.sequence;
-        limit->order = fit.order;
-        limit->value.value = fit.fit.limit;
-        uncertainty = fit.uncertainty;
-    } else {
-        struct br_gci gci;
-        if (br_gci(h, value, count, &gci, err))
-            return err->status;
-        limit->method = BR_LIMIT_GCI;
-        limit->sequence = gci.sequence;
-        limit->order = gci.order;
-        limit->value.value = gci.fine.limit;
-        uncertainty = gci.fine.uncertainty;
-    }
-    if (limit->sequence == BR_MONOTONE_CONVERGENCE && !(limit->order >= least_order))
-        limit->sequence = BR_SEQUENCE_UNKNOWN;
-    const double finest = value[count - 1];
-    limit->value.low = finest - uncertainty;
-    limit->value.high = finest + uncertainty;
-    if (limit->sequence == BR_MONOTONE_DIVERGENCE ||
-        limit->sequence == BR_OSCILLATORY_DIVERGENCE || limit->sequence == BR_SEQUENCE_UNKNOWN)
-        limit->value = (struct br_estimate){NAN, NAN, NAN};
-    if (limit->sequence == BR_SEQUENCE_CONSTANT)
-        limit->value = (struct br_estimate){finest, NAN, NAN};
-    return BR_OK;
 }

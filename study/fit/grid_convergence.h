@@ -26,6 +26,7 @@
     X(BR_OSCILLATORY_CONVERGENCE, "oscillatory convergence") \
     X(BR_MONOTONE_DIVERGENCE, "monotone divergence")         \
     X(BR_OSCILLATORY_DIVERGENCE, "oscillatory divergence")   \
+    X(BR_SEQUENCE_SCATTER, "changes within the scatter of the means") \
     X(BR_SEQUENCE_ANOMALOUS, "anomalous behaviour")
 
 enum br_sequence {
@@ -115,25 +116,7 @@ struct br_least_squares {
 enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
                                 struct br_least_squares *result, struct br_error *err);
 
-/* ---- either ---- */
-
-enum br_limit_method { BR_LIMIT_GCI, BR_LIMIT_LEAST_SQUARES };
-
-struct br_grid_limit {
-    struct br_estimate value; /* low, high: the finest value -+ its uncertainty, so they are not
-                                 symmetric to the limit */
-    double order;             /* p */
-    enum br_limit_method method;
-    enum br_sequence sequence;
-};
-
-/* The limit with its interval: by least squares for four grids or more, by the grid convergence
- * index for three. NaN for divergence, and where a single difference is zero. The limit of a
- * constant sequence is its value, without an interval: the procedures do not apply. count >= 3;
- * formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is an
- * estimate, not a bound. For random cubics in h, it contained the limit in 95 to 100 % at h = 0.01,
- * where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
-enum br_status br_limit_of_values(const double *h, const double *value, size_t count, double formal,
-                                  struct br_grid_limit *limit, struct br_error *err);
+/* Refuses (BR_BAD_INPUT) a formal order that is not 1 to 10. */
+enum br_status br_check_formal(double formal, struct br_error *err);
 
 #endif

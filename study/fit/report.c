@@ -12,6 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/base/words.h"
 #include "study/fit/line_order.h"
 
@@ -314,9 +315,11 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     if (apart && !agrees(o) && isfinite(o->theory.order) && !r->printed) {
         const struct br_study *s = br_report_fitted(r);
-        const size_t finest = s->n[s->n_count - 1];
-        REMARK(o, "; finer meshes may settle it: -n %zu,%zu,%zu,%zu", finest, 2 * finest,
-               4 * finest, 8 * finest);
+        const bool lost = differences_of(apart, part, BR_AXIS_SPACE).flag == BR_FLAG_ROUND_OFF;
+        size_t n = s->n[s->n_count - 1];
+        n = !lost ? n : n < 32 ? 1 : n / 32;
+        REMARK(o, "; %s meshes may settle it: -n %zu,%zu,%zu,%zu", lost ? "coarser" : "finer", n,
+               2 * n, 4 * n, 8 * n);
     }
     return BR_OK;
 }

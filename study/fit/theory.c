@@ -27,6 +27,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "solver/scene.h"
 #include "study/base/words.h"
 
 enum { DERIVATIVES = 4 };

@@ -21,8 +21,13 @@ static void add(struct br_foreseen *w, const struct br_planned_march *march, dou
     w->bytes = w->together ? w->bytes + bytes : fmax(w->bytes, bytes);
     if (march->method->scheme->adaptive)
         w->untimed++;
-    else
-        add_time(w, fmax(least, br_march_seconds(march)));
+    else {
+        const double steps = br_march_seconds(march), seconds = fmax(least, steps);
+        if (seconds > w->longest)
+            w->dearest = *march;
+        add_time(w, seconds);
+        w->steps += steps;
+    }
 }
 
 void br_foreseen_add_march(struct br_foreseen *w, const struct br_planned_march *planned)
@@ -47,6 +52,15 @@ void br_foreseen_add_study(struct br_foreseen *w, const struct br_study *s)
         add(w, &fine, seconds);
     else if (s->judge->create)
         add_time(w, seconds);
+}
+
+void br_foreseen_measure(struct br_foreseen *w)
+{
+    const double before = w->seconds;
+    if (!w->dearest.scene)
+        return;
+    w->seconds += (br_march_pace(&w->dearest) - 1) * w->steps;
+    w->longest *= w->seconds / before;
 }
 
 double br_foreseen_seconds(const struct br_foreseen *w, int threads)

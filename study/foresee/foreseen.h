@@ -13,14 +13,20 @@ struct br_foreseen {
     size_t marches; /* cells and fine references are marches, too */
     size_t untimed; /* of these, those that choose their steps: their time is not known */
     double seconds; /* of one thread, where known */
+    double steps;   /* of these, what steps take: without errors and judges */
     double longest; /* march or judge, s */
     double bytes;   /* at one time */
+    struct br_planned_march dearest; /* the longest march; borrows */
 };
 
 /* Adds the cells of a study and its reference; the study need not be prepared. */
 void br_foreseen_add_study(struct br_foreseen *work, const struct br_study *study);
 
 void br_foreseen_add_march(struct br_foreseen *work, const struct br_planned_march *planned);
+
+/* The costs of the registry are those of one machine: measures some steps of the longest march, for
+ * a millisecond or so, and corrects the seconds by their pace here. */
+void br_foreseen_measure(struct br_foreseen *work);
 
 /* Approximate seconds on so many threads, where known. */
 double br_foreseen_seconds(const struct br_foreseen *work, int threads);

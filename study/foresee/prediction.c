@@ -7,17 +7,16 @@
 #include "solver/clock.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
-#include "solver/proof.h"
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 /* ---- comparisons: marches beside a reference R, the most accurate of them ---- */
 
 enum {
     TIGHT,    /* the run against steps by a tolerance on more elements */
-    EQUAL,    /* the run against more elements and steps */
     IN_TIME,  /* its steps, or fewer, on a coarse mesh against more steps */
     IN_SPACE, /* its elements, or fewer, with few steps against more elements */
-    START,    /* its first steps on a coarse mesh against steps by a tolerance, or more steps */
+    START,    /* its first steps on a coarse mesh against steps by a tolerance */
     COMPARISONS
 };
 
@@ -39,6 +38,7 @@ struct comparison {
     struct br_scene scene; /* borrows; its duration may be shorter */
     int at[CELLS];         /* of each cell in the study; -1: it is R, or not marched */
     size_t n[CELLS], steps[CELLS];
+    const struct br_method *of[CELLS]; /* the setting's: the same pointer is the same method */
     struct br_method method[CELLS];
     struct br_study study;
 };
@@ -46,7 +46,6 @@ struct comparison {
 struct marches {
     const struct br_planned_march *run;
     struct comparison by[COMPARISONS];
-    bool jumps;    /* a load does, or bends, within the duration: set for IN_TIME */
     char why[200]; /* why the last failed comparison failed */
 };
 
@@ -66,21 +65,24 @@ static const double overhead = 700, evaluated = 30, chosen_stages = 12;
 static const double least_work = 1e7, most_work = 5e7, most_share = 0.06, adaptive_work = 6e7;
 
 enum {
-    COARSE_N = 32,   /* so many elements resolve what is slower than a step */
-    SPACE_N = 128,   /* from so many elements on, errors of space follow their order */
-    MANY_N = 1000,   /* the check of so many elements may have the run's mesh */
-    LEVELS = 24,     /* of adaptive runs: levels say nothing about their steps */
-    LEAST_STEPS = 40 /* by a tolerance beside the levels, or the levels choose the steps */
+    COARSE_N = 32,    /* so many elements resolve what is slower than a step */
+    SPACE_N = 128,    /* from so many on, errors of space follow their order: R has them at least */
+    SEEN_LEVELS = 64, /* where a step of R ends, at least, so that it meets loads that oscillate */
+    MANY_N = 1000,    /* the check of so many elements may have the run's mesh */
+    FIRST = 4,        /* steps of START: what dies away at once */
+    LEVELS = 24,      /* of adaptive runs: levels say nothing about their steps */
+    LEAST_STEPS = 40  /* by a tolerance beside the levels, or the levels choose the steps */
 };
-
-/* R is sure enough if its check is off by at most these shares of the run's error or the solution.
- */
-static const double sure = 0.2, negligible = 1e-5;
 
 /* R divides the run's tolerance by `tighter`, its check by the root of it: with errors like
  * tolerance^0.9, R is then 18 times as accurate. Errors are extrapolated from `loosest` at most.
  * For equal steps R has `tight`; `tightest` is near round-off. */
 static const double tighter = 25, loosest = 1e-4, tight = 1e-6, tightest = 1e-12;
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
 
 static double stages(const struct br_method *m)
 {
@@ -137,24 +139,25 @@ static struct br_method best_method(const struct br_planned_march *o)
 }
 
 /* The place of a cell in the study, where an equal one is used again; -1: it is R. */
-static int place(struct comparison *c, const struct br_method *method, size_t n, size_t steps)
+static int place(struct comparison *c, const struct setting *s, const struct br_method *method,
+                 size_t n, size_t steps)
 {
-    struct br_study *s = &c->study;
-    const struct br_method *r = &s->reference_method;
-    if (n == s->reference.n && steps == s->reference.steps && method->scheme == r->scheme &&
-        method->tolerance == r->tolerance && method->contact == r->contact)
+    struct br_study *study = &c->study;
+    if (n == study->reference.n && steps == study->reference.steps && method == s->reference)
         return -1;
-    for (size_t i = 0; i < s->n_count; i++)
-        if (n == c->n[i] && steps == c->steps[i] && method->scheme == c->method[i].scheme &&
-            method->tolerance == c->method[i].tolerance &&
-            method->contact == c->method[i].contact && method->friction == c->method[i].friction)
+    for (size_t i = 0; i < study->n_count; i++)
+        if (n == c->n[i] && steps == c->steps[i] && method == c->of[i])
             return (int)i;
-    c->n[s->n_count] = n;
-    c->steps[s->n_count] = steps;
-    c->method[s->n_count] = *method;
-    c->method[s->n_count].most_steps = r->most_steps;
-    s->k_count = s->n_count + 1;
-    return (int)s->n_count++;
+    const size_t last = study->n_count++;
+    study->k_count = study->n_count;
+    c->n[last] = n;
+    c->steps[last] = steps;
+    c->of[last] = method;
+    c->method[last] = *method;
+    c->method[last].most_steps = s->reference->most_steps;
+    if (n > s->n) /* a mesh of ours takes the most accurate solver */
+        c->method[last].solver = br_linear_solvers[0];
+    return (int)last;
 }
 
 /* Whether a comparison failed, and why. TIME and SPACE only split the error of the run itself. */
@@ -181,12 +184,10 @@ static enum br_status march(struct marches *m, int which, const struct setting *
                             struct br_error *err)
 {
     struct comparison *c = &m->by[which];
-    const bool chosen = s->reference->scheme->adaptive, itself = which <= EQUAL;
+    const bool chosen = s->reference->scheme->adaptive, itself = which == TIGHT;
     const size_t fine = s->n * s->finer, many = s->steps * s->shorter;
     const size_t coarse = s->finer > 1 ? fine / 2 : fine, some = s->shorter > 1 ? many / 2 : many;
     struct br_error failure = {0};
-    struct br_method on_fine = *s->own;
-    on_fine.solver = s->finer > 1 ? br_linear_solvers[0] : on_fine.solver;
     br_study_clear(&c->study);
     *c = (struct comparison){.active = true, .scene = *m->run->scene, .beyond = itself ? 0 : 1};
     if (which == START)
@@ -200,17 +201,16 @@ static enum br_status march(struct marches *m, int which, const struct setting *
     c->study.n = c->n;
     c->study.steps = c->steps;
     c->study.cell_method = c->method;
-    c->at[RUN] = place(c, s->own, s->n, s->steps);
-    c->at[CHECK] = place(c, s->check, coarse, some);
-    c->at[TIME] = place(c, &on_fine, fine, s->steps);
-    c->at[SPACE] = place(c, s->check, s->n, some);
-    c->at[STEPS] = place(c, s->check, fine, some);
-    const bool halves =
-        s->finer > 1 ? which == IN_SPACE && s->n < m->run->n && s->n % 2 == 0
-                     : which == IN_TIME && s->steps < m->run->steps && !chosen && s->steps % 2 == 0;
-    c->at[HALF] = !halves        ? -1
-                  : s->finer > 1 ? place(c, s->own, s->n / 2, s->steps)
-                                 : place(c, s->own, s->n, s->steps / 2);
+    c->at[RUN] = place(c, s, s->own, s->n, s->steps);
+    c->at[CHECK] = place(c, s, s->check, coarse, some);
+    c->at[TIME] = place(c, s, s->own, fine, s->steps);
+    c->at[SPACE] = place(c, s, s->check, s->n, some);
+    c->at[STEPS] = place(c, s, s->check, fine, some);
+    const bool fewer_n = which == IN_SPACE && s->n < m->run->n;
+    const bool fewer_steps = which == IN_TIME && !chosen && s->steps < m->run->steps;
+    c->at[HALF] = fewer_n       ? place(c, s, s->own, s->n / 2, s->steps)
+                  : fewer_steps ? place(c, s, s->own, s->n, s->steps / 2)
+                                : -1;
     if (br_study_run_each(&c->study, 1, 1, NULL, &failure)) {
         if (failure.status != BR_INTERRUPTED) /* by itself, for its many steps */
             return br_fail(err, failure.status, "%s", failure.message);
@@ -224,16 +224,6 @@ static double off(const struct comparison *c, enum cell cell, enum br_field_kind
 {
     const enum br_part part = br_part_of(kind);
     return c->at[cell] < 0 ? 0 : c->study.cell[c->at[cell]].error[part];
-}
-
-/* Whether the check is near enough to R. */
-static bool is_sure(const struct comparison *c)
-{
-    bool all = c->active;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && all; kind++)
-        all = off(c, CHECK, kind) <=
-              fmax(sure * off(c, RUN, kind), negligible * c->study.reference_size[kind]);
-    return all;
 }
 
 /* The least power of two, 2 or 4 at least, that makes n elements so many. */
@@ -252,109 +242,47 @@ static enum br_status march_tight(struct marches *m, int which, const struct br_
     const struct br_planned_march *o = m->run;
     struct br_method r = br_accurate_method(own, "adaptive"), check;
     const bool adaptive = own->scheme->adaptive;
-    const size_t finer = which == TIGHT ? refinement(n, COARSE_N) : 1;
-    r.most_steps = 1 + (size_t)(budget(o) / 4 / (solve(o, n * finer) * chosen_stages));
+    const size_t finer = which == TIGHT ? refinement(n, SPACE_N) : 1;
+    size_t shorter = 1;
+    while (which == TIGHT && !adaptive && steps * shorter < SEEN_LEVELS)
+        shorter *= 2;
+    r.most_steps = 1 + (size_t)(budget(o) / 2 / (solve(o, n * finer) * chosen_stages));
     r.tolerance = fmax(adaptive ? own->tolerance / tighter : tight, tightest);
     check = r;
     check.tolerance =
         fmax(adaptive ? own->tolerance / sqrt(tighter) : tight * sqrt(tighter), tightest);
-    if ((which == TIGHT && steps + LEAST_STEPS > r.most_steps) || (!adaptive && at_once(o)))
+    if ((which == TIGHT && steps * shorter + LEAST_STEPS > r.most_steps) ||
+        (!adaptive && at_once(o)))
         return BR_OK;
-    return march(m, which, &(struct setting){n, steps, finer, 1, own, &check, &r}, err);
+    return march(m, which, &(struct setting){n, steps, finer, shorter, own, &check, &r}, err);
 }
 
-/* The work of a comparison with R of equal steps. */
-static double work_of(const struct br_planned_march *o, const struct setting *s)
-{
-    const double own = solve(o, s->n), fine = solve(o, s->n * s->finer);
-    const double others = 1.5 * fine + (solve(o, s->n * s->finer / 2) + own) / 2;
-    return ((own + fine) * stages(s->own) + (double)s->shorter * others * stages(s->check)) *
-           (double)s->steps;
-}
-
-/* R of equal steps, as fine as the budget allows: elements and steps, then steps alone. Two of them
- * that both step over a peak of the load agree, but friction keeps the effect of the peak: a beam
- * that follows its load at once gets steps alone. */
-static enum br_status march_equal(struct marches *m, struct br_error *err)
-{
-    const struct br_planned_march *o = m->run;
-    const struct br_method best = best_method(o);
-    struct setting s = {o->n, o->steps, refinement(o->n, COARSE_N), 4, o->method, &best, &best};
-    if (work_of(o, &s) > budget(o))
-        return BR_OK;
-    for (int both = !at_once(o); both >= 0; both--)
-        for (struct setting t = s; work_of(o, &t) <= budget(o); t.shorter *= 4) {
-            s = t;
-            t.finer *= both ? 4 : 1;
-        }
-    return march(m, EQUAL, &s, err);
-}
-
-/* An even number: half of it is odd, so that not all levels are where a periodic load is zero. */
-static size_t twice_odd(double count)
-{
-    return 2 * ((size_t)(count / 2) | 1);
-}
-
-/* Whether a function of time jumps or bends within the duration; no proof: it may. Fails with
- * BR_NO_MEMORY. */
-static enum br_status add_jumps(const struct br_scene *s, const struct br_function *f, bool *jumps,
-                                struct br_error *err)
-{
-    struct br_breaks breaks = {0};
-    struct br_error failure = {0};
-    if (!f->uses_t || *jumps)
-        return BR_OK;
-    const enum br_status status = br_breaks_add(
-        f, BR_T, (struct br_box){{0, s->length}, {0, s->duration}}, &breaks, &failure);
-    *jumps = status || breaks.count > 0 || breaks.moving;
-    br_breaks_free(&breaks);
-    return status == BR_NO_MEMORY ? br_fail(err, status, "%s", failure.message) : BR_OK;
-}
-
-static enum br_status find_jumps(struct marches *m, struct br_error *err)
-{
-    const struct br_scene *s = m->run->scene;
-    enum br_status status = BR_OK;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const struct br_scene_field *f = &s->field[kind];
-        for (size_t i = 0; i < BR_LOAD_TERMS && f->modelled && !status; i++) {
-            status = add_jumps(s, &f->load.term[i].space, &m->jumps, err);
-            if (!status)
-                status = add_jumps(s, &f->load.term[i].time, &m->jumps, err);
-        }
-        if (!status && f->modelled)
-            status = add_jumps(s, &f->tip_force, &m->jumps, err);
-        if (!status && f->modelled)
-            status = add_jumps(s, &f->tip_moment, &m->jumps, err);
-    }
-    return status;
-}
-
-/* For a run that is too dear: its steps on a coarse mesh, its elements with few steps. */
+/* Time and space apart: its steps on a coarse mesh, its elements with few steps. Two marches that
+ * both step over a peak of the load agree, but friction keeps the effect of the peak: for a beam
+ * that follows its load at once R has as many steps as the budget allows. */
 static enum br_status march_apart(struct marches *m, size_t n, struct br_error *err)
 {
+    enum { SHORTER = 16 };
     const struct br_planned_march *o = m->run;
     const struct br_method best = best_method(o);
     struct br_method own = *o->method;
     const double most = budget(o) / solve(o, n), r = 1.5 * stages(&best), steps = (double)o->steps;
-    struct setting time = {n, o->steps, 1, 16, &own, &best, &best};
-    enum br_status status = find_jumps(m, err);
-    if (status)
-        return status;
+    struct setting time = {n, o->steps, 1, 4, &own, &best, &best};
+    enum br_status status;
     if (own.scheme->adaptive) {
         own.tolerance = fmax(own.tolerance, loosest);
         status = march_tight(m, IN_TIME, &own, n, LEVELS, err);
         m->by[IN_TIME].beyond = own.tolerance / o->method->tolerance;
     } else {
-        while (time.shorter > 4 && steps * (stages(&own) + (double)time.shorter * r) > most)
-            time.shorter /= 2;
-        if (steps * (stages(&own) + 4 * r) > most)
-            time.steps = twice_odd(most / (1.5 * stages(&own) + 4 * r));
+        while ((time.shorter < SHORTER || at_once(o)) &&
+               steps * (stages(&own) + 2 * (double)time.shorter * r) <= most)
+            time.shorter *= 2;
+        if (steps * (stages(&own) + 4 * r) > most) /* half of them odd: a periodic load is seen */
+            time.steps = 2 * ((size_t)(most / (3 * stages(&own) + 8 * r)) | 1);
         status = march(m, IN_TIME, &time, err);
         m->by[IN_TIME].beyond = steps / (double)time.steps;
     }
-    struct setting space = {o->n < SPACE_N ? o->n : SPACE_N, 1, 4, 1, &best, &best, &best};
+    struct setting space = {least(o->n, SPACE_N), 1, 4, 1, &best, &best, &best};
     space.finer = refinement(space.n, SPACE_N);
     const double a_step = 2 * solve(o, space.n * space.finer) * stages(&best);
     const double few = budget(o) / 3 / a_step + 1;
@@ -365,36 +293,19 @@ static enum br_status march_apart(struct marches *m, size_t n, struct br_error *
     return status;
 }
 
-/* The first steps by a tolerance or, where that fails and nothing else has as many, by more steps.
- */
-static enum br_status march_start(struct marches *m, size_t n, struct br_error *err)
-{
-    enum { FIRST = 4 };
-    const struct br_planned_march *o = m->run;
-    const struct br_method best = best_method(o);
-    const double most = budget(o) / 5 / solve(o, n) / (stages(o->method) + 6 * stages(&best)) + 1;
-    struct setting s = {n, o->steps < FIRST ? o->steps : FIRST, 1, 4, o->method, &best, &best};
-    const enum br_status status = march_tight(m, START, o->method, n, s.steps, err);
-    if (status || m->by[START].active || m->by[EQUAL].active)
-        return status;
-    s.steps = (double)o->steps < most ? o->steps : (size_t)most;
-    return march(m, START, &s, err);
-}
-
 static enum br_status march_all(struct marches *m, struct br_error *err)
 {
     const struct br_planned_march *o = m->run;
     const bool adaptive = o->method->scheme->adaptive;
-    const size_t levels = adaptive && o->steps > LEVELS ? LEVELS : o->steps;
-    const size_t coarse = o->n < COARSE_N ? o->n : COARSE_N;
+    const size_t levels = adaptive ? least(o->steps, LEVELS) : o->steps;
+    const size_t coarse = least(o->n, COARSE_N);
     enum br_status status = march_tight(m, TIGHT, o->method, o->n, levels, err);
-    if (!status && !adaptive && !is_sure(&m->by[TIGHT]))
-        status = march_equal(m, err);
-    if (!status && !m->by[TIGHT].active && !m->by[EQUAL].active)
-        status = march_apart(m, coarse, err);
-    if (!status && !m->by[TIGHT].active && !adaptive)
-        status = march_start(m, coarse, err);
-    return status;
+    if (status || m->by[TIGHT].active)
+        return status;
+    status = march_apart(m, coarse, err);
+    return status || adaptive
+               ? status
+               : march_tight(m, START, o->method, coarse, least(o->steps, FIRST), err);
 }
 
 /* ---- from distances to an error ---- */
@@ -423,14 +334,13 @@ static const double of_round_off = 4;
 
 static bool can_switch(const struct br_scene *scene)
 {
-    return (scene->contact.modelled && scene->contact.stiffness > 0) ||
-           scene->friction.law != BR_FRICTIONLESS;
+    return br_contact_pushes(&scene->contact) || scene->friction.law != BR_FRICTIONLESS;
 }
 
 /* A factor, in L2, by which a layer at the tip moves more than n elements that are wider than the
  * layer. Waves and diffusion make it so deep until t = T. The worst cases are a force on a rod,
  * whose tip moves by 1/h, and a moment on a beam, by 1/h^2. */
-static double unresolved(const struct br_scene *s, int kind, size_t n)
+static double unresolved(const struct br_scene *s, enum br_field_kind kind, size_t n)
 {
     const struct br_field f = br_field_of_scene(s, kind, n, s->duration, 1);
     const double waves = sqrt(f.stiffness / s->density) * s->duration;
@@ -477,10 +387,10 @@ static struct br_predicted distance(const struct comparison *c, enum cell cell,
     return (struct br_predicted){e, fmax(0, (e - unsure) / factor), factor * (e + unsure), NAN};
 }
 
-/* The error of RUN, extrapolated to the run by the observed order, at most that of theory; by one if
- * it is not plausible. Switches, and loads that jump or bend, spoil orders above one. Coarse marches
- * do not show that: their error depends on where in a step a load jumps. Errors of friction that
- * iterates grow with the steps. */
+/* The error of RUN, extrapolated to the run by the observed order, at most that of theory; by one
+ * if it is not plausible. Switches, and loads that jump or bend, leave order one in time, and
+ * coarse marches do not show that, since their error depends on where in a step that happens: so
+ * the upper end counts on no more. Errors of friction that iterates grow with the steps. */
 static struct br_predicted extrapolated(const struct marches *m, int which, enum br_field_kind kind)
 {
     const struct comparison *c = &m->by[which];
@@ -493,7 +403,7 @@ static struct br_predicted extrapolated(const struct marches *m, int which, enum
     const bool plausible = observed >= least_order;
     const double expected = fmin(plausible ? observed : 1, theory);
     double order[] = {plausible ? expected : 0, expected, theory};
-    if (time && (m->jumps || can_switch(m->run->scene)))
+    if (time)
         order[0] = fmin(order[0], 1);
     if (time && rubs && own->friction->iterates)
         order[0] = -1;
@@ -506,18 +416,12 @@ static struct br_predicted extrapolated(const struct marches *m, int which, enum
 }
 
 /* The error of time (TIME), of space (SPACE) or of both (RUN), which may have opposite signs. Equal
- * steps may miss what decays within a step: they do not count where steps by a tolerance contradict
- * them. Where time counts, the error is at least that of the first steps. */
+ * steps may miss what decays within a step: where time counts, the error is at least that of the
+ * first steps. */
 static struct br_predicted error_of(const struct marches *m, enum cell cell,
                                     enum br_field_kind kind)
 {
-    const struct comparison *tolerance = &m->by[TIGHT], *equal = &m->by[EQUAL], *c = equal;
-    if (tolerance->active && equal->active) {
-        const struct br_predicted a = distance(tolerance, RUN, kind),
-                                  b = distance(equal, RUN, kind);
-        c = b.high < a.error || a.high <= b.high ? tolerance : equal;
-    } else if (tolerance->active)
-        c = tolerance;
+    const struct comparison *c = &m->by[TIGHT];
     struct br_predicted e = c->active ? distance(c, cell, kind)
                                       : extrapolated(m, cell == SPACE ? IN_SPACE : IN_TIME, kind);
     if (cell != SPACE && m->by[START].active) {
@@ -543,8 +447,7 @@ static struct br_predicted error_of(const struct marches *m, enum cell cell,
 static const char *unseen_start(const struct marches *m, double k)
 {
     const struct br_scene *s = m->run->scene;
-    const struct comparison *start = &m->by[START];
-    if (m->by[TIGHT].active || (start->active && start->study.reference_method.scheme->adaptive))
+    if (m->by[TIGHT].active || m->by[START].active)
         return NULL;
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
         const bool rod = kind == BR_AXIAL;
@@ -556,8 +459,8 @@ static const char *unseen_start(const struct marches *m, double k)
             continue;
         if (rod)
             br_function_evaluate(&s->axial.displacement, 1, &s->length, 0, &tip);
-        if (rod && s->contact.modelled && tip > s->contact.gap &&
-            s->contact.stiffness > br_contact_limit_stiffness(&f))
+        const double force = rod && s->contact.modelled ? br_contact_force(&s->contact, tip) : 0;
+        if (br_contact_slope(&s->contact, force) > br_contact_limit_stiffness(&f))
             return "how the contact, closed at t = 0, pushes the tip back";
         if (can_switch(s) && angular * k > 1 && f.viscosity * angular < 2 * f.stiffness)
             return "the oscillations after t = 0, in which the tip may switch";
@@ -567,23 +470,27 @@ static const char *unseen_start(const struct marches *m, double k)
     return NULL;
 }
 
-/* Loads or initial data that are too short even for R, which samples them with so many times the
- * levels and elements of the run; *name (out): NULL: none. Fails with BR_NO_MEMORY. */
-static enum br_status find_too_short(const struct br_planned_march *o, const char **name,
+/* Loads or initial data that are too short even for R, which has the elements of a comparison and
+ * meets them so many times a level of the run, or SEEN_LEVELS; *name (out): NULL: none. Fails with
+ * BR_NO_MEMORY. */
+static enum br_status find_too_short(const struct marches *m, const char **name,
                                      struct br_error *err)
 {
-    enum { FINER_LEVELS = 64, FINER_ELEMENTS = 4 };
-    static const double least = 1e-3; /* a smaller share of a load is ignored */
-    struct br_planned_march finer = *o;
+    enum { STAGES = 16, FINER_LEVELS = 64 };
+    static const double ignored = 1e-3; /* a smaller share of a load is ignored */
+    const struct comparison *c = &m->by[m->by[TIGHT].active ? TIGHT : IN_SPACE];
+    const size_t seen = STAGES * c->study.reference.steps;
+    struct br_planned_march finer = *m->run;
     struct br_warnings w = {0};
     finer.steps *= FINER_LEVELS;
-    finer.n *= FINER_ELEMENTS;
+    finer.steps = m->by[TIGHT].active && seen > finer.steps ? seen : finer.steps;
+    finer.n *= c->study.reference.n / c->n[c->at[RUN]];
     *name = NULL;
     if (br_check_loads(&finer, &w, err))
         return err->status;
-    if (fmax(w.unseen[BR_WARN_LOAD_TIME], w.unseen[BR_WARN_LOAD_SPACE]) > least)
+    if (fmax(w.unseen[BR_WARN_LOAD_TIME], w.unseen[BR_WARN_LOAD_SPACE]) > ignored)
         *name = "a load is";
-    if (w.unseen[BR_WARN_INITIAL] > least)
+    if (w.unseen[BR_WARN_INITIAL] > ignored)
         *name = "the initial data are";
     return BR_OK;
 }
@@ -610,27 +517,17 @@ static struct br_predicted relative(const struct marches *m, struct br_predicted
 
 static void judge(struct br_prediction *p, const struct marches *m)
 {
-    static const double curved = 10; /* a peak: how much more than the load's mean curvature */
     const struct comparison *by = m->by;
-    const size_t finest = by[by[EQUAL].active   ? EQUAL
-                             : by[TIGHT].active ? TIGHT
-                                                : IN_TIME]
-                              .study.reference.steps;
-    /* Steps over a peak of the load miss a share of (k/T)^2 of it, which friction keeps. */
-    const bool keeps = !m->run->method->scheme->adaptive && at_once(m->run);
-    const double peak = keeps ? curved / ((double)finest * (double)finest) : 0;
     bool useful = true, finite = true;
     snprintf(p->why, sizeof p->why, "%s", m->why);
     p->whole.high = -1;
-    p->bounded =
-        by[TIGHT].active || by[EQUAL].active || (by[IN_TIME].active && by[IN_SPACE].active);
+    p->bounded = by[TIGHT].active || (by[IN_TIME].active && by[IN_SPACE].active);
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && p->bounded; kind++) {
         double size;
         if (!m->run->scene->field[kind].modelled)
             continue;
-        struct br_predicted e = relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
-        e.high += peak;
-        p->field[kind] = e;
+        const struct br_predicted e = p->field[kind] =
+            relative(m, error_of(m, RUN, kind), kind, &p->size[kind]);
         finite = finite && isfinite(e.high);
         useful = useful && (e.high <= fmax(all, near * e.error) || e.high <= widest * e.low);
         if (!(e.high > p->whole.high))
@@ -641,7 +538,8 @@ static void judge(struct br_prediction *p, const struct marches *m)
     }
     if (!p->bounded)
         return;
-    const char *unseen = unseen_start(m, br_time_step(m->run->scene, finest));
+    const char *unseen =
+        unseen_start(m, br_time_step(m->run->scene, by[IN_TIME].study.reference.steps));
     p->bounded = finite && !unseen;
     p->known = p->bounded && useful;
     snprintf(p->why, sizeof p->why, "%s%s", unseen ? "no march that predicts it resolves " : "",
@@ -701,7 +599,7 @@ enum br_status br_predict(const struct br_planned_march *planned, struct br_pred
     if (!status)
         judge(p, &m);
     if (!status && p->known)
-        status = find_too_short(planned, &unseen, err);
+        status = find_too_short(&m, &unseen, err);
     if (unseen) {
         p->known = p->bounded = false;
         snprintf(p->why, sizeof p->why, "%s too short for the marches that predict it", unseen);

@@ -3,11 +3,11 @@
  * levels, relative to the largest L2 norm of that field's solution. docs/error.md explains it, with
  * the formula and a picture.
  *
- * The run is marched beside a reference R, a more accurate march: by a tolerance and, if that is
- * not sure enough, by equal steps. Their distance is the error; the distance of a check, with half
- * of R's elements and steps, bounds the error of R, and widens the interval. If the run is too dear
- * for that, time and space go apart, on a coarse mesh and with few steps, and are extrapolated by
- * the observed order if it is plausible. What no march follows makes the error not known.
+ * The run is marched beside a reference R, a more accurate march by a tolerance. Their distance is
+ * the error; the distance of a check, with half of R's elements and a larger tolerance, bounds the
+ * error of R, and widens the interval. If the run is too dear for that, time and space go apart, on
+ * a coarse mesh and with few steps, and are extrapolated by the observed order if it is plausible.
+ * What no march follows makes the error not known.
  *
  * tests/test_prediction.c and each case of `tests/lab/map.c` compare predictions with the exact
  * solution. */

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/march.h"
+#include "solver/scene.h"
 #include "study/foresee/warnings.h"
 
 #include <math.h>
@@ -32,6 +35,23 @@ double br_march_seconds(const struct br_planned_march *o)
     if (o->method->scheme->adaptive)
         return 0;
     return 1e-9 * (double)o->steps * br_method_cost(o->method, o->scene, o->n);
+}
+
+double br_march_pace(const struct br_planned_march *o)
+{
+    enum { MESH = 400, STEPS = 400 };
+    const size_t n = o->n < MESH ? o->n : MESH;
+    struct br_march *march;
+    struct br_error err;
+    if (o->method->scheme->adaptive || br_march_create(&march, o->scene, n, STEPS, o->method, &err))
+        return 1;
+    const double begun = br_thread_seconds();
+    enum br_status status = BR_OK;
+    for (int i = 0; i < STEPS && !status; i++)
+        status = br_march_step(march, &err);
+    const double spent = br_thread_seconds() - begun;
+    br_march_free(march);
+    return status ? 1 : spent / (1e-9 * STEPS * br_method_cost(o->method, o->scene, n));
 }
 
 /* The number after a word in a file, times its unit in bytes; INFINITY: not found. */

@@ -2,6 +2,7 @@
 /* Warns of loads and initial data that the time levels, elements or nodes miss. The discrete values
  * are compared with integrals on meshes that are proved to resolve the function, so that no feature
  * between the points is lost. */
+#include "solver/scene.h"
 #include "study/foresee/warnings.h"
 
 #include <math.h>

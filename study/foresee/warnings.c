@@ -80,7 +80,7 @@ static double cut(double x)
 static void contact_remedy(const struct br_planned_march *o, const struct br_field *field,
                            char text[400])
 {
-    const double longest = br_contact_limit_step(field, o->scene->contact.stiffness);
+    const double longest = br_contact_limit_step(field, br_contact_stiffness(&o->scene->contact));
     const double steps = br_round_steps(o->scene->duration / longest);
     int length = snprintf(text, 400, "--contact implicit  # has no limit\n");
     if (longest > 0 && isfinite(steps))
@@ -97,7 +97,7 @@ void br_check_contact(const struct br_planned_march *o, struct br_warnings *warn
     const struct br_field field =
         br_field_of_scene(scene, BR_AXIAL, o->n, k, o->method->axial_degree);
     if (!scene->contact.modelled || o->method->contact->at_new_step ||
-        !br_contact_grows(&field, scene->contact.stiffness))
+        !br_contact_grows(&field, br_contact_stiffness(&scene->contact)))
         return;
     char text[400];
     contact_remedy(o, &field, text);
@@ -106,8 +106,8 @@ void br_check_contact(const struct br_planned_march *o, struct br_warnings *warn
         "the lagged contact is beyond its stability limit: with k = %g s it is stable up to a "
         "stiffness of %.4g N/m, the scene has %g N/m; while it is closed, every step multiplies "
         "its error by -%.4g, and the tip chatters",
-        k, br_contact_limit_stiffness(&field), scene->contact.stiffness,
-        br_contact_growth(&field, scene->contact.stiffness));
+        k, br_contact_limit_stiffness(&field), br_contact_stiffness(&scene->contact),
+        br_contact_growth(&field, br_contact_stiffness(&scene->contact)));
 }
 
 /* ---- lagged contact that may gain energy ---- */
@@ -165,8 +165,8 @@ static enum br_status check_bounces(const struct br_planned_march *o, struct br_
     const struct br_field field = br_field_of_scene(
         s, BR_AXIAL, o->n, s->duration / (double)o->steps, o->method->axial_degree);
     if (!s->contact.modelled || o->method->contact->at_new_step ||
-        !(s->contact.stiffness > br_contact_limit_bouncing(&field)) ||
-        br_contact_grows(&field, s->contact.stiffness))
+        !(br_contact_stiffness(&s->contact) > br_contact_limit_bouncing(&field)) ||
+        br_contact_grows(&field, br_contact_stiffness(&s->contact)))
         return BR_OK;
     double share;
     char found[120] = "";
@@ -182,7 +182,7 @@ static enum br_status check_bounces(const struct br_planned_march *o, struct br_
     br_warn(w, BR_WARN_BOUNCE, "--contact implicit  # gains none",
             "the lagged contact may gain energy as it opens and closes: with k = %.4g s it gains "
             "none up to a stiffness of %.4g N/m, the scene has %g N/m%s",
-            field.k, br_contact_limit_bouncing(&field), s->contact.stiffness, found);
+            field.k, br_contact_limit_bouncing(&field), br_contact_stiffness(&s->contact), found);
     return BR_OK;
 }
 

@@ -102,6 +102,10 @@ double br_march_bytes(const struct br_planned_march *planned);
 /* Approximate seconds of a march in one thread; 0 for an adaptive scheme: not known. */
 double br_march_seconds(const struct br_planned_march *planned);
 
+/* Seconds of the processor for some of its steps, on few elements, over those of the registry's
+ * costs; 1 where they cannot be marched. */
+double br_march_pace(const struct br_planned_march *planned);
+
 /* Bytes that are still available: the least of MemAvailable of /proc/meminfo and of the remaining
  * limits of the address space (RLIMIT_AS) and of the control group; INFINITY: not known. */
 double br_memory_available(void);

@@ -12,12 +12,18 @@
 
 /* ---- costs ---- */
 
-/* ns, measured on one core, both fields, n = 1600 and 3200, 1e4 time levels, scaled to the 3 GHz of
+/* ns, measured on one core, n = 100 to 3200, 1e3 to 1e4 time levels, scaled to the 3 GHz of
  * the solvers' costs. They decide who does what, not the results: a wrong one costs time. */
-static const double measure_ns = 33;      /* to sample an element of a cell, and to project there */
-static const double sample_fine_ns = 30;  /* to sample an element of a fine run */
-static const double sample_other_ns = 73; /* of a judge that evaluates a solution; mms: 100 */
-static const double create_ns = 3.3e7;    /* a solution of the continuous problem */
+static const double measure_ns = 12;       /* to sample an element's field, and to project there */
+static const double sample_fine_ns = 15;   /* to sample an element's field of a fine run */
+static const double sample_exact_ns = 30;  /* to evaluate an element's field of a solution, */
+static const double sample_given_ns = 100; /* of one that is given */
+static const double create_ns = 3.3e7;     /* a solution of the continuous problem */
+
+static double fields(const struct br_scene *scene)
+{
+    return (double)scene->axial.modelled + (double)scene->bending.modelled;
+}
 
 /* The reference is sampled at every time level of a cell: about as often as the cell of most
  * steps. */
@@ -29,16 +35,23 @@ double br_reference_cost(const struct br_study *s)
     for (size_t i = 0; i < s->n_count; i++)
         n = s->n[i] > n ? s->n[i] : n;
     if (!s->judge->nests)
-        return create_ns + sample_other_ns * (double)levels * (double)n;
+        return create_ns + (s->judge == &br_judge_mms ? sample_given_ns : sample_exact_ns) *
+                               fields(s->scene) * (double)levels * (double)n;
     return br_method_cost(&s->reference_method, s->scene, s->reference.n) *
                (double)s->reference.steps +
-           sample_fine_ns * (double)levels * (double)s->reference.n;
+           sample_fine_ns * fields(s->scene) * (double)levels * (double)s->reference.n;
+}
+
+double br_measure_cost(const struct br_scene *scene, size_t n)
+{
+    return measure_ns * fields(scene) * (double)n;
 }
 
 double br_cell_cost(const struct br_study *s, size_t cell)
 {
     const struct br_resolution at = br_study_resolution(s, cell);
-    return (br_method_cost(br_study_method(s, cell), s->scene, at.n) + measure_ns * (double)at.n) *
+    return (br_method_cost(br_study_method(s, cell), s->scene, at.n) +
+            br_measure_cost(s->scene, at.n)) *
            (double)at.steps;
 }
 

@@ -39,7 +39,9 @@ enum br_status br_batches_read(struct br_study *studies, size_t count,
                                const struct br_batches *batches, char *bytes, size_t size,
                                struct br_error *err);
 
-/* The approximate cost of a cell of a study, and of its reference, ns of one thread. */
+/* The approximate cost of a cell of a study, and of its reference, ns of one thread; of the cell's,
+ * that of its error at one time level of n elements. */
+double br_measure_cost(const struct br_scene *scene, size_t n);
 double br_cell_cost(const struct br_study *study, size_t cell);
 double br_reference_cost(const struct br_study *study);
 

@@ -68,7 +68,7 @@ static enum br_status fill_transfers(struct level *level, size_t modes, struct b
             for (size_t m = i; m < modes; m++)
                 level->transfer[(j * modes + i) * modes + m] = transfer(gauss, level, j, i, m);
     gsl_integration_glfixed_table_free(gauss);
-    return level->transfer && gauss ? BR_OK : br_no_memory(err, "the ladder of meshes");
+    return level->transfer && gauss ? BR_OK : br_no_memory(err, "the nested meshes");
 }
 
 /* Finds the parent of r: the coarsest finer level, or root level, that r divides. */
@@ -128,7 +128,7 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
 {
     struct br_ladder *ladder = *out = br_store_take(store, 1, sizeof *ladder);
     if (!ladder)
-        return br_no_memory(err, "the ladder of meshes");
+        return br_no_memory(err, "the nested meshes");
     ladder->kernel = br_ladder_kernels[br_instruction_set_best()];
     ladder->modes = modes;
     ladder->count = levels->count;
@@ -136,7 +136,7 @@ enum br_status br_ladder_create(struct br_ladder **out, size_t modes,
     ladder->level = br_store_take(store, levels->count + roots->count, sizeof *ladder->level);
     ladder->order = br_store_take(store, levels->count, sizeof *ladder->order);
     if (store->failed)
-        return br_no_memory(err, "the ladder of meshes");
+        return br_no_memory(err, "the nested meshes");
     for (size_t i = 0; i < roots->count; i++)
         ladder->level[levels->count + i].n = roots->n[i];
     const enum br_status status = add_levels(ladder, levels, roots->count, store, err);

@@ -12,6 +12,7 @@
 #include <stdio.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/base/text.h"
 

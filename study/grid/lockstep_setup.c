@@ -3,6 +3,7 @@
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/lockstep.h"
 
 static const size_t buffer_bytes = 1u << 20; /* of a batch's projections, at most */

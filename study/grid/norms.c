@@ -4,7 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 const char *const br_part_names[BR_PARTS] = {"total", "axial", "bending"};
+
+bool br_models(const struct br_scene *scene, enum br_part part)
+{
+    return (scene->axial.modelled && part != BR_PART_BENDING) ||
+           (scene->bending.modelled && part != BR_PART_AXIAL);
+}
 
 const struct br_norm br_norm_l2 = {
     .name = "l2",

@@ -6,7 +6,8 @@
 #define BR_STUDY_GRID_NORMS_H
 
 #include "solver/modes.h"
-#include "solver/scene.h"
+
+struct br_scene;
 
 /* The error and its components, each with its own maximum over the time levels. */
 enum br_part { BR_PART_TOTAL, BR_PART_AXIAL, BR_PART_BENDING, BR_PARTS };
@@ -23,11 +24,7 @@ static inline bool br_part_has(enum br_part part, enum br_field_kind kind)
 }
 
 /* Whether a scene models a field of a part. */
-static inline bool br_models(const struct br_scene *scene, enum br_part part)
-{
-    return (scene->axial.modelled && part != BR_PART_BENDING) ||
-           (scene->bending.modelled && part != BR_PART_AXIAL);
-}
+bool br_models(const struct br_scene *scene, enum br_part part);
 
 extern const char *const br_part_names[BR_PARTS];
 

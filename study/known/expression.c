@@ -178,14 +178,14 @@ static bool find_function(const char *word, size_t length, enum br_operation *op
 
 static unsigned unknown_name(struct parser *p, size_t length)
 {
-    char known[256] = "ln";
-    for (int i = BR_OP_SIN; i <= BR_OP_MAX; i++) {
-        const char *word = br_operation_word((enum br_operation)i);
-        if (is_letter(*word))
-            br_append(known, sizeof known, " %s", word);
-    }
-    return refuse(p, "unknown name '%.*s', expected x, t, pi, e or a function: %s",
-                  (int)(length < 40 ? length : 40), p->at, known);
+    const char *names[64] = {"x", "t", "pi", "e", "ln"};
+    char word[40], expected[BR_EXPECTED];
+    size_t count = 5;
+    snprintf(word, sizeof word, "%.*s", (int)(length < 39 ? length : 39), p->at);
+    for (int i = BR_OP_SIN; i <= BR_OP_MAX; i++)
+        if (is_letter(*br_operation_word((enum br_operation)i)))
+            names[count++] = br_operation_word((enum br_operation)i);
+    return refuse(p, "unknown name '%s', %s", word, br_expected(word, names, count, expected));
 }
 
 static unsigned name(struct parser *p)

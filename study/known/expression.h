@@ -4,8 +4,11 @@
 #ifndef BR_STUDY_KNOWN_EXPRESSION_H
 #define BR_STUDY_KNOWN_EXPRESSION_H
 
-#include "solver/field.h"
 #include "solver/function.h"
+#include "solver/kind.h"
+
+struct br_load;
+struct br_scene;
 
 /* X(name, arguments, word): the operations. The word is the name of a function in a text, or the
  * operator between two arguments; a > b is stored as b < a, and a != b as !(a == b). `not`, `and`,

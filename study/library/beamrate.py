@@ -120,7 +120,10 @@ def _text(name, value, kinds=(str, os.PathLike)):
         _refuse(TypeError, name, value, "a text")
     if "\0" in (text := str(value)):
         _refuse(BadInput, name, value, "a text without NUL")
-    return text.encode()
+    try:
+        return text.encode()
+    except UnicodeEncodeError:  # half of a character: a lone surrogate
+        _refuse(BadInput, name, value, "text in UTF-8")
 
 
 def _whole(name, value, most):
@@ -175,7 +178,11 @@ def _numbers(name, values):
     values = np.asarray(values)
     if values.dtype.kind not in "iuf" or values.ndim != 1:
         _refuse(TypeError, name, values, "a list of real numbers")
-    return np.ascontiguousarray(values, np.float64)
+    with np.errstate(all="ignore"):
+        doubles = np.ascontiguousarray(values, np.float64)
+    if ((doubles != values) & ((doubles == 0) | np.isinf(doubles))).any():
+        _refuse(BadInput, name, values, "numbers within the range of a double")
+    return doubles
 
 
 class _Watch:
@@ -556,8 +563,10 @@ def _as_text(data, values, sizes):
             columns[str(key)] = _column(str(key), data[key])
     if len(lengths := {len(column) for column in columns.values()}) != 1:
         raise BadInput(f"found columns of {sorted(lengths)} numbers, expected as many in each")
+    for key in columns:
+        _text("column", key)
     out = io.StringIO()
     table = csv.writer(out, quoting=csv.QUOTE_ALL)
     table.writerow(columns)
     table.writerows(zip(*columns.values()))
-    return out.getvalue().encode(), values
+    return _text("table", out.getvalue()), values

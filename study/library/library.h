@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
+#include "solver/scene.h"
 #include "study/base/observer.h"
 #include "study/fit/fit.h"
 #include "study/library/beamrate.h"

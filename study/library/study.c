@@ -450,7 +450,7 @@ int beamrate_orders_line(const struct beamrate_orders *orders, enum beamrate_axi
     order->points = line->observed.points;
     order->used = line->observed.used;
     if (orders->numbers.quantity->is_value)
-        order->limit = br_library_estimate(line->limit.value);
+        order->limit = br_library_estimate(line->limits.limit.value);
     return 1;
 }
 

@@ -40,7 +40,10 @@ double br_numbers_given(const struct br_resolution_column *column, double z, dou
                          : column->is_power  ? -log2(z)
                          : column->is_volume ? pow(z, -dimension)
                                              : 1 / z;
-    return column->is_size ? given : ceil(given * (1 - 1e-9));
+    const double whole = round(given);
+    if (column->is_size)
+        return given;
+    return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
 }
 
 const char *br_list_next(const char *list, const char **name, size_t *length)
@@ -240,9 +243,10 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
         name_row(numbers, b, path, source);
         return b->line
                    ? br_fail(err, BR_BAD_INPUT,
-                             "%s: the resolution is that of line %zu, expected each once", source,
-                             a->line)
-                   : br_fail(err, BR_BAD_INPUT, "%s: is there twice, expected each once", source);
+                             "%s: the resolution is that of line %zu, expected each once; of "
+                             "repeated runs, give the mean",
+                             source, a->line)
+                   : br_fail(err, BR_BAD_INPUT, "%s is there twice, expected once", source);
     }
     if (most < 3)
         return br_fail(err, BR_BAD_INPUT, "%s: found %zu resolution%s, expected at least 3", path,

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "study/fit/grid_convergence.h"
+#include "study/fit/limits.h"
 #include "study/verify/check.h"
 
 /* ---- numbers: they come from a source (request.h) ---- */
@@ -40,7 +40,7 @@ struct br_numbers_row {
     double *number;        /* by quantity; NaN: missing; owned */
     double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
                               it is none; within `number` */
-    size_t repeat;         /* which of the runs of its cell; 0: it has one run */
+    size_t repeat;         /* of a run: which of its cell; of a mean: how many; 0: one run */
     size_t line;           /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
@@ -109,12 +109,8 @@ struct br_orders_line {
                     more; owned */
     struct br_case observed; /* for a value: its differences from the next finer one */
     /* For a value, from all its rows that have a number: */
-    struct br_grid_limit limit; /* its method depends on the number of rows */
-    struct br_grid_limit first_order; /* with the formal order 1, where none is stated */
-    struct br_gci gci;                /* of the three finest */
-    struct br_gci *triple;            /* of each three neighbours, from coarse to fine; owned */
-    double *finest_of;                /* the finest size of each, as it is stated; owned */
-    size_t triples;
+    struct br_limits limits;
+    double *finest_of; /* the finest size of each of its triples, as it is stated; owned */
 };
 
 /* The position of a row on a line; line: NULL, it is on none. */
@@ -159,6 +155,15 @@ struct br_orders {
 enum br_status br_orders_find(const struct br_numbers *numbers, double formal,
                               struct br_orders *orders, struct br_error *err);
 void br_orders_clear(struct br_orders *orders);
+
+/* Adds the lines of a quantity along an axis, from the coarsest size of the other one to the finest,
+ * with their limits, but not their orders (lines.c, for br_orders_find). */
+enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
+enum br_status br_orders_add_lines(const struct br_orders *orders, struct br_quantity_orders *of,
+                                   enum br_axis axis, struct br_error *err);
+
+/* Whether both axes are refined, each at several sizes of the other. */
+bool br_orders_is_grid(const struct br_orders *orders);
 
 /* The line along an axis at the finest size of the other one; NULL: there is none. */
 const struct br_orders_line *br_orders_finest(const struct br_quantity_orders *of,

@@ -28,8 +28,6 @@ enum {
 struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
-    const char **file; /* by reading that looks into a file: the name; owned; its texts are not */
-    size_t files;
     char **environment; /* owned; its texts are not */
     struct br_kept *kept;
 };
@@ -40,7 +38,7 @@ enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
     int printed[2]; /* files of standard output and error */
-    int *copy;      /* files of the job: copies of what the run wrote; owned */
+    int *copy;      /* copies of the files that the run wrote; owned */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     double wall;     /* s */
@@ -77,7 +75,7 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
     if (!r->copy)
         return br_no_memory(err, "a run");
     bool opened = open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
-    for (size_t i = 0; i < j->files && opened; i++)
+    for (size_t i = 0; i < cell->files && opened; i++)
         opened = open_printed(&r->copy[i]);
     if (!opened)
         return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
@@ -86,9 +84,9 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                                      .environment = j->environment,
                                      .where = temporary(),
                                      .output = {r->printed[0], r->printed[1]},
-                                     .file = j->file,
+                                     .file = (const char *const *)cell->file,
                                      .copy = r->copy,
-                                     .files = j->files,
+                                     .files = cell->files,
                                      .most = MOST_PRINTED};
     const int failure = br_process_start(&r->process);
     /* The kernel counts memory of this process that the child had before it became the program. */
@@ -150,7 +148,7 @@ static enum br_status watch(const struct br_orders_request *p, struct run *r, st
     if (end.known)
         return BR_OK;
     br_remove_folder(end.folder);
-    return br_fail(err, BR_IO, "what watched a program was killed");
+    return br_fail(err, BR_IO, "the process that watches a program was killed");
 }
 
 /* ---- its output ---- */
@@ -266,8 +264,8 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.printed = {-1, -1}, .copy = br_allocate(j->files + 1, sizeof *r.copy)};
-    for (size_t i = 0; i < j->files && r.copy; i++)
+    struct run r = {.printed = {-1, -1}, .copy = br_allocate(cell->files + 1, sizeof *r.copy)};
+    for (size_t i = 0; i < cell->files && r.copy; i++)
         r.copy[i] = -1;
     enum br_status status = begin(j, cell, &r, err);
     if (!status)
@@ -277,7 +275,7 @@ static enum br_status run_words(const struct job *j, const struct br_command_wor
     for (int i = 0; i < 2; i++)
         if (r.printed[i] >= 0)
             close(r.printed[i]);
-    for (size_t i = 0; i < j->files && r.copy; i++)
+    for (size_t i = 0; i < cell->files && r.copy; i++)
         if (r.copy[i] >= 0)
             close(r.copy[i]);
     free(r.copy);
@@ -367,7 +365,7 @@ static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
     struct br_numbers_row *row = &j->numbers->row[i];
-    struct br_command_words words = {NULL, NULL};
+    struct br_command_words words = {NULL};
     enum br_status status = br_command_split(j->program, row, &words, err);
     if (!status)
         status = take_row(j, &words, row, err);
@@ -437,7 +435,7 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     }
     if (!status && !numbers->quantities)
         status =
-            br_fail(err, BR_BAD_INPUT, "found no reading but of resolutions, expected a number");
+            br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);
@@ -497,6 +495,7 @@ static void join_repeated(struct br_numbers *n, size_t repeat)
             free(other->number);
             free(other->failure);
         }
+        row.repeat = repeat;
         row.seconds /= (double)repeat;
         row.wall /= (double)repeat;
         n->row[n->rows++] = row;
@@ -512,22 +511,12 @@ static void finish_rows(const struct br_orders_request *p, struct br_numbers *n)
         join_repeated(n, (size_t)p->repeat);
 }
 
-static enum br_status list_files(struct job *j, struct br_error *err)
-{
-    const struct br_orders_request *p = j->program;
-    j->file = br_allocate(p->readings + 1, sizeof *j->file);
-    for (size_t i = 0; i < p->readings && j->file; i++)
-        if (p->reading[i].file)
-            j->file[j->files++] = p->reading[i].file;
-    return j->file ? BR_OK : br_no_memory(err, "what is read");
-}
-
 /* Refuses a command that is not valid at any resolution, before one is run. */
 static enum br_status check_commands(const struct job *j, struct br_error *err)
 {
     enum br_status status = BR_OK;
     for (size_t i = 0; i < j->numbers->rows && !status; i++) {
-        struct br_command_words words = {NULL, NULL};
+        struct br_command_words words = {NULL};
         status = br_command_split(j->program, &j->numbers->row[i], &words, err);
         br_command_clear(&words);
     }
@@ -575,10 +564,9 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
     const bool failed = make_rows(program, numbers, &each.count, err) ||
                         make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                        make_environment(&j, err) || list_files(&j, err) ||
+                        make_environment(&j, err) ||
                         (program->kept && open_kept(&j, err)) || br_each(&each, err);
     free(j.environment);
-    free(j.file);
     if (failed)
         br_numbers_clear(numbers);
     else

@@ -81,7 +81,7 @@ enum br_status br_command_identify(const struct br_orders_request *r, const char
                                    char sum[BR_SHA256_TEXT], struct br_error *err)
 {
     struct br_statement s;
-    struct br_command_words before = {NULL, NULL};
+    struct br_command_words before = {NULL};
     char *real = realpath(r->path, NULL); /* NULL: a pipe, for example */
     enum br_status status = BR_OK;
     br_statement_begin(&s);
@@ -92,7 +92,7 @@ enum br_status br_command_identify(const struct br_orders_request *r, const char
     const size_t inner = count_of(&r->axis[BR_AXIS_TIME]);
     const size_t rows = count_of(&r->axis[BR_AXIS_SPACE]) * inner;
     for (size_t i = 0; i < rows && !status; i++) {
-        struct br_command_words words = {NULL, NULL};
+        struct br_command_words words = {NULL};
         struct br_numbers_row row = {.kept = false};
         const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = i / inner, [BR_AXIS_TIME] = i % inner};
         for (int axis = 0; axis < BR_AXES; axis++)

@@ -9,6 +9,7 @@
 
 #include "solver/clock.h"
 #include "study/base/quote.h"
+#include "study/base/words.h"
 #include "study/orders/request.h"
 
 enum {
@@ -77,6 +78,16 @@ static const char *place_of(const struct br_reading *r)
 }
 
 /* ---- regular expressions ---- */
+
+/* The prefix that may have been meant by the word before the colon, for a message. */
+static const char *prefix(const struct br_reading *r, char text[BR_SUGGESTION])
+{
+    static const char *const known[] = {"json:", "csv:", "last:", "stderr:", "file:"};
+    char word[16];
+    const size_t length = strcspn(r->what, ":");
+    snprintf(word, sizeof word, "%.*s", (int)(length < 14 ? length + 1 : 15), r->what);
+    return br_suggestion(r->what[length] ? word : "", known, sizeof known / sizeof *known, text);
+}
 
 static bool continues(const char *s)
 {
@@ -207,7 +218,7 @@ static enum br_status search_line(struct search *s, const char *line, size_t num
 
 static enum br_status search_regex(struct search *s)
 {
-    char buffer[SHOWN], *rest = s->output;
+    char buffer[SHOWN], suggestion[BR_SUGGESTION], *rest = s->output;
     struct matches m = {0};
     enum br_status status = compile(s);
     for (size_t number = 1; rest && !status; number++) {
@@ -219,8 +230,8 @@ static enum br_status search_regex(struct search *s)
     if (status || m.count == 1 || (m.count && s->reading->last))
         return status;
     if (m.count == 0)
-        return refuse(s, "'%s' matches nothing in %s", shown(buffer, s->reading->what),
-                      place_of(s->reading));
+        return refuse(s, "'%s' matches nothing in %s%s", shown(buffer, s->reading->what),
+                      place_of(s->reading), prefix(s->reading, suggestion));
     return refuse(s, "'%s' matches %zu times, expected once; lines %s (last:REGEX takes the last)",
                   shown(buffer, s->reading->what), m.count, m.lines);
 }
@@ -384,7 +395,7 @@ static bool is_pointer(const char *text)
 enum br_status br_reading_check(const struct br_reading *reading, struct br_error *err)
 {
     const struct search s = {.reading = reading, .err = err};
-    char buffer[SHOWN], why[SHOWN];
+    char buffer[SHOWN], why[SHOWN], suggestion[BR_SUGGESTION];
     regex_t regex;
     if (!*reading->name)
         return br_fail(err, BR_BAD_INPUT, "a reading has no name");
@@ -408,8 +419,8 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
     const size_t groups = regex.re_nsub;
     regfree(&regex);
     return groups == 1 ? BR_OK
-                       : refuse(&s, "'%s' has %zu groups, expected one around the number",
-                                shown(buffer, reading->what), groups);
+                       : refuse(&s, "'%s' has %zu groups, expected one around the number%s",
+                                shown(buffer, reading->what), groups, prefix(reading, suggestion));
 }
 
 /* Reads one finite number in C's notation, without other text. */

@@ -63,7 +63,7 @@ static enum br_status replace(struct split *s, char **to, struct br_error *err)
         }
         snprintf(expected + end, sizeof expected - end, "%s{%s}", end ? " or " : "", column->name);
     }
-    return br_fail(err, BR_BAD_INPUT, "the command has '{' before '%s', expected %s; {{ is a brace",
+    return br_fail(err, BR_BAD_INPUT, "found '{' before '%s', expected %s; {{ is a brace",
                    br_quoted(shown, sizeof shown, &br_for_text, s->rest + 1), expected);
 }
 
@@ -181,6 +181,21 @@ static enum br_status take_words(struct split *s, const char *here, char *word,
     return find_program(here, c->word[0], &c->program, err);
 }
 
+/* Takes the name of a file that a reading looks into. */
+static enum br_status take_file(struct split *s, const char *file, char *word,
+                                struct br_command_words *c, struct br_error *err)
+{
+    char *to = word;
+    for (s->rest = file; *s->rest;)
+        if (*s->rest != '{')
+            *to++ = *s->rest++;
+        else if (replace(s, &to, err))
+            return err->status;
+    *to = '\0';
+    c->file[c->files] = strdup(word);
+    return c->file[c->files++] ? BR_OK : br_no_memory(err, "what is read");
+}
+
 enum br_status br_command_split(const struct br_orders_request *request,
                                 const struct br_numbers_row *row, struct br_command_words *c,
                                 struct br_error *err)
@@ -188,12 +203,20 @@ enum br_status br_command_split(const struct br_orders_request *request,
     char here[PATH_MAX]; /* the folder of relative names */
     if (!(request->folder ? realpath(request->folder, here) : getcwd(here, sizeof here)))
         return br_fail(err, BR_IO, "the folder of the command: %s", strerror(errno));
-    const size_t most = strlen(request->command) + 1;
+    size_t most = strlen(request->command) + 1;
+    for (size_t i = 0; i < request->readings; i++)
+        if (request->reading[i].file && strlen(request->reading[i].file) >= most)
+            most = strlen(request->reading[i].file) + 1;
     char *word = br_allocate(most, NUMBER);
     struct split s = {request, row, .rest = request->command};
     c->word = br_allocate(most + 1, sizeof *c->word);
-    const enum br_status status = word && c->word ? take_words(&s, here, word, c, err)
-                                                  : br_no_memory(err, "the words of a command");
+    c->file = br_allocate(request->readings + 1, sizeof *c->file);
+    enum br_status status = word && c->word && c->file
+                                ? take_words(&s, here, word, c, err)
+                                : br_no_memory(err, "the words of a command");
+    for (size_t i = 0; i < request->readings && !status; i++)
+        if (request->reading[i].file)
+            status = take_file(&s, request->reading[i].file, word, c, err);
     free(word);
     return status;
 }
@@ -202,6 +225,9 @@ void br_command_clear(struct br_command_words *c)
 {
     for (char **word = c->word; word && *word; word++)
         free(*word);
+    for (size_t i = 0; i < c->files; i++)
+        free(c->file[i]);
     free(c->word);
+    free(c->file);
     free(c->program);
 }

@@ -65,22 +65,17 @@ static enum br_status refuse_name(const struct br_orders_request *r, const char 
                                   const char *name, const char *const *known, size_t count,
                                   struct br_error *err)
 {
-    const char *nearest = br_nearest(name, known, count);
-    char others[300] = "", shown[80], word[80];
-    for (size_t i = 0; i < count && !nearest; i++)
-        br_append(others, sizeof others, "%s%s", i ? ", " : ", expected one of: ",
-                  br_quoted(shown, sizeof shown, &br_for_text, known[i]));
-    if (nearest)
-        snprintf(others, sizeof others, "; did you mean '%s'?",
-                 br_quoted(shown, sizeof shown, &br_for_text, nearest));
+    char expected[BR_EXPECTED] = "", word[80];
+    if (count)
+        br_expected(name, known, count, expected);
     if (br_resolution_column_find(name))
         return br_fail(err, BR_BAD_INPUT, "%s: %s: '%s' is a resolution, expected numbers",
                        br_orders_path(r), where, name);
     return br_fail(err, BR_BAD_INPUT,
-                   r->command ? "%s: %s: nothing of the name '%s' is read%s"
-                              : "%s: %s: there is no column '%s'%s",
+                   r->command ? "%s: %s: nothing of the name '%s' is read%s%s"
+                              : "%s: %s: there is no column '%s'%s%s",
                    br_orders_path(r), where, br_quoted(word, sizeof word, &br_for_text, name),
-                   others);
+                   count ? ", " : "", expected);
 }
 
 /* Refuses a name of a list that is not the name of a quantity. */

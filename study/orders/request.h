@@ -154,6 +154,8 @@ enum br_status br_program_run(const struct br_orders_request *request, struct br
 struct br_command_words {
     char **word;   /* owned; ends with NULL */
     char *program; /* absolute path; owned */
+    char **file;   /* files, by reading that looks into one: its name in the run's folder; owned */
+    size_t files;
 };
 enum br_status br_command_split(const struct br_orders_request *request,
                                 const struct br_numbers_row *row, struct br_command_words *words,

@@ -12,9 +12,9 @@
 /* The position in a text. */
 struct cursor {
     const char *path, *at;
-    char separator;     /* ' ': any number of blanks */
-    size_t blanks;      /* how many, at least, where the separator is a blank */
-    char mark;          /* of decimals, as the first number has it; zero: none has it yet */
+    char separator;  /* ' ': any number of blanks */
+    size_t blanks;   /* how many, at least, where the separator is a blank */
+    char mark;       /* of decimals, as the first number has it; zero: none has it yet */
     size_t doubtful; /* the line of "1,089", which may be 1089; 0: there is none, or 0,5 is there */
     bool commas;     /* a number can only have a decimal comma */
     size_t line;
@@ -28,10 +28,25 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
+/* Whether a line has the types of columns alone, as Julia, polars and R print them. */
+static bool has_types(const char *line, const char *end)
+{
+    static const char types[] = " Int64 Float64 String i64 i32 u32 f64 str <dbl> <int> <chr> ";
+    for (line += strspn(line, " |"); line < end; line += strspn(line, " |\t\r")) {
+        char word[12];
+        const size_t length = strcspn(line, " |\t\r\n");
+        snprintf(word, sizeof word, " %.*s ", length < 9 ? (int)length : 9, line);
+        if (!strstr(types, word))
+            return false;
+        line += length;
+    }
+    return true;
+}
+
 /* Lines between rows, and LaTeX's commands. */
 static bool is_rule(const char *line, const char *end)
 {
-    if (*line == '\\')
+    if (*line == '\\' || has_types(line, end))
         return true;
     for (; line < end; line++)
         if (!strchr("-+=|:_* \t\r&", *line))
@@ -250,8 +265,9 @@ static bool has_pairs(const json_t *table, size_t row)
 static bool has_groups(const json_t *table, size_t row)
 {
     const size_t above = fields(table, row), below = fields(table, row + 1);
+    const char *first = field(table, row, 1);
     return above > 0 && below > above && below % above == 0 && !numbers(table, row) &&
-           !numbers(table, row + 1);
+           !numbers(table, row + 1) && !(first && strchr(first, ':'));
 }
 
 /* Puts the names of a line of headings above the next line's: rho, and error, EOC. */
@@ -270,17 +286,20 @@ static enum br_status join_headings(json_t *table, struct br_error *err)
 }
 
 /* Gives the columns that the heading does not name a heading of null: an index in front of each
- * row, as pandas prints it, and rates, which are '-' in the first row, as deal.II prints them. */
+ * row, as pandas and R print it, and rates, which are '-' in the first row, as deal.II prints them.
+ */
 static enum br_status name_columns(json_t *table, struct br_error *err)
 {
     json_t *heading = json_array_get(table, 0);
     const size_t names = fields(table, 0), columns = fields(table, 1);
-    const char *first = field(table, 1, 1);
+    const char *first = field(table, 1, 1), *second = field(table, 2, 1);
+    const bool counted = first && (strcmp(first, "0") == 0 ||
+                                   (strcmp(first, "1") == 0 && second && strcmp(second, "2") == 0));
     size_t rates = 0;
     bool failed = false;
     for (size_t i = 1; i <= columns; i++)
         rates += field(table, 1, i) && strcmp(field(table, 1, i), "-") == 0;
-    if (columns == names + 1 && first && strcmp(first, "0") == 0)
+    if (columns == names + 1 && counted)
         failed = json_array_insert_new(heading, 1, json_null()) != 0;
     else if (rates && columns == names + rates)
         for (size_t i = 1; i <= columns && !failed; i++)
@@ -437,20 +456,28 @@ static enum br_status take_heading(struct cursor *c, json_t *table, struct br_er
     return failed && !err->status ? br_no_memory(err, "the table") : err->status;
 }
 
-/* Copies a text with lines of boxes as bars and dashes. */
+/* Copies a text with lines of boxes as bars and dashes; a bar alone in its line is a blank. */
 static char *without_boxes(const char *text)
 {
-    char *copy = br_allocate(strlen(text) + 1, 1), *to = copy;
+    char *copy = br_allocate(strlen(text) + 1, 1), *to = copy, *bar = NULL;
+    size_t bars = 0;
     for (; copy && *text; text++) {
         const bool box = strncmp(text, "\xe2\x94", 2) == 0 || strncmp(text, "\xe2\x95", 2) == 0;
         if (box && text[2]) { /* U+2500 to 257F; upright: 2502, 2503, 2506, 250A, 2551 */
             const char code = text[2];
             const bool upright =
                 text[1] == '\x94' ? strchr("\x82\x83\x86\x8a", code) != NULL : code == '\x91';
+            bar = upright ? to : bar;
+            bars += upright;
             *to++ = upright ? '|' : '-';
             text += 2;
         } else
             *to++ = *text;
+        if (*text == '\n' || !text[1]) {
+            if (bars == 1)
+                *bar = ' ';
+            bars = 0;
+        }
     }
     return copy;
 }
@@ -461,17 +488,18 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
 {
     for (bool title = true; title && !err->status;) {
         struct cursor ahead = *c;
-        const char *none;
+        const char *below_title = NULL, *none;
         bool more = true;
         json_t *lines = json_array(), *row;
         for (int i = 0; i < 3 && more && !err->status; i++) {
             ahead.separator = find_separator(ahead.at);
             if (!add_row(lines, ahead.line, c->path, &row, err) && !take_fields(&ahead, row, err))
-                more = next_line(&ahead, &none);
+                more = next_line(&ahead, i ? &none : &below_title);
         }
         const size_t above = fields(lines, 0), below = fields(lines, 1);
         title = !has_pairs(lines, 0) &&
                 (has_pairs(lines, 1) || (above == 1 && below > 2 && !has_data(lines, 1)) ||
+                 (above != below && below_title && !numbers(lines, 0) && has_data(lines, 1)) ||
                  ((above != below || numbers(lines, 0)) && below > 1 && !numbers(lines, 1) &&
                   has_data(lines, 2) && !has_groups(lines, 0)));
         json_decref(lines);

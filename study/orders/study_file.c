@@ -165,10 +165,9 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
     if (name->type != YAML_SCALAR_NODE)
         return br_scene_refuse(r, br_yaml_line(name), "study", "expected a key");
     const char *text = br_yaml_text(name), *names[KEYS];
-    char known[400] = "";
+    char expected[BR_EXPECTED];
     for (size_t i = 0; i < KEYS; i++) {
         names[i] = keys[i].name;
-        br_append(known, sizeof known, "%s%s", i ? ", " : "", keys[i].name);
         if (strcmp(keys[i].name, text) != 0)
             continue;
         if (seen[i])
@@ -177,11 +176,8 @@ static enum br_status take_entry(const struct br_scene_reader *r, const yaml_nod
         return keys[i].pairs ? take_pairs(r, &keys[i], value, request)
                              : take_scalar(r, &keys[i], name, value, request);
     }
-    const char *nearest = br_nearest(text, names, KEYS);
-    return nearest ? br_scene_refuse(r, br_yaml_line(name), text, "unknown key; did you mean '%s'?",
-                                     nearest)
-                   : br_scene_refuse(r, br_yaml_line(name), text,
-                                     "unknown key, expected one of: %s", known);
+    return br_scene_refuse(r, br_yaml_line(name), text, "unknown key, %s",
+                           br_expected(text, names, KEYS, expected));
 }
 
 /* Refuses keys of runs in a study of a table. */

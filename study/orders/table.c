@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -67,9 +68,9 @@ enum { SYNONYMS = sizeof synonyms / sizeof *synonyms };
 /* Columns with one of these words are no errors, unless they are asked for. The first are orders
  * from row to row. */
 static const char *const of_runs[] = {
-    "rate",   "rates", "eoc", "ooc",  "roc",      "order",   "orders", "slope", "r",
-    "ratio",  "red",   "time", "times", "cpu",    "wall",    "walltime", "seconds", "sec",
-    "iter",   "iters", "its", "iterations", "cycle", "index", "memory"};
+    "rate",  "rates", "eoc",  "ooc",        "roc",   "order", "orders",   "slope",   "r",
+    "ratio", "red",   "time", "times",      "cpu",   "wall",  "walltime", "seconds", "sec",
+    "iter",  "iters", "its",  "iterations", "cycle", "index", "memory"};
 enum { OF_RUNS = sizeof of_runs / sizeof *of_runs, RATES = 9 };
 
 enum { LONGEST_NAME = 200 };
@@ -100,19 +101,12 @@ static void find_size(struct column *c)
 /* Whether a name has one of the first `count` words of of_runs. */
 static bool is_of_run(const char *name, size_t count)
 {
-    char word[LONGEST_NAME];
-    while (*name) {
-        size_t length = 0;
-        for (; *name && !isalpha((unsigned char)*name); name++)
-            continue;
-        for (; isalpha((unsigned char)*name) && length + 1 < LONGEST_NAME; name++)
-            word[length++] = (char)tolower((unsigned char)*name);
-        word[length] = '\0';
-        for (size_t i = 0; i < count && length; i++)
-            if (strcmp(word, of_runs[i]) == 0)
+    static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    for (size_t length; *(name += strcspn(name, letters)); name += length) {
+        length = strspn(name, letters);
+        for (size_t i = 0; i < count; i++)
+            if (strlen(of_runs[i]) == length && strncasecmp(of_runs[i], name, length) == 0)
                 return true;
-        if (length + 1 == LONGEST_NAME)
-            return false;
     }
     return false;
 }
@@ -213,8 +207,9 @@ static enum br_status number_at(const struct source *s, size_t row, size_t colum
     const json_t *field = field_at(s, row, column);
     if (is_number(field, value))
         return BR_OK;
-    return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found '%.40s', expected a number", s->path,
-                   line_of(s, row), s->column[column].name, json_string_value(field));
+    return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found '%.40s', expected a number%s", s->path,
+                   line_of(s, row), s->column[column].name, json_string_value(field),
+                   s->column[column].size ? "" : ", or nan where it is missing");
 }
 
 /* ---- columns ---- */
@@ -227,10 +222,15 @@ static void put_aside(struct source *s, const char *name)
                   br_quoted(text, sizeof text, &br_for_text, name));
 }
 
-/* Refuses the table. The message lists its headings, and says how to name columns. */
-static enum br_status refuse_columns(const struct source *s, const char *why, struct br_error *err)
+/* Refuses the table. The message lists its headings, and says how to name columns. word: an unknown
+ * heading; NULL: none. */
+static enum br_status refuse_columns(const struct source *s, const char *why, const char *word,
+                                     struct br_error *err)
 {
-    char names[300] = "", name[80], first[80] = "";
+    enum { MOST = 64 };
+    const char *headings[MOST];
+    size_t count = 0;
+    char names[300] = "", name[80], first[80] = "", suggestion[BR_SUGGESTION] = "";
     const bool none = heading(s, 1) && strcmp(heading(s, 1), "1") == 0;
     for (size_t i = 1; i <= s->columns && !none; i++)
         if (heading(s, i)) {
@@ -238,12 +238,16 @@ static enum br_status refuse_columns(const struct source *s, const char *why, st
             br_append(names, sizeof names, "%s%s", names[0] ? ", " : "", name);
             if (!*first)
                 strcpy(first, name);
+            if (count < MOST)
+                headings[count++] = heading(s, i);
         }
+    if (word)
+        br_suggestion(word, headings, count, suggestion);
     return br_fail(err, BR_BAD_INPUT,
                    none ? "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s%s"
                         : "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
-                          "cells, level, k, dt or steps)",
-                   s->path, line_of(s, 0), why, names, first);
+                          "cells, level, k, dt or steps)%s",
+                   s->path, line_of(s, 0), why, names, first, suggestion);
 }
 
 /* Names a column as an item of --column says: its heading or position, '=', its name or what it
@@ -268,10 +272,10 @@ static enum br_status rename_column(struct source *s, const char *item, size_t l
     if (!found && strspn(item, "0123456789") == size && position > 0 && position <= s->columns)
         found = position;
     if (!found) {
-        char why[120];
-        snprintf(why, sizeof why, "--column: found no column '%.*s'", size < 60 ? (int)size : 60,
-                 item);
-        return refuse_columns(s, why, err);
+        char why[120], word[60];
+        snprintf(word, sizeof word, "%.*s", size < 59 ? (int)size : 59, item);
+        snprintf(why, sizeof why, "--column: found no column '%s'", word);
+        return refuse_columns(s, why, word, err);
     }
     struct column *c = &s->column[found];
     char *name = strndup(equals + 1, rest - 1);
@@ -298,10 +302,17 @@ static enum br_status name_columns(struct source *s, struct br_error *err)
             continue;
         const size_t digits = strspn(c->shown, "0123456789"); /* gnuplot: "1:n" */
         const bool counted = digits && c->shown[digits] == ':' && c->shown[digits + 1];
-        if (!(c->name = strdup(c->shown + (counted ? digits + 1 : 0))))
+        const char *text = c->shown + (counted ? digits + 1 : 0);
+        if (!(c->name = strdup(text)))
             return br_no_memory(err, "the table");
         c->unit = split_unit(c->name);
         find_size(c);
+        for (size_t j = 1; j <= s->columns && c->unit && !c->size; j++)
+            if (j != i && heading(s, j) &&
+                strncmp(heading(s, j), text, (size_t)(c->unit - c->name)) == 0) {
+                strcpy(c->name, text); /* "L2(u)", "L2(p)": no units */
+                c->unit = NULL;
+            }
     }
     const char *item;
     size_t length;
@@ -334,7 +345,8 @@ static double size_at(const struct source *s, size_t row, size_t column, double 
 }
 
 /* Refuses another column of sizes that contradicts the one that is taken; a constant factor is
- * none. Counts of cells and of unknowns need not agree: they are left aside. */
+ * none, nor are sizes of three printed digits. Counts of cells and of unknowns need not agree: they
+ * are left aside. */
 static enum br_status compare_sizes(struct source *s, enum br_axis axis, size_t column,
                                     struct br_error *err)
 {
@@ -346,7 +358,7 @@ static enum br_status compare_sizes(struct source *s, enum br_axis axis, size_t 
         if (err->status)
             return err->status;
         factor = i ? factor : z / row->z[axis];
-        if (fabs(z / row->z[axis] / factor - 1) <= 1e-6)
+        if (fabs(z / row->z[axis] / factor - 1) <= 5e-3)
             continue;
         if (!c->size->is_volume && s->column[best_of_axis(s, axis)].rank != BY_NAME)
             return br_fail(err, BR_BAD_INPUT, "%s:%zu: %s: found %g, which contradicts %s", s->path,
@@ -366,6 +378,11 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     const struct column *c = &s->column[best];
     if (!best)
         return BR_OK;
+    bool counted = s->request->assumed_dimension || axis == BR_AXIS_TIME;
+    for (size_t i = 1; i <= s->columns; i++)
+        counted |= s->column[i].size && s->column[i].size->is_volume;
+    if (!counted)
+        return refuse_columns(s, "--dimension: found no numbers of unknowns or cells", NULL, err);
     numbers->column[axis] = c->size;
     for (size_t i = 0; i < s->rows; i++) {
         struct br_numbers_row *row = &numbers->row[i];
@@ -381,6 +398,9 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
     if (axis == BR_AXIS_SPACE) {
         numbers->dimension = br_orders_dimension(s->request, c->size);
         numbers->assumed = c->size->is_volume && s->request->assumed_dimension;
+        if (c->size->is_volume)
+            br_append(numbers->taken, sizeof numbers->taken, ", d = %g%s", numbers->dimension,
+                      numbers->assumed ? " assumed" : "");
     }
     for (size_t i = 1; i <= s->columns; i++)
         if (i != best && s->column[i].size && s->column[i].size->axis == axis &&
@@ -461,7 +481,9 @@ static void state(const struct source *s)
         for (size_t i = 0, found = 0; i < n->quantities; i++)
             if (n->quantity[i].is_value == values)
                 br_append(n->taken, sizeof n->taken, "%s%s",
-                          found++ ? ", " : values ? "; values: " : "; errors: ",
+                          found++  ? ", "
+                          : values ? "; values: "
+                                   : "; errors: ",
                           br_quoted(name, sizeof name, &br_for_text, n->quantity[i].name));
     if (s->aside[0])
         br_append(n->taken, sizeof n->taken, "; left aside: %s", s->aside);
@@ -523,10 +545,10 @@ static enum br_status take_columns(struct source *s, struct br_error *err)
         return status;
     state(s);
     if (!numbers->column[BR_AXIS_SPACE] && !numbers->column[BR_AXIS_TIME])
-        return refuse_columns(s, "found no column of a resolution", err);
+        return refuse_columns(s, "found no column of a resolution", NULL, err);
     return numbers->quantities
                ? BR_OK
-               : refuse_columns(s, "found no column of numbers beside the resolution", err);
+               : refuse_columns(s, "found no column of numbers beside the resolution", NULL, err);
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,

@@ -6,6 +6,7 @@
 #define BR_STUDY_PAPER_PAPER_H
 
 #include "reference/exact/exact.h"
+#include "solver/scene.h"
 #include "study/base/observer.h"
 #include "study/grid/study.h"
 #include "study/run/history.h"

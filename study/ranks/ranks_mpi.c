@@ -231,7 +231,7 @@ static enum br_status check_reports(struct br_error *err)
                                            job.report[r].failure.message);
     for (int r = 0; r < job.size; r++)
         if (job.report[r].ends != own->ends)
-            return br_fail(err, BR_IO, "rank %d has ended before its time",
+            return br_fail(err, BR_IO, "rank %d ended too early",
                            own->ends ? job.rank : r);
     for (int r = 0; r < job.size; r++)
         if (job.report[r].asked != first->asked)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "solver/field.h"
 #include "study/base/words.h"
 
 struct run {

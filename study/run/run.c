@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+
 /* Element-steps between two reports of progress. */
 enum { BETWEEN_SIGNS = 1 << 18 };
 

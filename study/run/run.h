@@ -7,6 +7,7 @@
 #include "reference/certificate/certificate.h"
 #include "reference/energy/energy.h"
 #include "solver/march.h"
+#include "solver/scene.h"
 #include "study/base/observer.h"
 #include "study/run/history.h"
 

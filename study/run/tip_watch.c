@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "solver/scene.h"
 #include "study/run/history.h"
 
 #include <math.h>

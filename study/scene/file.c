@@ -51,14 +51,13 @@ void br_data_path(const char *relative, char *path, size_t size)
 /* Suggests the bundled scene with the most similar name, if there is one. */
 static enum br_status refuse(const char *name, const char *path, struct br_error *err)
 {
-    char **names;
+    char **names, suggestion[BR_SUGGESTION] = "";
     size_t count;
-    const char *nearest = NULL;
     if (!br_scene_list(&names, &count, NULL))
-        nearest = br_nearest(name, (const char *const *)names, count);
-    const enum br_status status = br_fail(
-        err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)%s%s%s", name,
-        path, nearest ? "; did you mean '" : "", nearest ? nearest : "", nearest ? "'?" : "");
+        br_suggestion(name, (const char *const *)names, count, suggestion);
+    const enum br_status status =
+        br_fail(err, BR_BAD_INPUT, "scene '%s' is no file and no bundled scene (looked for %s)%s",
+                name, path, suggestion);
     br_scene_list_free(names, count);
     return status;
 }
@@ -134,15 +133,6 @@ void br_scene_list_free(char **names, size_t count)
 
 /* ---- contents of scenes ---- */
 
-/* "one, two, three": the keys of a section, for a message. */
-static void list_keys(const char *section, char *text, size_t size)
-{
-    text[0] = '\0';
-    for (const struct br_scene_key *k = br_scene_keys; k->name; k++)
-        if (strcmp(k->section, section) == 0)
-            br_append(text, size, "%s%s", *text ? ", " : "", k->name);
-}
-
 /* Reads one mapping. */
 static enum br_status read_section(const struct br_scene_reader *r, const char *section,
                                    const yaml_node_t *node);
@@ -180,17 +170,20 @@ static enum br_status read_entry(const struct br_scene_reader *r, const char *se
     if (name->type != YAML_SCALAR_NODE)
         return br_scene_refuse(r, br_yaml_line(name), *section ? section : "scene",
                                "a key must be a word");
+    const char *names[BR_MOST_SCENE_KEYS];
+    char expected[BR_EXPECTED];
+    size_t count = 0;
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
-        if (strcmp(k->section, section) != 0 || strcmp(k->name, br_yaml_text(name)) != 0)
+        if (strcmp(k->section, section) != 0)
             continue;
-        return line_of(r, k) ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
-                             : read_key(r, k, name, value);
+        names[count++] = k->name;
+        if (strcmp(k->name, br_yaml_text(name)) == 0)
+            return line_of(r, k) ? br_scene_refuse(r, br_yaml_line(name), k->name, "given twice")
+                                 : read_key(r, k, name, value);
     }
-    char known[512];
-    list_keys(section, known, sizeof known);
-    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name),
-                           "unknown key%s%s, expected one of: %s", *section ? " in " : "", section,
-                           known);
+    return br_scene_refuse(r, br_yaml_line(name), br_yaml_text(name), "unknown key%s%s, %s",
+                           *section ? " in " : "", section,
+                           br_expected(br_yaml_text(name), names, count, expected));
 }
 
 static enum br_status check_required(const struct br_scene_reader *r, const char *section,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The method of manufactured solutions: a scene whose loads, tip forces and initial data are
  * derived from a solution that is given (Roache 2002; Oberkampf and Roy 2010). */
+#include "solver/scene.h"
 #include "study/known/expression.h"
 
 #include <float.h>
@@ -111,8 +112,9 @@ static enum br_status add_law(const struct br_scene *s, enum br_field_kind kind,
 {
     struct br_tree_builder b = {0};
     struct br_tree tree;
-    const unsigned force =
-        kind == BR_AXIAL ? pressed(&b, s, &p->u, s->contact.stiffness) : friction(&b, s, p);
+    const unsigned force = kind == BR_AXIAL
+                               ? pressed(&b, s, &p->u, br_contact_stiffness(&s->contact))
+                               : friction(&b, s, p);
     const unsigned sum = br_tree_node(&b, BR_OP_ADD, graft(&b, &p->stress, BR_NO_NODE), force, 0);
     const enum br_status status = br_tree_finish(&b, sum, &tree, err);
     return status ? status : br_tree_function(&tree, f, err);

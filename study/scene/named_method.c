@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
+#include "study/base/words.h"
 #include "study/scene/method_fields.h"
 
 /* ---- the words of a name ---- */
@@ -62,11 +64,17 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     size_t i = 0;
     while (i < KINDS && !take(kinds[i], word, m))
         i++;
-    if (i == KINDS)
-        return br_fail(err, BR_BAD_INPUT,
-                       "found '%s', expected a time scheme, a contact rule, a friction rule, a "
-                       "linear solver, p1 or p2",
-                       word);
+    if (i == KINDS) {
+        const char *names[64];
+        char expected[BR_EXPECTED];
+        double value;
+        size_t count = 0;
+        for (size_t kind = 0; kind < KINDS; kind++)
+            for (size_t j = 0; count < 64 && (names[count] = word_of(kinds[kind], j, &value)); j++)
+                count++;
+        return br_fail(err, BR_BAD_INPUT, "found '%s', %s", word,
+                       br_expected(word, names, count, expected));
+    }
     if (taken[i])
         return br_fail(err, BR_BAD_INPUT, "found '%s', but the %s is given already", word,
                        title_of(kinds[i]));

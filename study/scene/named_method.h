@@ -5,6 +5,7 @@
 #define BR_STUDY_SCENE_NAMED_METHOD_H
 
 #include "solver/march.h"
+#include "solver/method.h"
 
 enum { BR_METHOD_NAME_SIZE = 80, BR_MOST_NAMED_METHODS = 64 };
 

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "solver/scene.h"
+
 enum br_status br_steps_of(const struct br_scene *scene, double k, size_t *steps,
                            struct br_error *err)
 {

@@ -3,7 +3,9 @@
 #ifndef BR_STUDY_SCENE_RESOLUTION_H
 #define BR_STUDY_SCENE_RESOLUTION_H
 
-#include "solver/scene.h"
+#include "solver/status.h"
+
+struct br_scene;
 
 /* A discretisation: n equal elements, `steps` equal time steps of T/steps. */
 struct br_resolution {

@@ -3,9 +3,10 @@
 #ifndef BR_STUDY_SCENE_STATEMENT_H
 #define BR_STUDY_SCENE_STATEMENT_H
 
-#include "solver/method.h"
-#include "solver/scene.h"
 #include "study/base/statement.h"
+
+struct br_method;
+struct br_scene;
 
 /* All lines of a scene, by the rows of br_scene_keys and by its functions; of a method, by the rows
  * of br_method_fields. */

@@ -99,6 +99,8 @@ const char *br_unit_words(char text[BR_UNIT_WORDS])
 
 /* ---- reading ---- */
 
+#define SEPARATORS " */()^-0123456789" /* of words */
+
 /* Finds a word, with a prefix or without. */
 static bool find(const char *text, size_t length, struct br_unit *unit)
 {
@@ -131,7 +133,7 @@ static void multiply(struct br_unit *unit, const struct br_unit *by, int power)
 static bool read_word(const char **at, int sign, struct br_unit *unit)
 {
     struct br_unit word;
-    const size_t length = strcspn(*at, " */()^-0123456789");
+    const size_t length = strcspn(*at, SEPARATORS);
     if (!find(*at, length, &word))
         return false;
     *at += length;
@@ -176,6 +178,31 @@ bool br_unit_read(const char *text, struct br_unit *unit)
         return read_word(&at, -1, unit) && !*at;
     at++;
     return read_words(&at, -1, unit) && strcmp(at, ")") == 0;
+}
+
+char *br_unit_suggestion(const char *unknown, struct br_dimension of, char *text)
+{
+    enum { WORDS = UNITS * PREFIXES, MOST = 80 };
+    char word[WORDS][16], whole[MOST], wrong[MOST];
+    const char *names[WORDS], *at = unknown + strspn(unknown, SEPARATORS);
+    size_t count = 0, length = 0;
+    struct br_unit unit;
+    while (*at && find(at, length = strcspn(at, SEPARATORS), &unit))
+        at += length + strspn(at + length, SEPARATORS);
+    snprintf(wrong, sizeof wrong, "%.*s", (int)(*at ? length : 0), at);
+    for (const struct prefix *p = prefixes; *at && p < prefixes + PREFIXES; p++)
+        for (const struct known *k = units; k < units + UNITS; k++) {
+            names[count] = word[count];
+            snprintf(word[count], sizeof *word, "%s%s", p->word, k->word);
+            snprintf(whole, MOST, "%.*s%s%s", (int)(at - unknown), unknown, word[count],
+                     at + length);
+            count += br_unit_read(whole, &unit) && br_dimension_is(unit.of, of);
+        }
+    const char *nearest = br_nearest(wrong, names, count);
+    if (nearest)
+        snprintf(text, BR_SUGGESTION, "; did you mean '%.*s%s%s'?", (int)(at - unknown), unknown,
+                 nearest, at + length);
+    return nearest ? text : strcpy(text, "");
 }
 
 /* ---- converting ---- */

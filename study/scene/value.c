@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
 #include "study/known/expression.h"
 #include "study/scene/units.h"
 
@@ -68,19 +69,21 @@ static void *target(const struct value *v)
 
 /* ---- numbers ---- */
 
-static enum br_status refuse_unit(const struct value *v, bool known, const struct br_unit *found,
-                                  const struct br_unit *wanted)
+/* unknown: the text that is no unit; NULL: it is `found`. */
+static enum br_status refuse_unit(const struct value *v, const char *unknown,
+                                  const struct br_unit *found, const struct br_unit *wanted)
 {
-    char text[2][BR_DIMENSION_TEXT], words[BR_UNIT_WORDS];
+    char text[2][BR_DIMENSION_TEXT], words[BR_UNIT_WORDS], suggestion[BR_SUGGESTION];
     const char *expected = br_dimension_words(wanted->of, text[0]);
     const char *ratio = v->key->need == BR_OR_RATIO ? ", or a number without unit" : "";
-    if (known)
+    if (!unknown)
         return REFUSE(v, "found '%s', which is %s, expected %s, as %s%s", br_yaml_text(v->node),
                       br_dimension_words(found->of, text[1]), expected, v->unit, ratio);
     return REFUSE(v,
                   "found '%s', expected a number and its unit, %s%s, or another unit of %s, "
-                  "made of %s, with prefixes from n to T",
-                  br_yaml_text(v->node), v->unit, ratio, expected, br_unit_words(words));
+                  "made of %s, with prefixes from n to T%s",
+                  br_yaml_text(v->node), v->unit, ratio, expected, br_unit_words(words),
+                  br_unit_suggestion(unknown, wanted->of, suggestion));
 }
 
 /* Reads any unit of the expected dimension. */
@@ -93,7 +96,7 @@ static enum br_status read_unit(struct value *v, const char *text, struct br_uni
         return BR_OK;
     v->ratio = known && v->key->need == BR_OR_RATIO &&
                br_dimension_is(unit->of, (struct br_dimension){0, 0, 0});
-    return v->ratio ? BR_OK : refuse_unit(v, known && *text, unit, &wanted);
+    return v->ratio ? BR_OK : refuse_unit(v, known && *text ? NULL : text, unit, &wanted);
 }
 
 /* Reads "value unit", as far as `end`, which points into the text; NULL: to the end of the text. */
@@ -154,16 +157,21 @@ static void set_shape(struct br_scene_number *to, bool rectangle, long double a,
 /* "rectangle 20 mm x 5 mm", "circle 10 mm", "tube 20 mm x 2 mm" */
 static enum br_status read_shape(struct value *v)
 {
-    static const char *const words[] = {"rectangle ", "circle ", "tube "};
+    static const char *const words[] = {"rectangle", "circle", "tube"};
     const char *text = br_yaml_text(v->node), *cross = strstr(text, " x ");
+    const size_t length = strcspn(text, " ");
     struct br_si_number a, b = {0, 0};
     size_t shape = 0;
-    while (shape < 3 && strncmp(text, words[shape], strlen(words[shape])) != 0)
+    char word[32], suggestion[BR_SUGGESTION] = "";
+    snprintf(word, sizeof word, "%.*s", (int)(length < 31 ? length : 31), text);
+    while (shape < 3 && strcmp(word, words[shape]) != 0)
         shape++;
-    if (shape == 3 || (shape == 1) == (cross != NULL))
-        return REFUSE(v, "found '%s', expected %s", text, v->key->help);
+    if (shape == 3)
+        br_suggestion(word, words, 3, suggestion);
+    if (shape == 3 || !text[length] || (shape == 1) == (cross != NULL))
+        return REFUSE(v, "found '%s', expected %s%s", text, v->key->help, suggestion);
     v->unit = "m";
-    enum br_status status = read_quantity(v, text + strlen(words[shape]), cross, &a);
+    enum br_status status = read_quantity(v, text + length + 1, cross, &a);
     if (!status && cross)
         status = read_quantity(v, cross + strlen(" x "), NULL, &b);
     if (status)
@@ -270,6 +278,8 @@ static enum br_status read_solution(struct value *v)
 static enum br_status read_product(const struct value *v, struct br_load *load)
 {
     static const char *const expected = "expected 'shape: F(x) [1]' and 'history: G(t) [N/m]'";
+    static const char *const words[] = {"shape", "history"};
+    char suggestion[BR_SUGGESTION];
     bool seen[2] = {false, false};
     const yaml_node_pair_t *end = v->node->data.mapping.pairs.top;
     for (const yaml_node_pair_t *p = v->node->data.mapping.pairs.start; p < end; p++) {
@@ -281,7 +291,8 @@ static enum br_status read_product(const struct value *v, struct br_load *load)
             return REFUSE(&at, "%s", expected);
         const bool shape = strcmp(br_yaml_text(name), "shape") == 0;
         if (!shape && strcmp(br_yaml_text(name), "history") != 0)
-            return REFUSE(&at, "found '%s', %s", br_yaml_text(name), expected);
+            return REFUSE(&at, "found '%s', %s%s", br_yaml_text(name), expected,
+                          br_suggestion(br_yaml_text(name), words, 2, suggestion));
         if (seen[shape])
             return REFUSE(&at, "'%s' is given twice", br_yaml_text(name));
         seen[shape] = true;
@@ -308,12 +319,14 @@ static enum br_status read_load(struct value *v)
 static enum br_status read_law(const struct value *v)
 {
     const char *text = br_yaml_text(v->node);
+    char expected[BR_EXPECTED];
     for (int law = 0; law < BR_FRICTION_LAWS; law++)
         if (br_friction_law_names[law] && strcmp(text, br_friction_law_names[law]) == 0) {
             v->r->scene->friction.law = (enum br_friction_law)law;
             return BR_OK;
         }
-    return REFUSE(v, "found '%s', expected tresca or coulomb", text);
+    return REFUSE(v, "found '%s', %s", text,
+                  br_expected(text, br_friction_law_names + 1, BR_FRICTION_LAWS - 1, expected));
 }
 
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,

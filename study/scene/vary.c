@@ -25,7 +25,9 @@ static const char *full_name(const struct br_scene_key *k, char name[64])
 static enum br_status find_key(const char *text, size_t length, struct br_varied *v,
                                struct br_error *err)
 {
-    char known[600] = "";
+    char name[BR_MOST_SCENE_KEYS][64], word[100], expected[BR_EXPECTED];
+    const char *names[BR_MOST_SCENE_KEYS];
+    size_t count = 0;
     for (const struct br_scene_key *k = br_scene_keys; k->name; k++) {
         full_name(k, v->name);
         const bool found = strlen(v->name) == length && strncmp(text, v->name, length) == 0;
@@ -37,11 +39,12 @@ static enum br_status find_key(const char *text, size_t length, struct br_varied
             v->key = k;
         if (found && v->key)
             return BR_OK;
-        if (is_number(k))
-            br_append(known, sizeof known, "%s%s", *known ? ", " : "", v->name);
+        names[count] = strcpy(name[count], v->name);
+        count += is_number(k);
     }
-    return br_fail(err, BR_BAD_INPUT, "--vary: found key '%.*s', expected one of: %s",
-                   (int)(length < 100 ? length : 100), text, known);
+    snprintf(word, sizeof word, "%.*s", (int)(length < 99 ? length : 99), text);
+    return br_fail(err, BR_BAD_INPUT, "--vary: found key '%s', %s", word,
+                   br_expected(word, names, count, expected));
 }
 
 /* Whether its unit is 1, which is never printed. */

@@ -4,8 +4,10 @@
 #include <math.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "study/base/each.h"
 #include "study/foresee/warnings.h"
+#include "study/grid/batches.h"
 #include "study/trade/trial.h"
 
 /* ---- a method ---- */
@@ -144,20 +146,19 @@ static enum br_status time_judge(const struct br_trial_request *r, struct judgin
 
 /* ---- a trial ---- */
 
-/* A march that is far over the limit ends after this time, s. */
-static const double soon = 0.1;
-
-/* Seconds of a trial's timed marches and of the march for its error. */
-static double marches(const struct br_trial_request *r, const struct br_trial *t, double march)
+/* Seconds of a trial's timed marches (trial.c) and of the march whose error is measured; pace: of
+ * this machine. */
+static double marches(const struct br_trial_request *r, const struct br_trial *t, double pace)
 {
-    const bool adaptive = t->named->method.scheme->adaptive;
+    const struct br_method *m = &t->named->method;
+    const double march = pace * br_trial_work(r->scene, t), soon = r->repeat_seconds;
+    const double measured = march + 1e-9 * br_measure_cost(r->scene, t->at.n) * (double)t->at.steps;
+    const bool whole = m->scheme->adaptive || m->friction->iterates;
     if (r->time_limit > 0 && march > r->time_limit)
-        return adaptive || march < 2 * r->time_limit ? r->time_limit : fmin(soon, r->time_limit);
-    const double repeats =
-        march > r->repeat_seconds
-            ? 0
-            : fmin((double)r->repeats, 1 + floor(r->repeat_seconds / fmax(march, 1e-9)));
-    return march * (1 + repeats) + march / br_threads(r->threads);
+        return whole ? r->time_limit : soon;
+    const double repeats = fmin((double)r->repeats, 1 + floor(soon / fmax(march, 1e-9)));
+    const double timed = march <= soon ? march * (1 + repeats) : whole ? march : soon;
+    return timed + measured / br_threads(r->threads);
 }
 
 /* Seconds of the judge for trial i. A mesh, or a number of steps on it, costs only once. */
@@ -165,7 +166,7 @@ static double judged(const struct br_trial *trial, size_t i, const struct judgin
 {
     bool mesh = true, levels = true;
     for (size_t j = 0; j < i; j++)
-        if (trial[j].at.n == trial[i].at.n &&
+        if (trial[j].end != BR_TRIAL_LEFT && trial[j].at.n == trial[i].at.n &&
             trial[j].named->method.axial_degree == trial[i].named->method.axial_degree) {
             mesh = false;
             levels = levels && trial[j].at.steps != trial[i].at.steps;
@@ -176,23 +177,45 @@ static double judged(const struct br_trial *trial, size_t i, const struct judgin
 
 /* ---- all of them ---- */
 
+/* What the seconds of trials are made from. */
+struct forecasting {
+    const struct br_trial_request *request;
+    struct judging judging;
+    double *march; /* s, without the judge */
+};
+
+/* Adds up the trials that are not left out. */
+static void add_up(const struct forecasting *f, struct br_trial *trial, size_t count,
+                   struct br_trial_forecast *forecast)
+{
+    forecast->seconds = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (trial[i].end == BR_TRIAL_LEFT)
+            continue;
+        trial[i].foreseen =
+            f->march[i] + judged(trial, i, &f->judging) / br_threads(f->request->threads);
+        forecast->seconds += trial[i].foreseen;
+    }
+}
+
 /* Leaves out the dearest trials until the others take no longer than allowed; one always remains.
- */
-static void leave_out(struct br_trial *trial, size_t count, double allowed,
+ * What the judge does for a trial that is left out, another one may need. */
+static void leave_out(const struct forecasting *f, struct br_trial *trial, size_t count,
                       struct br_trial_forecast *forecast)
 {
-    while (forecast->planned > 1 && forecast->seconds > allowed) {
+    const double all = forecast->seconds;
+    while (forecast->planned > 1 && forecast->seconds > f->request->seconds) {
         struct br_trial *dearest = NULL;
         for (size_t i = 0; i < count; i++)
             if (trial[i].end != BR_TRIAL_LEFT &&
                 (!dearest || trial[i].foreseen > dearest->foreseen))
                 dearest = &trial[i];
         dearest->end = BR_TRIAL_LEFT;
-        forecast->seconds -= dearest->foreseen;
-        forecast->left_seconds += dearest->foreseen;
         forecast->planned--;
         forecast->left++;
+        add_up(f, trial, count, forecast);
     }
+    forecast->left_seconds = all - forecast->seconds;
 }
 
 enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
@@ -200,17 +223,20 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
                                  struct br_trial_forecast *forecast, struct br_error *err)
 {
     *forecast = (struct br_trial_forecast){.planned = count};
-    struct judging judging;
+    struct forecasting f = {.request = r, .march = br_allocate(count, sizeof *f.march)};
     double *pace = br_allocate(count, sizeof *pace);
-    enum br_status status = pace ? time_judge(r, &judging, err) : br_no_memory(err, "the trials");
+    enum br_status status =
+        pace && f.march ? time_judge(r, &f.judging, err) : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
+        trial[i].end = BR_TRIAL_DONE;
         status = find_pace(r, trial, i, pace, err);
-        trial[i].foreseen = marches(r, &trial[i], pace[i] * br_trial_work(r->scene, &trial[i])) +
-                            judged(trial, i, &judging) / br_threads(r->threads);
-        forecast->seconds += trial[i].foreseen;
+        f.march[i] = marches(r, &trial[i], pace[i]);
     }
-    free(pace);
+    if (!status)
+        add_up(&f, trial, count, forecast);
     if (!status && r->seconds > 0)
-        leave_out(trial, count, r->seconds, forecast);
+        leave_out(&f, trial, count, forecast);
+    free(pace);
+    free(f.march);
     return status;
 }

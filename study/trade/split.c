@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/sweep.h"
 

@@ -75,11 +75,6 @@ double br_trial_bound(const struct br_trial *trial)
 /* Element-steps between two readings of the clock; a reading takes some 0.3 us. */
 static const double between_readings = 1e5;
 
-/* A march is ended early where its first steps predict that it takes this many times the limit.
- * The first steps of an adaptive scheme predict nothing. */
-static const double sure_excess = 1.5;
-static const double least_evidence = 0.05; /* s of steps that an extrapolation is made from */
-
 /* A trial that is being marched. */
 struct clocked {
     struct br_trial *trial;
@@ -91,21 +86,24 @@ struct clocked {
     size_t asked;  /* steps of an adaptive scheme since the last reading */
 };
 
-/* A sure lower estimate of the march's seconds to its end; only the seconds so far where its steps
- * predict nothing. */
-static double foreseen(const struct clocked *c, double spent)
+/* Equal steps cost the same, so that some of them show the time of all. A rule that iterates does
+ * not. The error is measured in a march of its own, which need not be timed. */
+static bool is_even(const struct br_method *m)
 {
-    const double done = (double)br_march_steps_done(c->march);
-    if (c->trial->named->method.scheme->adaptive || !(spent >= least_evidence))
-        return spent;
-    return c->set_up + spent * (double)c->trial->at.steps / (sure_excess * done);
+    return !m->scheme->adaptive && !m->friction->iterates;
 }
 
-/* Whether a march takes too long, its set-up included. */
+/* Seconds of the whole march with its set-up, as far as its steps show. */
+static double foreseen(const struct clocked *c)
+{
+    const double steps = br_thread_seconds() - c->start;
+    const double done = (double)br_march_steps_done(c->march), all = (double)c->trial->at.steps;
+    return c->set_up + steps * (is_even(&c->trial->named->method) && done > 0 ? all / done : 1);
+}
+
 static bool is_over(const struct clocked *c)
 {
-    const double limit = c->request->time_limit, steps = br_thread_seconds() - c->start;
-    return limit > 0 && !(c->set_up + steps <= limit && foreseen(c, steps) <= limit);
+    return c->request->time_limit > 0 && !(foreseen(c) <= c->request->time_limit);
 }
 
 /* Asked by br_march_step within the steps of an adaptive scheme. */
@@ -127,21 +125,28 @@ static enum br_status check_clock(struct clocked *c, struct br_error *err)
         return BR_OK;
     c->trial->end = BR_TRIAL_OVER;
     return br_fail(&c->trial->failure, BR_VERDICT,
-                   "over the time limit of %g s: %.2g s for set-up and %zu of %zu time levels",
-                   c->request->time_limit, c->set_up + br_thread_seconds() - c->start,
-                   br_march_steps_done(c->march), c->trial->at.steps);
+                   "over the time limit of %g s: at least %.2g s, by %zu of %zu time levels",
+                   c->request->time_limit, foreseen(c), br_march_steps_done(c->march),
+                   c->trial->at.steps);
 }
 
+/* Marches to the end, or as many equal steps as show the time of all. */
 static enum br_status make_steps(struct clocked *c, struct br_error *err)
 {
+    const struct br_method *m = &c->trial->named->method;
     const size_t steps = c->trial->at.steps;
-    const bool adaptive = c->trial->named->method.scheme->adaptive;
-    enum br_status status = check_clock(c, err);
-    for (size_t i = 1; i <= steps && !status; i++) {
-        const enum br_status step = br_march_step(c->march, &c->trial->failure);
-        const bool reads = !step && (i % c->every == 0 || i == steps || adaptive);
-        status = reads || step == BR_INTERRUPTED ? check_clock(c, err) : BR_OK;
-        status = status ? status : step;
+    enum br_status status = BR_OK;
+    bool enough = false;
+    for (size_t i = 1; i <= steps && !enough && !status; i++) {
+        status = br_march_step(c->march, &c->trial->failure);
+        if (status && status != BR_INTERRUPTED)
+            return status;
+        const bool reads = i % c->every == 0 || i == steps || m->scheme->adaptive || status;
+        enough = reads && is_even(m) && br_thread_seconds() - c->start > c->request->repeat_seconds;
+        if (enough || i == steps || (reads && !is_even(m))) {
+            const enum br_status said = check_clock(c, err);
+            status = said ? said : status;
+        }
     }
     return status;
 }
@@ -169,6 +174,13 @@ enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request 
     cost->march = br_thread_seconds() - begin;
     cost->counts = br_march_counts(c.march);
     cost->levels = br_march_steps_done(c.march);
+    if (!status && cost->levels < t->at.steps) {
+        const size_t others = t->at.steps - cost->levels;
+        cost->march *= (double)t->at.steps / (double)cost->levels;
+        cost->counts.steps += others;
+        cost->counts.stages += others * (size_t)br_time_scheme_stages(method.scheme);
+        cost->levels = t->at.steps;
+    }
     br_march_free(c.march);
     return status;
 }

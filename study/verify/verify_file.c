@@ -46,6 +46,23 @@ static const char *expected_study(struct study_part *b)
         "or a norm (l2, energy, tip) and a part (axial, bending; without one: the total)");
 }
 
+/* The nearest of these keys, for a message. */
+static const char *suggestion(const char *word, char text[BR_SUGGESTION])
+{
+    char line[BR_PARTS * 8][64];
+    const char *names[KEYS + BR_PARTS * 8];
+    size_t count = 0, lines = 0;
+    for (size_t i = 0; i < KEYS; i++)
+        if ((names[count] = name_of(i)))
+            count++;
+    for (size_t i = 0; br_norms[i] && i < 8; i++)
+        for (int part = 0; part < BR_PARTS; part++, lines++) {
+            snprintf(line[lines], sizeof *line, "%s %s", br_norms[i]->name, br_part_names[part]);
+            names[count++] = part == BR_PART_TOTAL ? br_norms[i]->name : line[lines];
+        }
+    return br_suggestion(word, names, count, text);
+}
+
 /* ---- n and k ---- */
 
 /* "8e-3, 4e-3 s" */
@@ -179,9 +196,11 @@ static enum br_status read_expectation(struct study_part *b, const char *what,
 {
     const size_t line = br_yaml_line(node);
     struct br_expectation e = {.line = line};
+    char text[BR_SUGGESTION];
     if (!parse_what(what, &e))
-        return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s",
-                               br_verify_names[b->kind], expected_study(b));
+        return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s%s",
+                               br_verify_names[b->kind], expected_study(b),
+                               suggestion(what, text));
     if (!parse_expectation(br_yaml_text(node), &e))
         return br_scene_refuse(
             b->r, line, what,
@@ -270,12 +289,13 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
         const yaml_node_t *name = yaml_document_get_node(r->document, p->key);
         const char *key =
             name->type == YAML_SCALAR_NODE ? br_yaml_text(name) : "a list or a mapping";
+        char expected[BR_EXPECTED];
         int kind = 0;
         while (kind < BR_VERIFY_KINDS && strcmp(key, br_verify_names[kind]) != 0)
             kind++;
         if (kind == BR_VERIFY_KINDS)
-            return br_scene_refuse(r, br_yaml_line(name), key,
-                                   "unknown key in verify, expected space, time or joint");
+            return br_scene_refuse(r, br_yaml_line(name), key, "unknown key in verify, %s",
+                                   br_expected(key, br_verify_names, BR_VERIFY_KINDS, expected));
         struct study_part b = {
             .r = r, .kind = (enum br_verify_kind)kind, .study = &verify->study[kind]};
         const enum br_status status = read_block(&b, yaml_document_get_node(r->document, p->value));

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "tests/bench/bench.h"
 
 static double predicted(const struct br_scene *scene, const struct br_test_golden *row,

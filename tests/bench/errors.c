@@ -6,6 +6,7 @@
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
 #include "tests/bench/bench.h"

@@ -9,6 +9,7 @@
 
 #include "reference/exact/exact.h"
 #include "solver/clock.h"
+#include "solver/method.h"
 #include "study/scene/file.h"
 #include "tests/support.h"
 

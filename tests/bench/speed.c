@@ -5,7 +5,9 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "solver/function.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "tests/bench/bench.h"
 
 static const size_t sizes[] = {100, 400, 3200, 12800, 100000, 1000000};

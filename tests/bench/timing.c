@@ -3,6 +3,7 @@
 
 #include "solver/clock.h"
 #include "solver/linear/linear_solver.h"
+#include "solver/scene.h"
 #include "tests/bench/bench.h"
 
 enum { REPEATS = 7 };

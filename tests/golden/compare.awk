@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# usage: awk [-v tolerance=1e-6] -f compare.awk STORED FOUND: prints lines that differ; exit code 1
-# where some do. Texts are equal to the byte, counts exactly. Other numbers are equal to a relative
-# tolerance, 1e-9 where none is given, or to one unit of the last digit of the one that is printed
-# with more digits. Bits depend on processor, compiler and LAPACK: fits magnify that to some 1e-7.
-# What is below 1e-11 may be round-off, which has a bound: it may be 16 times what is stored, or a
-# sixteenth of it. Blanks may differ only beside numbers that differ.
+# usage: awk [-v tolerance=1e-6] [-v round_off=yes] -f compare.awk STORED FOUND: prints FOUND, with the
+# lines of STORED where they are the same; exit code 1 where some are not. Texts are equal to the byte,
+# counts exactly. Other numbers are equal to a relative tolerance, 1e-9 where none is given, or to one
+# unit of the last digit of the one that is printed with more digits. Bits depend on processor,
+# compiler and LAPACK: fits magnify that to some 1e-7. Where round-off is measured, what is below 1e-11
+# may be 16 times what is stored, or a sixteenth of it. Blanks may differ only beside numbers that
+# differ.
 BEGIN {
     tolerance = tolerance ? tolerance : 1e-9
     last_bits = tolerance > 1e-9 ? 1e-13 : 1e-14 # of differences of numbers near 1
@@ -30,9 +31,9 @@ function close_enough(a, b,    ulp, larger, smaller) {
         return 0
     larger = abs(a) > abs(b) ? abs(a) : abs(b)
     smaller = abs(a) > abs(b) ? abs(b) : abs(a)
-    if (smaller < 1e-11)
+    if (smaller < 1e-11 && round_off)
         return larger <= 16 * smaller + 1e-15
-    if (abs(a - b) <= last_bits || abs(a - b) <= tolerance * larger)
+    if (abs(a - b) <= tolerance * larger || (smaller >= 1e-11 && abs(a - b) <= last_bits))
         return 1
     ulp = unit(a) < unit(b) ? unit(a) : unit(b)
     return abs(a - b) <= 1.001 * ulp
@@ -69,18 +70,13 @@ function same(a, b,    x, y, text_a, text_b, moved) {
     return moved
 }
 
-function report(line) {
-    print "#   line " line
-    print "#     stored: " stored[line]
-    print "#     found:  " found[line]
-    differ = 1
-}
-
 FILENAME == ARGV[1] { stored[lines = FNR] = $0 }
 FILENAME == ARGV[2] { found[others = FNR] = $0 }
 END {
-    for (i = 1; i <= lines || i <= others; i++)
-        if (i > lines || i > others || !same(stored[i], found[i]))
-            report(i)
-    exit differ
+    for (i = 1; i <= others; i++) {
+        known = i <= lines && same(stored[i], found[i])
+        differ = differ || !known
+        print known ? stored[i] : found[i]
+    }
+    exit differ || lines != others
 }

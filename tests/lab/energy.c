@@ -3,6 +3,8 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "solver/laws.h"
+#include "solver/method.h"
 #include "tests/lab/energy.h"
 #include "study/base/each.h"
 #include "study/extremes/extremes.h"

@@ -199,6 +199,10 @@ static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
         status = ask(t, BR_BY_REFINEMENT, err);
     if (!status && t->verdict->by == BR_BY_REFINEMENT && !(t->beyond <= 0))
         status = ask_again(t, err);
+    /* Refinements may both miss what happens within a step. The law that is not smoothed is what
+     * the smoothed one stands for: who is as near to it as stated is right. */
+    if (!status && !(t->beyond <= 0) && !t->judging->quick && !exact_knows(t))
+        status = ask(t, BR_BY_EXACT, err);
     if (!status)
         decide_accuracy(t);
     return status;

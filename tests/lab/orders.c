@@ -106,11 +106,12 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
 }
 
+static const char *const found_texts[] = {"covers", "is near", "excludes", "not determined"};
+
 /* A published column: whether the interval covers the order that its source states, misses it by a
  * rounding of what authors print, excludes it, or is no claim. */
 static size_t try_published(size_t number)
 {
-    static const char *const texts[] = {"covers", "is near", "excludes", "not determined"};
     const struct br_published *p = &br_published[number];
     const struct br_error_line line = br_published_line(p);
     struct br_point point[BR_MOST_ERRORS];
@@ -120,7 +121,7 @@ static size_t try_published(size_t number)
     judge(&c, p->order);
     const double off = fmax(c.order.low - p->order, p->order - c.order.high);
     const size_t found = !br_order_determined(&c.order) ? 3 : off <= near ? 0 : off <= 0.05 ? 1 : 2;
-    printf("# %-14s %-46s %g: %s, %s%s%s\n", texts[found], p->name, p->order,
+    printf("# %-14s %-46s %g: %s, %s%s%s\n", found_texts[found], p->name, p->order,
            br_order_text(&c.order, order, sizeof order), br_verdict_names[c.verdict],
            *c.note ? "; " : "", c.note);
     return found;
@@ -260,19 +261,22 @@ static bool try_class(size_t number, const char *name, enum br_error_group group
     return good;
 }
 
-/* All published columns; number: of the test. Returns whether their orders are good. */
+/* All published columns; number: of the test. Returns whether at most one order is worse than
+ * docs/observed-orders.md says. */
 static bool try_all_published(size_t number)
 {
-    size_t count[4] = {0};
-    for (size_t i = 0; i < BR_PUBLISHED; i++)
-        count[try_published(i)]++;
-    const bool good = 10 * count[0] >= 8 * BR_PUBLISHED && 100 * count[2] <= 8 * BR_PUBLISHED &&
-                      100 * count[3] <= 8 * BR_PUBLISHED;
-    printf(
-        "# of %d columns %zu cover the order, %zu are near, %zu exclude it, %zu do not determine it\n",
-        BR_PUBLISHED, count[0], count[1], count[2], count[3]);
-    printf("%sok %zu - published columns\n", good ? "" : "not ", number);
-    return good;
+    size_t all[4] = {0}, later[4] = {0};
+    for (size_t i = 0; i < BR_PUBLISHED; i++) {
+        const size_t found = try_published(i);
+        all[found]++;
+        later[found] += i >= BR_PUBLISHED_FIRST;
+    }
+    for (size_t i = 0; i < 4; i++)
+        printf("# %-14s %3zu of %d columns, %2zu of the later %d\n", found_texts[i], all[i],
+               BR_PUBLISHED, later[i], BR_PUBLISHED - BR_PUBLISHED_FIRST);
+    const bool ok = all[0] >= 129 && all[2] <= 10 && all[3] <= 17;
+    printf("%sok %zu - published columns\n", ok ? "" : "not ", number);
+    return ok;
 }
 
 int main(int arguments, char **argument)

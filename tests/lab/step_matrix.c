@@ -5,6 +5,11 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "solver/field.h"
+#include "solver/function.h"
+#include "solver/method.h"
+#include "solver/scene.h"
+
 #include "tests/lab/step_matrix.h"
 
 /* ---- nodal values as functions of x, for the initial data of a scene ---- */

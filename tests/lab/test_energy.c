@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "tests/lab/energy.h"
 #include "tests/support.h"
 

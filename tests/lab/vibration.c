@@ -4,6 +4,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/field.h"
+#include "solver/function.h"
+#include "solver/method.h"
+#include "solver/scene.h"
 #include "study/extremes/extremes.h"
 #include "tests/lab/energy.h"
 #include "tests/lab/step_matrix.h"

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The lines of numbers along which one size alone changes. */
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <string.h>
+
+#include "study/fit/line_order.h"
+#include "study/orders/orders.h"
+
+static enum br_axis other(enum br_axis axis)
+{
+    return axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
+}
+
+/* ---- rates ---- */
+
+static double rate(const struct br_point *coarse, const struct br_point *fine)
+{
+    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
+                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
+}
+
+double br_orders_rate(const struct br_orders_line *line, size_t i)
+{
+    const struct br_point *p = line->observed.point;
+    return i ? rate(&p[i - 1], &p[i]) : NAN;
+}
+
+/* ---- lines ---- */
+
+static double z_of(const struct br_numbers *numbers, size_t row, enum br_axis axis)
+{
+    return numbers->row[row].z[axis];
+}
+
+/* "n = 40", with the number as given. */
+static void name_size(const struct br_numbers *numbers, size_t row, enum br_axis axis,
+                      char text[64])
+{
+    snprintf(text, 64, "%s = %.6g", numbers->column[axis]->name, numbers->row[row].given[axis]);
+}
+
+static const char *failure_of(const struct br_numbers_row *row, double number)
+{
+    return row->failure ? row->failure : isnan(number) ? "has no number" : "";
+}
+
+/* A row by its size along the other axis, then by its size along the axis of the line. */
+struct line_row {
+    double other, along;
+    size_t row;
+};
+
+static int by_line(const void *a, const void *b)
+{
+    const struct line_row *x = a, *y = b;
+    const int order = (x->other < y->other) - (x->other > y->other);
+    return order ? order : (x->along < y->along) - (x->along > y->along);
+}
+
+static double deviation_of(const struct br_numbers_row *row, size_t quantity)
+{
+    return row->deviation ? row->deviation[quantity] : NAN;
+}
+
+/* An error, or the difference of a value from the next finer one that there is. */
+static struct br_point point_of(const struct br_orders *o, size_t quantity,
+                                const struct br_orders_line *line, size_t i)
+{
+    const struct br_numbers *numbers = o->numbers;
+    const struct br_numbers_row *row = &numbers->row[line->row[i]];
+    struct br_point p = {.z = row->z[line->axis],
+                         .error = row->number[quantity],
+                         .deviation = deviation_of(row, quantity)};
+    const char *failure = failure_of(row, p.error);
+    size_t named = line->row[i];
+    if (numbers->quantity[quantity].is_value) {
+        const struct br_numbers_row *finer;
+        const char *of_finer;
+        size_t next = i;
+        do {
+            finer = &numbers->row[line->row[++next]];
+            of_finer = failure_of(finer, finer->number[quantity]);
+        } while (*of_finer && next < line->observed.points);
+        named = !*failure && *of_finer ? line->row[next] : named;
+        failure = *failure ? failure : of_finer;
+        p.z_against = finer->z[line->axis];
+        p.error = fabs(finer->number[quantity] - p.error);
+        p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
+    }
+    name_size(numbers, named, line->axis, p.label);
+    snprintf(p.failure, sizeof p.failure, "%.255s", failure);
+    p.deviation = p.deviation > 0 ? p.deviation : 0; /* NaN: it is no mean */
+    p.flag = *failure       ? BR_FLAG_FAILED
+             : p.error > 0  ? BR_FLAG_NONE
+             : p.error == 0 ? BR_FLAG_ROUND_OFF
+                            : BR_FLAG_FAILED;
+    return p;
+}
+
+static enum br_status make_points(const struct br_orders *o, size_t quantity,
+                                  struct br_orders_line *line, size_t rows, struct br_error *err)
+{
+    const struct br_quantity *q = &o->numbers->quantity[quantity];
+    struct br_case *c = &line->observed;
+    *c = (struct br_case){
+        .kind = line->axis == BR_AXIS_SPACE ? BR_VERIFY_SPACE : BR_VERIFY_TIME,
+        .expected = {.order = NAN, .tolerance = NAN, .floor = NAN, .ceiling = NAN},
+        .measure = q->name,
+        .part = "",
+        .unit = q->unit ? q->unit : "",
+        .points = rows - q->is_value,
+        .may_miss = true,
+    };
+    c->point = br_allocate(c->points + 1, sizeof *c->point);
+    if (!c->point)
+        return br_no_memory(err, "the orders");
+    for (size_t i = 0; i < c->points; i++)
+        c->point[i] = point_of(o, quantity, line, i);
+    return BR_OK;
+}
+
+/* The half width of the 95 % interval of a mean; NaN: it is none. */
+static double half_width(const struct br_numbers_row *row, size_t quantity)
+{
+    return row->repeat > 1
+               ? gsl_cdf_tdist_Pinv(0.975, (double)row->repeat - 1) * deviation_of(row, quantity)
+               : (double)NAN;
+}
+
+/* The limits of the values of a line. */
+static enum br_status find_limits(const struct br_orders *o, size_t quantity, size_t rows,
+                                  struct br_orders_line *line, struct br_error *err)
+{
+    double *h = br_allocate(3 * rows, sizeof *h), *value = h + rows, *half = value + rows;
+    double *given = line->finest_of = br_allocate(rows, sizeof *given);
+    size_t count = 0;
+    bool means = false;
+    enum br_status status = h && given ? BR_OK : br_no_memory(err, "the limits");
+    for (size_t i = 0; i < rows && !status; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
+        if (isnan(row->number[quantity]) || row->failure)
+            continue;
+        h[count] = row->z[line->axis];
+        half[count] = half_width(row, quantity);
+        means = means || half[count] > 0;
+        given[count >= 2 ? count - 2 : 0] = row->given[line->axis];
+        value[count++] = row->number[quantity];
+    }
+    if (!status)
+        status = br_limits_find(h, value, means ? half : NULL, count,
+                                o->assumed_formal ? 0 : o->formal, &line->limits, err);
+    free(h);
+    return status;
+}
+
+/* Adds the line of these rows, which are sorted from coarse to fine. */
+static enum br_status add_line(const struct br_orders *o, struct br_quantity_orders *of,
+                               enum br_axis axis, const struct line_row *sorted, size_t rows,
+                               struct br_error *err)
+{
+    const struct br_numbers *numbers = o->numbers;
+    struct br_orders_line *line = &of->line[of->lines];
+    line->row = br_allocate(rows, sizeof *line->row);
+    if (!line->row)
+        return br_no_memory(err, "the orders");
+    of->lines++;
+    line->axis = axis;
+    for (size_t i = 0; i < rows; i++)
+        line->row[i] = sorted[i].row;
+    if (numbers->column[other(axis)] && !o->tied)
+        name_size(numbers, line->row[0], other(axis), line->at);
+    const enum br_status status = make_points(o, of->quantity, line, rows, err);
+    if (status)
+        return status;
+    for (size_t i = 0; i < line->observed.points; i++)
+        of->point[axis][line->row[i]] = (struct br_row_point){line, i};
+    return numbers->quantity[of->quantity].is_value ? find_limits(o, of->quantity, rows, line, err)
+                                                    : BR_OK;
+}
+
+enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity_orders *of,
+                                   enum br_axis axis, struct br_error *err)
+{
+    const struct br_numbers *numbers = o->numbers;
+    const bool alone = o->tied || !numbers->column[other(axis)];
+    struct line_row *sorted = br_allocate(numbers->rows, sizeof *sorted);
+    of->point[axis] = br_allocate(numbers->rows, sizeof *of->point[axis]);
+    enum br_status status = BR_OK;
+    if (!sorted || !of->point[axis])
+        status = br_no_memory(err, "the orders");
+    for (size_t i = 0; i < numbers->rows && !status; i++)
+        sorted[i] =
+            (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)), z_of(numbers, i, axis), i};
+    if (!status)
+        qsort(sorted, numbers->rows, sizeof *sorted, by_line);
+    for (size_t first = 0, end; first < numbers->rows && !status; first = end) {
+        if (br_observer_stops(numbers->observer))
+            status = br_fail(err, BR_INTERRUPTED, "interrupted");
+        for (end = first + 1; end < numbers->rows && sorted[end].other == sorted[first].other;)
+            end++;
+        if (!status && end - first >= BR_ORDERS_LEAST)
+            status = add_line(o, of, axis, &sorted[first], end - first, err);
+    }
+    free(sorted);
+    return status;
+}
