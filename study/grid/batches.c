@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "solver/scene.h"
 #include "study/base/statement.h"
 #include "study/grid/sweep.h"
 

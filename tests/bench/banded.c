@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "tests/support.h"
 
 /* Example 2 (3.2.2); L = T = 1, g = 0; f_H = 100 (e^t - 1), f_V = -1000 (e^t - 1). */
