@@ -59,9 +59,9 @@ struct family {
 };
 
 #define NEXT_TERM(s, share)                              \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)},       \
-        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
+    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0},       \
+        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0},    \
+        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0}
 
 static const double prior_of_power = 0.45;
 static const struct family families[] = {
@@ -73,16 +73,16 @@ static const struct family families[] = {
     NEXT_TERM(4, 0.06),
     {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
     {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004},
-    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004},
-    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005},
-    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005},
-    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005},
-    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05},
-    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02},
-    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03},
+    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0},
+    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0},
+    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005, 0},
+    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005, 0},
+    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005, 0},
+    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0},
+    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0},
+    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0},
 };
 
 enum { FAMILIES = sizeof families / sizeof *families };

@@ -179,12 +179,12 @@ static const struct br_value_class {
     bool line;                   /* h alone */
     double mixed;                /* c and d: at the coarsest at least a fifth of it, at most so much */
 } br_value_classes[] = {
-    {"limits, two powers", 0, 0, 0, false},
-    {"limits, next terms", 0.3, 0, 0, false},
-    {"limits, products", 0, 1, 0, false},
-    {"limits, all of that", 0.3, 0.5, 0, false},
-    {"limits, one dominates", 0.1, 0.1, 0, true},
-    {"limits, noise", 0, 0, 0.05, false},
+    {"limits, two powers", .next = 0},
+    {"limits, next terms", .next = 0.3},
+    {"limits, products", .product = 1},
+    {"limits, all of that", .next = 0.3, .product = 0.5},
+    {"limits, one dominates", .next = 0.1, .product = 0.1, .one = true},
+    {"limits, noise", .noise = 0.05},
     {"limits, mixed orders", .mixed = 2},
     {"limits, mixed, noise", .mixed = 2, .noise = 0.05},
     {"limits of lines, one power", .line = true},
