@@ -154,9 +154,11 @@ static const struct {
     const char *taken, *names;
 } foreign[] = {
     {"dealii.txt", "L2", 2,
-     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2, H1; left aside: cells, cycle", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2, H1; left aside: cells, cycle",
+     NULL},
     {"dealii_org.txt", "L2 error", 2,
-     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2 error; left aside: cells, L2 rate", NULL},
+     "h = dofs^(-1/d) from column dofs, d = 2 assumed; errors: L2 error; left aside: cells, L2 rate",
+     NULL},
     {"excel_europe.csv", "Fehler", 2, "h from column h; errors: Fehler", NULL},
     {"fenics.txt", "E", 2, "h from column h; errors: E; left aside: r", NULL},
     {"fortran.txt", "error", 2, "h = 1/n from column n; errors: error", NULL},
@@ -179,7 +181,8 @@ static const struct {
     /* two columns of rates, and a bar behind the last field */
     {"| cycle | # dofs | L2 | rate | H1 | rate |\n| 0 | 81 | 1.6e-2 | - | 2.56e-1 | - |\n"
      "| 1 | 324 | 4e-3 | 2 | 1.28e-1 | 1 |\n| 2 | 1296 | 1e-3 | 2 | 6.4e-2 | 1 |\n",
-     "H1", 1, "h = dofs^(-1/d) from column # dofs, d = 2 assumed; errors: L2, H1; left aside: cycle, rate, rate",
+     "H1", 1,
+     "h = dofs^(-1/d) from column # dofs, d = 2 assumed; errors: L2, H1; left aside: cycle, rate, rate",
      NULL},
     {"| level | e |\n|---|---|\n| 0 | 16 |\n| 1 | 4 |\n| 2 | 1 |\n", "e", 2,
      "h = 2^-level from column level; errors: e", NULL},
@@ -207,6 +210,7 @@ static const struct {
      "h = 1/n from column n; errors: e", NULL},
     {"p,resolution,e\n1,8,1.6\n2,16,.4\n3,32,.1\n", "e", 2,
      "h = 1/n from column resolution; errors: e; left aside: p", NULL},
+    {"1/h,e\n4,1.6\n8,.4\n16,.1\n", "e", 2, "h = 1/n from column 1/h; errors: e", NULL},
     {"Time step size,e\n4,16\n2,4\n1,1\n", "e", 2, "k from column Time step size; errors: e", NULL},
     /* frames of Julia, polars and R, with types; an index of R */
     {"Row \u2502 N      L2\n     \u2502 Int64  Float64\n\u2500\u2500\u253c\u2500\u2500\n"

@@ -54,7 +54,7 @@ static const struct {
 } synonyms[] = {
     {"h", " h dx \xce\x94x deltax meshsize elementsize cellsize gridsize gridspacing spacing hmax ",
      0},
-    {"n", " n nx nel nelements resolution cellsperside elementsperside intervals ", 1},
+    {"n", " n nx nel nelements resolution cellsperside elementsperside intervals 1h 1dx ", 1},
     {"level", " level lvl reflevel refinement refinements ", 1},
     {"dofs", " dofs dof ndofs ndof numdofs unknowns degreesoffreedom ", OF_UNKNOWNS},
     {"cells", " ncells cells elements nelem numelem numelements numberofelements numberofcells ",

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "solver/clock.h"
+#include "solver/scene.h"
 #include "study/foresee/foreseen.h"
 #include "study/grid/sweep.h"
 #include "study/trade/trade.h"
