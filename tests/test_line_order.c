@@ -247,15 +247,15 @@ TEST(test_means)
                                  br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1);
             point[i] = (struct br_order_point){z, 0, z * exp(scatter[i] * noise)};
         }
-        MUST(br_line_order_of_means(point, scatter, SOME, &a, &err));
+        MUST(br_line_order_of_means(point, scatter, NULL, SOME, &a, &err));
         MUST(br_line_order_find(point, SOME, &b, &err));
         covered += a.order.low <= 1 && a.order.high >= 1;
         width += a.order.high - a.order.low;
         plain += b.order.high - b.order.low;
-        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        MUST(br_line_order_of_means(point, even, NULL, SOME, &c, &err));
         CLOSE(c.order.value, b.order.value, 0);
         even[3] = set % 2 ? 0 : NAN;
-        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        MUST(br_line_order_of_means(point, even, NULL, SOME, &c, &err));
         CLOSE(c.order.high, b.order.high, 0);
     }
     if (!(covered >= 90 && width < 0.85 * plain))

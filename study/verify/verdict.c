@@ -77,7 +77,8 @@ static void find_constants(struct br_case *c)
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
     struct br_order_point *all = br_allocate(c->points, sizeof *all);
-    double *scatter = br_allocate(c->points, sizeof *scatter);
+    double *scatter = br_allocate(2 * c->points, sizeof *scatter);
+    double *rounding = scatter + c->points;
     struct br_line_order found;
     if (!all || !scatter) {
         free(all);
@@ -88,8 +89,10 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         const struct br_point *p = &c->point[i];
         all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
         scatter[i] = p->deviation / p->error;
+        rounding[i] = p->rounding / p->error;
     }
-    const enum br_status status = br_line_order_of_means(all, scatter, c->points, &found, err);
+    const enum br_status status =
+        br_line_order_of_means(all, scatter, rounding, c->points, &found, err);
     free(scatter);
     c->order = found.order;
     c->low99 = found.low99;
