@@ -4,7 +4,8 @@
  * flat prior of log C and p, and 1/sigma of the scatter, the order then has Student's
  * distribution, and the rows have the evidence
  *     prior Gamma(f/2) (pi S)^(-f/2) (sum w)^(-1/2) Sxx^(-1/2),   f = rows - 2,
- * with S the sum of squares that is left (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
+ * with S the sum of squares that is left. A law with a curve, a second term of either sign, has one
+ * more column in the regression, f = rows - 3, and its share of (sum w) Sxx (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
  * 1994, 5.2). A row outside the window has the density of a number that nothing explains. The order
  * is the mixture of all these distributions. */
 #include "study/fit/line_order.h"
@@ -55,15 +56,13 @@ static const double least_order = 0.25;
 struct family {
     enum br_law law;
     double s, low, high, prior;
-    double
-        curve; /* of a second correction, b z^curve of either sign, which follows by regression */
+    double curve; /* of a second correction, b z^curve of either sign, by regression */
 };
 
-#define NEXT_TERM(s, share)                                                                \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)}, {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)}, \
-    {                                                                                      \
-        BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)                                        \
-    }
+#define NEXT_TERM(s, share)                              \
+    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0},       \
+        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0},    \
+        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0}
 
 static const double prior_of_power = 0.45;
 static const struct family families[] = {
@@ -75,16 +74,16 @@ static const struct family families[] = {
     NEXT_TERM(4, 0.06),
     {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
     {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004},
-    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004},
-    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005},
-    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005},
-    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005},
-    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05},
-    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02},
-    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03},
+    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0},
+    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0},
+    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005, 0},
+    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005, 0},
+    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005, 0},
+    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0},
+    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0},
+    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0},
 };
 
 enum { FAMILIES = sizeof families / sizeof *families };
