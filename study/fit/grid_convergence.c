@@ -378,10 +378,8 @@ static void find_uncertainty(size_t count, double formal, struct br_least_square
                             : 3 * sigma / r->range * (error + sigma + misfit); /* (21) */
 }
 
-/* The observed order with its interval, from the differences of successive values.
- * It needs four grids. */
-static enum br_status order_of_values(const double *h, const double *value, size_t count,
-                                      struct br_estimate *order, struct br_error *err)
+enum br_status br_order_of_values(const double *h, const double *value, size_t count,
+                                  struct br_estimate *order, struct br_error *err)
 {
     struct br_order_point *point = br_allocate(count - 1, sizeof *point);
     if (!point)
@@ -410,7 +408,7 @@ static enum br_status name_sequence(const double *h, const double *value, size_t
     if (changes < count / 3)
         return BR_OK;
     struct br_estimate order = {NAN, NAN, NAN};
-    const enum br_status status = order_of_values(h, value, count, &order, err);
+    const enum br_status status = br_order_of_values(h, value, count, &order, err);
     if (order.value > 0)
         r->sequence = BR_OSCILLATORY_CONVERGENCE;
     if (order.value <= 0)

@@ -116,6 +116,11 @@ struct br_least_squares {
 enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
                                 struct br_least_squares *result, struct br_error *err);
 
+/* The observed order with its interval, from the differences of successive values, by
+ * br_line_order_find; count >= 4. Fails with BR_NO_MEMORY. */
+enum br_status br_order_of_values(const double *h, const double *value, size_t count,
+                                  struct br_estimate *order, struct br_error *err);
+
 /* Refuses (BR_BAD_INPUT) a formal order that is not 1 to 10. */
 enum br_status br_check_formal(double formal, struct br_error *err);
 
