@@ -71,6 +71,7 @@ static enum br_status begin(const char *path, struct br_error *err)
 {
     if (strcmp(path, "-") != 0 && access(path, F_OK) == 0)
         return br_fail(err, BR_BAD_INPUT, "--new: %s exists already and is not replaced", path);
+    char shown[1024];
     struct br_whole_file file = {0};
     enum br_status status = br_whole_file_open(&file, "new", path, err);
     if (!status) {
@@ -78,6 +79,10 @@ static enum br_status begin(const char *path, struct br_error *err)
         status = br_whole_file_commit(&file, err);
     }
     br_whole_file_discard(&file);
+    const bool is_file = !status && strcmp(path, "-") != 0;
+    if (is_file)
+        printf("This scene has every key. Edit it, and then march it: beamrate run %s\n",
+               br_quoted(shown, sizeof shown, &br_for_shell, path));
     return status;
 }
 

@@ -9,7 +9,7 @@
 
 enum {
     WIDTH = 100,  /* columns of a paragraph */
-    WRAPPED = 44, /* of a cell in a wrapped column */
+    WRAPPED = 48, /* of a cell in a wrapped column */
     LEAST = 16,   /* of one on a narrow terminal */
     GAP = 2,      /* between two columns */
     INDENT = 4,   /* of a row's further lines */

@@ -133,7 +133,7 @@ static void put_answers(struct br_document *d, const struct br_run_findings *f)
          kind++) { /* of the whole march */
         const double added = br_energy_added(&r->work, kind);
         const double in = br_energy_put_in(&r->energy_start, &r->work, kind);
-        if (!(added > 0))
+        if (added <= 0)
             continue;
         br_put_answer(d, "The scheme ADDED %.3g J to the %s field", added, br_field_names[kind]);
         if (in > 0)

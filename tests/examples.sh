@@ -52,7 +52,7 @@ pages() {
         }' "$3"
 }
 
-commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z]*\) .*/\1/p')
+commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1/p')
 {
     beamrate --help | pages help --help -
     for command in $commands; do
@@ -102,7 +102,7 @@ cp "$BEAMRATE_DATA"/study/scenes/example3.yaml few/study/scenes
 # What the line has printed says something, and no number in it is nan.
 speaks() {
     case $line in
-    *--quiet* | *' -q'* | *'>'*) ;;
+    *--quiet* | *' -q'* | *--new* | *'>'*) ;;
     beamrate*) [ "$(wc -w <output)" -ge 10 ] || { echo "# it printed next to nothing"; return 1; } ;;
     esac
     ! grep -niw nan output | sed 's/^/# /' | grep .

@@ -29,11 +29,16 @@ FNR == 1 { text = "" }
 /^[ \t]*#[ \t]*include/ { next }
 {
     line = $0
+    if (comment && !(end = index(line, "*/")))
+        next
+    if (comment)
+        line = substr(line, end + 2)
+    comment = 0
     while (match(line, /^[ \t\\]*("([^"\\]|\\.)*"|'"'([^'\\\\]|\\\\.)*'"'|\/\*|PRI[a-zA-Z0-9]+|[A-Za-z_0-9]+|[^ \t])/)) {
         token = substr(line, 1, RLENGTH)
         line = substr(line, RLENGTH + 1)
         sub(/^[ \t\\]+/, "", token)
-        if (comment || token == "/*") {
+        if (token == "/*") {
             comment = !(end = index(line, "*/"))
             line = comment ? "" : substr(line, end + 2)
         } else if (token ~ /^"/)

@@ -84,7 +84,8 @@ static double largest(const double *x, size_t size)
 }
 
 /* Largest difference between a and b * factor, relative to the largest value of a. */
-static double apart(const struct result *a, const struct result *b, int kind, double factor)
+static double apart(const struct result *a, const struct result *b, enum br_field_kind kind,
+                    double factor)
 {
     const double *x = a->value[kind][0], *y = b->value[kind][0];
     const double scale = largest(x, a->size[kind]);

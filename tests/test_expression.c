@@ -365,10 +365,9 @@ TEST(test_march)
     static const char *const texts[] = {"100*(x*sin(t) - x^2*cos(3*t) + exp(-(x-t)^2))",
                                         "100*x + 100*exp(-(x-t)^2)", "100*x*sin(t) + 50*x^2"};
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
-        for (int kind = 0; kind <= BR_BENDING; kind++) {
-            const enum br_field_kind k = kind;
-            const double sum = tip_after(br_test_function(texts[i]), true, k),
-                         whole = tip_after(br_test_function(texts[i]), false, k);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const double sum = tip_after(br_test_function(texts[i]), true, kind),
+                         whole = tip_after(br_test_function(texts[i]), false, kind);
             assert_true(fabs(whole) > 1e-3);
             CLOSE(sum, whole, 1e-12 * fabs(whole));
         }

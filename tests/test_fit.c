@@ -373,3 +373,36 @@ TEST(test_own_error)
         CLOSE(fits.reference_error, told[part], 1e-20);
     }
 }
+
+/* ---- errors of a stranger, with any model ---- */
+
+enum { SIZES = 5 };
+
+/* A grid of errors a x^p and b y^q of correlation r, 2 % of noise. */
+static void fit_stranger(const struct truth *t, uint64_t seed, struct br_joint_fit *found)
+{
+    struct br_observation o[SIZES * SIZES] = {{.error = 0}};
+    struct br_test_random random = {seed};
+    struct br_error err = {0};
+    for (size_t i = 0; i < SIZES * SIZES; i++) {
+        const double x = ldexp(1, -(int)(i / SIZES)), y = ldexp(1, -(int)(i % SIZES));
+        const double a = t->c_h * pow(x, t->p), b = t->c_k * pow(y, t->q);
+        double sum = 0;
+        for (int j = 0; j < 12; j++)
+            sum += br_test_uniform(&random, -0.5, 0.5);
+        o[i] = (struct br_observation){
+            .x = {x, y}, .error = sqrt(a * a + 2 * t->r * a * b + b * b) * exp(0.02 * sum)};
+    }
+    MUST(br_joint_fit_solve(o, SIZES * SIZES, true, NULL, found, &err));
+}
+
+TEST(test_steep_in_k)
+{
+    const struct truth t = {0.05, 1.5, 1, 4, 0.3};
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        struct br_joint_fit found;
+        fit_stranger(&t, seed, &found);
+        CLOSE(found.order[BR_AXIS_SPACE].value, t.p, 0.04);
+        CLOSE(found.order[BR_AXIS_TIME].value, t.q, 0.08);
+    }
+}

@@ -458,6 +458,9 @@ TEST(test_sequence_kinds)
         {4, {8, 4, 2, 1}, {1, 2, 4, 8}, BR_MONOTONE_DIVERGENCE},
         {5, {16, 8, 4, 2, 1}, {2, 0.75, 1.0625, 0.984375, 1.00390625}, BR_OSCILLATORY_CONVERGENCE},
         {5, {16, 8, 4, 2, 1}, {1.00390625, 0.984375, 1.0625, 0.75, 2}, BR_OSCILLATORY_DIVERGENCE},
+        /* a third of the rows turn, and one row less */
+        {6, {32, 16, 8, 4, 2, 1}, {32, 18, 13, 29, 24, 11}, BR_OSCILLATORY_CONVERGENCE},
+        {6, {32, 16, 8, 4, 2, 1}, {3, 25, 27, 12, 12, 20}, BR_SEQUENCE_ANOMALOUS},
         {4, {8, 4, 2, 1}, {1, 0, 0, 0}, BR_SEQUENCE_ANOMALOUS},
         {4, {8, 4, 2, 1}, {1, 0x1p-14, 0x1p-28, 0x1p-42}, BR_SEQUENCE_ANOMALOUS}, /* order 14 */
         {4, {8, 4, 2, 1}, {3, 3, 3, 3}, BR_SEQUENCE_CONSTANT},

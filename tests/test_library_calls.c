@@ -119,7 +119,7 @@ static void march_gives(const char *scene_name, const char *const *method, struc
             assert_true(columns >= 1 && columns <= 2);
             memset(a, 1, sizeof a);
             memcpy(b, a, sizeof b);
-            br_march_get(march, kind, a[0], a[1]);
+            br_march_get(march, (enum br_field_kind)kind, a[0], a[1]);
             beamrate_march_get(ours, (enum beamrate_field)kind, b[0], b[1]);
             assert_memory_equal(a, b, sizeof a);
             close_to(tip.displacement[kind], b[0][columns * N]);

@@ -247,15 +247,15 @@ TEST(test_means)
                                  br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1);
             point[i] = (struct br_order_point){z, 0, z * exp(scatter[i] * noise)};
         }
-        MUST(br_line_order_of_means(point, scatter, SOME, &a, &err));
+        MUST(br_line_order_of_means(point, scatter, NULL, SOME, &a, &err));
         MUST(br_line_order_find(point, SOME, &b, &err));
         covered += a.order.low <= 1 && a.order.high >= 1;
         width += a.order.high - a.order.low;
         plain += b.order.high - b.order.low;
-        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        MUST(br_line_order_of_means(point, even, NULL, SOME, &c, &err));
         CLOSE(c.order.value, b.order.value, 0);
         even[3] = set % 2 ? 0 : NAN;
-        MUST(br_line_order_of_means(point, even, SOME, &c, &err));
+        MUST(br_line_order_of_means(point, even, NULL, SOME, &c, &err));
         CLOSE(c.order.high, b.order.high, 0);
     }
     if (!(covered >= 90 && width < 0.85 * plain))
@@ -344,5 +344,46 @@ TEST(test_band_of_a_wide_interval)
         assert_true(br_line_fit(point, SOME, 3, &order).low <
                     br_line_fit(point, SOME, 3, &order).value);
         assert_true(isnan(br_line_fit(point, SOME, 3, &(struct br_estimate){2, NAN, NAN}).low));
+    }
+}
+
+/* Two next terms whose effects turn the orders from row to row: the interval holds the true order. */
+TEST(test_two_terms)
+{
+    struct br_order_point point[ROWS];
+    struct br_line_order found;
+    for (size_t i = 0; i < 6; i++) {
+        const double z = ldexp(1, -(int)i);
+        point[i] = (struct br_order_point){z, 0, 3 * z * z * (1 + 0.2 * z - 0.15 * z * z)};
+    }
+    find(point, 6, &found);
+    if (!(found.order.low <= 2 && 2 <= found.order.high))
+        fail_msg("%g to %g", found.order.low, found.order.high);
+}
+
+/* Of noise alone, the interval is about that of a regression: t sqrt(S / f / Sxx). */
+TEST(test_interval_of_noise)
+{
+    static const struct {
+        size_t rows;
+        double t; /* of rows - 2 degrees of freedom, 97.5 % */
+    } lines_of[] = {{4, 4.302653}, {5, 3.182446}, {6, 2.776445}, {7, 2.570582}};
+    static const double noise[] = {0.02, -0.03, 0.03, -0.02, 0.01, -0.025, 0.03};
+    for (size_t l = 0; l < sizeof lines_of / sizeof *lines_of; l++) {
+        struct br_order_point point[ROWS];
+        struct br_line_order found;
+        const double n = (double)lines_of[l].rows;
+        double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+        for (size_t i = 0; i < lines_of[l].rows; i++) {
+            const double log_z = -(double)i * log(2), log_e = 2 * log_z + noise[i];
+            point[i] = (struct br_order_point){exp(log_z), 0, exp(log_e)};
+            x += log_z, y += log_e, xx += log_z * log_z, xy += log_z * log_e, yy += log_e * log_e;
+        }
+        xx -= x * x / n, xy -= x * y / n, yy -= y * y / n;
+        const double half = lines_of[l].t * sqrt((yy - xy * xy / xx) / (n - 2) / xx);
+        find(point, lines_of[l].rows, &found);
+        const double ratio = (found.order.high - found.order.low) / 2 / half;
+        if (!(ratio >= 0.8 && ratio <= 2))
+            fail_msg("%zu rows: %g times as wide", lines_of[l].rows, ratio);
     }
 }

@@ -640,7 +640,7 @@ TEST(test_floors)
     find(floor_table(40, 0), NULL); /* none, however far it falls */
     for (size_t i = 0; i < 40; i++)
         assert_int_equal(flag_of(i), BR_FLAG_NONE);
-    find("h,l2\n1,1\n.5,.25\n.25,.0625\n.125,0\n", NULL);
+    find("h,l2\n1,1.2345678901234\n.5,.30864197253085\n.25,.0771604931327125\n.125,0\n", NULL);
     assert_int_equal(flag_of(3), BR_FLAG_ROUND_OFF);
     CLOSE(found.orders.of[0].line[0].observed.order.value, 2, 1e-9);
     assert_true(isnan(br_orders_rate(&found.orders.of[0].line[0], 3)));
@@ -649,10 +649,51 @@ TEST(test_floors)
     assert_string_equal(found.orders.of[0].line[0].observed.point[2].failure, "has no number");
 }
 
+/* ---- printed digits ---- */
+
+/* Of 100 lines that are printed to `digits` (or to so many decimals): how many intervals hold the
+ * order, and the mean half width. */
+static int printed_lines(bool fixed, int digits, double *half)
+{
+    struct br_test_random random = {20261126};
+    int covered = 0;
+    *half = 0;
+    for (int line = 0; line < 100; line++) {
+        char text[1024];
+        const double order = br_test_uniform(&random, 0.8, 2.8),
+                     c = br_test_uniform(&random, 0.3, 1.3),
+                     next = br_test_uniform(&random, 0, 0.1);
+        size_t used = (size_t)snprintf(text, sizeof text, "h,l2\n");
+        for (double h = 1; h > 0.1; h /= 2)
+            used += (size_t)snprintf(
+                text + used, sizeof text - used, fixed ? "%g,%.*f\n" : "%g,%.*e\n", h,
+                fixed ? digits : digits - 1, c * pow(h, order) * (1 + next * h));
+        find(text, NULL);
+        const struct br_estimate *e = &found.orders.of[0].line[0].observed.order;
+        covered += e->low <= order && e->high >= order;
+        *half += (e->high - e->low) / 200;
+    }
+    return covered;
+}
+
+TEST(test_printed_digits)
+{
+    static const struct {
+        bool fixed;
+        int digits;
+    } rows[] = {{false, 2}, {false, 3}, {true, 3}, {true, 4}};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) { /* 95 % of 100, less their scatter */
+        double half;
+        assert_true(printed_lines(rows[i].fixed, rows[i].digits, &half) >= 92);
+        assert_true(half < 0.12);
+    }
+}
+
 /* ---- values ---- */
 
 TEST(test_values)
 {
+    const double limit = M_PI; /* numbers of all digits */
     static const double even[] = {1, .5, .25, .125, .0625}, uneven[] = {1, .5, .25, .125, .12, .01};
     for (double p = 0.5; p < 4; p += 0.5)
         for (int kind = 0; kind < 2; kind++) {
@@ -661,7 +702,7 @@ TEST(test_values)
             for (size_t i = 0; i < (kind ? 6 : 5); i++) {
                 const double h = kind ? uneven[i] : even[i];
                 used += (size_t)snprintf(text + used, sizeof text - used, "%.17g,%.17g\n", h,
-                                         5 - 2 * pow(h, p));
+                                         limit - 2 * pow(h, p));
             }
             find(text, "drag");
             const struct br_orders_line *line = &found.orders.of[0].line[0];
@@ -675,14 +716,15 @@ TEST(test_values)
             }
             CLOSE(line->limits.gci.order, p, 1e-8);
             CLOSE(line->limits.gci.fine.ratio, kind ? 12 : 2, 1e-12); /* of the finest */
-            CLOSE(line->limits.gci.fine.limit, 5, 1e-9);
+            CLOSE(line->limits.gci.fine.limit, limit, 1e-9);
             assert_int_equal(line->limits.triples, kind ? 4 : 3);
             for (size_t i = 0; i < line->limits.triples; i++) {
                 CLOSE(line->limits.triple[i].order, p, 1e-8);
-                CLOSE(line->limits.triple[i].fine.limit, 5, 1e-9);
+                CLOSE(line->limits.triple[i].fine.limit, limit, 1e-9);
                 CLOSE(line->finest_of[i], (kind ? uneven : even)[i + 2], 0);
             }
-            assert_true(line->limits.limit.value.low <= 5 && line->limits.limit.value.high >= 5);
+            assert_true(line->limits.limit.value.low <= limit &&
+                        line->limits.limit.value.high >= limit);
         }
 }
 
@@ -690,14 +732,16 @@ TEST(test_values)
 TEST(test_finer)
 {
     double given;
-    find("n,e\n8,.04\n16,.01\n32,.0025\n", NULL);
+    find("n,e\n8,.049382715604936\n16,.012345678901234\n32,.0030864197253085\n", NULL);
     struct br_orders_forecast f = br_orders_foresee(&found.orders, &found.orders.of[0]);
-    CLOSE(br_orders_next(&found.orders, &f, &given), .000625, 1e-12);
+    CLOSE(br_orders_next(&found.orders, &f, &given), .000771604931327125, 1e-12);
     CLOSE(given, 64, 0);
-    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 51, 0);  /* 50.6 */
-    find("h,u\n1,3\n.5,4.5\n.25,4.875\n.125,4.96875\n", "u"); /* 5 - 2 h^2 */
+    CLOSE(br_orders_needed(&found.orders, &f, 1e-3), 57, 0); /* 56.2 */
+    find("h,u\n1,1.1415926535897931\n.5,2.6415926535897931\n.25,3.0165926535897931\n"
+         ".125,3.1103426535897931\n",
+         "u"); /* pi - 2 h^2 */
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
-    CLOSE(f.number, 1.25 * (5 - 4.96875) / 4.96875, 1e-12);
+    CLOSE(f.number, 1.25 * 0.03125 / 3.1103426535897931, 1e-12);
     CLOSE(br_orders_next(&found.orders, &f, &given), f.number / 4, 1e-12);
     CLOSE(given, 0.0625, 0);
     CLOSE(br_orders_needed(&found.orders, &f, f.number / 16), 0.03125, 1e-12);
@@ -709,7 +753,7 @@ TEST(test_finer)
     assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
     find(table_of(4, 4, 2, 1), NULL); /* a grid */
     assert_null(br_orders_foresee(&found.orders, &found.orders.of[0]).line);
-    find("dofs,e\n64,.04\n256,.01\n1024,.0025\n", NULL);
+    find("dofs,e\n64,.049382715604936\n256,.012345678901234\n1024,.0030864197253085\n", NULL);
     CLOSE(br_orders_in_dimension(&found.orders, 2, 3), 3, 1e-12);
     f = br_orders_foresee(&found.orders, &found.orders.of[0]);
     br_orders_next(&found.orders, &f, &given);
@@ -854,6 +898,16 @@ static int verdict_of(const char *table, const char *values, const char *expecte
     return verdict;
 }
 
+/* Rates from 1.9997 to 2.0000 are no reason to refine where 3 is expected. */
+TEST(test_advice)
+{
+    static const char table[] = "n,l2\n10,3.6960e-3\n20,9.2422e-4\n40,2.3107e-4\n80,5.7767e-5\n";
+    char why[768];
+    assert_int_equal(verdict_of(table, NULL, "l2: h 3 +- 0.1", why), BR_FAIL);
+    if (!strstr(why, "finer grids do not help: the two finest show 2.00"))
+        fail_msg("%s", why);
+}
+
 /* A grid of numbers f(h, k), h = k = 1, 1/2, ..., as a table. */
 static char *grid_of(int meshes, int steps, double (*f)(double h, double k))
 {
@@ -925,9 +979,10 @@ TEST(test_orders_that_a_grid_hides)
     find(table, NULL);
     const struct br_orders_answer *answer = found.orders.of[0].answer;
     assert_true(isnan(answer[BR_AXIS_SPACE].order.value));
-    assert_string_equal(answer[BR_AXIS_SPACE].open,
-                        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
-                        "coarser h, would show it");
+    assert_string_equal(
+        answer[BR_AXIS_SPACE].open,
+        "the order in h is hidden, since the error in k is larger everywhere: a finer k, or a "
+        "coarser h, would show it");
     CLOSE(answer[BR_AXIS_TIME].order.value, 1, 1e-6);
     const char *open = answer[BR_AXIS_SPACE].open; /* a new find clears the answer, not its text */
     assert_int_equal(verdict_of(table, NULL, "l2: h 2 +- 0.1", why), BR_INCONCLUSIVE);

@@ -20,7 +20,8 @@ struct tally {
     int all, known, within_3, within_10, below, inside, far_too_low;
 };
 
-static void count_one(struct tally *t, const struct br_prediction *p, int kind, double actual)
+static void count_one(struct tally *t, const struct br_prediction *p, enum br_field_kind kind,
+                      double actual)
 {
     const struct br_predicted *e = &p->field[kind];
     const double ratio = e->error / actual;

@@ -149,6 +149,20 @@ TEST(test_at_once)
         assert_null(numbers.row[i].failure);
 }
 
+/* Fortran's exponents; a D of a hexadecimal number is a digit. */
+TEST(test_exponents)
+{
+    static const char *const text[] = {"0.5D-01", "5.q-2", "-.5d+2", "0x1D", "5e-2"};
+    static const double number[] = {0.05, 0.05, -50, 29, 0.05};
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
+        char line[64];
+        snprintf(line, sizeof line, "/usr/bin/printf 'err=%s\\n' {n}", text[i]);
+        const struct br_orders_request p = program(line);
+        run(&p);
+        CLOSE(numbers.row[0].number[0], number[i], 1e-15);
+    }
+}
+
 TEST(test_unknowns)
 {
     static const double list[] = {64, 8000};
@@ -234,7 +248,7 @@ TEST(test_relative)
     run(&p);
     assert_true(numbers.row[2].number[0] == 16);
     p.command = "here {n}";
-    refuse(&p, BR_BAD_INPUT, "'here' is no program");
+    refuse(&p, BR_BAD_INPUT, "'here' is no program, no folder of PATH has it; a file here needs ./");
     assert_int_equal(chdir(before), 0);
 }
 
@@ -257,7 +271,7 @@ TEST(test_refused)
         {"no-such-program-here {n}", "'no-such-program-here' is no program"},
         {"/no/such/program {n}", "'/no/such/program' is no program"},
         {"/tmp {n}", "'/tmp' is no program"},
-        {"/etc/passwd {n}", "'/etc/passwd' is no program"},
+        {"/etc/passwd {n}", "'/etc/passwd' is no program: it is not executable; chmod +x"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const struct br_orders_request p = program(cases[i][0]);
@@ -448,7 +462,7 @@ TEST(test_failures)
         {"echo err=-inf", "found '-inf'"},
         {"echo err=1,5", "found '1,5'"},
         {"echo err=", "found ''"},
-        {"true", "matches nothing in the output; it printed nothing"},
+        {"true", "matches nothing in the output (stderr:REGEX reads standard error); it printed nothing"},
         {"echo err=1; echo; echo err=2", "matches 2 times, expected once; lines 1, 3"},
         {"head -c 20971520 /dev/zero", "it printed more than 16 MiB"},
         {"echo err=1; head -c 20971520 /dev/zero >&2", "it printed more than 16 MiB"},

@@ -131,7 +131,7 @@ TEST(test_remarks)
 TEST(test_no_order_of_zero)
 {
     struct br_test_random random = {7};
-    for (int trial = 0; trial < 300; trial++) {
+    for (int trial = 0; trial < 20; trial++) {
         struct made m;
         make(&m, br_test_log_uniform(&random, 1e-8, 1), br_test_uniform(&random, -1, 3),
              br_test_log_uniform(&random, 1e-8, 1), br_test_uniform(&random, -1, 2));
@@ -287,6 +287,42 @@ TEST(test_steps_apart)
     assert_int_equal(seen->points, COLUMNS);
     for (size_t i = 0; i < COLUMNS; i++)
         CLOSE(seen->point[i].fit.value, seen->point[i].error, 0.02 * seen->point[i].error);
+}
+
+/* Where errors subtract, the least one may be that of an order inside the interval: the band holds
+ * the errors of all of them. */
+TEST(test_band_of_errors_that_subtract)
+{
+    enum { MANY = 1000 };
+    struct made m;
+    make(&m, 1, 2, 1, 1);
+    const double h = br_axis_size(&m.scene, BR_AXIS_SPACE, m.cell[CELLS - 1].at);
+    double k[COLUMNS];
+    for (size_t i = 0; i < COLUMNS; i++)
+        k[i] = br_axis_size(&m.scene, BR_AXIS_TIME, m.cell[i].at);
+    m.report.fits[BR_PART_TOTAL].joint = (struct br_joint_fit){
+        .converged = true, /* the same errors on the finest mesh at k[2] for an order of 1.14 */
+        .c = {{1 / (h * h), NAN, NAN}, {1.05 / k[2], NAN, NAN}},
+        .order = {{2, 1.9, 2.1}, {1, 0.8, 1.2}},
+        .r = {-1, -1, -1},
+    };
+    MUST(br_report_see_orders(&m.report, BR_AXIS_TIME, &err));
+    const struct br_seen_order *seen = &m.report.seen[BR_PART_TOTAL][BR_AXIS_TIME];
+    assert_int_equal(seen->points, COLUMNS);
+    for (size_t i = 0; i < COLUMNS; i++) {
+        const double middle = sqrt(k[0] * k[COLUMNS - 1]);
+        double low = INFINITY, high = 0;
+        for (int j = 0; j <= MANY; j++) {
+            const double e =
+                fabs(1 - 1.05 * middle / k[2] *
+                         pow(k[i] / middle, 0.8 + 0.4 * (double)j / MANY));
+            low = fmin(low, e);
+            high = fmax(high, e);
+        }
+        CLOSE(seen->point[i].fit.value, fabs(1 - 1.05 * k[i] / k[2]), 1e-9);
+        CLOSE(seen->point[i].fit.low, low, 3e-3);
+        CLOSE(seen->point[i].fit.high, high, 1e-3);
+    }
 }
 
 /* Without numbers: 1.0e+00 and 1.0e-09 have the same words around them. */

@@ -64,7 +64,7 @@ static void check_tip(const struct br_split *split, enum br_field_kind kind)
 static void check_sums(const struct br_split *split)
 {
     for (size_t m = 0; m < split->norms; m++)
-        for (int part = 0; part < BR_PARTS; part++)
+        for (enum br_part part = 0; part < BR_PARTS; part++)
             check_triangle(split, m, part);
     check_tip(split, BR_AXIAL);
     check_tip(split, BR_BENDING);

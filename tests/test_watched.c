@@ -626,4 +626,6 @@ TEST(test_lagged_contact_adds)
     CLOSE(br_energy_added(&work, BR_AXIAL), -(work.scheme_contact + work.scheme[BR_AXIAL]), 0);
     lag("implicit", 2e4, &work);
     assert_true(br_energy_added(&work, BR_AXIAL) == 0 && work.gaining[BR_AXIAL] == 0);
+    work.scheme_contact = NAN;
+    assert_true(isnan(br_energy_added(&work, BR_AXIAL)));
 }

@@ -114,7 +114,7 @@ double br_energy_imbalance(const struct br_energy *start, const struct br_energy
 double br_energy_added(const struct br_work *w, enum br_field_kind kind)
 {
     const double lost = w->scheme[kind] + (kind == BR_AXIAL ? w->scheme_contact : 0);
-    return lost < -w->noise[kind] ? -lost : 0;
+    return lost >= -w->noise[kind] ? 0 : -lost; /* NaN stays NaN */
 }
 
 double br_energy_put_in(const struct br_energy *start, const struct br_work *w,

@@ -4,7 +4,8 @@
  * flat prior of log C and p, and 1/sigma of the scatter, the order then has Student's
  * distribution, and the rows have the evidence
  *     prior Gamma(f/2) (pi S)^(-f/2) (sum w)^(-1/2) Sxx^(-1/2),   f = rows - 2,
- * with S the sum of squares that is left (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
+ * with S the sum of squares that is left. A law with a curve, a second term of either sign, has one
+ * more column in the regression, f = rows - 3, and its share of (sum w) Sxx (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
  * 1994, 5.2). A row outside the window has the density of a number that nothing explains. The order
  * is the mixture of all these distributions. */
 #include "study/fit/line_order.h"
@@ -55,13 +56,13 @@ static const double least_order = 0.25;
 struct family {
     enum br_law law;
     double s, low, high, prior;
-    double curve; /* of a second correction, b z^curve of either sign, which follows by regression */
+    double curve; /* of a second correction, b z^curve of either sign, by regression */
 };
 
 #define NEXT_TERM(s, share)                              \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share)},          \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share)},       \
-        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share)}
+    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0},       \
+        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0},    \
+        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0}
 
 static const double prior_of_power = 0.45;
 static const struct family families[] = {
@@ -73,16 +74,16 @@ static const struct family families[] = {
     NEXT_TERM(4, 0.06),
     {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
     {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004},
-    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004},
-    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005},
-    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005},
-    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005},
-    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005},
-    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05},
-    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02},
-    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03},
+    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0},
+    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0},
+    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005, 0},
+    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005, 0},
+    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005, 0},
+    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005, 0},
+    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0},
+    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0},
+    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0},
 };
 
 enum { FAMILIES = sizeof families / sizeof *families };
@@ -91,15 +92,16 @@ enum { FAMILIES = sizeof families / sizeof *families };
 
 struct rows {
     size_t count;
-    size_t *index;          /* in the points */
-    double *z, *x, *y;      /* x, y: of the regression, slope p */
-    double *ratio;          /* z_against / z */
-    double *given;          /* the weight that is given, relative; 1: none is */
-    double order;           /* of the regression over all rows */
-    double *bent, *weight;  /* of a law: y - correction; relative to 1/sigma^2 */
-    double *curve;          /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
-    double *log_density;    /* the part of the density of y that the weight does not cancel */
-    double *least;          /* the smallest standard deviation in a window that begins here */
+    size_t *index;         /* in the points */
+    double *z, *x, *y;     /* x, y: of the regression, slope p */
+    double *ratio;         /* z_against / z */
+    double *given;         /* the weight that is given, relative; 1: none is */
+    double *rounded;       /* the variance of y by its printed digits; 0: it is not rounded */
+    double order;          /* of the regression over all rows */
+    double *bent, *weight; /* of a law: y - correction; relative to 1/sigma^2 */
+    double *curve;         /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
+    double *log_density;   /* the part of the density of y that the weight does not cancel */
+    double *least;         /* the smallest standard deviation in a window that begins here */
 };
 
 /* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
@@ -131,9 +133,9 @@ static bool usable(const struct br_order_point *p)
     return p->error > 0 && isfinite(p->error);
 }
 
-/* scatter: NULL, it is not known. */
+/* scatter, rounding: NULL, it is not known. */
 static void take_rows(struct rows *r, const struct br_order_point *point, const double *scatter,
-                      size_t count)
+                      const double *rounding, size_t count)
 {
     double finest = NAN, slope, least = INFINITY;
     for (size_t i = 0; i < count && scatter; i++)
@@ -150,6 +152,7 @@ static void take_rows(struct rows *r, const struct br_order_point *point, const 
         r->x[r->count] = log(point[i].z / finest);
         r->ratio[r->count] = point[i].z_against / point[i].z;
         r->given[r->count] = weighted ? pow(least / scatter[i], 2) : 1;
+        r->rounded[r->count] = rounding ? pow(rounding[i], 2) / 3 : 0;
         r->y[r->count++] = log(point[i].error);
     }
     if (r->count < 3)
@@ -282,7 +285,8 @@ static double quantile(const struct mixture *all, double share)
 
 struct sums {
     double w, x, y, xx, xy, yy, log_density; /* y: less start + order x, else digits cancel */
-    double q, xq, yq, qq, unit; /* q: the curve; unit: it at the first row */
+    double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */
+    double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
     size_t rows;
 };
@@ -295,8 +299,17 @@ static void add_row(struct sums *s, const struct rows *r, size_t i, double sign)
     s->w += w, s->x += w * x, s->y += w * y;
     s->xx += w * x * x, s->xy += w * x * y, s->yy += w * y * y;
     s->q += w * q, s->xq += w * x * q, s->yq += w * y * q, s->qq += w * q * q;
+    const double v = w * r->weight[i] * r->rounded[i];
+    s->v += v, s->xv += x * v, s->xxv += x * x * v;
     s->log_density += sign * r->log_density[i];
     s->rows = sign > 0 ? s->rows + 1 : s->rows - 1;
+}
+
+/* What a known variance adds to the scale of Student's distribution, so that it widens the 95 %
+ * interval as the normal distribution would: the ratio of their quantiles, to 3 %. */
+static double of_known(double freedom)
+{
+    return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
 /* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
@@ -317,13 +330,15 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     if (!(freedom >= 1 && xx > 0 && qq > 0))
         return;
     const double seen = all->only_best ? cell_scatter : least_scatter;
-    const double squares = left + seen * seen * freedom;
+    const double middle = s->x / s->w;
+    const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    const double squares = left + (seen * seen + s->v / s->w) * freedom;
     p.mean = s->order + xy / xx;
     p.freedom = freedom;
-    p.scale = sqrt((left / freedom + least * least) / xx);
-    p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) -
-                freedom / 2 * log(M_PI * squares) - 0.5 * log(s->w * xx * qq) -
-                log1p(sqrt(squares / freedom) / usual_scatter);
+    p.scale =
+        hypot(sqrt((left / freedom + least * least) / xx), of_known(freedom) * sqrt(rounded) / xx);
+    p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
+                0.5 * log(s->w * xx * qq) - log1p(sqrt(squares / freedom) / usual_scatter);
     if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > least_order))
         add_part(all, &p);
 }
@@ -454,7 +469,7 @@ static void add_law(struct mixture *all, const struct rows *r, const struct fami
 
 /* Parameters are first tried in coarse cells, then within the cells that may matter. */
 enum { MOST_CELLS = 80, WITHIN = 6 };
-static const double cell = 0.16;    /* of the logarithm of the parameter */
+static const double cell = 0.16;  /* of the logarithm of the parameter */
 static const double matters = 10; /* logarithm of the weight below the best one's */
 
 static size_t cells_of(const struct family *f)
@@ -463,8 +478,8 @@ static size_t cells_of(const struct family *f)
 }
 
 /* Adds a family at this fraction of the way from its lowest parameter to the highest. */
-static void add_member(struct mixture *all, const struct rows *r, const struct family *f,
-                       double at, double members, double share)
+static void add_member(struct mixture *all, const struct rows *r, const struct family *f, double at,
+                       double members, double share)
 {
     add_law(all, r, f, f->low * pow(f->high / f->low, (at + 0.5) / members), share,
             log(f->prior / members));
@@ -497,8 +512,8 @@ static void add_laws(struct mixture *all, const struct rows *r)
 static void describe(const struct mixture *all, const struct rows *r, struct br_line_order *found)
 {
     const struct part *likely = &all->part[0];
-    found->order = (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025),
-                                        quantile(all, 0.975)};
+    found->order =
+        (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
     found->low99 = quantile(all, 0.005);
     found->high99 = quantile(all, 0.995);
     for (size_t i = 0; i < all->count; i++)
@@ -511,32 +526,32 @@ static void describe(const struct mixture *all, const struct rows *r, struct br_
 }
 
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
-                                struct br_line_order *found, struct br_error *err)
+                                  struct br_line_order *found, struct br_error *err)
 {
-    return br_line_order_of_means(point, NULL, count, found, err);
+    return br_line_order_of_means(point, NULL, NULL, count, found, err);
 }
 
 enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
-                                      size_t count, struct br_line_order *found,
-                                      struct br_error *err)
+                                      const double *rounding, size_t count,
+                                      struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 10 };
+    enum { ARRAYS = 11 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
-                                  .low99 = NAN,
-                                  .high99 = NAN,
-                                  .last = count ? count - 1 : 0,
-                                  .outlier = count};
+                                    .low99 = NAN,
+                                    .high99 = NAN,
+                                    .last = count ? count - 1 : 0,
+                                    .outlier = count};
     double *room = br_allocate(ARRAYS * count + 1, sizeof *room);
     size_t *index = br_allocate(count + 1, sizeof *index);
     struct mixture all = {.best = -INFINITY};
     enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room};
-        double **const array[] = {&r.x, &r.y, &r.ratio, &r.bent, &r.weight, &r.log_density,
-                                  &r.least, &r.given, &r.curve};
+        double **const array[] = {&r.x,           &r.y,     &r.ratio, &r.bent,  &r.weight,
+                                  &r.log_density, &r.least, &r.given, &r.curve, &r.rounded};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
-        take_rows(&r, point, scatter, count);
+        take_rows(&r, point, scatter, rounding, count);
         if (r.count >= 3 && isfinite(r.order))
             add_laws(&all, &r);
         if (all.count)

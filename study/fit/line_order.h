@@ -64,11 +64,13 @@ enum br_flag br_line_order_flag(const struct br_line_order *found,
  * order from -60 to 60 makes such differences. */
 double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
 
-/* The same of errors that are means: scatter[i] is the standard deviation of error i over the error.
- * Errors then weigh by their scatter, if all have one above 0. */
+/* The same of errors that are means, or rounded; each array may be NULL. scatter[i] is the standard
+ * deviation of error i over the error: errors weigh by their scatter, if all have one above 0.
+ * rounding[i] is half a unit of the last printed digit over the error: no law describes a line better
+ * than its digits do, and the interval holds what they leave open. */
 enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
-                                      size_t count, struct br_line_order *found,
-                                      struct br_error *err);
+                                      const double *rounding, size_t count,
+                                      struct br_line_order *found, struct br_error *err);
 
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
  * their logarithms, at point[i]; and its band, by the lines of the order's low and high end, which

@@ -241,25 +241,30 @@ static bool determines(const struct br_joint_fit *fit, int axis, double theory)
            fit->order[axis].value > theory / 2;
 }
 
-/* Draws the model and its band along the line: the errors of the other axis bend it. */
+/* Draws the model and its band along the line: the errors of the other axis bend it, and where they
+ * subtract, an order inside the interval may show the least error. */
 static void fit_model(struct br_seen_order *o, const struct br_joint_fit *fit, const struct line *l)
 {
-    const double order[] = {o->order.value, o->order.low, o->order.high};
+    enum { ORDERS = 32 }; /* of the interval, from end to end; the last one is the order itself */
     const double middle = sqrt(o->point[0].z * o->point[o->points - 1].z);
     for (size_t i = 0; i < o->points; i++) {
-        double at[3], size[BR_AXES], against[BR_AXES];
         const struct br_cell *c = cell_of(l, o, i);
+        struct br_estimate *e = &o->point[i].fit;
+        double size[BR_AXES], against[BR_AXES];
         for (int axis = 0; axis < BR_AXES; axis++) {
             size[axis] = br_axis_size(l->study->scene, axis, c->at);
             against[axis] = br_axis_size(l->study->scene, axis, c->against);
         }
-        for (size_t j = 0; j < 3; j++) {
+        for (size_t j = 0; j <= ORDERS + 1; j++) {
             struct br_joint_fit other = *fit;
-            other.order[l->axis].value = order[j];
-            other.c[l->axis].value *= pow(middle, order[0] - order[j]);
-            at[j] = br_joint_model(&other, size, against);
+            double *order = &other.order[l->axis].value;
+            if (j <= ORDERS)
+                *order = o->order.low + (double)j / ORDERS * (o->order.high - o->order.low);
+            other.c[l->axis].value *= pow(middle, o->order.value - *order);
+            e->value = br_joint_model(&other, size, against);
+            e->low = fmin(e->low, e->value); /* without the NaN of before */
+            e->high = fmax(e->high, e->value);
         }
-        o->point[i].fit = (struct br_estimate){at[0], fmin(at[1], at[2]), fmax(at[1], at[2])};
     }
 }
 

@@ -326,7 +326,8 @@ static const double gathered = 10, by_tolerance[] = {0.6, 0.9, 1.2};
 static const double least_order = 0.5;
 
 /* An interval is useful if its ends differ by at most the factor `widest`, or if its upper end is
- * below the solution (`all`) or within the factor `near` of the expected error. */
+ * below the solution (`all`) or within the factor `near` of the expected error. The two factors
+ * keep what a reader can use: an order of magnitude upwards, two and a half in all. */
 static const double widest = 300, all = 1, near = 10;
 
 /* The largest ratio of true to predicted round-off: measured. */
@@ -470,9 +471,10 @@ static const char *unseen_start(const struct marches *m, double k)
     return NULL;
 }
 
-/* Loads or initial data that are too short even for R, which has the elements of a comparison and
- * meets them so many times a level of the run, or SEEN_LEVELS; *name (out): NULL: none. Fails with
- * BR_NO_MEMORY. */
+/* Loads or initial data that are too short even for R, which has the elements of a comparison. It
+ * meets them at the stages of its steps: FINER_LEVELS times a level of the run (16 steps of 4
+ * stages), STAGES times between two of its own levels (4 steps of 4), which its tolerance has it
+ * take where a load changes. *name (out): NULL: none. Fails with BR_NO_MEMORY. */
 static enum br_status find_too_short(const struct marches *m, const char **name,
                                      struct br_error *err)
 {

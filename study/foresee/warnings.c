@@ -146,8 +146,9 @@ static enum br_status measure_gain(const struct br_planned_march *o, double *sha
         br_energy_meter_step(meter);
         br_energy_meter_read(meter, &start, &now, &work);
         const double put_in = br_energy_put_in(&start, &work, BR_AXIAL);
-        if (put_in > 0)
-            *share = fmax(*share, br_energy_added(&work, BR_AXIAL) / put_in);
+        const double added = br_energy_added(&work, BR_AXIAL) / put_in;
+        if (put_in > 0 && !(added <= *share))
+            *share = added;
     }
     br_energy_meter_free(meter);
     br_march_free(march);

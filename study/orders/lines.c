@@ -56,6 +56,14 @@ static double deviation_of(const struct br_numbers_row *row, size_t quantity)
     return row->deviation ? row->deviation[quantity] : NAN;
 }
 
+static double rounding_of(const struct br_orders *o, size_t quantity,
+                          const struct br_numbers_row *row)
+{
+    return row->repeat > 1 || isnan(row->number[quantity])
+               ? 0
+               : br_numbers_rounding(&o->numbers->quantity[quantity], row->number[quantity]);
+}
+
 /* An error, or the difference of a value from the next finer one that there is. */
 static struct br_point point_of(const struct br_orders *o, size_t quantity,
                                 const struct br_orders_line *line, size_t i)
@@ -64,7 +72,8 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     const struct br_numbers_row *row = &numbers->row[line->row[i]];
     struct br_point p = {.z = row->z[line->axis],
                          .error = row->number[quantity],
-                         .deviation = deviation_of(row, quantity)};
+                         .deviation = deviation_of(row, quantity),
+                         .rounding = rounding_of(o, quantity, row)};
     const char *failure = failure_of(row, p.error);
     size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
@@ -80,6 +89,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
         p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
+        p.rounding = hypot(p.rounding, rounding_of(o, quantity, finer));
     }
     br_numbers_name(numbers, &numbers->row[named], line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);

@@ -3,6 +3,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct br_resolution_column br_resolution_columns[] = {
@@ -107,8 +108,52 @@ enum br_status br_numbers_add_quantity(struct br_numbers *numbers, const char *n
                                        const char *unit, bool is_value, struct br_error *err)
 {
     struct br_quantity *q = &numbers->quantity[numbers->quantities++];
-    *q = (struct br_quantity){strdup(name), unit ? strdup(unit) : NULL, is_value};
+    *q = (struct br_quantity){
+        .name = strdup(name), .unit = unit ? strdup(unit) : NULL, .is_value = is_value};
     return q->name && (!unit || q->unit) ? BR_OK : br_no_memory(err, "the numbers");
+}
+
+/* ---- printed digits ---- */
+
+/* The least digits that give a number, and how many of them are decimals. */
+static int digits_of(double number, int *decimals)
+{
+    char text[40];
+    int digits = 0;
+    do
+        snprintf(text, sizeof text, "%.*e", digits++, number);
+    while (strtod(text, NULL) != number && digits < DBL_DECIMAL_DIG);
+    *decimals = digits - 1 - atoi(strchr(text, 'e') + 1);
+    return digits;
+}
+
+/* A program prints a column to the same decimals (0.0100), or to the same digits (1.00e-02), and
+ * zeros at the end may be lost. Of both, the one that has lost less zeros is believed. */
+static void find_digits(struct br_numbers *numbers, size_t quantity)
+{
+    struct br_quantity *q = &numbers->quantity[quantity];
+    int decimals, sum_of_digits = 0, sum_of_decimals = 0, count = 0;
+    for (size_t i = 0; i < numbers->rows; i++) {
+        const double number = numbers->row[i].number[quantity];
+        if (!isfinite(number) || number == 0)
+            continue;
+        const int digits = digits_of(number, &decimals);
+        decimals = decimals > 0 ? decimals : 0;
+        q->digits = digits > q->digits ? digits : q->digits;
+        q->decimals = decimals > q->decimals ? decimals : q->decimals;
+        sum_of_digits += digits;
+        sum_of_decimals += decimals;
+        count++;
+    }
+    q->fixed = count * q->decimals - sum_of_decimals < count * q->digits - sum_of_digits;
+}
+
+double br_numbers_rounding(const struct br_quantity *q, double number)
+{
+    enum { ALL = 12 }; /* so many are as good as all */
+    if (q->digits > ALL || number == 0)
+        return 0;
+    return 0.5 * pow(10, q->fixed ? -q->decimals : floor(log10(fabs(number))) + 1 - q->digits);
 }
 
 void br_numbers_clear(struct br_numbers *numbers)
@@ -241,6 +286,8 @@ enum br_status br_numbers_check(struct br_numbers *numbers, const char *path, st
                            path, count, br_axis_letters[axis], BR_MOST_SIZES);
         most = count > most ? count : most;
     }
+    for (size_t i = 0; i < numbers->quantities; i++)
+        find_digits(numbers, i);
     br_numbers_sort(numbers);
     for (size_t i = 1; i < numbers->rows; i++) {
         const struct br_numbers_row *a = &numbers->row[i - 1], *b = &numbers->row[i];

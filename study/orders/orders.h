@@ -31,7 +31,12 @@ struct br_quantity {
     char *name;    /* owned */
     char *unit;    /* owned; NULL: none is given */
     bool is_value; /* true: its limit is not known; false: it is an error, whose limit is 0 */
+    int digits, decimals; /* the most that one of its numbers has, if zeros at the end are none */
+    bool fixed;           /* printed to these decimals; else to these digits */
 };
+
+/* Half a unit of the last digit to which a number of the quantity was printed; 0: it has all. */
+double br_numbers_rounding(const struct br_quantity *quantity, double number);
 
 /* One run of the program that made the numbers. */
 struct br_numbers_row {

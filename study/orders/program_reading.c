@@ -230,8 +230,11 @@ static enum br_status search_regex(struct search *s)
     if (status || m.count == 1 || (m.count && s->reading->last))
         return status;
     if (m.count == 0)
-        return refuse(s, "'%s' matches nothing in %s%s", shown(buffer, s->reading->what),
-                      place_of(s->reading), prefix(s->reading, suggestion));
+        return refuse(
+            s, "'%s' matches nothing in %s%s%s", shown(buffer, s->reading->what),
+            place_of(s->reading),
+            s->reading->file || s->reading->complaints ? "" : " (stderr:REGEX reads standard error)",
+            prefix(s->reading, suggestion));
     return refuse(s, "'%s' matches %zu times, expected once; lines %s (last:REGEX takes the last)",
                   shown(buffer, s->reading->what), m.count, m.lines);
 }
@@ -423,13 +426,18 @@ enum br_status br_reading_check(const struct br_reading *reading, struct br_erro
                                 shown(buffer, reading->what), groups, prefix(reading, suggestion));
 }
 
-/* Reads one finite number in C's notation, without other text. */
+/* Reads one finite number in C's notation, or with Fortran's exponents D and Q, without other text.
+ */
 static enum br_status convert(const struct search *s, double *number)
 {
-    char buffer[SHOWN], *end;
+    char buffer[SHOWN], text[LONGEST], *end;
+    strcpy(text, s->text);
+    char *exponent = strchr(text, 'x') || strchr(text, 'X') ? NULL : strpbrk(text, "dDqQ");
+    if (exponent && exponent > text && strchr("0123456789.", exponent[-1]))
+        *exponent = 'e';
     errno = 0;
-    *number = strtod(s->text, &end);
-    const bool whole = *s->text && !is_blank(*s->text) && !*end;
+    *number = strtod(text, &end);
+    const bool whole = *text && !is_blank(*text) && !*end;
     if (whole && isfinite(*number) && !(errno == ERANGE && *number == 0))
         return BR_OK;
     return refuse(s, "found '%s', expected a finite number", shown(buffer, s->text));

@@ -152,9 +152,16 @@ static enum br_status find_program(const char *here, const char *name, char **pr
             return BR_OK;
         f = f[length] ? f + length + 1 : NULL;
     }
+    free(*program);
+    if (asprintf(program, "%s%s%s", *name == '/' ? "" : here, *name == '/' ? "" : "/", name) < 0)
+        *program = NULL;
+    const bool here_too = *program && stat(*program, &info) == 0 && S_ISREG(info.st_mode);
     return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
                    br_quoted(shown, sizeof shown, &br_for_text, name),
-                   direct ? "" : ", no folder of PATH has it");
+                   !direct    ? here_too ? ", no folder of PATH has it; a file here needs ./ before it"
+                                         : ", no folder of PATH has it"
+                   : here_too ? ": it is not executable; chmod +x makes it so"
+                              : "");
 }
 
 /* word: a buffer for any word. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The seconds that trials will take: the costs of the registry (solver/method.h), times the pace of
- * this machine, which a few steps show. The judge samples a few time levels on one mesh. */
+ * this machine, which a few steps show; and the costs of judges (study/grid/batches.h). */
 #include <math.h>
 
 #include "solver/clock.h"
@@ -59,32 +59,19 @@ static enum br_status find_pace(const struct br_trial_request *r, const struct b
 
 /* ---- the judge ---- */
 
-/* Seconds of the judge: for each mesh, and for one element at one time level. */
-struct judging {
-    double mesh, level;
-};
-
-static enum br_status create_judge(const struct br_trial_request *r,
-                                   struct br_judge_request *request, void **self,
-                                   struct br_error *err)
-{
-    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
-    request->scene = r->scene;
-    request->lead = request->levels;
-    request->stop = o->stop;
-    request->stop_self = o->self;
-    request->preparing = o->preparing;
-    return br_trials_judge(r)->create(self, request, err);
-}
-
 enum br_status br_trials_keep_judge(const struct br_trial_request *r, void **self,
                                     struct br_error *err)
 {
     const struct br_judge *judge = br_trials_judge(r);
+    const struct br_observer none = {0}, *o = r->observer ? r->observer : &none;
+    struct br_judge_request request = {.scene = r->scene,
+                                       .levels = 1,
+                                       .lead = 1,
+                                       .stop = o->stop,
+                                       .stop_self = o->self,
+                                       .preparing = o->preparing};
     *self = NULL;
-    return !judge->create || judge->nests
-               ? BR_OK
-               : create_judge(r, &(struct br_judge_request){.levels = 1}, self, err);
+    return !judge->create || judge->nests ? BR_OK : judge->create(self, &request, err);
 }
 
 void br_trials_forget_judge(const struct br_trial_request *r, void *self)
@@ -93,55 +80,31 @@ void br_trials_forget_judge(const struct br_trial_request *r, void *self)
         br_trials_judge(r)->free(self);
 }
 
-/* Samples a field at all levels. */
-static enum br_status sample(const struct br_judge *judge, void *self,
-                             const struct br_judge_request *request, enum br_field_kind kind,
-                             double *values, struct br_error *err)
+/* Seconds of the judge for trial i: levels on a mesh that no trial before it has and, if the judge
+ * marches for each mesh, its march. */
+static double judged(const struct br_trial_request *r, const struct br_trial *trial, size_t i)
 {
-    enum br_status status = BR_OK;
-    for (size_t level = 1; level <= request->levels && !status; level++) {
-        status = judge->advance(self, kind, level, err);
-        for (int measure = 0; measure < BR_TIP && !status; measure++) {
-            const struct br_sample_at at = {kind, (enum br_measure)measure, 0};
-            struct br_view view = {.values = values};
-            if (request->measured[kind][measure])
-                judge->sample(self, &at, &view);
+    static const size_t none = 0;
+    const struct br_resolution *at = &trial[i].at;
+    struct br_study s = {.scene = r->scene,
+                         .judge = br_trials_judge(r),
+                         .reference_method = r->reference_method,
+                         .reference = r->reference,
+                         .n_count = 1,
+                         .k_count = 1,
+                         .n = &at->n,
+                         .steps = &at->steps};
+    bool mesh = true, levels = true;
+    for (size_t j = 0; j < i; j++)
+        if (trial[j].end != BR_TRIAL_LEFT && trial[j].at.n == at->n &&
+            trial[j].named->method.axial_degree == trial[i].named->method.axial_degree) {
+            mesh = false;
+            levels = levels && trial[j].at.steps != at->steps;
         }
-    }
-    return status;
-}
-
-/* Times the judge at a few levels of one mesh; a judge that nests marches anew for each mesh. */
-static enum br_status time_judge(const struct br_trial_request *r, struct judging *judging,
-                                 struct br_error *err)
-{
-    enum { N = 100, FEW = 10 };
-    static const size_t mesh = N;
-    double values[BR_MOST_MODES * N];
-    struct br_judge_request request = {
-        .axial_degree = 1, .levels = FEW, .mesh_count = 1, .mesh = &mesh};
-    const struct br_judge *judge = br_trials_judge(r);
-    const struct br_planned_march fine = {.scene = r->scene,
-                                          .method = &r->reference_method,
-                                          .n = r->reference.n,
-                                          .steps = r->reference.steps};
-    *judging = (struct judging){judge->nests ? br_march_seconds(&fine) : 0, 0};
-    if (!judge->create || judge->nests)
-        return BR_OK;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        for (int measure = 0; measure < BR_TIP; measure++)
-            request.measured[kind][measure] =
-                r->scene->field[kind].modelled && br_norm_needs(r->norm, (enum br_measure)measure);
-    void *self = NULL;
-    const double start = br_thread_seconds();
-    enum br_status status = create_judge(r, &request, &self, err);
-    const double created = br_thread_seconds();
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING && !status; kind++)
-        if (r->scene->field[kind].modelled)
-            status = sample(judge, self, &request, kind, values, err);
-    *judging = (struct judging){created - start, (br_thread_seconds() - created) / (N * FEW)};
-    judge->free(self);
-    return status;
+    const double whole = s.judge->create ? 1e-9 * br_reference_cost(&s) : 0;
+    s.steps = &none;
+    const double set_up = s.judge->create ? 1e-9 * br_reference_cost(&s) : 0;
+    return levels * (whole - set_up) + (mesh && s.judge->nests) * set_up;
 }
 
 /* ---- a trial ---- */
@@ -161,26 +124,11 @@ static double marches(const struct br_trial_request *r, const struct br_trial *t
     return timed + measured / br_threads(r->threads);
 }
 
-/* Seconds of the judge for trial i. A mesh, or a number of steps on it, costs only once. */
-static double judged(const struct br_trial *trial, size_t i, const struct judging *judging)
-{
-    bool mesh = true, levels = true;
-    for (size_t j = 0; j < i; j++)
-        if (trial[j].end != BR_TRIAL_LEFT && trial[j].at.n == trial[i].at.n &&
-            trial[j].named->method.axial_degree == trial[i].named->method.axial_degree) {
-            mesh = false;
-            levels = levels && trial[j].at.steps != trial[i].at.steps;
-        }
-    return mesh * judging->mesh +
-           levels * judging->level * (double)trial[i].at.n * (double)trial[i].at.steps;
-}
-
 /* ---- all of them ---- */
 
 /* What the seconds of trials are made from. */
 struct forecasting {
     const struct br_trial_request *request;
-    struct judging judging;
     double *march; /* s, without the judge */
 };
 
@@ -193,7 +141,7 @@ static void add_up(const struct forecasting *f, struct br_trial *trial, size_t c
         if (trial[i].end == BR_TRIAL_LEFT)
             continue;
         trial[i].foreseen =
-            f->march[i] + judged(trial, i, &f->judging) / br_threads(f->request->threads);
+            f->march[i] + judged(f->request, trial, i) / br_threads(f->request->threads);
         forecast->seconds += trial[i].foreseen;
     }
 }
@@ -225,8 +173,7 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
     *forecast = (struct br_trial_forecast){.planned = count};
     struct forecasting f = {.request = r, .march = br_allocate(count, sizeof *f.march)};
     double *pace = br_allocate(count, sizeof *pace);
-    enum br_status status =
-        pace && f.march ? time_judge(r, &f.judging, err) : br_no_memory(err, "the trials");
+    enum br_status status = pace && f.march ? BR_OK : br_no_memory(err, "the trials");
     for (size_t i = 0; i < count && !status; i++) {
         trial[i].end = BR_TRIAL_DONE;
         status = find_pace(r, trial, i, pace, err);

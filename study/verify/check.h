@@ -29,6 +29,7 @@ struct br_point {
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
                                the order is that of a joint fit, which is no line */
     double deviation;       /* the error's standard deviation, where it is a mean; 0: it is none */
+    double rounding;        /* half a unit of its last digit, where it was printed; 0: it was not */
 };
 
 /* An expectation and what was observed. */

@@ -77,7 +77,8 @@ static void find_constants(struct br_case *c)
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
     struct br_order_point *all = br_allocate(c->points, sizeof *all);
-    double *scatter = br_allocate(c->points, sizeof *scatter);
+    double *scatter = br_allocate(2 * c->points, sizeof *scatter);
+    double *rounding = scatter + c->points;
     struct br_line_order found;
     if (!all || !scatter) {
         free(all);
@@ -88,8 +89,10 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
         const struct br_point *p = &c->point[i];
         all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
         scatter[i] = p->deviation / p->error;
+        rounding[i] = p->rounding / p->error;
     }
-    const enum br_status status = br_line_order_of_means(all, scatter, c->points, &found, err);
+    const enum br_status status =
+        br_line_order_of_means(all, scatter, rounding, c->points, &found, err);
     free(scatter);
     c->order = found.order;
     c->low99 = found.low99;
@@ -171,12 +174,14 @@ static void advise(struct br_case *c)
     const double high = fmax(e->order, e->highest);
     const double off = fabs(last - fmin(fmax(last, e->order), high));
     const double before = fabs(first - fmin(fmax(first, e->order), high));
+    const bool outside =
+        c->order.high < e->order - e->tolerance || c->order.low > high + e->tolerance;
     if (off < 0.75 * before)
         br_append(c->reason, sizeof c->reason,
                   "; the two finest show %.2f, the two coarsest %.2f: the coarse ones are not "
                   "asymptotic. Start finer, or refine further",
                   last, first);
-    else if (off > e->tolerance && off >= before)
+    else if (off > e->tolerance && off >= (outside ? 0.9 : 1) * before)
         br_append(c->reason, sizeof c->reason,
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
                   "Find what lowers the order, or expect another order",

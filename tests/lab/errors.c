@@ -384,6 +384,39 @@ static void mcrms(struct br_random *r, struct br_error_line *s)
     }
 }
 
+/* Means of runs that scatter, from row to row by other amounts, with the deviations that the runs
+ * show, as of orders --repeat. */
+static void means(struct br_random *r, struct br_error_line *s, double next)
+{
+    const size_t runs = whole(r, 4, 12);
+    ladder(r, s, 4, 8, 2);
+    s->truth = PICK(r, .5, 1, 2);
+    const double c = constant_of(r), a = uniform(r, -next, next) / s->h[0];
+    EACH_ROW
+    {
+        const double scatter = br_random_decades(r, -2, -.5);
+        double sum = 0, squares = 0;
+        for (size_t j = 0; j < runs; j++) {
+            const double e =
+                c * pow(s->h[i], s->truth) * (1 + a * s->h[i]) * (1 + scatter * normal(r));
+            sum += e, squares += e * e;
+        }
+        const double n = (double)runs;
+        s->e[i] = sum / n;
+        s->deviation[i] = sqrt((squares - sum * sum / n) / (n - 1) / n);
+    }
+}
+
+static void means0(struct br_random *r, struct br_error_line *s)
+{
+    means(r, s, 0);
+}
+
+static void means1(struct br_random *r, struct br_error_line *s)
+{
+    means(r, s, .5);
+}
+
 static void mixed(struct br_random *r, struct br_error_line *s)
 {
     lower(r, s);
@@ -473,6 +506,8 @@ const struct br_error_class br_error_classes[] = {
     {"20 % noise, 8 to 12 rows", BR_NOISY_ERRORS, noise20},
     {"adaptive, 10 % scatter", BR_NOISY_ERRORS, adaptive},
     {"Monte Carlo, RMS of 50", BR_NOISY_ERRORS, mcrms},
+    {"means of runs", BR_NOISY_ERRORS, means0},
+    {"means of runs, next term", BR_HARD_ERRORS, means1},
     {"next term, 2 % noise", BR_HARD_ERRORS, nextnoise},
     {"lower power comes up", BR_HARD_ERRORS, lower},
     {"the same with 2 % noise", BR_HARD_ERRORS, mixed},

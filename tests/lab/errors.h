@@ -13,6 +13,7 @@ struct br_error_line {
     size_t rows;
     double h[BR_MOST_ERRORS]; /* from coarse to fine */
     double e[BR_MOST_ERRORS]; /* errors, or values */
+    double deviation[BR_MOST_ERRORS]; /* of errors that are means; 0: they are not */
     bool values;              /* their limit is not known */
     double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
 };
@@ -22,6 +23,7 @@ enum br_error_group {
     BR_NOISY_ERRORS,
     BR_HARD_ERRORS,
     BR_NO_ORDER,
+    BR_MISSED_GOAL, /* docs/observed-orders.md names it, as measured */
 };
 
 /* Classes of lines; const records, the last one without a name. */

@@ -170,18 +170,29 @@ static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t inde
 
 /* ---- values ---- */
 
-/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes. */
+/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes; of lines,
+ * L + A h^p (1 + c h). */
 static const struct br_value_class {
     const char *name;
     double next, product, noise; /* relative: at the coarsest, to both errors, to the finest step */
     bool one;                    /* all but one direction is far smaller */
+    bool line;                   /* h alone */
+    double mixed;                /* c and d: at the coarsest at least a fifth of it, at most so much */
 } br_value_classes[] = {
-    {"limits, two powers", 0, 0, 0, false},
-    {"limits, next terms", 0.3, 0, 0, false},
-    {"limits, products", 0, 1, 0, false},
-    {"limits, all of that", 0.3, 0.5, 0, false},
-    {"limits, one dominates", 0.1, 0.1, 0, true},
-    {"limits, noise", 0, 0, 0.05, false},
+    {"limits, two powers", .next = 0},
+    {"limits, next terms", .next = 0.3},
+    {"limits, products", .product = 1},
+    {"limits, all of that", .next = 0.3, .product = 0.5},
+    {"limits, one dominates", .next = 0.1, .product = 0.1, .one = true},
+    {"limits, noise", .noise = 0.05},
+    {"limits, mixed orders", .mixed = 2},
+    {"limits, mixed, noise", .mixed = 2, .noise = 0.05},
+    {"limits of lines, one power", .line = true},
+    {"limits of lines, next term", .line = true, .next = 0.3},
+    {"limits of lines, noise", .line = true, .noise = 0.05},
+    {"limits of lines, 20 % noise", .line = true, .noise = 0.2},
+    {"limits of lines, mixed", .line = true, .mixed = 2},
+    {"limits of lines, mixed, noise", .line = true, .mixed = 2, .noise = 0.05},
 };
 enum { BR_VALUE_CLASSES = sizeof br_value_classes / sizeof *br_value_classes };
 
@@ -193,15 +204,16 @@ static inline struct br_grid br_value_grid_of(size_t class, uint64_t seed, size_
     static const double orders[] = {1, 1.5, 2};
     struct br_grid g = {
         .meshes = 4 + br_random_index(r, 3),
-        .steps = 4 + br_random_index(r, 3),
+        .steps = law->line ? 1 : 4 + br_random_index(r, 3),
         .order = {orders[br_random_index(r, 3)], orders[br_random_index(r, 3)]},
     };
     *limit = br_random_uniform(r, -2, 2);
     const double sign = br_random_once_in(r, 2) ? -1 : 1;
     const double a = br_random_decades(r, -2, -0.5);
-    const double b = sign * a * br_random_decades(r, law->one ? -4 : -0.7, law->one ? -3 : 0.7);
-    const double c = br_random_uniform(r, -law->next, law->next);
-    const double d = br_random_uniform(r, -law->next, law->next);
+    const double both = law->line ? 0 : sign * a;
+    const double b = both * br_random_decades(r, law->one ? -4 : -0.7, law->one ? -3 : 0.7);
+    const double low = law->mixed > 0 ? law->mixed / 5 : -law->next, high = law->mixed + law->next;
+    const double c = br_random_uniform(r, low, high), d = br_random_uniform(r, low, high);
     for (size_t i = 0; i < g.meshes; i++)
         for (size_t j = 0; j < g.steps; j++, g.rows++) {
             const double x = pow(2, -(double)i), y = pow(2, -(double)j);

@@ -42,7 +42,8 @@ static void observe(const struct br_error_line *line, struct br_point *point, st
         .point = point,
         .points = line->rows - line->values};
     for (size_t i = 0; i < c->points; i++) {
-        point[i] = (struct br_point){.z = line->h[i], .error = line->e[i]};
+        point[i] = (struct br_point){
+            .z = line->h[i], .error = line->e[i], .deviation = line->deviation[i]};
         snprintf(point[i].label, sizeof point[i].label, "h = %g", line->h[i]);
         if (line->values) {
             point[i].z_against = line->h[i + 1];
@@ -105,42 +106,21 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
 }
 
-static const char *const found_texts[] = {"covers", "is near", "excludes", "not determined"};
-
-/* A published column: whether the interval covers the order that its source states, misses it by a
- * rounding of what authors print, excludes it, or is no claim. */
-static size_t try_published(size_t number)
-{
-    const struct br_published *p = &br_published[number];
-    const struct br_error_line line = br_published_line(p);
-    struct br_point point[BR_MOST_ERRORS];
-    struct br_case c;
-    char order[64];
-    observe(&line, point, &c);
-    judge(&c, p->order);
-    const double off = fmax(c.order.low - p->order, p->order - c.order.high);
-    const size_t found = !br_order_determined(&c.order) ? 3 : off <= near ? 0 : off <= 0.05 ? 1 : 2;
-    printf("# %-14s %-46s %g: %s, %s%s%s\n", found_texts[found], p->name, p->order,
-           br_order_text(&c.order, order, sizeof order), br_verdict_names[c.verdict],
-           *c.note ? "; " : "", c.note);
-    return found;
-}
-
-/* The numbers of a grid, of one column, with their orders. */
-static void find_grid(const struct br_grid *g, bool values, struct br_numbers *n,
-                      struct br_orders *o)
+/* One column of numbers, with its orders. k: NULL, they are a line in h. */
+static void find(size_t rows, const double *h, const double *k, const double *e, bool values,
+                 struct br_numbers *n, struct br_orders *o)
 {
     struct br_error err = {0};
     *n = (struct br_numbers){0};
     n->column[0] = br_resolution_column_find("h");
-    n->column[1] = br_resolution_column_find("k");
-    enum br_status status = br_numbers_make_room(n, g->rows, 1, &err);
+    n->column[1] = k ? br_resolution_column_find("k") : NULL;
+    enum br_status status = br_numbers_make_room(n, rows, 1, &err);
     if (!status)
         status = br_numbers_add_quantity(n, "e", NULL, values, &err);
-    for (size_t i = 0; i < g->rows && !status; i++) {
-        n->row[i].given[0] = n->row[i].z[0] = g->h[i];
-        n->row[i].given[1] = n->row[i].z[1] = g->k[i];
-        n->row[i].number[0] = g->e[i];
+    for (size_t i = 0; i < rows && !status; i++) {
+        n->row[i].given[0] = n->row[i].z[0] = h[i];
+        n->row[i].given[1] = n->row[i].z[1] = k ? k[i] : NAN;
+        n->row[i].number[0] = e[i];
     }
     if (!status)
         status = br_numbers_check(n, "made", &err);
@@ -166,13 +146,37 @@ static enum br_verdict verdict_of(const struct br_orders *o, int axis, double ex
     return c->verdict;
 }
 
+static const char *const found_texts[] = {"covers", "is near", "excludes", "not determined"};
+
+/* A published column: whether the interval covers the order that its source states, misses it by a
+ * rounding of what authors print, excludes it, or is no claim. */
+static size_t try_published(size_t number)
+{
+    const struct br_published *p = &br_published[number];
+    const struct br_error_line line = br_published_line(p);
+    struct br_numbers n;
+    struct br_orders o;
+    struct br_case c;
+    char order[64];
+    find(line.rows, line.h, NULL, line.e, false, &n, &o);
+    verdict_of(&o, BR_AXIS_SPACE, p->order, &c);
+    const double off = fmax(c.order.low - p->order, p->order - c.order.high);
+    const size_t found = !br_order_determined(&c.order) ? 3 : off <= near ? 0 : off <= 0.05 ? 1 : 2;
+    printf("# %-14s %-46s %g: %s, %s%s%s\n", found_texts[found], p->name, p->order,
+           br_order_text(&c.order, order, sizeof order), br_verdict_names[c.verdict],
+           *c.note ? "; " : "", c.note);
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    return found;
+}
+
 /* The orders in h and in k of one grid; the answer and the verdict have to state the same. */
 static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     const struct br_grid g = br_grid_of(class, seed, index);
     struct br_numbers n;
     struct br_orders o;
-    find_grid(&g, false, &n, &o);
+    find(g.rows, g.h, g.k, g.e, false, &n, &o);
     for (int axis = 0; axis < BR_AXES; axis++) {
         struct br_case c;
         const struct br_estimate *order = &o.of[0].answer[axis].order;
@@ -188,14 +192,14 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
     br_numbers_clear(&n);
 }
 
-/* The limit of the values of a grid; width: half of its interval, over the distance from it. */
+/* The limit of the values of a grid, or of a line; width: half of its interval, over the distance from it. */
 static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     double truth;
     const struct br_grid g = br_value_grid_of(class, seed, index, &truth);
     struct br_numbers n;
     struct br_orders o;
-    find_grid(&g, true, &n, &o);
+    find(g.rows, g.h, g.steps > 1 ? g.k : NULL, g.e, true, &n, &o);
     const struct br_estimate *limit = &o.of[0].limit.value;
     const bool claims = isfinite(limit->high - limit->low);
     const bool covers = limit->low <= truth && truth <= limit->high;
@@ -226,6 +230,8 @@ static bool is_good(enum br_error_group group, const struct tally *t)
 {
     const bool hard = group > BR_NOISY_ERRORS, none = group == BR_NO_ORDER;
     const double silent = hard ? 0.03 : 0.02;
+    if (group == BR_MISSED_GOAL)
+        return 2 * t->covers >= t->claims;
     return t->contradicts == 0 && at_most(t->silent, silent, t->lines) &&
            (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
            at_most(t->wrong_pass, 0.002, t->lines) &&
@@ -306,10 +312,11 @@ int main(int arguments, char **argument)
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
         bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
                           try_grid, seed, grids, only, width);
-    printf("# limits of values on grids\n");
+    printf("# %zu limits of values\n", grids);
     for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
         bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
-                          BR_NOISY_ERRORS, i, try_limit, seed, grids, only, width);
+                          br_value_classes[i].mixed > 0 ? BR_MISSED_GOAL : BR_NOISY_ERRORS, i,
+                          try_limit, seed, grids, only, width);
     const size_t last = classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + 1;
     if (!only || strcmp(only, "published") == 0)
         bad += !try_all_published(last);
