@@ -601,7 +601,7 @@ TEST(test_scatter)
                 stated += isfinite(l->value.low);
                 right += l->value.low <= 1 && 1 <= l->value.high;
                 for (size_t i = 0; i < limits.triples; i++)
-                    if (fabs(value[i + 1] - value[i]) <= hypot(half[i], half[i + 1]))
+                    if (fabs(value[i + 2] - value[i + 1]) <= hypot(half[i + 1], half[i + 2]))
                         IS_NAN(limits.triple[i].fine.index);
                 br_limits_clear(&limits);
             }
