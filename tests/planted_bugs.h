@@ -781,6 +781,8 @@ static const struct planted_bug planted_bugs[] = {
     {"triples_from_the_coarsest", "lost", "study/fit/limits.c", "tests/test_orders test_values",
      "br_gci(h + i, value + i, 3, &limits->triple[i], err)",
      "br_gci(h, value, 3, &limits->triple[i], err)"},
+    {"limit_trusts_the_order", "interval", "study/fit/limits.c", "tests/test_grid_convergence test_limit",
+     "fmax(fit.uncertainty, least)", "fit.uncertainty"},
     {"scatter_is_divergence", "lost", "study/fit/limits.c", "tests/test_grid_convergence test_scatter",
      "return squares <= gsl_cdf_chisq_Pinv(0.99, (double)count - 1);",
      "return squares <= gsl_cdf_chisq_Pinv(0.09, (double)count - 1);"},

@@ -534,8 +534,12 @@ TEST(test_limit)
     assert_int_equal(limit.method, BR_LIMIT_LEAST_SQUARES);
     CLOSE(limit.order, fit.order, 0);
     CLOSE(limit.value.value, fit.fit.limit, 0);
-    CLOSE(limit.value.low, 1.03 - fit.uncertainty, 1e-15);
-    CLOSE(limit.value.high, 1.03 + fit.uncertainty, 1e-15);
+    struct br_estimate order;
+    MUST(br_order_of_values(h, value, 4, &order, &err));
+    const double least = 0.09 / (pow(2, order.low) - 1);
+    assert_true(least > fit.uncertainty);
+    CLOSE(limit.value.low, 1.03 - least, 1e-15);
+    CLOSE(limit.value.high, 1.03 + least, 1e-15);
     assert_true(limit.value.low < limit.value.value && limit.value.value < limit.value.high);
 }
 
@@ -561,12 +565,12 @@ static double coverage(size_t count, double finest)
     return (double)right / told;
 }
 
-/* The procedures promise 95 %, which holds only where the first term dominates. */
+/* The interval promises 95 %; of three grids that holds only where the first term dominates. */
 TEST(test_coverage)
 {
     for (size_t count = 3; count < 7; count++) {
         AT_MOST(0.93, coverage(count, 0.01));
-        AT_MOST(0.5, coverage(count, 0.1));
+        AT_MOST(count > 3 ? 0.93 : 0.5, coverage(count, 0.1)); /* of three, Richardson's alone */
     }
 }
 
@@ -576,7 +580,7 @@ TEST(test_coverage)
  * limit is within its interval. Each value is known to +- half. */
 TEST(test_scatter)
 {
-    enum { TRIALS = 1000 };
+    enum { TRIALS = 200 };
     static const double slopes[] = {0, 0.02, 2};
     struct br_test_random random = {20261231};
     for (size_t s = 0; s < 3; s++)
@@ -605,9 +609,9 @@ TEST(test_scatter)
                         IS_NAN(limits.triple[i].fine.index);
                 br_limits_clear(&limits);
             }
-            assert_true(s < 2 ? scatter > 0.98 * TRIALS : scatter < 0.01 * TRIALS);
-            assert_true(diverges < 0.01 * TRIALS && stated > 0.98 * TRIALS);
-            if (!((double)right >= 0.93 * (double)stated))
+            assert_true(s < 2 ? scatter > 0.96 * TRIALS : scatter < 0.02 * TRIALS);
+            assert_true(diverges < 0.02 * TRIALS && stated > 0.96 * TRIALS);
+            if (!((double)right >= 0.91 * (double)stated))
                 fail_msg("%zu values, slope %g: %zu of %zu intervals hold the limit", count,
                          slopes[s], right, stated);
         }

@@ -75,7 +75,7 @@ static enum br_status by_least_order(const double *h, const double *value, size_
     const size_t last = count - 1;
     const enum br_status status = br_order_of_values(h, value, count, &order, err);
     *error = 0;
-    if (!status && br_order_determined(&order) && order.low > least_order)
+    if (!status && order.low > least_order)
         *error = fabs(value[last] - value[last - 1]) / (pow(h[last - 1] / h[last], order.low) - 1);
     return status;
 }

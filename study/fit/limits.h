@@ -19,9 +19,10 @@ struct br_grid_limit {
     enum br_sequence sequence;
 };
 
-/* The limit with its interval: by least squares for four grids or more, by the grid convergence
- * index for three. NaN for divergence, and where a single difference is zero. The limit of a
- * constant sequence is its value, without an interval: the procedures do not apply.
+/* The limit with its interval: by least squares for four grids or more, and at least as wide as the
+ * least order that the differences leave open makes it; by the grid convergence index for three.
+ * NaN for divergence, and where a single difference is zero. The limit of a constant sequence is
+ * its value, without an interval: the procedures do not apply.
  *
  * half[count]: half widths of the 95 % intervals of values that are means; NULL: they are none. The
  * interval is wider by that of the finest value. The sequence is BR_SEQUENCE_SCATTER, and its limit
@@ -29,8 +30,9 @@ struct br_grid_limit {
  * %), or with the finest three of values that do not converge monotonely.
  *
  * count >= 3; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is
- * an estimate, not a bound. For random cubics in h, it contained the limit in 95 to 100 % at h =
- * 0.01, where the linear term dominates, but in 60 to 84 % at h = 0.1, where it does not. */
+ * an estimate, not a bound. For random cubics in h, it contained the limit in 99 to 100 % at h =
+ * 0.01, where the linear term dominates; at h = 0.1, where it does not, in 98 to 99 % of four grids
+ * or more, in 81 % of three. */
 enum br_status br_limit_of_values(const double *h, const double *value, const double *half,
                                   size_t count, double formal, struct br_grid_limit *limit,
                                   struct br_error *err);

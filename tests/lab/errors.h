@@ -23,7 +23,6 @@ enum br_error_group {
     BR_NOISY_ERRORS,
     BR_HARD_ERRORS,
     BR_NO_ORDER,
-    BR_MISSED_GOAL, /* docs/observed-orders.md names it, as measured */
 };
 
 /* Classes of lines; const records, the last one without a name. */
