@@ -580,7 +580,7 @@ TEST(test_coverage)
  * limit is within its interval. Each value is known to +- half. */
 TEST(test_scatter)
 {
-    enum { TRIALS = 200 };
+    enum { TRIALS = 100 };
     static const double slopes[] = {0, 0.02, 2};
     struct br_test_random random = {20261231};
     for (size_t s = 0; s < 3; s++)
