@@ -74,8 +74,8 @@ def check_frame(frame):
     assert [q.name for q in found.quantities] == ["L2", "H1"], found.quantities
     assert repr(found).startswith("L2: order in h 2.000"), repr(found)
     assert "left aside: rate" in repr(found)
-    close(found["L2"].order.value, 2)
-    close(found["H1"].h.value, 1)
+    close(found["L2"].order.value, 2, 1e-4)
+    close(found["H1"].h.value, 1, 1e-4)  # numbers of few digits
     assert found["L2"].k is None and found["L2"].h.open == ""
     close(found["L2"].rates[1], 2)
     assert math.isnan(found["L2"].rates[0])
@@ -83,7 +83,7 @@ def check_frame(frame):
     again = br.orders(frame.set_index("N"))  # a name of the index is a heading
     assert repr(again) == repr(found)
     found.assert_order(2, quantity="L2")
-    refused("H1: FAIL: the order, 1.0000", lambda: found.assert_order(2), AssertionError)
+    refused("H1: FAIL: the order, 1.000 [", lambda: found.assert_order(2), AssertionError)
     refused("expected one of ['L2', 'H1']", lambda: found["l2"])
     refused("expected columns of", lambda: br.orders(frame, h="dx"))
 
@@ -202,7 +202,7 @@ COLUMNS = {"N": N, "L2": 3.0 / N ** 2, "H1": 2.0 / N, "rate": np.full(5, np.nan)
 if "pandas" in sys.argv:
     import pandas
     check_frame(pandas.DataFrame(COLUMNS))
-    close(br.orders(pandas.Series(1.0 / N, name="e"), n=N)["e"].order.value, 1)
+    close(br.orders(pandas.Series(1.0 / N, name="e"), n=N)["e"].order.value, 1, 1e-4)
 elif "matplotlib" in sys.argv:
     import matplotlib
     matplotlib.use("Agg")
