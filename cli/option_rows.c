@@ -62,8 +62,8 @@ static const struct br_option rows[] = {
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more = "May be given several times. last:REGEX takes the last match of many. stderr: before "
-             "it reads standard error, file:PATH: a file that the run writes, as out_{n}.txt. The NAME h, n, dofs, "
-             "cells, level, k, dt or steps is that of a resolution, which the run itself states.",
+             "it reads standard error, file:PATH: a file that the run writes, as out_{n}.txt. The "
+             "NAME h, n, dofs, cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
     {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",
      "1", BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,

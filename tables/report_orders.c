@@ -170,7 +170,8 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    const struct br_estimate *limit = &line->limits.limit.value, *other = &line->limits.first_order.value;
+    const struct br_estimate *limit = &line->limits.limit.value,
+                             *other = &line->limits.first_order.value;
     char text[128];
     if (!quantity_of(o, of)->is_value || of->lines != 1)
         return;
@@ -404,8 +405,8 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     for (size_t i = 0; i < o->numbers->rows; i++)
         kept += o->numbers->row[i].kept;
     if (kept) /* their numbers are those of the program at that time */
-        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.",
-                      kept, o->numbers->rows);
+        br_put_answer(d, "%zu of %zu runs are from an earlier start, and were not run again.", kept,
+                      o->numbers->rows);
 
     static const struct br_column orders_columns[] = {
         {.key = "quantity"},
@@ -491,13 +492,12 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
                        br_text(br_axis_letters[line->axis]), br_text(line->at),
                        br_text(br_sequence_text(limit->sequence)));
             put_limit(d, limit);
-            BR_PUT_CELLS(d, br_number(g->order), br_number(g->fine.index),
-                         br_number(g->coarse.index), br_number(g->asymptotic),
-                         br_number(g->fine.ratio), br_number(g->coarse.ratio),
-                         br_number(g->fine.limit), br_number(g->fine.relative),
-                         br_number(g->fine.relative_extrapolated),
-                         br_text(br_sequence_text(g->sequence)),
-                         br_number(br_gci_limited(g, o->formal)));
+            BR_PUT_CELLS(
+                d, br_number(g->order), br_number(g->fine.index), br_number(g->coarse.index),
+                br_number(g->asymptotic), br_number(g->fine.ratio), br_number(g->coarse.ratio),
+                br_number(g->fine.limit), br_number(g->fine.relative),
+                br_number(g->fine.relative_extrapolated), br_text(br_sequence_text(g->sequence)),
+                br_number(br_gci_limited(g, o->formal)));
         }
     for (size_t i = 0; i < o->count; i++) /* one line has its limit above */
         if (quantity_of(o, &o->of[i])->is_value && o->of[i].lines > 1) {

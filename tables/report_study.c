@@ -278,8 +278,8 @@ static void put_fits(struct br_document *d, const struct br_report *r)
         BR_PUT(d, br_count(j->points), .key = "points", .heading = "cells");
         br_hide(d, "degrees_of_freedom", NULL, br_count(j->freedom));
         BR_PUT(d, br_truth(j->converged), .key = "converged", .flags = BR_FILES_ONLY);
-        BR_PUT(d, br_truth(claims), .key = "describes_the_errors",
-               .heading = "usable", .flags = BR_FILES_ONLY);
+        BR_PUT(d, br_truth(claims), .key = "describes_the_errors", .heading = "usable",
+               .flags = BR_FILES_ONLY);
         br_hide(d, "reference_error", r->study->norm->unit,
                 br_number(r->fits[part].reference_error));
     }

@@ -65,19 +65,21 @@ static double carried(const double *h, const double *value, const double *half, 
     return sqrt(squares);
 }
 
-/* The error of the finest value, from its difference to the one before, by the least order that the
- * differences leave open: with a higher power beside, the order that fits them is too high. 0: they
- * show none. */
-static enum br_status by_least_order(const double *h, const double *value, size_t count,
-                                     double *error, struct br_error *err)
+/* Widens the uncertainty to the error of the finest value that its difference to the one before
+ * leaves open, by the least order of the differences: with a higher power beside, the order that
+ * fits them is too high. */
+static enum br_status widen(const double *h, const double *value, size_t count, double *uncertainty,
+                            struct br_error *err)
 {
     struct br_estimate order;
     const size_t last = count - 1;
-    const enum br_status status = br_order_of_values(h, value, count, &order, err);
-    *error = 0;
-    if (!status && order.low > least_order)
-        *error = fabs(value[last] - value[last - 1]) / (pow(h[last - 1] / h[last], order.low) - 1);
-    return status;
+    if (br_order_of_values(h, value, count, &order, err))
+        return err->status;
+    const double error =
+        fabs(value[last] - value[last - 1]) / (pow(h[last - 1] / h[last], order.low) - 1);
+    if (order.low > least_order && error > *uncertainty)
+        *uncertainty = error;
+    return BR_OK;
 }
 
 enum br_status br_limit_of_values(const double *h, const double *value, const double *half,
@@ -86,17 +88,16 @@ enum br_status br_limit_of_values(const double *h, const double *value, const do
 {
     struct br_least_squares fit;
     struct br_gci gci;
-    double uncertainty, least;
+    double uncertainty;
     *limit = (struct br_grid_limit){.value = unknown, .order = NAN};
     if (count > 3) {
         if (br_least_squares(h, value, count, formal, &fit, err))
             return err->status;
         *limit = (struct br_grid_limit){
             {fit.fit.limit, NAN, NAN}, fit.order, BR_LIMIT_LEAST_SQUARES, fit.sequence};
-        if (fit.sequence == BR_MONOTONE_CONVERGENCE && by_least_order(h, value, count, &least, err))
+        uncertainty = fit.uncertainty;
+        if (fit.sequence == BR_MONOTONE_CONVERGENCE && widen(h, value, count, &uncertainty, err))
             return err->status;
-        uncertainty = fit.sequence == BR_MONOTONE_CONVERGENCE ? fmax(fit.uncertainty, least)
-                                                              : fit.uncertainty;
     } else {
         if (br_check_formal(formal, err) || br_gci(h, value, count, &gci, err))
             return err->status;

@@ -5,9 +5,10 @@
  * distribution, and the rows have the evidence
  *     prior Gamma(f/2) (pi S)^(-f/2) (sum w)^(-1/2) Sxx^(-1/2),   f = rows - 2,
  * with S the sum of squares that is left. A law with a curve, a second term of either sign, has one
- * more column in the regression, f = rows - 3, and its share of (sum w) Sxx (Hoeting et al. 1999; Bernardo and Smith, Bayesian Theory,
- * 1994, 5.2). A row outside the window has the density of a number that nothing explains. The order
- * is the mixture of all these distributions. */
+ * more column in the regression, f = rows - 3, and its share of (sum w) Sxx (Hoeting et al. 1999;
+ * Bernardo and Smith, Bayesian Theory, 1994, 5.2). The variance of rounded numbers is known: it is
+ * added to S, and to the width of the order. A row outside the window has the density of a number
+ * that nothing explains. The order is the mixture of all these distributions. */
 #include "study/fit/line_order.h"
 
 #include <gsl/gsl_sf_gamma.h>

@@ -66,8 +66,8 @@ double br_order_rate(const struct br_order_point *coarse, const struct br_order_
 
 /* The same of errors that are means, or rounded; each array may be NULL. scatter[i] is the standard
  * deviation of error i over the error: errors weigh by their scatter, if all have one above 0.
- * rounding[i] is half a unit of the last printed digit over the error: no law describes a line better
- * than its digits do, and the interval holds what they leave open. */
+ * rounding[i] is half a unit of the last printed digit over the error: no law describes a line
+ * better than its digits do, and the interval holds what they leave open. */
 enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
                                       const double *rounding, size_t count,
                                       struct br_line_order *found, struct br_error *err);

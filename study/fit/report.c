@@ -378,7 +378,8 @@ static enum br_status see_in_k(const struct br_report *r, enum br_part part,
     if (status || !r->apart[BR_AXIS_TIME] || br_seen_settles(o))
         return status;
     status = see_apart(r->apart[BR_AXIS_TIME], part, BR_AXIS_TIME, &apart, err);
-    if (isnan(o->order.value) || br_seen_settles(&apart) || width_of(&apart.order) < width_of(&o->order))
+    if (isnan(o->order.value) || br_seen_settles(&apart) ||
+        width_of(&apart.order) < width_of(&o->order))
         *o = apart;
     if (!agrees(o) && !r->printed) { /* a printed grid is as it is */
         const size_t finest = 16 * s->steps[s->k_count - 1];

@@ -135,12 +135,16 @@ static double half_width(const struct br_numbers_row *row, size_t quantity)
 static enum br_status find_limits(const struct br_orders *o, size_t quantity, size_t rows,
                                   struct br_orders_line *line, struct br_error *err)
 {
-    double *h = br_allocate(3 * rows, sizeof *h), *value = h + rows, *half = value + rows;
+    double *h = br_allocate(3 * rows, sizeof *h);
     double *given = line->finest_of = br_allocate(rows, sizeof *given);
     size_t count = 0;
     bool means = false;
-    enum br_status status = h && given ? BR_OK : br_no_memory(err, "the limits");
-    for (size_t i = 0; i < rows && !status; i++) {
+    if (!h || !given) {
+        free(h);
+        return br_no_memory(err, "the limits");
+    }
+    double *value = h + rows, *half = value + rows;
+    for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (isnan(row->number[quantity]) || row->failure)
             continue;
@@ -150,9 +154,9 @@ static enum br_status find_limits(const struct br_orders *o, size_t quantity, si
         given[count >= 2 ? count - 2 : 0] = row->given[line->axis];
         value[count++] = row->number[quantity];
     }
-    if (!status)
-        status = br_limits_find(h, value, means ? half : NULL, count,
-                                o->assumed_formal ? 0 : o->formal, &line->limits, err);
+    const enum br_status status =
+        br_limits_find(h, value, means ? half : NULL, count, o->assumed_formal ? 0 : o->formal,
+                       &line->limits, err);
     free(h);
     return status;
 }

@@ -128,7 +128,7 @@ static int digits_of(double number, int *decimals)
 }
 
 /* A program prints a column to the same decimals (0.0100), or to the same digits (1.00e-02), and
- * zeros at the end may be lost. Of both, the one that has lost less zeros is believed. */
+ * zeros at the end may be lost. Of both, the one that has lost fewer zeros is believed. */
 static void find_digits(struct br_numbers *numbers, size_t quantity)
 {
     struct br_quantity *q = &numbers->quantity[quantity];

@@ -158,8 +158,8 @@ static enum br_status find_program(const char *here, const char *name, char **pr
     const bool here_too = *program && stat(*program, &info) == 0 && S_ISREG(info.st_mode);
     return br_fail(err, BR_BAD_INPUT, "'%s' is no program%s",
                    br_quoted(shown, sizeof shown, &br_for_text, name),
-                   !direct    ? here_too ? ", no folder of PATH has it; a file here needs ./ before it"
-                                         : ", no folder of PATH has it"
+                   !direct ? here_too ? ", no folder of PATH has it; a file here needs ./ before it"
+                                      : ", no folder of PATH has it"
                    : here_too ? ": it is not executable; chmod +x makes it so"
                               : "");
 }

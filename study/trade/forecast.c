@@ -80,6 +80,11 @@ void br_trials_forget_judge(const struct br_trial_request *r, void *self)
         br_trials_judge(r)->free(self);
 }
 
+static bool on_one_mesh(const struct br_trial *a, const struct br_trial *b)
+{
+    return a->at.n == b->at.n && a->named->method.axial_degree == b->named->method.axial_degree;
+}
+
 /* Seconds of the judge for trial i: levels on a mesh that no trial before it has and, if the judge
  * marches for each mesh, its march. */
 static double judged(const struct br_trial_request *r, const struct br_trial *trial, size_t i)
@@ -96,8 +101,7 @@ static double judged(const struct br_trial_request *r, const struct br_trial *tr
                          .steps = &at->steps};
     bool mesh = true, levels = true;
     for (size_t j = 0; j < i; j++)
-        if (trial[j].end != BR_TRIAL_LEFT && trial[j].at.n == at->n &&
-            trial[j].named->method.axial_degree == trial[i].named->method.axial_degree) {
+        if (trial[j].end != BR_TRIAL_LEFT && on_one_mesh(&trial[j], &trial[i])) {
             mesh = false;
             levels = levels && trial[j].at.steps != at->steps;
         }
@@ -132,37 +136,58 @@ struct forecasting {
     double *march; /* s, without the judge */
 };
 
-/* Adds up the trials that are not left out. */
-static void add_up(const struct forecasting *f, struct br_trial *trial, size_t count,
-                   struct br_trial_forecast *forecast)
+static void foresee(const struct forecasting *f, struct br_trial *trial, size_t i)
 {
-    forecast->seconds = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (trial[i].end == BR_TRIAL_LEFT)
+    trial[i].foreseen =
+        f->march[i] + judged(f->request, trial, i) / br_threads(f->request->threads);
+}
+
+static double sum_of(const struct br_trial *trial, size_t count)
+{
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += trial[i].end == BR_TRIAL_LEFT ? 0 : trial[i].foreseen;
+    return sum;
+}
+
+/* Leaves out a trial; returns the seconds that this saves. What the judge did for it passes on to
+ * the next trial on its mesh, and to the next one of its levels. */
+static double leave(const struct forecasting *f, struct br_trial *trial, size_t count, size_t left)
+{
+    double saved = trial[left].foreseen;
+    bool mesh = false, levels = false;
+    trial[left].end = BR_TRIAL_LEFT;
+    for (size_t i = left + 1; i < count && !levels; i++) {
+        const bool same = trial[i].at.steps == trial[left].at.steps;
+        if (trial[i].end == BR_TRIAL_LEFT || !on_one_mesh(&trial[i], &trial[left]) ||
+            (mesh && !same))
             continue;
-        trial[i].foreseen =
-            f->march[i] + judged(f->request, trial, i) / br_threads(f->request->threads);
-        forecast->seconds += trial[i].foreseen;
+        mesh = true;
+        levels = same;
+        saved += trial[i].foreseen;
+        foresee(f, trial, i);
+        saved -= trial[i].foreseen;
     }
+    return saved;
 }
 
 /* Leaves out the dearest trials until the others take no longer than allowed; one always remains.
- * What the judge does for a trial that is left out, another one may need. */
+ */
 static void leave_out(const struct forecasting *f, struct br_trial *trial, size_t count,
                       struct br_trial_forecast *forecast)
 {
     const double all = forecast->seconds;
     while (forecast->planned > 1 && forecast->seconds > f->request->seconds) {
-        struct br_trial *dearest = NULL;
+        size_t dearest = count;
         for (size_t i = 0; i < count; i++)
             if (trial[i].end != BR_TRIAL_LEFT &&
-                (!dearest || trial[i].foreseen > dearest->foreseen))
-                dearest = &trial[i];
-        dearest->end = BR_TRIAL_LEFT;
+                (dearest == count || trial[i].foreseen > trial[dearest].foreseen))
+                dearest = i;
+        forecast->seconds -= leave(f, trial, count, dearest);
         forecast->planned--;
         forecast->left++;
-        add_up(f, trial, count, forecast);
     }
+    forecast->seconds = sum_of(trial, count); /* without the round-off of differences */
     forecast->left_seconds = all - forecast->seconds;
 }
 
@@ -179,8 +204,9 @@ enum br_status br_trials_foresee(struct br_trial *trial, size_t count,
         status = find_pace(r, trial, i, pace, err);
         f.march[i] = marches(r, &trial[i], pace[i]);
     }
-    if (!status)
-        add_up(&f, trial, count, forecast);
+    for (size_t i = 0; i < count && !status; i++)
+        foresee(&f, trial, i);
+    forecast->seconds = status ? 0 : sum_of(trial, count);
     if (!status && r->seconds > 0)
         leave_out(&f, trial, count, forecast);
     free(pace);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "solver/scene.h"
 #include "study/verify/check.h"
+
+#include "solver/scene.h"
 #include "study/grid/sweep.h"
 
 #include <math.h>

@@ -78,13 +78,13 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
     struct br_order_point *all = br_allocate(c->points, sizeof *all);
     double *scatter = br_allocate(2 * c->points, sizeof *scatter);
-    double *rounding = scatter + c->points;
     struct br_line_order found;
     if (!all || !scatter) {
         free(all);
         free(scatter);
         return br_no_memory(err, "the verdict");
     }
+    double *rounding = scatter + c->points;
     for (size_t i = 0; i < c->points; i++) {
         const struct br_point *p = &c->point[i];
         all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};

@@ -199,8 +199,7 @@ static enum br_status read_expectation(struct study_part *b, const char *what,
     char text[BR_SUGGESTION];
     if (!parse_what(what, &e))
         return br_scene_refuse(b->r, line, what, "unknown key in verify %s, expected %s%s",
-                               br_verify_names[b->kind], expected_study(b),
-                               suggestion(what, text));
+                               br_verify_names[b->kind], expected_study(b), suggestion(what, text));
     if (!parse_expectation(br_yaml_text(node), &e))
         return br_scene_refuse(
             b->r, line, what,
