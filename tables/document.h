@@ -197,7 +197,9 @@ struct br_document {
     struct br_provenance provenance;
     size_t longest; /* bytes of its longest text */
     /* for building */
-    struct br_document_memory *memory;
+    struct br_store store;
+    char *piece; /* of the store; `left` bytes are free */
+    size_t left;
     struct br_document_cell *last; /* the last one that was put */
     const char **open;             /* the text that br_put_more extends; NULL: none */
     size_t next;                   /* column */
