@@ -9,7 +9,7 @@
 
 #include "tables/markup.h"
 
-const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
+const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR"};
 
 const struct br_document_format *const br_document_formats[] = {&br_document_text,
                                                                 &br_document_csv,
