@@ -138,6 +138,9 @@ void br_series_sort(struct br_series *series);
 void br_mark_add(struct br_figure *figure, double x, const char *title);
 void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 
+/* Puts an order into an ascending list of `count`, unless the list has it; returns the new count. */
+size_t br_slope_put(double *order, size_t count, double new);
+
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);
 
