@@ -74,6 +74,10 @@ struct br_study {
 
 void br_study_clear(struct br_study *study);
 
+/* Checks the grid, sets the reference's time levels where it has none, and makes the cells, in all
+ * norms. Fails with BR_BAD_INPUT, naming the nearest values that would do, or BR_NO_MEMORY. */
+enum br_status br_study_prepare(struct br_study *study, struct br_error *err);
+
 /* How many cells a study has. */
 size_t br_study_cells(const struct br_study *study);
 
