@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a march has come to: its tip, its fields, its costs, and whether their numbers are in range. */
+/* What a march has come to: its tip, its fields, its costs, and whether their numbers are in range.
+ */
 #include <float.h>
 #include <math.h>
 #include <string.h>

@@ -1056,7 +1056,7 @@ static const struct planted_bug planted_bugs[] = {
      "unit->of.second += power * by->of.second;", "unit->of.second += by->of.second;"},
     {"factor_of_the_unit_forgotten", "units", "study/scene/units.c", "tests/test_two_ways",
      "q->wide = strtold(moved, NULL) * factor;", "q->wide = strtold(moved, NULL);"},
-    {"unit_of_an_expression_forgotten", "units", "study/scene/value.c", "tests/test_two_ways",
+    {"unit_of_an_expression_forgotten", "units", "study/scene/expressions.c", "tests/test_two_ways",
      "return parse_expression(v, applied, out);", "return parse_expression(v, text, out);"},
     {"section_bends_across_its_width", "index", "study/scene/value.c", "tests/test_two_ways",
      "area * b * b / 12", "area * a * a / 12"},

@@ -9,9 +9,9 @@
 
 const char *br_flag_name(enum br_flag flag)
 {
-    static const char *const names[BR_CELL_FLAGS] = {"",       "reference", "round-off",
-                                                     "failed", "unstable",  "stagnation",
-                                                     "not asymptotic", "outlier"};
+    static const char *const names[BR_CELL_FLAGS] = {
+        "",         "reference",  "round-off",      "failed",
+        "unstable", "stagnation", "not asymptotic", "outlier"};
     return names[flag];
 }
 

@@ -23,9 +23,8 @@ enum br_flag {
     BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
     BR_CELL_FLAGS
 };
-const char *br_flag_name(
-    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation",
-                      "not asymptotic", "outlier" */
+const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable",
+                                           "stagnation", "not asymptotic", "outlier" */
 
 struct br_cell {
     struct br_resolution at;
