@@ -8,6 +8,8 @@
 
 enum { BR_MOST_EXAMPLES = 8, BR_MOST_WORDS = 1 << 20 };
 
+struct br_vary_command;
+
 struct br_command {
     unsigned bit; /* its bit in br_option.commands */
     const char *name;
@@ -21,6 +23,7 @@ struct br_command {
     bool or_scenes;                 /* or scenes; `run` reads which is which */
     /* The options are parsed. On failure err says why. */
     enum br_status (*run)(const struct br_options *options, struct br_error *err);
+    const struct br_vary_command *vary; /* with --vary; NULL: it does not take that option */
 };
 
 /* NULL-terminated, in the order of the help text. */

@@ -7,6 +7,7 @@
 #include "cli/extremes_experiment.h"
 #include "cli/progress.h"
 #include "cli/session.h"
+#include "cli/study_request.h"
 #include "study/base/words.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
@@ -147,8 +148,9 @@ static enum br_status open_scenes(struct run *r, struct part *p, struct br_error
             return err->status;
         p->scene[p->scenes] = &opened->scene;
     }
+    const struct br_asked_steps steps = br_asked_steps(r->session.options);
     return p->scenes
-               ? br_option_steps(r->session.options, p->scene[0], &p->steps, &p->step_count, err)
+               ? br_asked_steps_make(&steps, p->scene[0], &p->steps, &p->step_count, err)
                : BR_OK;
 }
 

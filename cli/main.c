@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
+#include "cli/vary.h"
 #include "plots/pictures.h"
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -79,7 +80,9 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!status && br_option_given(&options, BR_OPT_HELP))
         br_print_command_help(stdout, command);
     else if (!status)
-        status = command->run(&options, err);
+        status = br_option_given(&options, BR_OPT_VARY)
+                     ? br_vary_run(&options, command->vary, err)
+                     : command->run(&options, err);
     br_options_clear(&options);
     return status;
 }

@@ -304,10 +304,12 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 }
 
 /* With --vary, options for one march alone are refused. */
-static enum br_status check_swept(const struct br_options *o, struct br_error *err)
+static enum br_status read_swept(const struct br_options *o, const void **request,
+                                 struct br_error *err)
 {
     static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
     const char *name = br_first_given(o, single);
+    *request = o;
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: --vary does not use it, since it is for one march; --out has the "
                           "results at all values",
@@ -320,7 +322,7 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
     struct br_run_plan *p = self;
     v->column = name_columns();
     const bool failed =
-        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->session.options, err);
+        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->request, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -367,6 +369,7 @@ static const struct br_vary_command varied = {
     .size = sizeof(struct br_run_plan),
     .columns = SWEPT,
     .alone = true,
+    .read = read_swept,
     .prepare = prepare_value,
     .foresee = foresee_value,
     .march = march_value,
@@ -381,8 +384,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     const double start = br_seconds();
     if (!br_ranks_first())
         return BR_OK; /* one rank does a single march */
-    if (br_option_given(options, BR_OPT_VARY))
-        return check_swept(options, err) ? err->status : br_vary_run(options, &varied, err);
     r = (struct run){.session = br_session_begin(options),
                      .out = br_option_text(options, BR_OPT_OUT),
                      .json = br_option_text(options, BR_OPT_JSON)};
@@ -411,4 +412,5 @@ const struct br_command br_command_run = {
     .least_words = 1,
     .most_words = 1,
     .run = run,
+    .vary = &varied,
 };

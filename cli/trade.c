@@ -81,7 +81,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     size_t steps = 0;
     if (read_printed(item, err) || set_request(r, item, err))
         return err->status;
-    if (br_option_steps(o, scene, &item->steps, &steps, err))
+    if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
     if (r->study.methods.count)
         item->trade.methods = r->study.methods;
@@ -281,7 +281,7 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
         (r->study.methods.count == 0 && /* default: the first scheme */
          br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
-        br_option_steps(o, &r->item->opened.scene, &r->item->steps, &steps, err))
+        br_asked_steps_make(&r->study.steps, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
         br_allocate(methods->count * meshes * (steps + 1) * (o->count[BR_OPT_TOLERANCES] + 1),

@@ -5,6 +5,7 @@
 
 #include "cli/progress.h"
 #include "plots/pictures.h"
+#include "study/ranks/ranks.h"
 #include "tables/reports.h"
 
 enum br_status br_vary_scene(const struct br_vary *v, size_t i, struct br_opened_scene *s,
@@ -88,9 +89,11 @@ static enum br_status write_all(struct br_vary *v, struct br_error *err)
 enum br_status br_vary_run(const struct br_options *options, const struct br_vary_command *c,
                            struct br_error *err)
 {
+    if (c->alone && !br_ranks_first())
+        return BR_OK; /* one rank does single marches */
     struct br_vary v = {.session = br_session_begin(options)};
     void *points = NULL;
-    bool failed = prepare(&v, c, &points, err);
+    bool failed = c->read(options, &v.request, err) || prepare(&v, c, &points, err);
     if (!failed) {
         announce(&v, c, points);
         failed = march(&v, c, points, err) || (v.session.writes && write_all(&v, err));

@@ -9,6 +9,7 @@
 
 struct br_vary {
     struct br_session session;
+    const void *request; /* what `read` has read */
     struct br_opened_scene base;
     struct br_varied varied;
     size_t points;                            /* number of values that are prepared */
@@ -22,6 +23,10 @@ struct br_vary_command {
     size_t size;        /* of a point */
     size_t columns;
     bool alone; /* as in struct br_foreseen */
+    /* Reads what is asked of all values alike, and refuses options that are for one value alone.
+     * *request (out): static, or the options. */
+    enum br_status (*read)(const struct br_options *options, const void **request,
+                           struct br_error *err);
     /* Checks everything that can be refused before the march, and names the columns. */
     enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
     void (*foresee)(void *point, struct br_foreseen *work);
