@@ -1081,7 +1081,7 @@ static const struct planted_bug planted_bugs[] = {
      "tests=\\\"%zu\\\" failures=\\\"%zu\\\" errors",
      "tests=\\\"%zu\\\" errors=\\\"%zu\\\" failures"},
     {"old_order_is_its_low_end", "index", "tables/check_read.c", "tests/test_report_values",
-     "order = json_object_get(order, \"value\");", "order = json_object_get(order, \"low\");"},
+     "json_object_get(o, \"order\")", "json_object_get(o, \"low\")"},
     {"trade_columns_exchanged", "printed", "tables/report_trade.c", "golden trade",
      "\"axial\", unit, br_number(error[BR_PART_AXIAL])",
      "\"axial\", unit, br_number(error[BR_PART_BENDING])"},
