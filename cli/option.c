@@ -278,11 +278,3 @@ double br_option_number(const struct br_options *o, enum br_option_id id, double
 {
     return o->count[id] ? o->number[id][0] : otherwise;
 }
-
-bool br_format_wanted(const struct br_options *o, const char *name)
-{
-    for (size_t i = 0; i < o->count[BR_OPT_FORMAT]; i++)
-        if (strcmp(br_format_words.name((size_t)o->number[BR_OPT_FORMAT][i]), name) == 0)
-            return true;
-    return !o->count[BR_OPT_FORMAT];
-}

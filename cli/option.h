@@ -156,9 +156,6 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id);
 /* The number, or the row; `otherwise` where there is none. */
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise);
 
-/* Whether a format is to be written: --format names it, or is not given. */
-bool br_format_wanted(const struct br_options *o, const char *name);
-
 /* ---- times: "0.1", "0.1 s", "T/20" ---- */
 
 /* Reads a time, s, at the start of text; duration: of the scene, s. Returns the text that follows,

@@ -28,39 +28,40 @@ static enum br_status write_all(struct br_studies *r, struct br_error *err)
 }
 
 /* A failed cell fails the run, after everything has been written. */
-static enum br_status run_jobs(const struct br_options *options, const struct br_study_job *job,
-                               size_t jobs, bool with_exact, struct br_error *err)
+static enum br_status run_jobs(const struct br_study_request *request, struct br_session *session,
+                               const struct br_study_job *job, size_t jobs, bool with_exact,
+                               struct br_error *err)
 {
-    struct br_study_request request;
-    if (br_study_request_read(options, &request, err))
-        return err->status;
-    struct br_session session = br_session_begin(options);
-    struct br_studies r = {&request, &session, "marching", .jobs = jobs};
-    const bool writes = session.writes;
+    struct br_studies r = {request, session, "marching", .jobs = jobs};
+    const bool writes = session->writes;
     struct br_foreseen work = {.together = true};
     bool failed = br_studies_prepare(&r, job, with_exact, err);
     if (!failed) {
         br_studies_foresee(&r, &work);
-        br_session_announce(&session, &work);
-        failed = br_studies_check_memory(&r, err) || br_session_open(&session, err) ||
+        br_session_announce(session, &work);
+        failed = br_studies_check_memory(&r, err) || br_session_open(session, err) ||
                  br_studies_keep(&r, err) || (writes && br_warn_of_studies(r.study, jobs, err)) ||
                  br_studies_compute(&r, false, err) || (writes && write_all(&r, err)) ||
                  br_studies_check_cells(&r, err);
     }
     br_studies_clear(&r);
-    br_session_close(&session);
     return failed ? err->status : BR_OK;
 }
 
 /* ---- the commands ---- */
 
-static enum br_status run_study(const struct br_options *options, struct br_error *err)
+static enum br_status run_study(const struct br_options *options, struct br_session *session,
+                                struct br_error *err)
 {
     const struct br_study_job job = {.scene = options->word[0]};
-    return run_jobs(options, &job, 1, false, err);
+    struct br_study_request request;
+    return br_study_request_read(options, &request, err)
+               ? err->status
+               : run_jobs(&request, session, &job, 1, false, err);
 }
 
-static enum br_status run_tables(const struct br_options *options, struct br_error *err)
+static enum br_status run_tables(const struct br_options *options, struct br_session *session,
+                                 struct br_error *err)
 {
     static const struct br_study_job printed[] = {
         {.name = "table1",
@@ -72,7 +73,10 @@ static enum br_status run_tables(const struct br_options *options, struct br_err
          .printed = "reference/printed/table2.csv",
          .caption = "Table 2: Example 2, slip"},
     };
-    return run_jobs(options, printed, sizeof printed / sizeof *printed, true, err);
+    struct br_study_request request;
+    return br_study_request_read(options, &request, err)
+               ? err->status
+               : run_jobs(&request, session, printed, sizeof printed / sizeof *printed, true, err);
 }
 
 const struct br_command br_command_study = {

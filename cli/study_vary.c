@@ -76,7 +76,7 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
 {
     struct br_studies *r = self;
     const struct br_study_job job = {.vary = v, .value = i};
-    *r = (struct br_studies){v->request, &v->session, .jobs = 1};
+    *r = (struct br_studies){v->request, v->session, .jobs = 1};
     if (br_studies_prepare(r, &job, false, err) || br_studies_check_memory(r, err))
         return err->status;
     v->column = name_columns(r->request->norm[0]);
@@ -97,7 +97,7 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     r->what = what;
     if (br_studies_keep(r, err))
         return err->status;
-    if ((v->session.writes && br_warn_of_studies(&named, 1, failure)) ||
+    if ((v->session->writes && br_warn_of_studies(&named, 1, failure)) ||
         br_studies_compute(r, true, failure))
         return BR_OK;
     take_point(r, &v->found, i);

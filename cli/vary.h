@@ -8,8 +8,8 @@
 #include "study/scene/vary.h"
 
 struct br_vary {
-    struct br_session session;
-    const void *request; /* what `read` has read */
+    struct br_session *session; /* borrowed */
+    const void *request;        /* what `read` has read */
     struct br_opened_scene base;
     struct br_varied varied;
     size_t points;                            /* number of values that are prepared */
@@ -44,7 +44,7 @@ enum br_status br_vary_scene(const struct br_vary *vary, size_t i, struct br_ope
 
 /* Fails as br_session_finish, and, after all is written, with BR_NOT_FINITE if values have failed.
  */
-enum br_status br_vary_run(const struct br_options *options, const struct br_vary_command *command,
-                           struct br_error *err);
+enum br_status br_vary_run(const struct br_options *options, struct br_session *session,
+                           const struct br_vary_command *command, struct br_error *err);
 
 #endif
