@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "solver/scene.h"
 #include "study/extremes/extremes.h"
@@ -42,14 +44,18 @@ static void put_gathered_grid(struct br_document *d, const struct br_floors *f)
                  BR_FOR_PEOPLE);
     for (size_t i = 0; i < f->floors; i++) {
         const struct br_floor *floor = &f->floor[i];
-        char heading[32];
+        char key[32], heading[32];
         if (i % f->k_count == 0) {
             br_put_row(d);
             BR_PUT(d, br_text(floor->scene->name), .key = "scene");
             BR_PUT(d, br_text(floor->by->name), .key = "method");
         }
+        snprintf(key, sizeof key, "N%zu", floor->of); /* numbers may differ in later digits */
         snprintf(heading, sizeof heading, "N = %.3g", (double)floor->of);
-        BR_PUT(d, br_number(br_floor_deviation(floor)), .heading = heading, .format = "%.1e");
+        if (strtod(heading + strlen("N = "), NULL) != (double)floor->of)
+            snprintf(heading, sizeof heading, "N = %zu", floor->of);
+        BR_PUT(d, br_number(br_floor_deviation(floor)), .key = key, .heading = heading,
+               .format = "%.1e");
         if (floor->refused.status)
             br_put_shown(d, "refused");
     }
