@@ -45,8 +45,8 @@ size_t br_instruction_set_find(const char *name);
 #define BR_SANITIZED 1
 #endif
 
-#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED && \
-    !defined BR_NO_FMA && !defined BR_LONG
+#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED && !defined BR_NO_FMA && \
+    !defined BR_LONG
 #define BR_SWEEP __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else
 #define BR_SWEEP

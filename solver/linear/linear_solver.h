@@ -133,8 +133,8 @@ double br_cost_by_elements(const struct br_linear_solver *row, const struct br_f
 
 extern const struct br_linear_solver br_auto, br_riccati, br_plain, br_umfpack;
 
-/* The solver `plain` in long double: the same recursions with 64 bits in place of 53, and a row that
- * is in no registry. A march by it loses only the rounding of loads and tip forces, which are
+/* The solver `plain` in long double: the same recursions with 64 bits in place of 53, and a row
+ * that is in no registry. A march by it loses only the rounding of loads and tip forces, which are
  * doubles, so the difference of another march from it is that march's round-off. Whether the
  * equations are right is checked by judges that share nothing with the solver.
  *

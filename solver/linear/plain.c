@@ -114,10 +114,6 @@ static void size_of(void *self, size_t which, double size[2])
     }
 }
 
-#ifdef BR_LONG
-#define br_plain_form long_form
-static
-#endif
 const struct br_field_solver br_plain_form = {
     .create = create,
     .free = br_free_states,

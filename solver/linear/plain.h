@@ -28,10 +28,10 @@
  * the tip's free velocity is known after the backward sweep, the laws find r, and the forward sweep
  * includes it.
  *
- * recursion.c implements this for all kinds of elements, and plain.c the solver, with numbers of the
- * type `real` (states.h): compiled as double for the solver `plain`, and with BR_LONG as long double
- * for what round-off is measured by (br_long_plain), where the names begin with br_long. The state y
- * has d numbers, the control kappa m.
+ * recursion.c implements this for all kinds of elements, and plain.c the solver, with numbers of
+ * the type `real` (states.h): compiled as double for the solver `plain`, and with BR_LONG as long
+ * double for what round-off is measured by (br_long_plain), where the names begin with br_long. The
+ * state y has d numbers, the control kappa m.
  *
  *     rod             d = 1, m = 1    y = u             kappa = the elongation h u_x
  *     quadratic rod   d = 1, m = 2    y = u             kappa = the elongation, and the bubble
@@ -42,9 +42,6 @@
 #ifndef BR_SOLVER_PLAIN_H
 #define BR_SOLVER_PLAIN_H
 
-#include "solver/linear/linear_solver.h"
-#include "solver/linear/states.h"
-
 #ifdef BR_LONG
 #define br_recursion_take br_long_recursion_take
 #define br_recursion_fill br_long_recursion_fill
@@ -53,7 +50,11 @@
 #define br_recursion_tip br_long_recursion_tip
 #define br_recursion_set br_long_recursion_set
 #define br_recursion_get br_long_recursion_get
+#define br_plain_form br_long_plain_form
 #endif
+
+#include "solver/linear/linear_solver.h"
+#include "solver/linear/states.h"
 
 /* A field and its tables. */
 struct br_recursion {

@@ -279,8 +279,8 @@ INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real 
     e[m] = v[0];
 }
 
-/* Both sweeps, with constants d and m. Functions with copies are static, since Clang 14 gives others
- * no name that other files see. */
+/* Both sweeps, with constants d and m. Functions with copies are static, since Clang 14 gives
+ * others no name that other files see. */
 
 BR_SWEEP
 static real predict(struct br_recursion *s, const real *state, const struct br_drive *by)
