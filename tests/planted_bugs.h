@@ -181,8 +181,8 @@ static const struct planted_bug planted_bugs[] = {
      "rec->p = plus(plus(plus(maa, ma), transpose(ma)), aqa);"},
 
     {"bending_tip_starts_at_rest", "start", "solver/linear/recursion.c", "check mms_quadratic",
-     "        memcpy(state + (2 * n + j) * m, nodal[j]",
-     "        if (s->d == 1)\n            memcpy(state + (2 * n + j) * m, nodal[j]"},
+     "        for (size_t a = 0; a < m; a++)\n            state[",
+     "        for (size_t a = 0; a < m && s->d == 1; a++)\n            state["},
 
     /* ---- the flexibility form, axial ---- */
     {"axial_mass_factor", "coefficient", "solver/linear/recursion.c", "check smoothed_coulomb",
@@ -211,8 +211,8 @@ static const struct planted_bug planted_bugs[] = {
      "feedback = (q + m) / s", "feedback = (q - m) / s"},
 
     {"axial_tip_starts_at_rest", "start", "solver/linear/recursion.c", "check mms_pressed",
-     "        memcpy(state + (2 * n + j) * m, nodal[j]",
-     "        if (s->d == 2)\n            memcpy(state + (2 * n + j) * m, nodal[j]"},
+     "        for (size_t a = 0; a < m; a++)\n            state[",
+     "        for (size_t a = 0; a < m && s->d == 2; a++)\n            state["},
 
     /* ---- the flexibility form, quadratic elements ---- */
     {"quadratic_coupling_mass_sign", "sign", "solver/linear/recursion.c", "check mms_quadratic",
@@ -881,10 +881,11 @@ static const struct planted_bug planted_bugs[] = {
     {"nan_is_stable", "nan", "study/extremes/stability.c", "tests/test_stability test_judge",
      "share <= br_stability_most(method) ? BR_STABLE : BR_UNSTABLE;",
      "share > br_stability_most(method) ? BR_UNSTABLE : BR_STABLE;"},
-    {"long_states_without_a_weight", "coefficient", "reference/long_plain.c",
-     "tests/test_long_plain test_schemes", "weight[j] * s->of[j][i] : 0;", "s->of[j][i] : 0;"},
-    {"long_values_in_single_digits", "round-off", "reference/long_plain.c", "tests/test_long_plain",
-     "displacement[i] = (double)s->nodal[0][i];", "displacement[i] = (float)s->nodal[0][i];"},
+    {"long_states_without_a_weight", "coefficient", "solver/linear/states.c",
+     "tests/test_long_plain test_schemes", "width, weight[j], from[j] + first);",
+     "width, 1, from[j] + first);"},
+    {"long_values_in_single_digits", "round-off", "solver/linear/recursion.c",
+     "tests/test_long_plain", "*to++ = (double)y[a];", "*to++ = (float)y[a];"},
     {"part_without_the_scene", "lost", "cli/extremes.c", "golden extremes_stability",
      "r->scene_word ? r->scene_word : usual[p->scenes]", "usual[p->scenes]"},
     {"step_of_another_velocity", "units", "tests/lab/step_matrix.c",

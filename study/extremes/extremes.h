@@ -30,7 +30,7 @@ static inline double br_worst(double a, double b)
 /* ---- round-off ---- */
 
 /* How far the displacements of marches are from the exact discrete solution
- * (reference/long_plain.h), compared with the round-off that marches predict. One experiment with
+ * (br_long_plain), compared with the round-off that marches predict. One experiment with
  * two lists of marches: the floors of the linear solvers, and the round-off that steps gather. */
 
 /* One march. */

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/long_plain.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "study/base/each.h"
