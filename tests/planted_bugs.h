@@ -411,6 +411,8 @@ static const struct planted_bug planted_bugs[] = {
     {"row_of_another_order", "order", "solver/scheme.c", "tests/test_schemes scheme_orders",
      ".order = 2,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},",
      ".order = 3,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},"},
+    {"estimate_of_another_order", "order", "solver/scheme.c", "tests/test_schemes estimate_orders",
+     ".estimate_order = 4,", ".estimate_order = 5,"},
     {"nothing_damped_at_infinity", "order", "solver/scheme.c",
      "tests/test_schemes test_stiffness_is_damped",
      "{2 * GAMMA2, GAMMA2, {[BR_NOW] = 1, [BR_RATE] = 1}},\n                         "
