@@ -14,8 +14,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
                  BR_FOR_PEOPLE);
-    for (size_t cell = 0; cell < f->n_count * f->methods; cell++) {
-        const size_t row = cell / f->methods, method = cell % f->methods;
+    for (size_t cell = 0; cell < f->n_count * f->method.count; cell++) {
+        const size_t row = cell / f->method.count, method = cell % f->method.count;
         size_t refused = 0;
         double worst = 0;
         for (size_t j = 0; j < f->k_count; j++) {
@@ -29,8 +29,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
             br_put_row(d);
             BR_PUT(d, br_count(br_floor_at(f, 0, 0, row, 0)->n), .key = "n");
         }
-        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->method[method].name,
-               .format = "%.1e");
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)),
+               .heading = f->method.list[method].name, .format = "%.1e");
         if (refused == f->k_count)
             br_put_shown(d, "refused");
         else if (refused)

@@ -181,8 +181,8 @@ static const struct planted_bug planted_bugs[] = {
      "rec->p = plus(plus(plus(maa, ma), transpose(ma)), aqa);"},
 
     {"bending_tip_starts_at_rest", "start", "solver/linear/recursion.c", "check mms_quadratic",
-     "        memcpy(state + (2 * n + j) * m, nodal[j]",
-     "        if (s->d == 1)\n            memcpy(state + (2 * n + j) * m, nodal[j]"},
+     "        for (size_t a = 0; a < m; a++)\n            state[",
+     "        for (size_t a = 0; a < m && s->d == 1; a++)\n            state["},
 
     /* ---- the flexibility form, axial ---- */
     {"axial_mass_factor", "coefficient", "solver/linear/recursion.c", "check smoothed_coulomb",
@@ -211,8 +211,8 @@ static const struct planted_bug planted_bugs[] = {
      "feedback = (q + m) / s", "feedback = (q - m) / s"},
 
     {"axial_tip_starts_at_rest", "start", "solver/linear/recursion.c", "check mms_pressed",
-     "        memcpy(state + (2 * n + j) * m, nodal[j]",
-     "        if (s->d == 2)\n            memcpy(state + (2 * n + j) * m, nodal[j]"},
+     "        for (size_t a = 0; a < m; a++)\n            state[",
+     "        for (size_t a = 0; a < m && s->d == 2; a++)\n            state["},
 
     /* ---- the flexibility form, quadratic elements ---- */
     {"quadratic_coupling_mass_sign", "sign", "solver/linear/recursion.c", "check mms_quadratic",
@@ -411,6 +411,8 @@ static const struct planted_bug planted_bugs[] = {
     {"row_of_another_order", "order", "solver/scheme.c", "tests/test_schemes scheme_orders",
      ".order = 2,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},",
      ".order = 3,\n    .form = {&sdirk2_form, &bdf2_form, &bdf2_form},"},
+    {"estimate_of_another_order", "order", "solver/scheme.c", "tests/test_schemes estimate_orders",
+     ".estimate_order = 4,", ".estimate_order = 5,"},
     {"nothing_damped_at_infinity", "order", "solver/scheme.c",
      "tests/test_schemes test_stiffness_is_damped",
      "{2 * GAMMA2, GAMMA2, {[BR_NOW] = 1, [BR_RATE] = 1}},\n                         "
@@ -756,7 +758,7 @@ static const struct planted_bug planted_bugs[] = {
     {"rounding_widens_nothing", "lost", "study/fit/line_order.c", "tests/test_orders test_printed_digits",
      "of_known(freedom) * sqrt(rounded) / xx);", "0 * sqrt(rounded));"},
     {"means_weigh_the_same", "lost", "study/fit/line_order.c", "tests/test_line_order test_means",
-     "weighted ? pow(least / scatter[i], 2) : 1", "1"},
+     "weighted ? pow(least / scatter(p), 2) : 1", "1"},
     {"deviation_of_one_run", "lost", "study/orders/program.c", "tests/test_program test_repeated",
      "sqrt(squares / (double)(repeat - 1) / (double)repeat)",
      "sqrt(squares / (double)(repeat - 1))"},
@@ -881,10 +883,11 @@ static const struct planted_bug planted_bugs[] = {
     {"nan_is_stable", "nan", "study/extremes/stability.c", "tests/test_stability test_judge",
      "share <= br_stability_most(method) ? BR_STABLE : BR_UNSTABLE;",
      "share > br_stability_most(method) ? BR_UNSTABLE : BR_STABLE;"},
-    {"long_states_without_a_weight", "coefficient", "reference/long_plain.c",
-     "tests/test_long_plain test_schemes", "weight[j] * s->of[j][i] : 0;", "s->of[j][i] : 0;"},
-    {"long_values_in_single_digits", "round-off", "reference/long_plain.c", "tests/test_long_plain",
-     "displacement[i] = (double)s->nodal[0][i];", "displacement[i] = (float)s->nodal[0][i];"},
+    {"long_states_without_a_weight", "coefficient", "solver/linear/states.c",
+     "tests/test_long_plain test_schemes", "width, weight[j], from[j] + first);",
+     "width, 1, from[j] + first);"},
+    {"long_values_in_single_digits", "round-off", "solver/linear/recursion.c",
+     "tests/test_long_plain", "*to++ = (double)y[a];", "*to++ = (float)y[a];"},
     {"part_without_the_scene", "lost", "cli/extremes.c", "golden extremes_stability",
      "r->scene_word ? r->scene_word : usual[p->scenes]", "usual[p->scenes]"},
     {"step_of_another_velocity", "units", "tests/lab/step_matrix.c",
@@ -1056,7 +1059,7 @@ static const struct planted_bug planted_bugs[] = {
      "unit->of.second += power * by->of.second;", "unit->of.second += by->of.second;"},
     {"factor_of_the_unit_forgotten", "units", "study/scene/units.c", "tests/test_two_ways",
      "q->wide = strtold(moved, NULL) * factor;", "q->wide = strtold(moved, NULL);"},
-    {"unit_of_an_expression_forgotten", "units", "study/scene/value.c", "tests/test_two_ways",
+    {"unit_of_an_expression_forgotten", "units", "study/scene/expressions.c", "tests/test_two_ways",
      "return parse_expression(v, applied, out);", "return parse_expression(v, text, out);"},
     {"section_bends_across_its_width", "index", "study/scene/value.c", "tests/test_two_ways",
      "area * b * b / 12", "area * a * a / 12"},
@@ -1202,7 +1205,7 @@ static const struct planted_bug planted_bugs[] = {
      "(x->other < y->other) - (x->other > y->other)",
      "(x->other > y->other) - (x->other < y->other)"},
     {"rate_of_the_wrong_neighbour", "printed", "study/orders/lines.c", "golden orders",
-     "i ? rate(&p[i - 1], &p[i]) : NAN;", "i ? rate(&p[0], &p[i]) : NAN;"},
+     "i ? br_point_rate(&p[i - 1], &p[i]) : NAN;", "i ? br_point_rate(&p[0], &p[i]) : NAN;"},
     {"axis_of_an_expectation_exchanged", "expected", "study/orders/expectations.c",
      "tests/test_orders", "e->axis = (enum br_axis)axis;", "e->axis = (enum br_axis)(1 - axis);"},
     {"joint_orders_exchanged", "expected", "study/orders/expectations.c", "tests/test_orders",
