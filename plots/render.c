@@ -13,15 +13,9 @@
 
 #include "plots/pictures.h"
 #include "solver/clock.h"
+#include "study/base/observer.h"
 
 extern char **environ;
-
-static bool (*stops)(void);
-
-void br_gnuplot_stop_when(bool (*stop)(void))
-{
-    stops = stop;
-}
 
 /* Starts a program in its own process group, so that its child processes can be ended, too. */
 static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, char *const words[])
@@ -129,7 +123,7 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
 
 static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
-    if (stops && stops())
+    if (br_must_stop())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
     if (br_seconds() - g->started < time_limit())
         return BR_OK;
