@@ -278,12 +278,6 @@ static void print_check(FILE *out)
     MUST(br_compare(checks, 3, true, &old, &comparison, &err));
     struct br_document d = {0};
     br_report_check(&(struct br_check_findings){checks, 3, 4.5, &comparison, &provenance}, &d);
-    br_put_verdict(&d, &(struct br_document_verdict){.outcome = BR_OUTCOME_SKIPPED,
-                                                     .group = "e",
-                                                     .name = "not there",
-                                                     .message = "none",
-                                                     .file = "e.yaml",
-                                                     .line = 3});
     print_text(out, &d);
     const struct br_document_format *const formats[] = {&br_document_junit, &br_document_github,
                                                         &br_document_markdown, &br_document_latex};
