@@ -1061,7 +1061,7 @@ static const struct planted_bug planted_bugs[] = {
      "q->wide = strtold(moved, NULL) * factor;", "q->wide = strtold(moved, NULL);"},
     {"unit_of_an_expression_forgotten", "units", "study/scene/expressions.c", "tests/test_two_ways",
      "return parse_expression(v, applied, out);", "return parse_expression(v, text, out);"},
-    {"section_bends_across_its_width", "index", "study/scene/value.c", "tests/test_two_ways",
+    {"section_bends_across_its_width", "index", "study/scene/engineering.c", "tests/test_two_ways",
      "area * b * b / 12", "area * a * a / 12"},
     {"damping_ratio_is_half", "coefficient", "study/scene/engineering.c", "tests/test_scene",
      "2 * of[0]->value / omega", "of[0]->value / omega"},
