@@ -129,11 +129,10 @@ static void add_breaks(struct work *w, enum br_variable v, const struct br_funct
 static void find_breaks(struct work *w, enum br_variable v)
 {
     for (const struct br_sight *s = w->subject; s < w->subject + w->subjects; s++) {
-        bool complete = true;
         if (has(s, v))
             add_breaks(w, v, s->f, s->box);
         if (v == BR_T && is_mixed(s) && !w->status)
-            w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], &complete, w->err);
+            w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], w->err);
     }
     join_breaks(w, v);
 }
@@ -227,7 +226,7 @@ static void count_hidden(struct work *w, enum br_variable v)
             if (!(at.high - at.low > 4 * DBL_EPSILON * at.high))
                 continue;
             *br_side(&box, v) = at;
-            if (br_prove_bounded(s->f, box, 0, &value, &where)) {
+            if (br_prove_bounded(s->f, box, &value, &where)) {
                 w->status = br_must_be_finite(s->f, box, w->err);
                 return;
             }
