@@ -5,6 +5,8 @@
 #include <gsl/gsl_interp.h>
 #include <math.h>
 
+#include "solver/box.h"
+
 /* Functions that the field depends on. */
 enum { MOST = 2 * BR_LOAD_TERMS + 4 };
 
@@ -225,7 +227,7 @@ static void count_hidden(struct work *w, enum br_variable v)
             struct br_interval value;
             if (!(at.high - at.low > 4 * DBL_EPSILON * at.high))
                 continue;
-            *br_side(&box, v) = at;
+            *side(&box, v) = at;
             if (br_prove_bounded(s->f, box, &value, &where)) {
                 w->status = br_must_be_finite(s->f, box, w->err);
                 return;
@@ -283,7 +285,7 @@ static void count_proved(struct work *w, enum br_variable v, const struct br_sig
             k--;
         for (; k + 1 < end->count && end->at[k] < here.high; k++) {
             struct br_box box = {{0, 0}, {0, 0}};
-            struct br_interval value, *cell = br_side(&box, v);
+            struct br_interval value, *cell = side(&box, v);
             *cell =
                 (struct br_interval){fmax(end->at[k], here.low), fmin(end->at[k + 1], here.high)};
             if (!(cell->low < cell->high && br_function_bound(s->f, box, &value)))
