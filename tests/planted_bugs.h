@@ -235,10 +235,10 @@ static const struct planted_bug planted_bugs[] = {
     {"stiffness_old_velocity_missing", "lost", "solver/linear/umfpack.c", "check release",
      "add_elements(f, f->density / f->k, v,", "add_elements(f, 0, v,"},
     {"stiffness_clamp_forgotten", "index", "solver/linear/umfpack.c", "check release",
-     "if (j < u)\n", "if (j < u || e == 0)\n"},
+     "if (e == 0 && (a < u || b < u))", "if (e == 0)"},
     {"stiffness_slope_clamped_on_one_side", "index", "solver/linear/umfpack.c", "check release",
-     "m->value[(j - u) * rows + i - j] += entry(f, a, b);",
-     "m->value[(j - u) * rows + i - j] +=\n                    entry(f, a, b) * "
+     "first_row(s, j)] += entry(f, a, b);",
+     "first_row(s, j)] +=\n                    entry(f, a, b) * "
      "(e == 0 && f->kind == BR_BENDING && a != b ? 0 : 1);"},
     {"stiffness_factorisation_stale", "stale", "solver/linear/umfpack.c", "check release",
      "const double stiff = f->viscosity + f->k * f->stiffness;",
@@ -576,7 +576,7 @@ static const struct planted_bug planted_bugs[] = {
      "unseen = bounded ? measure(box) * excess(c, box, value) : 0;", "unseen = 0;"},
     {"front_never_leaves", "lost", "reference/exact/outline.c",
      "tests/test_exact_pieces test_outline_of_places",
-     "w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], &complete, w->err);", ";"},
+     "w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], w->err);", ";"},
     {"polynomials_miss_nothing", "lost", "reference/exact/outline.c", "tests/test_exact_pieces",
      "w->o->proved += sum / s->mean;", ";"},
     {"cells_with_the_jump_at_their_end", "proof", "reference/exact/outline.c",
