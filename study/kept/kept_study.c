@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include "reference/exact/exact.h"
-#include "study/base/text.h"
 #include "study/grid/batches.h"
 #include "study/kept/kept.h"
 
