@@ -212,12 +212,11 @@ static bool halve(const struct br_function *f, struct br_box whole, struct piece
     return true;
 }
 
-bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value,
+bool br_enclose_values(const struct br_function *f, struct br_box box, iv *value,
                        struct br_box *peak)
 {
     enum { MOST = 500 };
     struct piece piece[MOST] = {piece_of(f, used_box(f, box))};
-    const size_t most = budget && budget < MOST ? budget : MOST;
     const struct br_box whole = piece[0].box;
     iv seen = {INFINITY, -INFINITY};
     for (size_t count = 1;; count++) {
@@ -231,7 +230,7 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
             seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
         }
         const double above = value->high - seen.high, below = seen.low - value->low;
-        if (count == most || (above + below) * 20 <= width(seen) ||
+        if (count == MOST || (above + below) * 20 <= width(seen) ||
             !halve(f, whole, piece, above >= below ? top : bottom, count))
             break;
     }

@@ -22,10 +22,9 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
                                 struct br_interval *value, struct br_box *where);
 
 /* Encloses the values of a finite function to about a twentieth of their range, or as tightly as
- * `budget` boxes allow (0: the default). peak: out, a point where |f| is about largest. False: it
- * has no bound. */
-bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
-                       struct br_interval *value, struct br_box *peak);
+ * 500 boxes allow. peak: out, a point where |f| is about largest. False: it has no bound. */
+bool br_enclose_values(const struct br_function *f, struct br_box box, struct br_interval *value,
+                       struct br_box *peak);
 
 /* br_prove_bounded as a status: if f is not finite, BR_BAD_INPUT with a message of what was found
  * and where. */
