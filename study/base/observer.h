@@ -19,7 +19,7 @@ bool br_observer_stops(const struct br_observer *observer);
 
 /* A share of a longer work: its progress is `from` to `from` + `length` of the whole's. */
 struct br_observer_share {
-    const struct br_observer *whole; /* borrowed */
+    const struct br_observer *whole; /* borrowed; NULL: nobody */
     double from, length;
 };
 
