@@ -184,7 +184,7 @@ for tool in meson ninja; do
     sed -i "1a echo $tool \${BR_TEST_UPDATE-} \$* >>$work/made_anew" "$work/bin/$tool"
 done
 starts 0 0 'all that is generated' update
-for text in 'sentences --update' 'ninja .* update-golden' 'meson 1 test .* --suite stored'; do
+for text in 'sentences --update' 'examples --update' 'ninja .* update-golden' 'meson 1 test .* --suite stored'; do
     grep -q "^$text" "$work/made_anew" && continue
     echo "an update without '$text'"
     failures=$((failures + 1))
