@@ -769,7 +769,7 @@ static const struct planted_bug planted_bugs[] = {
     {"first_match_for_the_last", "lost", "study/orders/program_reading.c",
      "tests/test_program test_places", "m->count++ == 0 || s->reading->last", "m->count++ == 0"},
     {"output_for_complaints", "lost", "study/orders/program.c", "tests/test_program test_places",
-     "r->printed[reading->complaints]", "r->printed[0]"},
+     "reading->file ? file++ : reading->complaints", "reading->file ? file++ : 0"},
     {"stated_size_is_ignored", "lost", "study/orders/program.c", "tests/test_program test_places",
      "numbers->column[size->axis] = stated[size->axis] = size;", "(void)0;"},
     {"failed_run_lies_at_its_level", "lost", "study/orders/program.c",
