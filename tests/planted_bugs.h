@@ -6,8 +6,8 @@
 
 /* `beamrate COMMAND` ends with exit code 0 without the bug, and with 1 with it; or the command is a
  * test program, tests/NAME, which fails with it; or "golden NAME", a row of golden/commands.txt,
- * whose outputs are others with it. The kind is what is wrong: of each kind, and of
- * each file, at least one is planted by default (see is_in_sample). */
+ * whose outputs are others with it. The kind is what is wrong. By default some are planted: see
+ * is_in_sample. */
 struct planted_bug {
     const char *name, *kind, *file, *command, *text, *instead;
 };
