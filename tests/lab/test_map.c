@@ -155,6 +155,7 @@ TEST(test_classes_by_hand)
         {BR_BY_EXACT, false, 0.04, 0, INFINITY, UNSTABLE, BR_EXTREME_RIGHT},
         {BR_BY_EXACT, false, 0.05, 0, INFINITY, 0, BR_EXTREME_RIGHT},
         {BR_BY_EXACT, false, 0.0501, 0, INFINITY, 0, BR_EXTREME_UNKNOWN},
+        {BR_BY_EXACT, false, 0.04, 0, 0.03, 0, BR_EXTREME_WRONG},
         {BR_BY_EXACT, false, NAN, 0, INFINITY, 0, BR_EXTREME_UNKNOWN},
         {BR_BY_EXACT, true, NAN, 0, 0.01, 0, BR_EXTREME_WRONG},
         {BR_BY_EXACT, true, NAN, 0, INFINITY, 0, BR_EXTREME_WRONG},
@@ -172,7 +173,7 @@ TEST(test_classes_by_hand)
             fail_msg("row %zu: %s, expected %s", i, br_extreme_words[which],
                      br_extreme_words[rows[i].which]);
     }
-    CLOSE(br_extreme_beyond(0.03, 0.01, 0.01), 2, 1e-15);
+    CLOSE(br_extreme_beyond(0.5, 0.1, 0.01), 40, 1e-13);
 }
 
 /* ---- how far marches are from each other ---- */
