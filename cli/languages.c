@@ -515,8 +515,10 @@ static const char *shell_name(size_t row)
 
 static const struct br_words shell_words = {shell_name, NULL, NULL};
 
-static enum br_status run(const struct br_options *o, struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_session *session,
+                          struct br_error *err)
 {
+    (void)session;
     static char scenes[MOST_SCENES]; /* the bundled ones, separated by blanks */
     char **name;
     size_t count, used = 0;

@@ -21,8 +21,7 @@ static struct br_study *study_of(const struct br_studies *r, size_t h, size_t m)
 static enum br_status make_grid(struct br_studies *r, size_t job, struct br_error *err)
 {
     struct br_study_work *w = &r->work[job];
-    const struct br_study_request *q = &r->request;
-    const struct br_options *o = r->session->options;
+    const struct br_study_request *q = r->request;
     const struct br_scene *scene = &w->opened.scene;
     struct br_study *study = study_of(r, job, 0);
     *study = (struct br_study){
@@ -31,12 +30,12 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
         .method = q->method,
         .reference_method = q->method,
         .judge = q->judge ? q->judge : br_judge_best(scene),
-        .n = o->whole[BR_OPT_N],
-        .n_count = o->count[BR_OPT_N],
+        .n = q->n,
+        .n_count = q->n_count,
     };
-    if (br_option_steps(o, scene, &w->steps, &study->k_count, err))
+    if (br_asked_steps_make(&q->steps, scene, &w->steps, &study->k_count, err))
         return err->status;
-    br_sort_counts(o->whole[BR_OPT_N], study->n_count);
+    br_sort_counts(q->n, q->n_count);
     br_sort_counts(w->steps, study->k_count);
     study->steps = w->steps;
     if (!study->judge->nests)
@@ -57,10 +56,10 @@ static void spread_study(struct br_studies *r, size_t job)
         exact->reference = (struct br_resolution){0};
     }
     for (size_t h = job; h < r->heads; h += r->jobs)
-        for (size_t m = 1; m < r->request.norms; m++) {
+        for (size_t m = 1; m < r->request->norms; m++) {
             struct br_study *study = study_of(r, h, m);
             *study = *study_of(r, h, m - 1);
-            study->norm = r->request.norm[m];
+            study->norm = r->request->norm[m];
             study_of(r, h, m - 1)->next_norm = study;
         }
 }
@@ -90,7 +89,7 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
                                    size_t m, struct br_error *err)
 {
     struct br_study_work *w = &r->work[i];
-    const struct br_norm *norm = r->request.norm[m];
+    const struct br_norm *norm = r->request->norm[m];
     const struct br_scene *scene = &w->opened.scene;
     const bool usual = norm == br_norms[0];
     snprintf(w->name[m], sizeof w->name[m], "%s%s%s", job->name ? job->name : scene->name,
@@ -116,7 +115,7 @@ static enum br_status prepare_job(struct br_studies *r, const struct br_study_jo
         make_grid(r, i, err))
         return err->status;
     spread_study(r, i);
-    for (size_t m = 0; m < r->request.norms; m++)
+    for (size_t m = 0; m < r->request->norms; m++)
         if (start_report(r, job, i, m, err))
             return err->status;
     return BR_OK;
@@ -125,10 +124,8 @@ static enum br_status prepare_job(struct br_studies *r, const struct br_study_jo
 enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_job *job,
                                   bool with_exact, struct br_error *err)
 {
-    const struct br_study_request *q = &r->request;
+    const struct br_study_request *q = r->request;
     bool axial = false;
-    if (br_study_request_read(r->session->options, &r->request, err))
-        return err->status;
     r->heads = with_exact && q->judge && q->judge->nests ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
@@ -147,10 +144,10 @@ enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_jo
 void br_studies_clear(void *self)
 {
     struct br_studies *r = self;
-    for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
+    for (size_t i = 0; r->study && i < r->heads * r->request->norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
-        for (size_t m = 0; m < r->request.norms; m++)
+        for (size_t m = 0; m < r->request->norms; m++)
             br_report_clear(&r->work[i].report[m]);
         br_apart_clear(&r->work[i].apart);
         br_opened_scene_clear(&r->work[i].opened);
@@ -192,7 +189,7 @@ enum br_status br_studies_compute(struct br_studies *r, bool alone, struct br_er
 {
     const double start = br_seconds();
     const int threads = r->session->threads;
-    const size_t norms = r->request.norms;
+    const size_t norms = r->request->norms;
     struct br_study_work *const end = r->work + r->jobs;
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = br_study_run(r->study, r->heads, threads, observer, err);

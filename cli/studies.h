@@ -28,18 +28,21 @@ struct br_study_work {
 };
 
 struct br_studies {
-    struct br_session *session; /* borrowed */
-    const char *what;           /* for the progress */
+    const struct br_study_request *request; /* borrowed */
+    struct br_session *session;             /* borrowed */
+    const char *what;                       /* for the progress */
     size_t jobs;
-    struct br_study_request request;
     struct br_study_work *work; /* jobs */
     size_t heads;               /* jobs, or 2 * jobs: each against its reference, then each against
                                    the exact solution */
     struct br_study *study;     /* heads * norms: those in the first norm come first */
 };
 
-/* Sets up the jobs; session, what and jobs are set before. with_exact: a fine reference is followed
- * by the exact one. Fails with BR_BAD_INPUT or BR_NO_MEMORY; clear the studies even then. */
+extern const struct br_vary_command br_study_varied;
+
+/* Sets up the jobs; request, session, what and jobs are set before. with_exact: a fine reference is
+ * followed by the exact one. Fails with BR_BAD_INPUT or BR_NO_MEMORY; clear the studies even then.
+ */
 enum br_status br_studies_prepare(struct br_studies *studies, const struct br_study_job *job,
                                   bool with_exact, struct br_error *err);
 void br_studies_clear(void *studies);

@@ -9,7 +9,7 @@
 
 #include "tables/markup.h"
 
-const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
+const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR"};
 
 const struct br_document_format *const br_document_formats[] = {&br_document_text,
                                                                 &br_document_csv,
@@ -26,36 +26,27 @@ void br_document_stop_when(bool (*stop)(void))
     must_stop = stop;
 }
 
-/* ---- memory: pieces that are released together ---- */
+/* ---- memory: small pieces of large ones, released together ---- */
 
 enum { PIECE = 1 << 14, ALIGNED = 16 };
-
-struct br_document_memory {
-    struct br_document_memory *next;
-    size_t used, size;
-    _Alignas(ALIGNED) char bytes[];
-};
 
 /* Memory of zeros; NULL after any failure. */
 static void *take(struct br_document *d, size_t size)
 {
-    struct br_document_memory *m = d->memory;
     size = (size + ALIGNED - 1) / ALIGNED * ALIGNED;
     if (d->failure.status)
         return NULL;
-    if (!m || m->size - m->used < size) {
-        const size_t room = size > PIECE ? size : PIECE;
-        m = br_allocate(1, sizeof *m + room);
-        if (!m) {
+    if (d->left < size) {
+        d->left = size > PIECE ? size : PIECE;
+        d->piece = br_store_take(&d->store, 1, d->left);
+        if (!d->piece) {
             br_no_memory(&d->failure, "a report");
             return NULL;
         }
-        m->next = d->memory;
-        m->size = room;
-        d->memory = m;
     }
-    m->used += size;
-    return m->bytes + m->used - size;
+    d->left -= size;
+    d->piece += size;
+    return d->piece - size;
 }
 
 /* A list with room for one more than `count` elements; NULL after a failure. */
@@ -118,10 +109,7 @@ const char *br_format(struct br_document *d, const char *format, ...)
 
 void br_document_clear(struct br_document *d)
 {
-    for (struct br_document_memory *m = d->memory, *next; m; m = next) {
-        next = m->next;
-        free(m);
-    }
+    br_store_clear(&d->store);
     *d = (struct br_document){.name = NULL};
 }
 

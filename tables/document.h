@@ -127,7 +127,7 @@ enum br_outcome {
     BR_OUTCOME_FAIL,
     BR_OUTCOME_INCONCLUSIVE,
     BR_OUTCOME_ERROR,
-    BR_OUTCOME_SKIPPED
+    BR_OUTCOMES
 };
 extern const char *const br_outcome_names[]; /* "PASS", ... */
 
@@ -138,7 +138,7 @@ struct br_document_verdict {
     const char *message;      /* why it did not pass, or a remark; NULL: none */
     const char *file;         /* the file of the expectation; NULL: none */
     size_t line;              /* of the file */
-    double seconds;           /* NaN: not measured */
+    double seconds;
     bool of_row;              /* its numbers are in the last row, ... */
     size_t table, row;        /* ... this row of block[table].table; set by br_put_verdict */
     const char **detail;      /* lines; set by br_put_verdict_detail */
@@ -197,7 +197,9 @@ struct br_document {
     struct br_provenance provenance;
     size_t longest; /* bytes of its longest text */
     /* for building */
-    struct br_document_memory *memory;
+    struct br_store store;
+    char *piece; /* of the store; `left` bytes are free */
+    size_t left;
     struct br_document_cell *last; /* the last one that was put */
     const char **open;             /* the text that br_put_more extends; NULL: none */
     size_t next;                   /* column */
@@ -314,9 +316,9 @@ struct br_document_format {
 extern const struct br_document_format br_document_text, br_document_csv, br_document_markdown,
     br_document_latex, br_document_json, br_document_html;
 
-/* Formats of the verdicts alone, for CI systems: JUnit's XML (a suite for each group) and the Test
- * Anything Protocol, version 14, both with the numbers of the rows by their keys; and annotations
- * of verdicts that did not pass (GitHub, Workflow commands for GitHub Actions). */
+/* Formats of the verdicts alone, for CI systems: JUnit's XML, a suite for each group, with the
+ * numbers of the rows by their keys; and annotations of verdicts that did not pass (GitHub, Workflow
+ * commands for GitHub Actions). */
 extern const struct br_document_format br_document_junit, br_document_github;
 
 /* The formats of every report; NULL-terminated. */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "solver/scene.h"
 #include "study/extremes/extremes.h"
@@ -12,8 +14,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
                  BR_FOR_PEOPLE);
-    for (size_t cell = 0; cell < f->n_count * f->methods; cell++) {
-        const size_t row = cell / f->methods, method = cell % f->methods;
+    for (size_t cell = 0; cell < f->n_count * f->method.count; cell++) {
+        const size_t row = cell / f->method.count, method = cell % f->method.count;
         size_t refused = 0;
         double worst = 0;
         for (size_t j = 0; j < f->k_count; j++) {
@@ -27,8 +29,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
             br_put_row(d);
             BR_PUT(d, br_count(br_floor_at(f, 0, 0, row, 0)->n), .key = "n");
         }
-        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->method[method].name,
-               .format = "%.1e");
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)),
+               .heading = f->method.list[method].name, .format = "%.1e");
         if (refused == f->k_count)
             br_put_shown(d, "refused");
         else if (refused)
@@ -42,14 +44,18 @@ static void put_gathered_grid(struct br_document *d, const struct br_floors *f)
                  BR_FOR_PEOPLE);
     for (size_t i = 0; i < f->floors; i++) {
         const struct br_floor *floor = &f->floor[i];
-        char heading[32];
+        char key[32], heading[32];
         if (i % f->k_count == 0) {
             br_put_row(d);
             BR_PUT(d, br_text(floor->scene->name), .key = "scene");
             BR_PUT(d, br_text(floor->by->name), .key = "method");
         }
+        snprintf(key, sizeof key, "N%zu", floor->of); /* numbers may differ in later digits */
         snprintf(heading, sizeof heading, "N = %.3g", (double)floor->of);
-        BR_PUT(d, br_number(br_floor_deviation(floor)), .heading = heading, .format = "%.1e");
+        if (strtod(heading + strlen("N = "), NULL) != (double)floor->of)
+            snprintf(heading, sizeof heading, "N = %zu", floor->of);
+        BR_PUT(d, br_number(br_floor_deviation(floor)), .key = key, .heading = heading,
+               .format = "%.1e");
         if (floor->refused.status)
             br_put_shown(d, "refused");
     }

@@ -77,9 +77,8 @@ void br_report_check(const struct br_check_findings *findings, struct br_documen
  * terminal. */
 extern const struct br_document_format *const br_check_formats[];
 
-/* Reads the JSON of an earlier check, for a comparison: that of br_report_check, or the older
- * format "beamrate check 1". Fails with BR_BAD_INPUT, naming the file and what is wrong with it, or
- * BR_NO_MEMORY; clear `old` even then. */
+/* Reads the JSON of an earlier check, as br_report_check has it, for a comparison. Fails with
+ * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then. */
 enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err);
 
 /* ---- trade, split, plan ---- */

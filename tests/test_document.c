@@ -120,7 +120,7 @@ static void build(struct br_document *d)
     br_put_verdict(d, &(struct br_document_verdict){BR_OUTCOME_FAIL, "scene_a", "order", "too low",
                                                     NULL, 0, .seconds = 0.5});
     br_put_verdict_detail(d, "found %g", 0.5);
-    br_put_verdict(d, &(struct br_document_verdict){.name = "silent", .seconds = NAN});
+    br_put_verdict(d, &(struct br_document_verdict){.group = "scene_b", .name = "silent"});
     br_put_provenance(d, &provenance);
 }
 

@@ -17,9 +17,9 @@ static const struct br_scene *const both[] = {&example[0], &example[1]}, *const 
 static size_t named(const struct br_floors *f, const char *name)
 {
     size_t i = 0;
-    while (i < f->methods && strcmp(f->method[i].name, name) != 0)
+    while (i < f->method.count && strcmp(f->method.list[i].name, name) != 0)
         i++;
-    assert_true(i < f->methods);
+    assert_true(i < f->method.count);
     return i;
 }
 
@@ -140,7 +140,7 @@ TEST(test_meshes)
         struct br_floors f;
         REFUSED(br_floors_run(&f, false, &job, &err), BR_INTERRUPTED, "interrupted");
         for (size_t i = 0; i < f.floors; i++) {
-            const bool assembled = f.floor[i].by == &f.method[named(&f, "umfpack")];
+            const bool assembled = f.floor[i].by == &f.method.list[named(&f, "umfpack")];
             const bool left = !listed && assembled && f.floor[i].n > 100000;
             assert_true(f.floor[i].steps == (left ? 0 : BR_FLOOR_STEPS));
         }
@@ -184,7 +184,7 @@ TEST(test_refused)
     MUST(br_floors_run(&f, false, &job, &err));
     MUST(br_floors_verdict(&f, &err));
     for (size_t s = 0; s < f.solvers; s++) {
-        const bool assembled = f.method[s].method.solver == &br_umfpack;
+        const bool assembled = f.method.list[s].method.solver == &br_umfpack;
         assert_true((f.floor[s].refused.status == BR_SINGULAR) == assembled);
         if (assembled)
             assert_non_null(strstr(f.floor[s].refused.message, "ill-conditioned"));
@@ -204,9 +204,9 @@ TEST(test_drift)
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++) {
         char name[80];
         snprintf(name, sizeof name, "%s+implicit+riccati", (*s)->name);
-        assert_true((*s)->adaptive || named(&d, name) < d.methods);
+        assert_true((*s)->adaptive || named(&d, name) < d.method.count);
     }
-    for (size_t c = 0; c < d.methods; c++) /* weights that miss 1 gave 4e-15 for esdirk4 */
+    for (size_t c = 0; c < d.method.count; c++) /* weights that miss 1 gave 4e-15 for esdirk4 */
         AT_MOST(br_floor_at(&d, 1, c, 0, 3)->deviation[BR_AXIAL], 2.5e-15);
     for (size_t i = 0; i < 2; i++) {
         d.floor[1].time_error = i ? NAN : 3e-16;

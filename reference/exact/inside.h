@@ -41,9 +41,6 @@ static inline double br_pieces_width(const struct br_exact_pieces *p, size_t e)
     return (p->end[e + 1] - p->end[e]) / p->length;
 }
 
-/* The element that contains x, m; where two meet the left one. */
-size_t br_pieces_find(const struct br_exact_pieces *pieces, double x);
-
 /* Integral over all x / L of a series. */
 double br_pieces_integral(const struct br_exact_pieces *pieces, size_t extra, const double *c);
 

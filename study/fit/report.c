@@ -53,8 +53,9 @@ static struct line line_of(const struct br_study *s, enum br_part part, int axis
         if (l.count == BR_MOST_SEEN)
             memmove(l.point, l.point + 1, --l.count * sizeof *l.point);
         l.point[l.count++] =
-            (struct br_order_point){br_axis_size(s->scene, axis, c->at),
-                                    br_axis_size(s->scene, axis, c->against), c->error[part]};
+            (struct br_order_point){.z = br_axis_size(s->scene, axis, c->at),
+                                    .z_against = br_axis_size(s->scene, axis, c->against),
+                                    .error = c->error[part]};
     }
     return l;
 }
@@ -184,8 +185,9 @@ static void fit_line(struct br_seen_order *o, const struct line *l)
     struct br_order_point counts[BR_MOST_SEEN];
     for (size_t i = 0; i < o->points; i++)
         counts[i] = (struct br_order_point){
-            o->point[i].z, br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
-            o->point[i].flag ? (double)NAN : o->point[i].error};
+            .z = o->point[i].z,
+            .z_against = br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
+            .error = o->point[i].flag ? (double)NAN : o->point[i].error};
     for (size_t i = 0; i < o->points; i++)
         o->point[i].fit = br_line_fit(counts, o->points, i, &o->order);
 }

@@ -442,10 +442,16 @@ static const struct check {
 static void report(const struct loss *s, const struct check *check, struct br_warnings *w)
 {
     const struct br_planned_march *o = s->planned;
-    const char *share = br_unseen(w, check->kind, s->missed, s->size, check->large);
-    char with[40], near[60] = "";
-    if (!share)
+    const double ratio = s->missed / s->size;
+    const double share = s->missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
+    char all[16], with[40], near[60] = "";
+    w->unseen[check->kind] = fmax(w->unseen[check->kind], share);
+    if (share <= check->large)
         return;
+    if (share <= 0.995)
+        snprintf(all, sizeof all, "%.2g %%", 100 * share);
+    else
+        snprintf(all, sizeof all, "%s", share > 1.005 ? "more than all" : "all");
     if (check->in_time)
         snprintf(with, sizeof with, "k = %.4g s", o->scene->duration / (double)o->steps);
     else
@@ -459,7 +465,7 @@ static void report(const struct loss *s, const struct check *check, struct br_wa
                 check->changes, check->not_known, with);
     else
         br_warn(w, check->kind, check->remedy, "%s %s: with %s the error is %s of %s%s",
-                s->input->name, check->not_seen, with, share, check->part, near);
+                s->input->name, check->not_seen, with, all, check->part, near);
 }
 
 enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,

@@ -18,27 +18,6 @@ const char *const br_warning_words[] = {
     "load-in-time", "load-in-space", "initial-data", "long",
 };
 
-const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_warning_kind kind)
-{
-    for (size_t i = 0; i < w->count; i++)
-        if (w->list[i].kind == kind)
-            return &w->list[i];
-    return NULL;
-}
-
-const char *br_unseen(struct br_warnings *w, enum br_warning_kind kind, double missed, double size,
-                      double large)
-{
-    const double ratio = missed / size, share = missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
-    w->unseen[kind] = fmax(w->unseen[kind], share);
-    if (share <= large)
-        return NULL;
-    if (share > 0.995)
-        return share > 1.005 ? "more than all" : "all";
-    snprintf(w->share, sizeof w->share, "%.2g %%", 100 * share);
-    return w->share;
-}
-
 void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remedy,
              const char *format, ...)
 {

@@ -324,6 +324,7 @@ INLINE void project_whole(const struct br_projecting *p, enum br_layout layout, 
 INLINE void project_layout(const struct br_projecting *p, enum br_layout layout, int modes,
                            vec *loss)
 {
+    size_t e = p->n - p->n % LANES;
     if (p->ratio == 1)
         project_whole(p, layout, modes, 1, loss);
     else if (p->ratio == 2 && layout != BR_BY_ELEMENT)
@@ -331,11 +332,11 @@ INLINE void project_layout(const struct br_projecting *p, enum br_layout layout,
     else if (p->ratio == 4 && layout != BR_BY_ELEMENT)
         project_whole(p, layout, modes, 4, loss);
     else
-        for (size_t e = 0; e + LANES <= p->n; e += LANES)
-            project_few(p, layout, modes, &(struct few){e, 1, LANES}, loss);
-    const size_t rest = p->n % LANES;
-    if (rest)
-        project_few(p, layout, modes, &(struct few){p->n - rest, 1, rest}, loss);
+        e = 0;
+    for (; e < p->n; e += LANES) {
+        const size_t rest = p->n - e;
+        project_few(p, layout, modes, &(struct few){e, 1, rest < LANES ? rest : LANES}, loss);
+    }
 }
 
 INLINE double total(int modes, const vec *x)

@@ -329,46 +329,34 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Runs a cell and keeps it, but not where its program has changed during the run. */
-static enum br_status run_and_keep(const struct job *j, const struct br_command_words *words,
-                                   const char *text, struct row *of, struct br_error *err)
+/* Keeps a cell that has run, but not where its program has changed during the run. */
+static enum br_status keep(const struct job *j, const struct br_command_words *words,
+                           const char *text, struct row *of, struct br_error *err)
 {
     char *now = NULL;
-    bool failed = run_words(j, words, of->row, err);
-    if (!failed && !of->row->failure) {
-        failed = text_of(j, words, of->row->repeat, &now, err);
-        if (!failed && strcmp(text, now) == 0)
-            failed = !br_kept_put(j->kept, text, pass_row, of) &&
-                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                             j->program->kept, strerror(errno));
-    }
+    enum br_status status = text_of(j, words, of->row->repeat, &now, err);
+    if (!status && strcmp(text, now) == 0 && !br_kept_put(j->kept, text, pass_row, of))
+        status = br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                         j->program->kept, strerror(errno));
     free(now);
-    return failed ? err->status : BR_OK;
-}
-
-static enum br_status take_row(const struct job *j, const struct br_command_words *words,
-                               struct br_numbers_row *row, struct br_error *err)
-{
-    struct row of = {row, j->numbers->quantities};
-    char *text = NULL;
-    if (!j->program->kept)
-        return run_words(j, words, row, err);
-    enum br_status status = text_of(j, words, row->repeat, &text, err);
-    row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
-    if (!status && !row->kept)
-        status = run_and_keep(j, words, text, &of, err);
-    free(text);
     return status;
 }
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    struct br_numbers_row *row = &j->numbers->row[i];
+    struct row of = {&j->numbers->row[i], j->numbers->quantities};
     struct br_command_words words = {NULL};
-    enum br_status status = br_command_split(j->program, row, &words, err);
-    if (!status)
-        status = take_row(j, &words, row, err);
+    char *text = NULL;
+    enum br_status status = br_command_split(j->program, of.row, &words, err);
+    if (!status && j->program->kept)
+        status = text_of(j, &words, of.row->repeat, &text, err);
+    of.row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
+    if (!status && !of.row->kept)
+        status = run_words(j, &words, of.row, err);
+    if (!status && text && !of.row->kept && !of.row->failure)
+        status = keep(j, &words, text, &of, err);
+    free(text);
     br_command_clear(&words);
     return status;
 }
@@ -380,15 +368,14 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-/* Makes a row for each run. *rows: out. */
-static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                                size_t *rows, struct br_error *err)
+enum br_status br_program_rows(const struct br_orders_request *p, struct br_numbers *numbers,
+                               struct br_error *err)
 {
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
-    const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
-    for (size_t r = 0; r < *rows && !status; r++) {
+    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    for (size_t r = 0; r < rows && !status; r++) {
         const size_t at[BR_AXES] = {
             [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
         struct br_numbers_row *row = &numbers->row[r];
@@ -561,12 +548,15 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
     if (program->readings == 0)
         return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    struct br_each each = {
-        .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
-    const bool failed = make_rows(program, numbers, &each.count, err) ||
-                        make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                        make_environment(&j, err) ||
-                        (program->kept && open_kept(&j, err)) || br_each(&each, err);
+    bool failed = br_program_rows(program, numbers, err) ||
+                  make_quantities(program, numbers, err) || check_commands(&j, err) ||
+                  make_environment(&j, err) || (program->kept && open_kept(&j, err));
+    const struct br_each each = {.count = numbers->rows,
+                                 .threads = program->jobs,
+                                 .observer = program->observer,
+                                 .turn = take_turn,
+                                 .self = &j};
+    failed = failed || br_each(&each, err);
     free(j.environment);
     if (failed)
         br_numbers_clear(numbers);

@@ -13,6 +13,7 @@
 #include "study/scene/resolution.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
+#include "tests/support.h"
 
 enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive schemes */
 
@@ -57,9 +58,9 @@ __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
 /* Whether a warning before the march says that perhaps no digit is right. */
 static bool warned(const struct trial *t)
 {
-    return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
-           br_warnings_find(&t->warnings, BR_WARN_INACCURATE) ||
-           br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
+    return br_test_warning(&t->warnings, BR_WARN_ROUND_OFF) ||
+           br_test_warning(&t->warnings, BR_WARN_INACCURATE) ||
+           br_test_warning(&t->warnings, BR_WARN_UNKNOWN);
 }
 
 /* The request for a march of the unchanged case. */
