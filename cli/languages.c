@@ -304,7 +304,7 @@ static const struct {
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
       "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",
-     {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
+     {"BEAMRATE_DATA: the folder that holds study/scenes, instead "
       "of the one the program was built or installed with.",
       "BEAMRATE_SILENCE: seconds after which a rank that sends nothing is regarded as dead, 60 by "
       "default.",

@@ -47,10 +47,11 @@ static void prepare_share(void *self, double most)
 
 struct br_observer br_observer_of(struct br_observer_share *share)
 {
-    return (struct br_observer){.progress = share->whole->progress ? report_share : NULL,
+    const struct br_observer none = {0}, *whole = share->whole ? share->whole : &none;
+    return (struct br_observer){.progress = whole->progress ? report_share : NULL,
                                 .stop = stop_share,
                                 .self = share,
-                                .preparing = share->whole->preparing ? prepare_share : NULL};
+                                .preparing = whole->preparing ? prepare_share : NULL};
 }
 
 /* ---- threads ---- */

@@ -24,7 +24,7 @@ bool br_must_stop(void);
 
 /* A share of a longer work: its progress is `from` to `from` + `length` of the whole's. */
 struct br_observer_share {
-    const struct br_observer *whole; /* borrowed */
+    const struct br_observer *whole; /* borrowed; NULL: nobody */
     double from, length;
 };
 
