@@ -195,7 +195,8 @@ static enum br_status list_new(int hidden, const struct list *old, struct list *
     return status;
 }
 
-bool br_same_stem(const char *a, const char *b)
+/* Whether two files have one name but for what follows its last dot. */
+static bool same_stem(const char *a, const char *b)
 {
     const char *end = strrchr(a, '.'), *other = strrchr(b, '.');
     const size_t length = end ? (size_t)(end - a) : strlen(a);
@@ -205,8 +206,8 @@ bool br_same_stem(const char *a, const char *b)
 /* Whether a new file has this name, whatever the formats are. All runs share the page. */
 static bool is_replaced(const struct list *new, const char *name)
 {
-    for (size_t i = 0; i < new->count &&strcmp(name, BR_PAGE) != 0; i++)
-        if (strcmp(new->entry[i].name, BR_PAGE) != 0 && br_same_stem(new->entry[i].name, name))
+    for (size_t i = 0; i < new->count && strcmp(name, BR_PAGE) != 0; i++)
+        if (strcmp(new->entry[i].name, BR_PAGE) != 0 && same_stem(new->entry[i].name, name))
             return true;
     return false;
 }

@@ -54,7 +54,4 @@ enum br_status br_set_finish(int folder, int hidden, struct br_error *err);
 /* Removes the hidden folder and its files: the list first, so that nothing is decided any more. */
 void br_set_remove(int folder, const char *hidden_name, int hidden);
 
-/* Whether two files have one name but for what follows its last dot. */
-bool br_same_stem(const char *a, const char *b);
-
 #endif

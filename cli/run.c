@@ -70,10 +70,9 @@ static enum br_status write_row(void *self, const struct br_history_row *row, st
 {
     struct run *r = self;
     struct br_history_row known = *row;
-    if (!r->plan.marched.axial.modelled)
-        known.displacement[BR_AXIAL] = known.velocity[BR_AXIAL] = NAN;
-    if (!r->plan.marched.bending.modelled)
-        known.displacement[BR_BENDING] = known.velocity[BR_BENDING] = NAN;
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        if (!r->plan.marched.field[kind].modelled)
+            known.displacement[kind] = known.velocity[kind] = NAN;
     if (!r->plan.marched.contact.modelled)
         known.contact_force = NAN;
     if (r->plan.marched.friction.law == BR_FRICTIONLESS)

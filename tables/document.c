@@ -46,15 +46,9 @@ static void *take(struct br_document *d, size_t size)
 /* A list with room for one more than `count` elements; NULL after a failure. */
 static void *grown(struct br_document *d, void *list, size_t count, size_t *room, size_t size)
 {
-    if (count < *room)
-        return d->failure.status ? NULL : list;
-    const size_t wanted = *room ? 2 * *room : 8;
-    void *larger = take(d, wanted * size);
-    if (!larger)
-        return NULL;
-    if (count)
-        memcpy(larger, list, count * size);
-    *room = wanted;
+    void *larger = d->failure.status ? NULL : br_store_grow(&d->store, list, count, room, size);
+    if (!larger && !d->failure.status)
+        br_no_memory(&d->failure, "a report");
     return larger;
 }
 
