@@ -225,13 +225,14 @@ static struct br_case made_case(enum br_verify_kind kind, enum br_verdict verdic
 static void print_check(FILE *out)
 {
     struct br_point point[] = {
-        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, "", {NAN, NAN, NAN}, 0},
+        {{4, 8}, {8, 16}, 0.25, 0.125, 0.5, 2.5, "n = 4", BR_FLAG_NONE, false, "",
+         {NAN, NAN, NAN}, 0, 0},
         {{8, 16}, {0, 0}, 0.125, 0, 0.25, 1.25, "n = 8", BR_FLAG_ROUND_OFF, false, "",
-         {NAN, NAN, NAN}, 0},
+         {NAN, NAN, NAN}, 0, 0},
         {{0, 0}, {0, 0}, 0.5, 0.25, 0.125, 1.125, "h = 1", BR_FLAG_NONE, true, "",
-         {NAN, NAN, NAN}, 0},
+         {NAN, NAN, NAN}, 0, 0},
         {{16, 32}, {0, 0}, 0.5, 0, NAN, NAN, "n = 16", BR_FLAG_FAILED, false, "it blew up",
-         {NAN, NAN, NAN}, 0},
+         {NAN, NAN, NAN}, 0, 0},
     };
     struct br_case cases[2][5], other[2], *now = cases[0], *was = cases[1];
     const enum br_verdict verdict[] = {BR_PASS, BR_FAIL, BR_INCONCLUSIVE, BR_FAIL, BR_PASS};
