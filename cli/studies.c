@@ -95,6 +95,7 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
         .caption = w->caption,
         .study = study_of(r, i, m),
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .fitted = study_of(r, r->heads - r->jobs + i, m),
     };
     return job->printed && norm->printed ? set_printed(job->printed, &w->report[m], err) : BR_OK;
 }

@@ -132,6 +132,10 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
         for (size_t j = 0; j < i; j++)
             if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
                 return br_fail(err, BR_BAD_INPUT, "scene %s is given twice", scene->name);
+        if (o->words > 1 && strcmp(scene->name, BR_SUMMARY) == 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several scenes have a report of this name; rename the file",
+                           scene->name);
     }
     return BR_OK;
 }
