@@ -15,7 +15,7 @@ study: solver/ reference/ study/ version.h
 tables: solver/ reference/ study/ tables/
 plots: solver/ reference/ study/ plots/
 cli: solver/ reference/ study/ tables/ plots/ cli/ build_info.h
-reference/exact: solver/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
+reference/exact: solver/box.h solver/clock.h solver/function.h solver/kind.h solver/modes.h solver/proof.h solver/scene.h
 reference/exact: solver/status.h solver/instruction_set.h solver/vectors.h reference/
 '
 
