@@ -151,8 +151,8 @@ static enum br_finite divide(struct proof *p, struct br_box box)
     return both && !is_divisible(*side(&box, v)) ? judge_gap(p, box, v, half) : BR_FINITE;
 }
 
-enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
-                                iv *value, struct br_box *where)
+enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, iv *value,
+                                struct br_box *where)
 {
     struct proof p = {.f = f, .whole = used_box(f, box)};
     enum br_finite found = BR_FINITE;
@@ -162,8 +162,7 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
     while (p.count && found == BR_FINITE) {
         found = divide(&p, p.left[--p.count]);
         if (found == BR_FINITE && p.count &&
-            (++examined == (budget ? budget : MOST_BOXES) ||
-             p.count + 2 > sizeof p.left / sizeof *p.left))
+            (++examined == MOST_BOXES || p.count + 2 > sizeof p.left / sizeof *p.left))
             found = BR_UNBOUNDED;
     }
     *value = p.value;
@@ -236,7 +235,7 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, iv *value
     }
     struct br_box where; /* a filled-in limit has a bound in small boxes only */
     return (isfinite(value->low) && isfinite(value->high)) ||
-           br_prove_bounded(f, box, 0, value, &where) == BR_FINITE;
+           br_prove_bounded(f, box, value, &where) == BR_FINITE;
 }
 
 /* Whether evaluation gives numbers at the neighbours of a point, in each variable. */
@@ -255,7 +254,7 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
     iv value;
     struct br_box where;
     char position[80];
-    const enum br_finite found = br_prove_bounded(f, box, 0, &value, &where);
+    const enum br_finite found = br_prove_bounded(f, box, &value, &where);
     if (found == BR_FINITE)
         return BR_OK;
     br_name_position(f, where, position);

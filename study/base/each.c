@@ -15,6 +15,18 @@ bool br_observer_stops(const struct br_observer *o)
     return o && o->stop && o->stop(o->self);
 }
 
+static bool (*must_stop)(void);
+
+void br_stop_when(bool (*stop)(void))
+{
+    must_stop = stop;
+}
+
+bool br_must_stop(void)
+{
+    return must_stop && must_stop();
+}
+
 static void report_share(void *self, double fraction)
 {
     const struct br_observer_share *share = self;

@@ -264,7 +264,7 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
     if (!status)
         status = take_methods(s, job, err);
     for (size_t i = 0; i < s->method.count && !status; i++) {
-        status = br_method_check_scene(&s->method.list[i].method, s->scene, err);
+        status = br_method_check(&s->method.list[i].method, s->scene, err);
         if (!status)
             status = add_plane(s, &s->method.list[i], false, n, n_count, err);
         if (!status && s->own > 0)

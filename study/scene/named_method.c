@@ -96,7 +96,7 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
         status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
-    return status ? status : br_method_check(&c->method, err);
+    return status ? status : br_method_check(&c->method, NULL, err);
 }
 
 /* ---- lists ---- */
