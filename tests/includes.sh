@@ -29,7 +29,7 @@ fit: base grid
 kept: base grid
 ranks: base grid
 run: base
-foresee: grid run
+foresee: base grid run
 verify: base fit grid scene
 orders: base fit kept scene verify
 trade: base fit foresee grid kept scene

@@ -73,6 +73,20 @@ static double integral_of_size(const struct br_function *f, enum br_variable alo
     return sum;
 }
 
+static struct br_box all_of(const struct br_scene *s)
+{
+    return (struct br_box){{0, s->length}, {0, s->duration}};
+}
+
+/* The largest size of a function in a box, and where; INFINITY: it cannot be bounded. */
+static double largest(const struct br_function *f, struct br_box box, struct br_box *peak)
+{
+    struct br_interval values;
+    *peak = box;
+    return br_enclose_values(f, box, &values, peak) ? fmax(fabs(values.low), fabs(values.high))
+                                                    : INFINITY;
+}
+
 /* Resolves f along one variable; the other is one point. *mesh (out) leaves at most 1 % of *size
  * unresolved, and rough cells have at most the share `rough` of *size; *size (out) is the integral
  * of |f|. Fails as br_resolve. */
@@ -82,13 +96,12 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
 {
     enum { DEGREE = 8, ROUNDS = 6 };
     const struct br_interval all = along == BR_X ? box.x : box.t;
-    struct br_interval values;
     struct br_box peak;
     enum br_status status = BR_OK;
+    const double most = largest(f, box, &peak), width = all.high - all.low;
     *mesh = (struct br_mesh){0};
-    if (!br_enclose_values(f, box, &values, &peak))
+    if (!isfinite(most))
         return br_fail(err, BR_BAD_INPUT, "it cannot be bounded");
-    const double most = fmax(fabs(values.low), fabs(values.high)), width = all.high - all.low;
     struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-3 * most};
     for (int i = 0; i < ROUNDS && !status; i++) {
         br_mesh_free(mesh);
@@ -139,21 +152,6 @@ static void walk(const struct br_mesh *mesh, double length, size_t parts, const 
             part += to >= end && part + 1 < parts;
             from = to;
         }
-}
-
-static struct br_box all_of(const struct br_scene *s)
-{
-    return (struct br_box){{0, s->length}, {0, s->duration}};
-}
-
-/* The largest size of a function, and where; INFINITY: it cannot be bounded. */
-static double largest(const struct br_function *f, const struct br_scene *s, struct br_box *peak)
-{
-    struct br_interval values;
-    *peak = all_of(s);
-    return br_enclose_values(f, all_of(s), &values, peak)
-               ? fmax(fabs(values.low), fabs(values.high))
-               : INFINITY;
 }
 
 /* Whether f comes from a given solution: such a function has no bounds. */
@@ -235,7 +233,7 @@ static enum br_status measure_times(const struct br_function *f, double weight, 
     enum br_status status = BR_BAD_INPUT;
     if (is_given(f))
         return BR_OK;
-    const double most = largest(f, o->scene, &peak);
+    const double most = largest(f, p.box, &peak);
     if (isfinite(most)) {
         p.box.x = peak.x;
         status = load_mesh(f, BR_T, p.box, usual_rough, &mesh, &size, &failure);
@@ -265,7 +263,8 @@ static enum br_status check_times(struct loss *s, struct br_error *err)
         const struct br_function *changing = p->space.uses_t ? &p->space : &p->time,
                                  *other = p->space.uses_t ? &p->time : &p->space;
         struct br_box peak;
-        const double weight = br_product_is_zero(p) ? INFINITY : largest(other, scene, &peak);
+        const double weight =
+            br_product_is_zero(p) ? INFINITY : largest(other, all_of(scene), &peak);
         if (!isfinite(weight))
             continue;
         if (changing->uses_t)
@@ -342,10 +341,10 @@ static enum br_status measure_shape(struct loss *s, const struct br_product *p,
     struct br_box peak;
     if (br_product_is_zero(p) || is_given(&p->space))
         return BR_OK;
-    const double most = largest(&p->time, scene, &peak), weight = isfinite(most) ? most : 0;
+    const double most = largest(&p->time, all_of(scene), &peak), weight = isfinite(most) ? most : 0;
     if (!p->space.uses_t)
         return compare(s, &p->space, (TIMES + 1) * weight, 0, err);
-    s->unknown |= !isfinite(largest(&p->space, scene, &peak));
+    s->unknown |= !isfinite(largest(&p->space, all_of(scene), &peak));
     enum br_status status = compare(s, &p->space, weight, peak.t.low, err);
     for (int i = 0; i < TIMES && !status; i++)
         status = compare(s, &p->space, weight, scene->duration * (i + 0.5) / TIMES, err);

@@ -109,7 +109,7 @@ static bool has_friction(const struct br_scene *scene)
 
 /* ---- the table ---- */
 
-static const struct br_method_word degree_names[] = {{"p1", 0}, {"p2", 1}, {NULL, 0}};
+static const char *const degree_names[] = {"p1", "p2", NULL};
 
 #define VALUE(name) .get = get_##name, .set = set_##name
 
@@ -129,8 +129,7 @@ const struct br_method_field br_method_fields[BR_METHOD_FIELDS] = {
          .more =
              "2: quadratic, of order 3 in space and 4 at the tip; solvers riccati and plain. A reference run has the same.",
          .words = &degree_words, .by = BR_METHOD_DEGREE, .in = has_axial_field,
-         .before = ", axial elements of degree ", .quiet = true, .word = degree_names,
-         .words_title = "axial elements"},
+         .before = ", axial elements of degree ", .quiet = true, .word = degree_names},
     [BR_METHOD_SOLVER] = {"solver", "solver", "NAME", "linear solver", VALUE(solver),
                           .words = &solver_words, .by = BR_METHOD_SOLVER, .before = ", solver "},
     [BR_METHOD_KERNEL] = {"kernel", "kernel", "NAME", "instruction set of the solver riccati",

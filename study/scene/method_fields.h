@@ -20,12 +20,6 @@ enum br_method_key {
     BR_METHOD_FIELDS
 };
 
-/* A word that stands for a value in the names of methods: "p2". */
-struct br_method_word {
-    const char *word;
-    double value;
-};
-
 struct br_method_field {
     const char *name;            /* of the option */
     const char *title;           /* in a sentence: "time scheme" */
@@ -44,8 +38,7 @@ struct br_method_field {
     bool quiet;                               /* left out of sentences where it is the default */
     bool unsaid;                       /* a property of the machine: a scene cannot choose it */
     const char *group, *member;        /* its object in JSON, and its key there; or NULL */
-    const struct br_method_word *word; /* in names; ends with NULL. NULL: no words */
-    const char *words_title;           /* the title of these words */
+    const char *const *word; /* of the values in names ("p2"); ends with NULL. NULL: the words */
 };
 
 extern const struct br_method_field br_method_fields[BR_METHOD_FIELDS];

@@ -19,28 +19,21 @@ static const struct br_method_field *const kinds[] = {
     &br_method_fields[BR_METHOD_DEGREE]};
 enum { CONTACT = 1, KINDS = sizeof kinds / sizeof *kinds };
 
-/* Word i of a kind and its value (out); NULL: i is behind the last word. */
-static const char *word_of(const struct br_method_field *f, size_t i, double *value)
+/* The word of a kind's value i; NULL: i is behind the last one. */
+static const char *word_of(const struct br_method_field *f, size_t i)
 {
-    *value = f->word ? f->word[i].value : (double)i;
-    return f->word ? f->word[i].word : f->words->name(i);
-}
-
-static const char *title_of(const struct br_method_field *f)
-{
-    return f->words_title ? f->words_title : f->title;
+    return f->word ? f->word[i] : f->words->name(i);
 }
 
 const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
-    double value;
     const char *word;
     if (kind >= KINDS)
         return NULL;
     words[0] = '\0';
-    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)); i++)
+    for (size_t i = 0; (word = word_of(kinds[kind], i)); i++)
         br_append(words, size, "%s%s", i ? ", " : "", word);
-    return title_of(kinds[kind]);
+    return kinds[kind]->title;
 }
 
 /* ---- names ---- */
@@ -48,12 +41,11 @@ const char *br_named_method_kind(size_t kind, char *words, size_t size)
 static bool take(const struct br_method_field *f, const char *word, struct br_method *m)
 {
     const char *name;
-    double value;
     size_t i = 0;
-    while ((name = word_of(f, i, &value)) && strcmp(name, word) != 0)
+    while ((name = word_of(f, i)) && strcmp(name, word) != 0)
         i++;
     if (name)
-        f->set(m, value);
+        f->set(m, (double)i);
     return name;
 }
 
@@ -66,17 +58,16 @@ static enum br_status take_word(const char *word, struct br_method *m, bool take
     if (i == KINDS) {
         const char *names[64];
         char expected[BR_EXPECTED];
-        double value;
         size_t count = 0;
         for (size_t kind = 0; kind < KINDS; kind++)
-            for (size_t j = 0; count < 64 && (names[count] = word_of(kinds[kind], j, &value)); j++)
+            for (size_t j = 0; count < 64 && (names[count] = word_of(kinds[kind], j)); j++)
                 count++;
         return br_fail(err, BR_BAD_INPUT, "found '%s', %s", word,
                        br_expected(word, names, count, expected));
     }
     if (taken[i])
         return br_fail(err, BR_BAD_INPUT, "found '%s', but the %s is given already", word,
-                       title_of(kinds[i]));
+                       kinds[i]->title);
     taken[i] = true;
     return BR_OK;
 }
