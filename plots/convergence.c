@@ -209,15 +209,8 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     for (size_t i = 0; i < total->points; i++)
         br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
     for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++) {
-        const struct br_seen_order *o = &r->seen[part][axis];
-        size_t at = 0;
-        add_order(o, br_part_names[part], f);
-        while (at < slopes && slope[at] < o->theory.formal)
-            at++;
-        if (at < slopes && slope[at] == o->theory.formal)
-            continue;
-        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
-        slope[at] = o->theory.formal;
+        add_order(&r->seen[part][axis], br_part_names[part], f);
+        slopes = br_slope_put(slope, slopes, r->seen[part][axis].theory.formal);
     }
     br_slopes_add(f, slopes, slope);
 }

@@ -336,7 +336,7 @@ static void print_floors(FILE *out)
     const struct br_scene scene = {.name = name};
     struct br_floors floors = {.scene = {&scene},
                                .scenes = 1,
-                               .method = {.count = 2},
+                               .method.count = 2,
                                .n_count = 2,
                                .k_count = 3,
                                .floors = 12,
@@ -362,7 +362,7 @@ static void print_drifts(FILE *out)
     struct br_floors d = {.gathered = true,
                           .scene = {&one, &two},
                           .scenes = 2,
-                          .method = {.count = 2},
+                          .method.count = 2,
                           .solvers = 1,
                           .n_count = 1,
                           .k_count = 3,
