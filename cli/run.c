@@ -303,12 +303,13 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 }
 
 /* With --vary, options for one march alone are refused. */
-static enum br_status read_swept(const struct br_options *o, const void **request,
+static enum br_status read_swept(struct br_vary *v, const struct br_options *o,
                                  struct br_error *err)
 {
     static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
     const char *name = br_first_given(o, single);
-    *request = o;
+    v->request = o;
+    v->column = name_columns();
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: --vary does not use it, since it is for one march; --out has the "
                           "results at all values",
@@ -319,10 +320,8 @@ static enum br_status read_swept(const struct br_options *o, const void **reques
 static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
 {
     struct br_run_plan *p = self;
-    v->column = name_columns();
-    const bool failed =
-        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->request, err);
-    return failed ? err->status : BR_OK;
+    return br_vary_scene(v, i, &p->opened, err) ? err->status
+                                                : br_run_plan_make(p, v->request, err);
 }
 
 static void foresee_value(void *self, struct br_foreseen *work)

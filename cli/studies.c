@@ -89,10 +89,9 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
     const bool usual = norm == br_norms[0];
     snprintf(w->name[m], sizeof w->name[m], "%s%s%s", job->name ? job->name : scene->name,
              usual ? "" : "-", usual ? "" : norm->name);
-    snprintf(w->caption, sizeof w->caption, "%s", job->caption ? job->caption : scene->title);
     w->report[m] = (struct br_report){
         .name = w->name[m],
-        .caption = w->caption,
+        .caption = job->caption ? job->caption : scene->title,
         .study = study_of(r, i, m),
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
         .fitted = study_of(r, r->heads - r->jobs + i, m),

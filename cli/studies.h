@@ -24,8 +24,8 @@ struct br_study_work {
     size_t *steps; /* numbers of steps of the grid, ascending; owned */
     struct br_kept kept;
     struct br_apart apart;
-    char name[BR_MOST_NORMS][512], caption[512]; /* of the reports */
-    struct br_report report[BR_MOST_NORMS];      /* request.norms of them */
+    char name[BR_MOST_NORMS][512];          /* of the reports */
+    struct br_report report[BR_MOST_NORMS]; /* request.norms of them */
 };
 
 struct br_studies {

@@ -1,34 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* beamrate study SCENE --vary: the finest error and the orders of a study at each value. */
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/studies.h"
 
 enum { ERROR, RELATIVE, OWN, P, P_LOW, P_HIGH, Q, Q_LOW, Q_HIGH, MISFIT, POINTS, SWEPT };
 
-static const struct br_variation_column *name_columns(const struct br_norm *norm)
-{
-    static char axis[160];
-    static struct br_variation_column column[SWEPT];
-    snprintf(axis, sizeof axis, "%s of the finest cell (%s)", norm->symbol, norm->unit_markup);
-    const struct br_variation_column columns[SWEPT] = {
-        [ERROR] = {"error", "error of the finest cell", norm->unit, "%.3e", .axis = axis,
-                   .logarithmic = true},
-        [RELATIVE] = {"relative", "relative", .format = "%.2e"},
-        [OWN] = {"reference_error", .unit = norm->unit, .for_programs = true},
-        [P] = {"p", "order in h", .format = "%.3f", .axis = "order"},
-        [P_LOW] = {"p_low", .for_programs = true},
-        [P_HIGH] = {"p_high", .for_programs = true},
-        [Q] = {"q", "order in k", .format = "%.3f", .axis = "order"},
-        [Q_LOW] = {"q_low", .for_programs = true},
-        [Q_HIGH] = {"q_high", .for_programs = true},
-        [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
-        [POINTS] = {"points", "cells used", .format = "%.0f"},
-    };
-    memcpy(column, columns, sizeof column);
-    return column;
-}
+static struct br_variation_column columns[SWEPT] = {
+    [ERROR] = {"error", "error of the finest cell", .format = "%.3e", .logarithmic = true},
+    [RELATIVE] = {"relative", "relative", .format = "%.2e"},
+    [OWN] = {"reference_error", .for_programs = true},
+    [P] = {"p", "order in h", .format = "%.3f", .axis = "order"},
+    [P_LOW] = {"p_low", .for_programs = true},
+    [P_HIGH] = {"p_high", .for_programs = true},
+    [Q] = {"q", "order in k", .format = "%.3f", .axis = "order"},
+    [Q_LOW] = {"q_low", .for_programs = true},
+    [Q_HIGH] = {"q_high", .for_programs = true},
+    [MISFIT] = {"misfit", "misfit", .format = "%.2g"},
+    [POINTS] = {"points", "cells used", .format = "%.0f"},
+};
 
 /* Takes an order by the rule of a study's report for claiming it. */
 static void take_order(double *value, const struct br_joint_fit *fit, const struct br_estimate *e)
@@ -59,17 +49,23 @@ static void take_point(const struct br_studies *r, struct br_variation *found, s
     found->unstable[i] = finest->unstable;
 }
 
-static enum br_status read_request(const struct br_options *o, const void **out,
+static enum br_status read_request(struct br_vary *v, const struct br_options *o,
                                    struct br_error *err)
 {
     static struct br_study_request request;
-    *out = &request;
+    static char axis[160];
     if (br_study_request_read(o, &request, err))
         return err->status;
-    return request.norms == 1
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
-                         request.norms);
+    if (request.norms > 1)
+        return br_fail(err, BR_BAD_INPUT, "--norm: found %zu norms, expected one with --vary",
+                       request.norms);
+    const struct br_norm *norm = request.norm[0];
+    snprintf(axis, sizeof axis, "%s of the finest cell (%s)", norm->symbol, norm->unit_markup);
+    columns[ERROR].axis = axis;
+    columns[ERROR].unit = columns[OWN].unit = norm->unit;
+    v->request = &request;
+    v->column = columns;
+    return BR_OK;
 }
 
 static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
@@ -77,10 +73,7 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
     struct br_studies *r = self;
     const struct br_study_job job = {.vary = v, .value = i};
     *r = (struct br_studies){v->request, v->session, .jobs = 1};
-    if (br_studies_prepare(r, &job, false, err) || br_studies_check_memory(r, err))
-        return err->status;
-    v->column = name_columns(r->request->norm[0]);
-    return BR_OK;
+    return br_studies_prepare(r, &job, false, err) ? err->status : br_studies_check_memory(r, err);
 }
 
 static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,

@@ -27,7 +27,7 @@ static enum br_status prepare(struct br_vary *v, const struct br_options *o,
                               const struct br_vary_command *c, void **points, struct br_error *err)
 {
     char text[BR_VARIED_TEXT];
-    if (c->read(o, &v->request, err) || br_opened_scene_read(&v->base, o->word[0], err) ||
+    if (c->read(v, o, err) || br_opened_scene_read(&v->base, o->word[0], err) ||
         br_varied_read(br_option_text(o, BR_OPT_VARY), &v->varied, err))
         return err->status;
     if (!(*points = br_allocate(v->varied.count, c->size)))

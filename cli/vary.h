@@ -13,7 +13,7 @@ struct br_vary {
     struct br_opened_scene base;
     struct br_varied varied;
     size_t points;                            /* number of values that are prepared */
-    const struct br_variation_column *column; /* of the results; set once a value is prepared */
+    const struct br_variation_column *column; /* of the results */
     struct br_variation found;
 };
 
@@ -23,11 +23,11 @@ struct br_vary_command {
     size_t size;        /* of a point */
     size_t columns;
     bool alone; /* as in struct br_foreseen */
-    /* Reads what is asked of all values alike, and refuses options that are for one value alone.
-     * *request (out): static, or the options. */
-    enum br_status (*read)(const struct br_options *options, const void **request,
+    /* Reads what is asked of all values alike, refuses options that are for one value alone, and
+     * names the columns: sets request and column, which are static, or the options. */
+    enum br_status (*read)(struct br_vary *vary, const struct br_options *options,
                            struct br_error *err);
-    /* Checks everything that can be refused before the march, and names the columns. */
+    /* Checks everything that can be refused before the march. */
     enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
     void (*foresee)(void *point, struct br_foreseen *work);
     /* Marches, and fills row i of vary->found. failure (out): why the row is empty, which is a

@@ -15,11 +15,6 @@ static size_t entry_of(const struct br_report *r, int axis, size_t i)
     return axis == BR_AXIS_SPACE ? study->n[i] : study->steps[i];
 }
 
-static size_t count_of(const struct br_report *r, int axis)
-{
-    return br_axis_count(r->fitted, axis);
-}
-
 /* h or k, m or s. */
 static double size_of(const struct br_report *r, int axis, size_t i)
 {
@@ -57,7 +52,7 @@ static void add_points(const struct br_report *r, int axis, size_t at, of_cell *
                        struct br_series *series)
 {
     const struct br_study *study = r->fitted;
-    for (size_t i = 0; i < count_of(r, axis); i++) {
+    for (size_t i = 0; i < br_axis_count(r->fitted, axis); i++) {
         const size_t cell = br_axis_cell(study, axis, i, at);
         const enum br_flag flag = study->cell[cell].flag[BR_PART_TOTAL];
         const bool flagged = flag != BR_FLAG_NONE && value != printed_of;
@@ -90,7 +85,7 @@ static const char *name_curve(const struct br_report *r, int axis, size_t at, ch
 /* Adds the curves along an axis, one for each entry of the other axis. */
 static void add_curves(const struct br_report *r, int axis, of_cell *value, struct br_figure *f)
 {
-    const size_t count = count_of(r, 1 - axis);
+    const size_t count = br_axis_count(r->fitted, 1 - axis);
     char name[40];
     for (size_t i = 0; i < count; i++)
         add_points(r, axis, i, value,
@@ -106,7 +101,7 @@ static struct br_panel *add_panel(const struct br_report *r, int axis, struct br
     p->log_x = p->log_y = true;
     BR_SAY(p->y_label, "%s (%s)", norm->symbol, norm->unit_markup);
     BR_SAY(p->top_label, space ? "elements n" : "steps N");
-    for (size_t i = 0; i < count_of(r, axis); i++)
+    for (size_t i = 0; i < br_axis_count(r->fitted, axis); i++)
         br_point_add(&p->top, size_of(r, axis, i), (double)entry_of(r, axis, i), NULL);
     return p;
 }
@@ -240,7 +235,7 @@ static bool has_printed(const struct br_report *r)
 /* The hue shows whose error it is, the mark which curve it is. */
 static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 {
-    const size_t count = count_of(r, 1 - axis);
+    const size_t count = br_axis_count(r->fitted, 1 - axis);
     add_panel(r, axis, f);
     for (size_t i = 0; i < 2 * count; i++) {
         const size_t hue = hue_of(i / 2, count);
@@ -254,7 +249,7 @@ static void add_both(const struct br_report *r, int axis, struct br_figure *f)
 /* The name of the curve that a mark stands for in a panel; "": there is none. */
 static const char *say_mark(const struct br_report *r, int axis, size_t hue, char name[40])
 {
-    const size_t count = count_of(r, 1 - axis);
+    const size_t count = br_axis_count(r->fitted, 1 - axis);
     name[0] = '\0';
     for (size_t i = 0; i < count; i++)
         if (hue_of(i, count) == hue)

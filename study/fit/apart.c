@@ -22,7 +22,7 @@ static double work_of(size_t n, size_t steps)
 }
 
 /* The element-steps of two neighbours. */
-static double work_of_pair(const struct br_apart *a, int axis, size_t i)
+static double work_of_pair(const struct br_apart *a, enum br_axis axis, size_t i)
 {
     const size_t *size = a->size[axis];
     return axis == BR_AXIS_SPACE
@@ -81,10 +81,11 @@ static void choose_steps(struct br_apart *a, const struct br_study *s)
 
 /* Adds differences of neighbours at the front or the back of those that are there. size: of the
  * first one. */
-static enum br_status add(struct br_study *to, struct br_study *more, int axis, bool front,
+static enum br_status add(struct br_study *to, struct br_study *more, enum br_axis axis, bool front,
                           const size_t *size, struct br_error *err)
 {
-    const size_t old = to->cell ? br_axis_count(to, axis) : 0, new = br_axis_count(more, axis);
+    const size_t old = to->cell ? br_axis_count(to, (int)axis) : 0,
+                 new = br_axis_count(more, (int)axis);
     struct br_cell *cell = br_allocate(old + new, sizeof *cell);
     if (!cell)
         return br_no_memory(err, "the differences");
@@ -130,8 +131,7 @@ static enum br_status compare(struct br_apart *a, const struct br_report *report
     status = BR_OK;
     for (size_t m = 0; m < norms && !why->status; m++) {
         if (!status)
-            status = add(&a->over[axis][m], &found[m], axis, front,
-                         size + a->first[axis], err);
+            status = add(&a->over[axis][m], &found[m], axis, front, size + a->first[axis], err);
         br_study_clear(&found[m]);
     }
     return status;

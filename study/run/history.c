@@ -193,18 +193,13 @@ static enum br_status keep_sample(void *self, const struct br_march *march,
     for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
         h->unknowns[kind] = br_field_unknowns(br_march_field(march, kind));
     const size_t size = values_of(h) * (h->n + 1);
-    size_t most = h->most_samples;
-    if (!br_grow(&h->at, h->samples, &most, sizeof *h->at))
+    size_t most = h->most_samples; /* before both grow */
+    if (!br_grow(&h->at, h->samples, &most, sizeof *h->at) ||
+        !br_grow(&h->field, h->samples, &h->most_samples, size * sizeof *h->field))
         return br_no_memory(err, "the fields");
-    most = h->most_samples;
-    if (!br_grow(&h->field, h->samples, &most, size * sizeof *h->field))
-        return br_no_memory(err, "the fields");
-    h->most_samples = most;
     double *field = h->field + h->samples * size;
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const enum br_field_kind k = kind;
+    for (enum br_field_kind k = BR_AXIAL; k <= BR_BENDING; k++)
         br_march_get(march, k, field + field_offset(h, k, false), field + field_offset(h, k, true));
-    }
     h->at[h->samples++] = *row;
     return BR_OK;
 }

@@ -88,15 +88,25 @@ static double usual_change(double scale, double width, double length)
     return (1e-9 + 100 * width / length) * scale;
 }
 
+/* Where there are too many breaks, each user of the function reports it. Fails with BR_NO_MEMORY.
+ */
+static enum br_status find_breaks(const struct br_function *f, enum br_variable along,
+                                  struct br_box box, struct br_breaks *breaks, struct br_error *err)
+{
+    struct br_error failure;
+    *breaks = (struct br_breaks){0};
+    return br_breaks_add(f, along, box, breaks, &failure) == BR_NO_MEMORY
+               ? br_no_memory(err, "the breaks of a function")
+               : BR_OK;
+}
+
 static enum br_status refuse_jumps(const struct initial *d, const struct br_function *f,
                                    const char *name, struct br_error *err)
 {
     const struct br_box box = {{0, d->length}, {0, 0}};
     const double scale = largest(f, d->length);
-    struct br_breaks breaks = {0};
-    struct br_error failure;
-    enum br_status status = br_breaks_add(f, BR_X, box, &breaks, &failure);
-    status = status == BR_NO_MEMORY ? br_no_memory(err, "initial data") : BR_OK;
+    struct br_breaks breaks;
+    enum br_status status = find_breaks(f, BR_X, box, &breaks, err);
     for (size_t i = 0; i < breaks.count && !status; i++) {
         const struct br_interval at = breaks.at[i];
         const struct br_box around = {{nextafter(at.low, -INFINITY), nextafter(at.high, INFINITY)},
@@ -197,13 +207,8 @@ static double usual_difference(const struct br_function *f, const struct br_inte
 static enum br_status refuse_single_values(const struct br_function *f, enum br_variable along,
                                            struct br_box box, struct br_error *err)
 {
-    struct br_breaks breaks = {0};
-    struct br_error failure;
-    enum br_status status = br_breaks_add(f, along, box, &breaks, &failure);
-    if (status == BR_NO_MEMORY)
-        br_fail(err, status, "%s", failure.message);
-    else
-        status = BR_OK; /* too many breaks: each user of the function reports it */
+    struct br_breaks breaks;
+    enum br_status status = find_breaks(f, along, box, &breaks, err);
     for (size_t i = 0; i < breaks.count && !status; i++) {
         const double ends[] = {breaks.at[i].low, breaks.at[i].high};
         const double before = value_of(f, nextafter(ends[0], -INFINITY));
