@@ -1232,7 +1232,7 @@ static const struct planted_bug planted_bugs[] = {
     {"trust_of_any_place", "option", "study/orders/program_files.c", "golden orders_run",
      "br_state(&s, \"place\", \"%s\", real ? real : r->path);", ""},
     {"trust_of_any_program", "option", "study/orders/program_files.c", "golden orders_run",
-     "status = add_command(&s, &words, &before, err);", ""},
+     "status = br_command_state(&s, &words, &before, err);", ""},
     {"orphans_are_forgotten", "lost", "study/orders/process.c",
      "tests/test_program test_no_survivors", "prctl(PR_SET_CHILD_SUBREAPER, 1) == 0 && ", ""},
     {"ignored_signals_stay_ignored", "lost", "study/orders/process.c",

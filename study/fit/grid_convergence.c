@@ -6,6 +6,7 @@
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
 #include "study/fit/line_order.h"
@@ -52,10 +53,9 @@ enum br_status br_check_formal(double formal, struct br_error *err)
 /* The round-off that the difference of two values may have. */
 static double round_off_of(const double *value, size_t count)
 {
-    double largest = 0;
-    for (size_t i = 0; i < count; i++)
-        largest = fmax(largest, fabs(value[i]));
-    return 64 * DBL_EPSILON * largest;
+    double least, most;
+    gsl_stats_minmax(&least, &most, value, 1, count);
+    return 64 * DBL_EPSILON * fmax(fabs(least), fabs(most));
 }
 
 /* ---- the grid convergence index ---- */
@@ -438,11 +438,8 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
         status = br_check_formal(formal, err);
     if (status)
         return status;
-    double least = value[0], most = value[0];
-    for (size_t i = 1; i < count; i++) {
-        least = fmin(least, value[i]);
-        most = fmax(most, value[i]);
-    }
+    double least, most;
+    gsl_stats_minmax(&least, &most, value, 1, count);
     if (most - least <= round_off_of(value, count)) {
         result->sequence = BR_SEQUENCE_CONSTANT;
         result->range = (most - least) / (double)(count - 1);
