@@ -178,6 +178,7 @@ starts 2 0 'a part that is gone' --with ida build
 machine "$1"
 mkdir -p "$work/tree/tests" "$work/tree/docs" "$work/tree/build/release/cli"
 echo 'echo sentences "$@" >>"${2%/tree}/made_anew"' >"$work/tree/tests/sentences.sh"
+echo 'echo examples "$@" >>"${0%/tree/*}/made_anew"' >"$work/tree/tests/examples.sh"
 printf '#!/bin/sh\necho the page "$@"\n' >"$work/tree/build/release/cli/beamrate"
 chmod +x "$work/tree/build/release/cli/beamrate"
 for tool in meson ninja; do

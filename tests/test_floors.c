@@ -52,6 +52,72 @@ TEST(test_floors)
     br_floors_clear(&f);
 }
 
+/* Verdicts by hand, of the row among others that are right. The limit is what is predicted, and of
+ * riccati's first 20 steps no more than 2e-11 up to n = 12800, 1e-9 up to a million. */
+TEST(test_verdicts_by_hand)
+{
+    static const struct {
+        const char *by;
+        size_t n, steps;
+        double axial, bending, predicted, time_error;
+        enum br_status refused;
+        bool right;
+    } rows[] = {
+        {"riccati", 100, 20, 1e-12, 2e-12, 2e-12, 0, BR_OK, true},
+        {"riccati", 100, 20, 1e-12, 2.001e-12, 2e-12, 0, BR_OK, false},
+        {"riccati", 100, 20, 2.001e-12, 1e-12, 2e-12, 0, BR_OK, false},
+        {"riccati", 100, 20, 2e-11, 0, 1, 0, BR_OK, true},
+        {"riccati", 100, 20, 2.01e-11, 0, 1, 0, BR_OK, false},
+        {"riccati", 12800, 20, 2.01e-11, 0, 1, 0, BR_OK, false},
+        {"riccati", 12801, 20, 2.01e-11, 1e-9, 1, 0, BR_OK, true},
+        {"riccati", 1000000, 20, 1.01e-9, 0, 1, 0, BR_OK, false},
+        {"riccati", 1000001, 20, 1.01e-9, 0, 1, 0, BR_OK, true},
+        {"riccati", 100, 21, 1e-3, 0, 1, 0, BR_OK, true},
+        {"plain", 100, 20, 1e-3, 0, 1, 0, BR_OK, true},
+        {"plain", 100, 20, 1.01, 0, 1, 0, BR_OK, false},
+        {"plain", 100, 20, NAN, 0, 1, 0, BR_OK, false},
+        {"plain", 100, 20, 0, NAN, 1, 0, BR_OK, false},
+        {"plain", 100, 20, 1e-15, 0, NAN, 0, BR_OK, false},
+        {"riccati", 100, 20, 1e-15, 0, NAN, 0, BR_OK, false},
+        {"plain", 100, 20, INFINITY, 0, INFINITY, 0, BR_OK, false},
+        {"plain", 100, 20, 0, 0, 0, 0, BR_OK, true},
+        {"plain", 100, 20, 0, 0, 1, 0x1p-52, BR_OK, true},
+        {"plain", 100, 20, 0, 0, 1, 0x1.1p-52, BR_OK, false},
+        {"plain", 100, 20, 0, 0, 1, NAN, BR_OK, false},
+        {"plain", 100, 20, NAN, NAN, NAN, NAN, BR_SINGULAR, false},
+        {"riccati", 100, 20, NAN, NAN, NAN, NAN, BR_NOT_FINITE, false},
+        {"plain", 100, 20, NAN, NAN, NAN, NAN, BR_BAD_INPUT, true},
+        {"umfpack", 100, 20, NAN, NAN, NAN, NAN, BR_SINGULAR, true},
+        {"umfpack", 100, 20, 1.01, 0, 1, 0, BR_OK, false},
+        {"riccati", 100, 0, NAN, NAN, NAN, NAN, BR_OK, true}, /* not marched */
+    };
+    for (size_t i = 0; i < 3 * sizeof rows / sizeof *rows; i++) {
+        const size_t row = i / 3;
+        struct br_error err = {0};
+        struct br_named_method method[2];
+        struct br_floor floor[3];
+        MUST(br_named_method_read("plain", &method[0], &err));
+        MUST(br_named_method_read(rows[row].by, &method[1], &err));
+        for (size_t j = 0; j < 3; j++)
+            floor[j] = (struct br_floor){
+                .scene = *scenes, .by = &method[0], .n = 3, .steps = 1, .predicted = 1};
+        floor[i % 3] = (struct br_floor){.scene = *scenes,
+                                         .by = &method[1],
+                                         .n = rows[row].n,
+                                         .steps = rows[row].steps,
+                                         .deviation = {rows[row].axial, rows[row].bending},
+                                         .predicted = rows[row].predicted,
+                                         .time_error = rows[row].time_error,
+                                         .refused.status = rows[row].refused};
+        const struct br_floors made = {.floor = floor, .floors = 3};
+        const enum br_status status = br_floors_verdict(&made, &err);
+        if (status != (rows[row].right ? BR_OK : BR_VERDICT))
+            fail_msg("row %zu at place %zu: %s", row, i % 3, status ? err.message : "passes");
+    }
+    const struct br_floors none = {.floors = 0};
+    assert_int_equal(br_floors_verdict(&none, &(struct br_error){0}), BR_OK);
+}
+
 static bool at_once(void *self)
 {
     (void)self;

@@ -338,7 +338,7 @@ double br_floor_limit(const struct br_floor *f)
                         : f->n <= 12800   ? 2e-11
                         : f->n <= 1000000 ? 1e-9
                                           : INFINITY;
-    return f->predicted < most ? f->predicted : most;
+    return most < f->predicted ? most : f->predicted; /* NaN stays */
 }
 
 static enum br_status check(const struct br_floor *f, struct br_error *err)
@@ -351,7 +351,7 @@ static enum br_status check(const struct br_floor *f, struct br_error *err)
              f->n, f->steps, f->k);
     if (f->refused.status)
         return br_fail(err, BR_VERDICT, "%s: %.700s", what, f->refused.message);
-    if (!(br_floor_deviation(f) <= br_floor_limit(f)))
+    if (!(br_floor_deviation(f) <= br_floor_limit(f) && isfinite(br_floor_deviation(f))))
         return br_fail(err, BR_VERDICT, "%s: the round-off is %.2g, expected at most %.2g", what,
                        br_floor_deviation(f), br_floor_limit(f));
     if (!(f->time_error <= DBL_EPSILON))
