@@ -44,10 +44,16 @@ static void make_power(struct made *m, double order, size_t count)
     make(m, error, count);
 }
 
-static void reach(struct made *m, enum br_verdict expected, const char *reason)
+static void judge(struct br_case *c)
 {
     struct br_error err = {0};
-    MUST(br_verdict_reach(&m->it, &err));
+    MUST(br_case_observe(c, BR_VERIFY_LEAST_POINTS, &err));
+    br_case_judge(c);
+}
+
+static void reach(struct made *m, enum br_verdict expected, const char *reason)
+{
+    judge(&m->it);
     if (m->it.verdict != expected || !strstr(m->it.reason, reason))
         fail_msg("%s because '%s', expected %s because '%s'", br_verdict_names[m->it.verdict],
                  m->it.reason, br_verdict_names[expected], reason);
@@ -94,13 +100,12 @@ TEST(test_two_powers)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct made m;
-        struct br_error err = {0};
         make_power(&m, 1, 5);
         m.it.expected.order = 2;
         m.it.expected.highest = 4;
         for (size_t j = 1; j < 5; j++)
             m.point[j].error = m.point[j - 1].error * pow(2, -rows[i].rate[j - 1]);
-        MUST(br_verdict_reach(&m.it, &err));
+        judge(&m.it);
         if ((m.it.verdict == BR_PASS) != rows[i].pass)
             fail_msg("row %zu: %s because '%s'", i, br_verdict_names[m.it.verdict], m.it.reason);
     }
@@ -161,8 +166,7 @@ TEST(test_many_points)
         make_power(&m, 1, count);
         for (size_t i = 0; i < count; i++) /* the last local order is 0.45 */
             m.point[i].error += 1.3 * m.point[count - 1].error;
-        struct br_error err = {0};
-        MUST(br_verdict_reach(&m.it, &err));
+        judge(&m.it);
         assert_int_not_equal(m.it.verdict, BR_PASS);
     }
     make_power(&m, 1, 8);
@@ -222,13 +226,12 @@ TEST(test_any_unit)
     };
     for (size_t l = 0; l < sizeof error / sizeof *error; l++) {
         struct made a, b;
-        struct br_error err = {0};
         make(&a, error[l], 8);
         make(&b, error[l], 8);
         for (size_t i = 0; i < 8; i++)
             b.point[i].error *= 1e-9;
-        MUST(br_verdict_reach(&a.it, &err));
-        MUST(br_verdict_reach(&b.it, &err));
+        judge(&a.it);
+        judge(&b.it);
         assert_int_equal(a.it.verdict, b.it.verdict);
         assert_true(a.it.law == b.it.law);
         keep_words(a.it.reason), keep_words(b.it.reason);
@@ -274,9 +277,8 @@ TEST(test_notes)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct made m;
-        struct br_error err = {0};
         make(&m, rows[i].error, 6);
-        MUST(br_verdict_reach(&m.it, &err));
+        judge(&m.it);
         if (!strstr(m.it.note, rows[i].note))
             fail_msg("found '%s', expected '%s'", m.it.note, rows[i].note);
     }
@@ -380,8 +382,7 @@ TEST(test_coverage)
                 normal += br_test_uniform(&random, 0, 1);
             m.point[i].error *= exp(0.05 * normal);
         }
-        struct br_error err = {0};
-        MUST(br_verdict_reach(&m.it, &err));
+        judge(&m.it);
         within += m.it.order.low <= 1 && m.it.order.high >= 1;
     }
     if (!(within >= 0.93 * trials))

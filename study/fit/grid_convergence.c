@@ -6,6 +6,7 @@
 #include <float.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
 #include "study/fit/line_order.h"
@@ -23,39 +24,12 @@ const char *br_sequence_text(enum br_sequence sequence)
     return texts[sequence];
 }
 
-static enum br_status check_line(const double *h, const double *value, size_t count, size_t least,
-                                 struct br_error *err)
-{
-    if (count < least)
-        return br_fail(err, BR_BAD_INPUT, "%zu grids, expected at least %zu", count, least);
-    for (size_t i = 0; i < count; i++) {
-        if (!(h[i] > 0 && isfinite(h[i])))
-            return br_fail(err, BR_BAD_INPUT, "h[%zu] is %g, expected a finite number > 0", i,
-                           h[i]);
-        if (i > 0 && !(h[i - 1] / h[i] > 1 && isfinite(h[i - 1] / h[i])))
-            return br_fail(err, BR_BAD_INPUT, "h[%zu] is %.17g, expected less than %.17g before it",
-                           i, h[i], h[i - 1]);
-        if (!(fabs(value[i]) <= DBL_MAX / 4)) /* differences do not overflow */
-            return br_fail(err, BR_BAD_INPUT, "value[%zu] is %g, expected a finite number", i,
-                           value[i]);
-    }
-    return BR_OK;
-}
-
-enum br_status br_check_formal(double formal, struct br_error *err)
-{
-    return formal >= 1 && formal <= 10
-               ? BR_OK
-               : br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
-}
-
 /* The round-off that the difference of two values may have. */
 static double round_off_of(const double *value, size_t count)
 {
-    double largest = 0;
-    for (size_t i = 0; i < count; i++)
-        largest = fmax(largest, fabs(value[i]));
-    return 64 * DBL_EPSILON * largest;
+    double least, most;
+    gsl_stats_minmax(&least, &most, value, 1, count);
+    return 64 * DBL_EPSILON * fmax(fabs(least), fabs(most));
 }
 
 /* ---- the grid convergence index ---- */
@@ -169,12 +143,9 @@ double br_gci_limited(const struct br_gci *gci, double formal)
                                      : NAN;
 }
 
-enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
-                      struct br_error *err)
+void br_gci(const double *h, const double *value, size_t count, struct br_gci *gci)
 {
     *gci = (struct br_gci){.order = NAN};
-    if (check_line(h, value, count, 3, err))
-        return err->status;
     h += count - 3;
     value += count - 3;
     judge_triplet(h, value, gci);
@@ -182,7 +153,6 @@ enum br_status br_gci(const double *h, const double *value, size_t count, struct
     gci->fine = pair_of(h + 1, value + 1, order);
     gci->coarse = pair_of(h, value, order);
     gci->asymptotic = gci->coarse.index / (pow(gci->fine.ratio, order) * gci->fine.index);
-    return BR_OK;
 }
 
 /* ---- least squares ---- */
@@ -433,23 +403,15 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
 {
     const struct br_expansion_fit none = {0, {NAN, NAN}, false, false, NAN, NAN, NAN, NAN};
     *result = (struct br_least_squares){BR_SEQUENCE_UNKNOWN, NAN, none, NAN, NAN, NAN};
-    enum br_status status = check_line(h, value, count, 4, err);
-    if (!status)
-        status = br_check_formal(formal, err);
-    if (status)
-        return status;
-    double least = value[0], most = value[0];
-    for (size_t i = 1; i < count; i++) {
-        least = fmin(least, value[i]);
-        most = fmax(most, value[i]);
-    }
+    double least, most;
+    gsl_stats_minmax(&least, &most, value, 1, count);
     if (most - least <= round_off_of(value, count)) {
         result->sequence = BR_SEQUENCE_CONSTANT;
         result->range = (most - least) / (double)(count - 1);
         return BR_OK;
     }
     struct data data;
-    status = data_create(&data, h, value, count, most - least, err);
+    enum br_status status = data_create(&data, h, value, count, most - least, err);
     if (!status) {
         choose_fit(&data, formal, result);
         find_uncertainty(count, formal, result);

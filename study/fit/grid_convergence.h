@@ -9,10 +9,10 @@
  * numerical uncertainty of CFD calculations based on grid refinement studies", J. Comput. Phys.
  * 262, 104-130 (2014).
  *
- * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine, and
- * value[count] is the quantity on these grids. The papers count from the finest grid: their h_1 is
- * h[count - 1]. NaN in a result: not known. BR_BAD_INPUT: too few grids, an h that is not smaller
- * than the one before, a number that is not finite, a formal order out of its range. */
+ * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine,
+ * each smaller than the one before, with finite ratios, and value[count] is the quantity on these
+ * grids, below DBL_MAX/4. The papers count from the finest grid: their h_1 is h[count - 1]. NaN in
+ * a result: not known. */
 #ifndef BR_STUDY_FIT_GRID_CONVERGENCE_H
 #define BR_STUDY_FIT_GRID_CONVERGENCE_H
 
@@ -67,10 +67,8 @@ struct br_gci {
 };
 
 /* From the three finest grids; count >= 3. An order far above the formal one makes the uncertainty
- * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): compare the orders. Fails with
- * BR_BAD_INPUT, BR_NO_MEMORY. */
-enum br_status br_gci(const double *h, const double *value, size_t count, struct br_gci *gci,
-                      struct br_error *err);
+ * too small (Xing and Stern, J. Fluids Eng. 132, 061403, 2010): compare the orders. */
+void br_gci(const double *h, const double *value, size_t count, struct br_gci *gci);
 
 /* The index of the fine grid with the limits of Oberkampf and Roy, Verification and Validation in
  * Scientific Computing (2010), chapter 8: within a tenth of the formal order, that order with a
@@ -111,7 +109,7 @@ struct br_least_squares {
 /* The paper is about methods of formal order 2. Another formal order, 1 to 10, replaces 2 as the
  * highest order that is accepted (2.1: formal + 0.1) and as the exponent of the second term; for
  * formal order 1 the second term is h^2, and is never the only one. count >= 4. The uncertainty is
- * known for each sequence but a constant one, also for divergence. Fails with BR_BAD_INPUT,
+ * known for each sequence but a constant one, also for divergence. Fails with
  * BR_NO_MEMORY. */
 enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
                                 struct br_least_squares *result, struct br_error *err);
@@ -120,8 +118,5 @@ enum br_status br_least_squares(const double *h, const double *value, size_t cou
  * br_line_order_find; count >= 4. Fails with BR_NO_MEMORY. */
 enum br_status br_order_of_values(const double *h, const double *value, size_t count,
                                   struct br_estimate *order, struct br_error *err);
-
-/* Refuses (BR_BAD_INPUT) a formal order that is not 1 to 10. */
-enum br_status br_check_formal(double formal, struct br_error *err);
 
 #endif

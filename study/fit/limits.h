@@ -29,7 +29,7 @@ struct br_grid_limit {
  * the finest value with that interval, where one constant agrees with all values (chi square, 95
  * %), or with the finest three of values that do not converge monotonely.
  *
- * count >= 3; formal as in br_least_squares. Fails with BR_BAD_INPUT, BR_NO_MEMORY. The interval is
+ * count >= 3; formal as in br_least_squares. Fails with BR_NO_MEMORY. The interval is
  * an estimate, not a bound. For random cubics in h, it contained the limit in 99 to 100 % at h =
  * 0.01, where the linear term dominates; at h = 0.1, where it does not, in 98 to 99 % of four grids
  * or more, in 81 % of three. */
@@ -47,7 +47,8 @@ struct br_limits {
 };
 
 /* formal 0: none is stated, and it is 2. Of less than three values nothing is known. Clear the
- * limits even after a failure. Fails as br_limit_of_values. */
+ * limits even after a failure. Fails with BR_BAD_INPUT where formal is neither 0 nor 1 to 10, or
+ * with BR_NO_MEMORY. */
 enum br_status br_limits_find(const double *h, const double *value, const double *half,
                               size_t count, double formal, struct br_limits *limits,
                               struct br_error *err);

@@ -210,6 +210,8 @@ static void name_row(const struct br_numbers *numbers, const struct br_numbers_r
         snprintf(text, SOURCE, "%.300s: %s", path, size);
 }
 
+static const double largest = 1e150; /* size */
+
 static enum br_status check_row(const struct br_numbers *numbers, const struct br_numbers_row *row,
                                 const char *path, struct br_error *err)
 {
@@ -222,10 +224,9 @@ static enum br_status check_row(const struct br_numbers *numbers, const struct b
         if (column && !((given > 0 || (column->is_power && given >= 0)) && isfinite(given)))
             return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a number above 0", source,
                            column->name, given);
-        if (column && !(z >= DBL_MIN && isfinite(z)))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: %s: found %g, expected a size within the range of numbers", source,
-                           column->name, given);
+        if (column && !(z >= 1 / largest && z <= largest)) /* so that ratios do not overflow */
+            return br_fail(err, BR_BAD_INPUT, "%s: %s: found %g, expected a size from %g to %g",
+                           source, column->name, given, 1 / largest, largest);
     }
     for (size_t i = 0; i < numbers->quantities; i++) {
         const struct br_quantity *q = &numbers->quantity[i];

@@ -280,7 +280,7 @@ static enum br_status text_of(const struct job *j, const struct br_command_words
     static const char *const kinds[] = {"regex", "json", "csv"};
     struct br_statement s;
     br_kept_begin(j->kept, "run", &s);
-    const enum br_status status = br_command_state(&s, cell, err);
+    const enum br_status status = br_command_state(&s, cell, NULL, err);
     for (size_t i = 0; i < j->program->readings; i++) {
         const struct br_reading *reading = &j->program->reading[i];
         br_state(&s, "name", "%s", reading->name);

@@ -43,10 +43,8 @@ static enum br_status add_file(struct br_statement *command, const char *path, l
     return BR_OK;
 }
 
-/* before: the command at another resolution; files of equal words are not read again. NULL: none,
- * and no places. */
-static enum br_status add_command(struct br_statement *command, const struct br_command_words *c,
-                                  const struct br_command_words *before, struct br_error *err)
+enum br_status br_command_state(struct br_statement *command, const struct br_command_words *c,
+                                const struct br_command_words *before, struct br_error *err)
 {
     const bool place = before;
     char **same = before ? before->word : NULL;
@@ -66,12 +64,6 @@ static enum br_status add_command(struct br_statement *command, const struct br_
     return status;
 }
 
-enum br_status br_command_state(struct br_statement *command, const struct br_command_words *c,
-                                struct br_error *err)
-{
-    return add_command(command, c, NULL, err);
-}
-
 enum br_status br_command_identify(const struct br_orders_request *r, const char *text,
                                    char sum[BR_SHA256_TEXT], struct br_error *err)
 {
@@ -89,7 +81,7 @@ enum br_status br_command_identify(const struct br_orders_request *r, const char
         struct br_command_words words = {NULL};
         status = br_command_split(r, &numbers.row[i], &words, err);
         if (!status)
-            status = add_command(&s, &words, &before, err);
+            status = br_command_state(&s, &words, &before, err);
         br_command_clear(&before);
         before = words;
     }

@@ -168,9 +168,12 @@ enum br_status br_command_split(const struct br_orders_request *request,
 void br_command_clear(struct br_command_words *words); /* accepts zeros */
 
 /* States the words, the program's bytes and those of the files that words name, also behind a "="
- * (of large files their size and time). Fails with BR_IO. */
+ * (of large files their size and time). before: the command at another resolution, or zeros: also
+ * real paths are stated, and files of equal words are not read again; NULL: neither. Fails with
+ * BR_IO. */
 enum br_status br_command_state(struct br_statement *statement,
-                                const struct br_command_words *words, struct br_error *err);
+                                const struct br_command_words *words,
+                                const struct br_command_words *before, struct br_error *err);
 
 /* A hash (out) of what a study file runs: its text and real path, and at all resolutions the
  * command, with the bytes and the real paths of the program and of the files that words name. Fails

@@ -56,16 +56,14 @@ static void add_section(struct plan *plan, const struct br_check *check, enum br
     plan->sections++;
 }
 
-/* The study of a section's head h, in its first norm. */
-static struct br_study study_at(const struct section *s, size_t h)
+struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h)
 {
-    const struct br_verify_study *v = study_of(s);
-    const bool joint = s->kind == BR_VERIFY_JOINT;
+    const struct br_verify_study *v = &check->verify->study[kind];
+    const bool joint = kind == BR_VERIFY_JOINT;
     return (struct br_study){
-        .scene = s->check->scene,
-        .norm = s->norm[0],
+        .scene = check->scene,
         .method = v->method,
-        .judge = joint ? br_judge_best(s->check->scene) : &br_judge_fine,
+        .judge = joint ? br_judge_best(check->scene) : &br_judge_fine,
         .reference_method = v->method,
         .reference = joint ? (struct br_resolution){0, 0}
                            : (struct br_resolution){v->n[h + 1], v->steps[h + 1]},
@@ -75,12 +73,6 @@ static struct br_study study_at(const struct section *s, size_t h)
         .n = &v->n[h],
         .steps = &v->steps[h],
     };
-}
-
-struct br_study br_check_study(const struct br_check *check, enum br_verify_kind kind, size_t h)
-{
-    const struct section s = {.check = check, .kind = kind};
-    return study_at(&s, h);
 }
 
 /* The study of a section's head h in norm m. */
@@ -95,7 +87,7 @@ static void fill_section(const struct plan *plan, const struct section *s)
     for (size_t h = 0; h < s->heads; h++)
         for (size_t m = 0; m < s->norms; m++) {
             struct br_study *study = study_in(plan, s, h, m);
-            *study = study_at(s, h);
+            *study = br_check_study(s->check, s->kind, h);
             study->norm = s->norm[m];
             study->next_norm = m + 1 < s->norms ? study_in(plan, s, h, m + 1) : NULL;
         }
@@ -186,7 +178,10 @@ static enum br_status conclude_case(const struct plan *plan, const struct sectio
         return br_no_memory(err, "the verdict");
     for (size_t i = 0; i < c->points; i++)
         c->point[i] = point_at(plan, s, i, e);
-    return br_verdict_reach(c, err);
+    const enum br_status status = br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
+    if (!status)
+        br_case_judge(c);
+    return status;
 }
 
 /* Where a method refuses the scene, or the reference cannot solve it, there is nothing to verify.

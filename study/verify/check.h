@@ -69,9 +69,6 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
 /* The verdict on what was observed. */
 void br_case_judge(struct br_case *c);
 
-/* br_case_observe and br_case_judge, for an order that needs BR_VERIFY_LEAST_POINTS. */
-enum br_status br_verdict_reach(struct br_case *c, struct br_error *err);
-
 /* ---- checks of scenes ---- */
 
 /* Checks scenes against what is expected of them (verify.h): marches, measures, judges. */

@@ -429,11 +429,3 @@ void br_case_judge(struct br_case *c)
     if (c->verdict == BR_INCONCLUSIVE)
         name_sizes(c);
 }
-
-enum br_status br_verdict_reach(struct br_case *c, struct br_error *err)
-{
-    const enum br_status status = br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
-    if (!status)
-        br_case_judge(c);
-    return status;
-}
