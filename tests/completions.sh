@@ -9,7 +9,7 @@ failures=0
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 cd "$work" || exit 1
-touch mine.yaml mine.txt
+touch mine.yaml mine.txt folded.txt
 mkdir folder
 "$BEAMRATE" completions bash >beamrate.bash || exit 1
 "$BEAMRATE" completions zsh >_beamrate || exit 1
@@ -122,7 +122,7 @@ beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
 beamrate study --reference=fi|LINE<beamrate study --reference=fine: >
 beamrate study mov|LINE<beamrate study moving_load >
 beamrate study mi|LINE<beamrate study mine.yaml >
-beamrate check --junit mine.t|LINE<beamrate check --junit mine.txt >
+beamrate check --junit fol|folded.txt
 beamrate check -o fo|LINE<beamrate check -o folder/>
 beamrate completions z|LINE<beamrate completions zsh >
 END
