@@ -15,6 +15,7 @@ struct item {
     struct br_scene scene;
     struct br_verify verify;
     struct br_study_file study; /* a study of another program, instead of scene and verify */
+    struct br_check *check;     /* of that study; NULL: it is a scene */
 };
 
 struct run {
@@ -57,7 +58,8 @@ static enum br_status read_study(struct run *r, struct item *item, const char *t
     if (item->study.request.expectations == 0)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: verify: missing, expected at least one study to check", item->path);
-    r->check[r->count++] = br_study_file_check(&item->study, o);
+    item->check = &r->check[r->count++];
+    *item->check = br_study_file_check(&item->study, o);
     return BR_OK;
 }
 
@@ -145,15 +147,11 @@ static void announce(const struct run *r)
 static enum br_status run_studies(struct run *r, const struct br_observer *observer,
                                   struct br_error *err)
 {
-    for (size_t i = 0; i < r->most; i++)
-        for (size_t c = 0; c < r->count; c++) {
-            struct br_study_file *study = &r->item[i].study;
-            if (!study->request.path || r->check[c].path != study->request.path)
-                continue;
-            study->request.observer = observer;
-            if (br_study_file_run(study, &r->check[c], err))
-                return err->status;
-        }
+    for (struct item *item = r->item; item < r->item + r->most; item++) {
+        item->study.request.observer = observer;
+        if (item->check && br_study_file_run(&item->study, item->check, err))
+            return err->status;
+    }
     return BR_OK;
 }
 

@@ -82,8 +82,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!command)
         return unknown(word, err);
     br_signals_install();
-    br_gnuplot_stop_when(br_signals_caught);
-    br_document_stop_when(br_signals_caught);
+    br_stop_when(br_signals_caught);
     if (br_remember_command_line(argc, argv, err))
         return err->status;
     struct br_options options;

@@ -46,15 +46,14 @@ static enum br_status open_results(struct run *r, struct br_error *err)
     if (status)
         return status;
     br_history_csv_head(r->file[HISTORY]);
-    const struct br_fields_request fields = {
+    r->fields = (struct br_fields){
         .csv = r->file[FIELDS_CSV],
         .xdmf = r->file[FIELDS_XDMF],
         .scene = &r->plan.marched,
         .n = r->plan.request.n,
         .axial_degree = r->plan.request.method.axial_degree,
-        .provenance = &r->provenance,
     };
-    return br_fields_begin(&r->fields, &fields, err);
+    return br_fields_begin(&r->fields, &r->provenance, err);
 }
 
 /* Fails where a write to one of the files did. */

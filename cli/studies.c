@@ -66,22 +66,17 @@ static void spread_study(struct br_studies *r, size_t job)
 
 /* ---- reports ---- */
 
-static enum br_status read_printed(const char *relative, struct br_report *report,
-                                   struct br_error *err)
+static enum br_status set_printed(const struct br_printed *printed, struct br_report *report,
+                                  struct br_error *err)
 {
-    char path[1024];
-    struct br_printed printed;
     const struct br_study *study = report->study;
     const size_t cells = study->n_count * study->k_count;
-    br_data_path(relative, path, sizeof path);
-    const bool read = !br_printed_read(path, &printed, err);
-    report->printed = read ? br_allocate(cells, sizeof(double)) : NULL;
+    report->printed = br_allocate(cells, sizeof(double));
     for (size_t c = 0; c < cells && report->printed; c++)
         report->printed[c] =
-            br_printed_error(&printed, study->n[c / study->k_count],
+            br_printed_error(printed, study->n[c / study->k_count],
                              br_time_step(study->scene, study->steps[c % study->k_count]));
-    br_printed_clear(&printed);
-    return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
+    return report->printed ? BR_OK : br_no_memory(err, "the printed values");
 }
 
 /* Starts a job's report in norm m. Its name ends with the norm, unless that is the default. */
@@ -100,8 +95,9 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
         .caption = w->caption,
         .study = study_of(r, i, m),
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .fitted = study_of(r, r->heads - r->jobs + i, m),
     };
-    return job->printed && norm->printed ? read_printed(job->printed, &w->report[m], err) : BR_OK;
+    return job->printed && norm->printed ? set_printed(job->printed, &w->report[m], err) : BR_OK;
 }
 
 /* ---- from the options to studies ---- */

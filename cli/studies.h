@@ -5,15 +5,16 @@
 
 #include "cli/study_request.h"
 #include "cli/vary.h"
+#include "reference/printed.h"
 #include "study/fit/apart.h"
 
 /* One study: a scene, and the printed table to compare it with, if any. */
 struct br_study_job {
-    const char *name;           /* of the result files; NULL: the scene's */
-    const char *scene;          /* a file, or a bundled scene */
-    const char *printed;        /* a data file below the data folder, or NULL */
-    const char *caption;        /* NULL: the scene's title */
-    const struct br_vary *vary; /* of --vary: gives the scene instead of `scene` */
+    const char *name;                 /* of the result files; NULL: the scene's */
+    const char *scene;                /* a file, or a bundled scene */
+    const struct br_printed *printed; /* the paper's table, or NULL */
+    const char *caption;              /* NULL: the scene's title */
+    const struct br_vary *vary;       /* of --vary: gives the scene instead of `scene` */
     size_t value;
 };
 

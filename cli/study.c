@@ -66,11 +66,11 @@ static enum br_status run_tables(const struct br_options *options, struct br_ses
     static const struct br_study_job printed[] = {
         {.name = "table1",
          .scene = "example1",
-         .printed = "reference/printed/table1.csv",
+         .printed = &br_printed_table1,
          .caption = "Table 1: Example 1, stick"},
         {.name = "table2",
          .scene = "example2",
-         .printed = "reference/printed/table2.csv",
+         .printed = &br_printed_table2,
          .caption = "Table 2: Example 2, slip"},
     };
     struct br_study_request request;

@@ -17,8 +17,7 @@
 /* A scene and its trials; must not be moved after br_trade_lay_out. */
 struct item {
     struct br_opened_scene opened;
-    struct br_printed printed; /* the paper's table of it; empty: none */
-    size_t *steps;             /* as --k has them; owned */
+    size_t *steps; /* as --k has them; owned */
     struct br_trade trade;
     struct br_kept kept;
 };
@@ -58,21 +57,16 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
-/* The paper's printed tables are of the bundled scenes only. */
-static enum br_status read_printed(struct item *item, struct br_error *err)
+/* The paper's printed table of a scene; NULL: there is none. They are of the bundled scenes only.
+ */
+static const struct br_printed *printed_of(const struct item *item)
 {
-    static const char *const tables[][2] = {
-        {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
-        {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
-    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        char path[1024];
-        br_data_path(tables[i][0], path, sizeof path);
-        if (strcmp(path, item->opened.path) != 0)
-            continue;
-        br_data_path(tables[i][1], path, sizeof path);
-        return br_printed_read(path, &item->printed, err);
-    }
-    return BR_OK;
+    char path[1024];
+    br_data_path("study/scenes/example1.yaml", path, sizeof path);
+    if (strcmp(path, item->opened.path) == 0)
+        return &br_printed_table1;
+    br_data_path("study/scenes/example2.yaml", path, sizeof path);
+    return strcmp(path, item->opened.path) == 0 ? &br_printed_table2 : NULL;
 }
 
 static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
@@ -80,7 +74,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
     const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
     size_t steps = 0;
-    if (read_printed(item, err) || set_request(r, item, err))
+    if (set_request(r, item, err))
         return err->status;
     if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
@@ -95,7 +89,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
         .n_count = o->count[BR_OPT_N],
         .step_count = steps,
         .tolerances = o->count[BR_OPT_TOLERANCES],
-        .printed = item->printed.count ? &item->printed : NULL,
+        .printed = printed_of(item),
     };
     return br_trade_lay_out(&item->trade, &grid, err);
 }
@@ -138,6 +132,10 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
         for (size_t j = 0; j < i; j++)
             if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
                 return br_fail(err, BR_BAD_INPUT, "scene %s is given twice", scene->name);
+        if (o->words > 1 && strcmp(scene->name, BR_SUMMARY) == 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several scenes have a report of this name; rename the file",
+                           scene->name);
     }
     return BR_OK;
 }
@@ -347,7 +345,6 @@ static enum br_status run(const struct br_options *options, struct br_session *s
     const bool failed = br_option_given(options, BR_OPT_SPLIT) ? split(&r, err) : trade(&r, err);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);
-        br_printed_clear(&r.item[i].printed);
         br_opened_scene_clear(&r.item[i].opened);
         free(r.item[i].steps);
     }

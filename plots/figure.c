@@ -108,6 +108,18 @@ void br_mark_add(struct br_figure *f, double x, const char *title)
     br_point_add(s, x, y.high, NULL);
 }
 
+size_t br_slope_put(double *slope, size_t count, double order)
+{
+    size_t at = 0;
+    while (at < count && slope[at] < order)
+        at++;
+    if (at < count && slope[at] == order)
+        return count;
+    memmove(slope + at + 1, slope + at, (count - at) * sizeof *slope);
+    slope[at] = order;
+    return count + 1;
+}
+
 /* Adds lines that rise from one point. They take at most two fifths of the panel's height, and a
  * fifth of its width. */
 void br_slopes_add(struct br_figure *f, size_t count, const double *order)

@@ -17,7 +17,7 @@ static enum br_status check_method(const struct br_scene *scene, size_t n, size_
         return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
     if (steps < 1)
         return br_fail(err, BR_BAD_INPUT, "there are no time steps, expected at least one");
-    enum br_status status = br_method_check_scene(method, scene, err);
+    enum br_status status = br_method_check(method, scene, err);
     if (!status)
         status = br_scene_check(scene, err);
     return status ? status

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "study/base/observer.h"
 #include "tables/markup.h"
 
 const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR"};
@@ -18,13 +19,6 @@ const struct br_document_format *const br_document_formats[] = {&br_document_tex
                                                                 &br_document_json,
                                                                 &br_document_html,
                                                                 NULL};
-
-static bool (*must_stop)(void);
-
-void br_document_stop_when(bool (*stop)(void))
-{
-    must_stop = stop;
-}
 
 /* ---- memory: small pieces of large ones, released together ---- */
 
@@ -254,13 +248,6 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
     put_what(d, BR_BLOCK_FACT, &column, value);
 }
 
-void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
-                    const char *unit, const char *key)
-{
-    if (key)
-        BR_FACT(d, value, .key = key, .heading = heading, .unit = unit);
-}
-
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)
 {
     if (lines && *lines)
@@ -376,6 +363,8 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
     if (d->failure.status)
         return;
     d->last = &t->row[t->rows - 1].cell[at];
+    if (d->last->value.kind != BR_NOTHING)
+        refuse(d, "two values in a row for", t->column[at].key);
     d->last->value = copy;
     d->next = at + 1;
     if (copy.kind != BR_NOTHING)
@@ -490,7 +479,7 @@ enum br_status br_document_status(const struct br_document *d, struct br_error *
 {
     if (d->failure.status)
         return br_fail(err, d->failure.status, "%s", d->failure.message);
-    return must_stop && must_stop() ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
+    return br_must_stop() ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
 }
 
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,

@@ -150,8 +150,14 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
 
 /* ---- stability ---- */
 
-static void put_stiffness(struct br_document *d, const struct br_stability_column *c)
+/* Begins a row of a column. */
+static void put_column(struct br_document *d, const struct br_stability_plane *p,
+                       const struct br_stability_column *c)
 {
+    br_put_row(d);
+    BR_PUT(d, br_text(p->by->name), .key = "method");
+    BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
+    BR_PUT(d, br_count(c->n), .key = "n");
     BR_PUT(d, br_number(c->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
 }
 
@@ -159,11 +165,7 @@ static void put_limits(struct br_document *d, const struct br_stability_plane *p
 {
     for (size_t i = 0; i < p->columns; i++) {
         const struct br_stability_column *c = &p->column[i];
-        br_put_row(d);
-        BR_PUT(d, br_text(p->by->name), .key = "method");
-        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
-        BR_PUT(d, br_count(c->n), .key = "n");
-        put_stiffness(d, c);
+        put_column(d, p, c);
         BR_PUT(d, br_if(c->largest > 0, br_number(c->largest)), .key = "largest",
                .heading = "largest stable k", .unit = "s", .format = "%.4g");
         BR_PUT(d, br_number(c->broken), .key = "broken", .heading = "breaks at k", .unit = "s",
@@ -179,11 +181,7 @@ static void put_points(struct br_document *d, const struct br_stability *s,
     for (size_t i = 0; i < p->columns * s->rows; i++) {
         const struct br_stability_column *c = &p->column[i / s->rows];
         const struct br_stability_point *point = &c->point[i % s->rows];
-        br_put_row(d);
-        BR_PUT(d, br_text(p->by->name), .key = "method");
-        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
-        BR_PUT(d, br_count(c->n), .key = "n");
-        put_stiffness(d, c);
+        put_column(d, p, c);
         BR_PUT(d, br_number(s->scene->duration / (double)point->steps), .key = "k", .unit = "s",
                .format = "%.4g");
         BR_PUT(d, br_text(br_stability_words[point->outcome]), .key = "outcome");

@@ -88,7 +88,8 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
 void br_report_trade(const struct br_trade *trade, const struct br_provenance *provenance,
                      struct br_document *d);
 
-/* Several scenes in one norm: the cheapest ways alone. The document is named "summary". */
+/* Several scenes in one norm: the cheapest ways alone. The document is named BR_SUMMARY. */
+#define BR_SUMMARY "summary"
 void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
                              const struct br_provenance *provenance, struct br_document *d);
 

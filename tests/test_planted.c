@@ -3,8 +3,9 @@
  * command that passes without the bug must end with exit code 1. A check of one scene is a part of
  * `beamrate check --all`, and cheaper. If no command can detect a bug, as one in a judge, a test
  * program must: it is built with the bug, and must fail. By default only a sample is planted: the
- * first bug of every file, and the first of every kind that is then missing. usage: test_planted
- * [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or one bug. */
+ * first bug of each command or test program that must detect it, of each folder, and of each kind.
+ * usage: test_planted [SHARD SHARDS | NAME]: one of several shares, which can run side by side, or one
+ * bug. */
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -253,24 +254,27 @@ static void all_can_be_planted(void **state)
     }
 }
 
-static bool is_first_of_file(size_t bug)
+/* Whether texts are the same up to this letter, or their end. */
+static bool same_up_to(char letter, const char *a, const char *b)
 {
-    for (size_t i = 0; i < bug; i++)
-        if (strcmp(planted_bugs[i].file, planted_bugs[bug].file) == 0)
-            return false;
-    return true;
+    const char *end = strrchr(a, letter), *other = strrchr(b, letter);
+    const size_t size = end ? (size_t)(end - a) : strlen(a);
+    return size == (other ? (size_t)(other - b) : strlen(b)) && strncmp(a, b, size) == 0;
 }
 
-/* Whether it is the first bug of its file, or the first of a kind that no file's first bug has. */
+/* Whether it is the first that its command or test program must detect, the first of its folder, or
+ * the first of its kind. */
 static bool is_in_sample(size_t bug)
 {
-    if (is_first_of_file(bug))
-        return true;
-    for (size_t i = 0; i < PLANTED_BUGS; i++)
-        if ((i < bug || is_first_of_file(i)) &&
-            strcmp(planted_bugs[i].kind, planted_bugs[bug].kind) == 0)
-            return false;
-    return true;
+    bool command = true, place = true, kind = true;
+    for (size_t i = 0; i < bug; i++) {
+        const struct planted_bug *a = &planted_bugs[i], *b = &planted_bugs[bug];
+        const size_t word = strcspn(b->command, " ");
+        command &= strncmp(a->command, b->command, word) != 0 || !strchr(" ", a->command[word]);
+        place &= !same_up_to('/', a->file, b->file);
+        kind &= strcmp(a->kind, b->kind) != 0;
+    }
+    return command || place || kind;
 }
 
 static int read_commands(void **state)

@@ -118,11 +118,6 @@ void br_list_add(struct br_list *list, double value, struct br_store *store);
 /* Sorts, and keeps one of equal numbers. */
 void br_list_sort(struct br_list *list);
 
-static inline struct br_interval *br_side(struct br_box *box, enum br_variable along)
-{
-    return along == BR_X ? &box->x : &box->t;
-}
-
 /* A bound on the error of a polynomial along one variable in the box; infinite where f is not
  * smooth. */
 double br_sight_error(const struct br_function *f, enum br_variable along, struct br_box box,

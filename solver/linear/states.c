@@ -18,12 +18,6 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
     return BR_OK;
 }
 
-void br_states_clear(struct br_states *states)
-{
-    br_store_clear(&states->store);
-    *states = (struct br_states){0};
-}
-
 BR_SWEEP
 static void add_block(real *restrict sum, size_t size, double weight, const real *from)
 {
@@ -65,7 +59,7 @@ void br_add_states(real *to, size_t size, size_t count, real *const *from, const
 void br_free_states(void *self)
 {
     if (self)
-        br_states_clear(self);
+        br_store_clear(&((struct br_states *)self)->store);
     free(self);
 }
 

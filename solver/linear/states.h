@@ -9,7 +9,6 @@
 #ifdef BR_LONG
 typedef long double real;
 #define br_states_add br_long_states_add
-#define br_states_clear br_long_states_clear
 #define br_add_states br_long_add_states
 #define br_free_states br_long_free_states
 #define br_keep_states br_long_keep_states
@@ -27,10 +26,9 @@ struct br_states {
     struct br_store store;    /* memory of the states and of the solver's other arrays */
 };
 
-/* `count` more states of `size` numbers, all zero. Fails with BR_NO_MEMORY; clear it even then. */
+/* `count` more states of `size` numbers, all zero. Fails with BR_NO_MEMORY; free them even then. */
 enum br_status br_states_add(struct br_states *states, size_t size, size_t count,
                              struct br_error *err);
-void br_states_clear(struct br_states *states);
 
 /* to[i] = sum over j of weight[j] from[j][i], i < size; from[j] may be `to`. Weights of 0 are
  * skipped. */

@@ -146,7 +146,7 @@ struct br_stability_plane {
 /* Not to be moved. */
 struct br_stability {
     const struct br_scene *scene; /* borrowed */
-    struct br_named_method method[BR_STABILITY_METHODS];
+    struct br_named_methods method;
     size_t *steps; /* rows, descending: the smallest step first; owned */
     size_t rows;
     struct br_stability_plane plane[BR_STABILITY_PLANES];

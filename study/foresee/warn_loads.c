@@ -86,7 +86,7 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
     struct br_box peak;
     enum br_status status = BR_OK;
     *mesh = (struct br_mesh){0};
-    if (!br_enclose_values(f, box, 0, &values, &peak))
+    if (!br_enclose_values(f, box, &values, &peak))
         return br_fail(err, BR_BAD_INPUT, "it cannot be bounded");
     const double most = fmax(fabs(values.low), fabs(values.high)), width = all.high - all.low;
     struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-3 * most};
@@ -151,7 +151,7 @@ static double largest(const struct br_function *f, const struct br_scene *s, str
 {
     struct br_interval values;
     *peak = all_of(s);
-    return br_enclose_values(f, all_of(s), 0, &values, peak)
+    return br_enclose_values(f, all_of(s), &values, peak)
                ? fmax(fabs(values.low), fabs(values.high))
                : INFINITY;
 }

@@ -37,8 +37,7 @@ struct job {
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
-    int printed[2]; /* files of standard output and error */
-    int *copy;      /* copies of the files that the run wrote; owned */
+    int *file; /* open ones: standard output, standard error, copies of what the run wrote; owned */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     double wall;     /* s */
@@ -46,13 +45,7 @@ struct run {
     int status; /* as of wait4 */
     struct rusage usage;
 };
-
-/* Opens a file without a name, which the program cannot find in its folder. */
-static bool open_printed(int *file)
-{
-    *file = memfd_create("printed", MFD_CLOEXEC);
-    return *file >= 0 && fcntl(*file, F_SETFL, O_APPEND) == 0;
-}
+enum { PRINTED = 2 }; /* files */
 
 /* Where programs get their folders. */
 static const char *temporary(void)
@@ -72,20 +65,19 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                             struct br_error *err)
 {
     struct rusage own;
-    if (!r->copy)
-        return br_no_memory(err, "a run");
-    bool opened = open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
-    for (size_t i = 0; i < cell->files && opened; i++)
-        opened = open_printed(&r->copy[i]);
-    if (!opened)
-        return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
+    for (size_t i = 0; i < PRINTED + cell->files; i++) {
+        /* A file without a name, which the program cannot find in its folder. */
+        r->file[i] = memfd_create("printed", MFD_CLOEXEC);
+        if (r->file[i] < 0 || fcntl(r->file[i], F_SETFL, O_APPEND) != 0)
+            return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
+    }
     r->process = (struct br_process){.program = cell->program,
                                      .word = cell->word,
                                      .environment = j->environment,
                                      .where = temporary(),
-                                     .output = {r->printed[0], r->printed[1]},
+                                     .output = {r->file[0], r->file[1]},
                                      .file = (const char *const *)cell->file,
-                                     .copy = r->copy,
+                                     .copy = r->file + PRINTED,
                                      .files = cell->files,
                                      .most = MOST_PRINTED};
     const int failure = br_process_start(&r->process);
@@ -103,7 +95,7 @@ static size_t size_of(int file)
 
 static bool prints_too_much(const struct run *r)
 {
-    return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
+    return size_of(r->file[0]) > MOST_PRINTED || size_of(r->file[1]) > MOST_PRINTED;
 }
 
 /* Why a run must be ended; BY_ITSELF: it need not be. */
@@ -190,9 +182,9 @@ static enum br_status set_failure(const struct br_orders_request *p, const struc
         snprintf(what, sizeof what, "exit code %d", WEXITSTATUS(r->status));
     else
         snprintf(what, sizeof what, "%s", why);
-    last_lines(r->printed[1], tail);
+    last_lines(r->file[1], tail);
     if (!*tail)
-        last_lines(r->printed[0], tail);
+        last_lines(r->file[0], tail);
     if (asprintf(&row->failure, "%s; %s%s", what, *tail ? "it printed: " : "it printed nothing",
                  tail) >= 0)
         return BR_OK;
@@ -219,13 +211,12 @@ static enum br_status read_numbers(const struct br_orders_request *p, const stru
                                    struct br_numbers_row *row, struct br_error *why)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0, file = 0, quantity = 0; i < p->readings && !status; i++) {
+    for (size_t i = 0, file = PRINTED, quantity = 0; i < p->readings && !status; i++) {
         const struct br_reading *reading = &p->reading[i];
         const struct br_resolution_column *size = br_resolution_column_find(reading->name);
         char *text = NULL;
         size_t length = 0;
-        status = load(reading->file ? r->copy[file++] : r->printed[reading->complaints], &text,
-                      &length, why);
+        status = load(r->file[reading->file ? file++ : reading->complaints], &text, &length, why);
         if (!status)
             status = br_reading_take(
                 p, i, text, length, size ? &row->given[size->axis] : &row->number[quantity++], why);
@@ -264,21 +255,18 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.printed = {-1, -1}, .copy = br_allocate(cell->files + 1, sizeof *r.copy)};
-    for (size_t i = 0; i < cell->files && r.copy; i++)
-        r.copy[i] = -1;
+    struct run r = {.file = br_allocate(PRINTED + cell->files, sizeof *r.file)};
+    if (!r.file)
+        return br_no_memory(err, "a run");
     enum br_status status = begin(j, cell, &r, err);
     if (!status)
         status = watch(j->program, &r, err);
     if (!status)
         status = finish(j->program, &r, row, err);
-    for (int i = 0; i < 2; i++)
-        if (r.printed[i] >= 0)
-            close(r.printed[i]);
-    for (size_t i = 0; i < cell->files && r.copy; i++)
-        if (r.copy[i] >= 0)
-            close(r.copy[i]);
-    free(r.copy);
+    for (size_t i = 0; i < PRINTED + cell->files; i++)
+        if (r.file[i] > 0)
+            close(r.file[i]);
+    free(r.file);
     return status;
 }
 

@@ -247,7 +247,7 @@ enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_
     }
     if (!text[BR_METHOD_CONTACT] && !m->scheme->may_lag && !m->contact->at_new_step)
         m->contact = br_contact_rule_of(m->scheme);
-    return br_method_check(m, err);
+    return br_method_check(m, NULL, err);
 }
 
 /* ", as --solver riccati does": the first row that uses the field. */

@@ -33,14 +33,13 @@ static const char *title_of(const struct br_method_field *f)
 
 const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
-    size_t used = 0;
     double value;
     const char *word;
     if (kind >= KINDS)
         return NULL;
     words[0] = '\0';
-    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)) && used < size; i++)
-        used += (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", word);
+    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)); i++)
+        br_append(words, size, "%s%s", i ? ", " : "", word);
     return title_of(kinds[kind]);
 }
 
@@ -97,7 +96,7 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
         status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
-    return status ? status : br_method_check(&c->method, err);
+    return status ? status : br_method_check(&c->method, NULL, err);
 }
 
 /* ---- lists ---- */

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "study/scene/schema.h"
-
+/* The format of scenes: its keys, a row each, and how the value of each kind is read. */
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+#include "study/base/words.h"
+#include "study/scene/units.h"
+#include "study/scene/value.h"
 
 #define AT(member) offsetof(struct br_scene, member)
 
@@ -110,4 +115,134 @@ size_t br_scene_row(const char *path)
            strcmp(br_scene_keys[row].name, dot ? dot + 1 : path) != 0)
         row++;
     return row;
+}
+
+/* ---- values: numbers ---- */
+
+/* unknown: the text that is no unit; NULL: it is `found`. */
+static enum br_status refuse_unit(const struct br_scene_value *v, const char *unknown,
+                                  const struct br_unit *found, const struct br_unit *wanted)
+{
+    char text[2][BR_DIMENSION_TEXT], words[BR_UNIT_WORDS], suggestion[BR_SUGGESTION];
+    const char *expected = br_dimension_words(wanted->of, text[0]);
+    const char *ratio = v->key->need == BR_OR_RATIO ? ", or a number without unit" : "";
+    if (!unknown)
+        return BR_REFUSE_VALUE(v, "found '%s', which is %s, expected %s, as %s%s",
+                               br_yaml_text(v->node), br_dimension_words(found->of, text[1]),
+                               expected, v->unit, ratio);
+    return BR_REFUSE_VALUE(
+        v,
+        "found '%s', expected a number and its unit, %s%s, or another unit of %s, "
+        "made of %s, with prefixes from n to T%s",
+        br_yaml_text(v->node), v->unit, ratio, expected, br_unit_words(words),
+        br_unit_suggestion(unknown, wanted->of, suggestion));
+}
+
+/* Reads any unit of the expected dimension. */
+enum br_status br_scene_read_unit(struct br_scene_value *v, const char *text, struct br_unit *unit)
+{
+    struct br_unit wanted;
+    br_unit_read(v->unit, &wanted);
+    const bool known = br_unit_read(text, unit);
+    if (known && br_dimension_is(unit->of, wanted.of))
+        return BR_OK;
+    v->ratio = known && v->key->need == BR_OR_RATIO &&
+               br_dimension_is(unit->of, (struct br_dimension){0, 0, 0});
+    return v->ratio ? BR_OK : refuse_unit(v, known && *text ? NULL : text, unit, &wanted);
+}
+
+enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text, const char *end,
+                                      struct br_si_number *q)
+{
+    enum { MOST_UNIT = 64 };
+    char *behind, word[MOST_UNIT];
+    struct br_unit unit;
+    const double value = strtod(text, &behind);
+    const size_t length = end && end >= behind ? (size_t)(end - behind) : strlen(behind);
+    const size_t blanks = strspn(behind, " ");
+    if (behind == text || (*behind && *behind != ' ') || !isfinite(value) || length >= MOST_UNIT)
+        return BR_REFUSE_VALUE(v, "found '%s', expected a finite number in %s",
+                               br_yaml_text(v->node), v->unit);
+    snprintf(word, sizeof word, "%.*s", (int)length, behind);
+    const enum br_status status =
+        br_scene_read_unit(v, word + (blanks < length ? blanks : length), &unit);
+    if (status)
+        return status;
+    if (br_unit_convert(&unit, text, (size_t)(behind - text), q) && isfinite(q->value))
+        return BR_OK;
+    return BR_REFUSE_VALUE(v, "found '%s', expected a finite number of at most 400 letters in %s",
+                           br_yaml_text(v->node), v->unit);
+}
+
+static enum br_status read_number(struct br_scene_value *v)
+{
+    const struct br_scene_key *key = v->key;
+    const bool positive = key->kind == BR_KEY_POSITIVE;
+    struct br_si_number q;
+    const enum br_status status = br_scene_read_quantity(v, br_yaml_text(v->node), NULL, &q);
+    if (status)
+        return status;
+    if (!(positive ? q.value > 0 : q.value >= 0))
+        return BR_REFUSE_VALUE(v, "found %s, expected a value %s 0 %s", br_yaml_text(v->node),
+                               positive ? ">" : ">=", key->unit);
+    struct br_scene_number *given = &v->r->given->row[key - br_scene_keys];
+    given->value = q.wide;
+    given->ratio = v->ratio;
+    if (key->need != BR_MAKES && !v->ratio)
+        *(double *)br_scene_target(v) = q.value;
+    return BR_OK;
+}
+
+enum br_status br_scene_keep_text(const struct br_scene_value *v, const char *text)
+{
+    char **copy = br_scene_target(v);
+    *copy = br_allocate(strlen(text) + 1, 1);
+    if (!*copy)
+        return br_no_memory(v->r->err, "the scene");
+    strcpy(*copy, text);
+    return BR_OK;
+}
+
+/* ---- values of all kinds ---- */
+
+static enum br_status read_law(const struct br_scene_value *v)
+{
+    const char *text = br_yaml_text(v->node);
+    char expected[BR_EXPECTED];
+    for (int law = 0; law < BR_FRICTION_LAWS; law++)
+        if (br_friction_law_names[law] && strcmp(text, br_friction_law_names[law]) == 0) {
+            v->r->scene->friction.law = (enum br_friction_law)law;
+            return BR_OK;
+        }
+    return BR_REFUSE_VALUE(
+        v, "found '%s', %s", text,
+        br_expected(text, br_friction_law_names + 1, BR_FRICTION_LAWS - 1, expected));
+}
+
+enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
+                                   const yaml_node_t *node)
+{
+    struct br_scene_value v = {r, key, node, key->unit, false};
+    const bool product = key->kind == BR_KEY_LOAD && node->type == YAML_MAPPING_NODE;
+    if (node->type != YAML_SCALAR_NODE && !product)
+        return BR_REFUSE_VALUE(&v, "found a list or a mapping, expected %s", key->help);
+    switch (key->kind) {
+    case BR_KEY_POSITIVE:
+    case BR_KEY_NOT_NEGATIVE:
+        return read_number(&v);
+    case BR_KEY_INITIAL:
+    case BR_KEY_HISTORY:
+    case BR_KEY_LOAD:
+    case BR_KEY_SOLUTION:
+        return br_scene_read_expression(&v);
+    case BR_KEY_LAW:
+        return read_law(&v);
+    case BR_KEY_SHAPE:
+        return br_scene_read_shape(&v);
+    case BR_KEY_TEXT:
+    case BR_KEY_SECTION: /* read_key handles sections and `verify` */
+    case BR_KEY_VERIFY:
+        break;
+    }
+    return br_scene_keep_text(&v, br_yaml_text(node));
 }

@@ -54,7 +54,7 @@ static inline size_t br_scene_line(const struct br_scene_reader *r, const struct
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
                                    const yaml_node_t *node);
 
-/* A value that is read; for value.c and expressions.c. */
+/* A value that is read; for schema.c, expressions.c and engineering.c. */
 struct br_scene_value {
     const struct br_scene_reader *r;
     const struct br_scene_key *key;
@@ -73,6 +73,14 @@ static inline void *br_scene_target(const struct br_scene_value *v)
 }
 
 struct br_unit;
+struct br_si_number;
+
+/* Reads "value unit", as far as `end`, which points into the text; NULL: to the end of the text. */
+enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text, const char *end,
+                                      struct br_si_number *q);
+
+/* "rectangle 20 mm x 5 mm", "circle 10 mm", "tube 20 mm x 2 mm" */
+enum br_status br_scene_read_shape(struct br_scene_value *v);
 
 /* Reads any unit of the expected dimension. */
 enum br_status br_scene_read_unit(struct br_scene_value *v, const char *text, struct br_unit *unit);

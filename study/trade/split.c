@@ -362,14 +362,8 @@ static void set_shares(struct br_split *split, const struct chain *c)
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
                             struct br_error *err)
 {
-    const struct br_split given = *split;
     struct chain c = {.refining.threads = threads};
-    *split = (struct br_split){.scene = given.scene,
-                               .method = given.method,
-                               .at = given.at,
-                               .norms = given.norms,
-                               .judge = br_judge_best(given.scene)};
-    memcpy(split->norm, given.norm, sizeof split->norm);
+    split->judge = br_judge_best(split->scene);
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");

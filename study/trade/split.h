@@ -53,7 +53,7 @@ struct br_split {
     struct br_resolution at;
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
-    /* out */
+    /* out; in: zeros */
     const struct br_judge *judge; /* of the whole and of the last component */
     struct br_share share[BR_SOURCES];
     struct br_share whole;

@@ -471,12 +471,9 @@ enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err)
 {
     struct br_observer_share share = {.whole = request->observer, .length = 0.5};
-    struct br_observer part;
+    const struct br_observer part = br_observer_of(&share);
     struct br_trial_request own = *request;
-    if (request->observer) {
-        part = br_observer_of(&share);
-        own.observer = &part;
-    }
+    own.observer = &part;
     for (size_t i = 0; i < count; i++)
         begin(&trial[i]);
     const struct br_each each = {.count = count,

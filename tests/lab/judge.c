@@ -244,7 +244,7 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
     if (!status)
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
-        status = br_method_check(&t->method, &said);
+        status = br_method_check(&t->method, NULL, &said);
     const struct br_planned_march planned = {.scene = &t->marched,
                                              .method = &t->method,
                                              .n = t->one->n,
