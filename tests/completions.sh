@@ -67,6 +67,7 @@ done
 offers_only riccati beamrate tables --solver r
 offers_only umfpack beamrate tables --solver = u
 offers_only riccati beamrate tables --solver = ri
+offers riccati beamrate tables --solver =
 offers 'fine:' beamrate study example1 --reference f
 offers 'l2,tip' beamrate study example1 --norm l2,
 offers 'l2,tip,energy' beamrate study example1 --norm l2,tip,e
@@ -87,6 +88,7 @@ if command -v fish >/dev/null; then
     }
     fish_offers study 'beamrate st'
     fish_offers --norm 'beamrate study --no'
+    fish_offers -n 'beamrate study -'
     fish_offers umfpack 'beamrate check --solver '
     fish_offers l2,tip 'beamrate study --norm l2,'
     fish_offers l2,tip,energy 'beamrate study --norm l2,tip,e'

@@ -1566,6 +1566,39 @@ static const struct planted_bug planted_bugs[] = {
      "br_unit_read(whole, &unit)"},
 };
 
-enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
+enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs 
+    /* ---- verdicts that a person derives, means, next terms ---- */
+    {"next_terms_of_h_alone", "lost", "study/fit/joint_fit.c",
+     "tests/test_fit test_next_term_of_each_axis", "full[DRIFT + axis] * x)", "full[DRIFT] * x)"},
+    {"no_next_term_after_an_exact_fit", "lost", "study/fit/joint_fit.c",
+     "tests/test_fit test_next_term_of_each_axis",
+     "if (!plain)\n            least = fmin(least, c->attempt.sum);",
+     "least = fmin(least, c->attempt.sum);"},
+    {"floor_without_a_prediction", "NaN", "study/extremes/floors.c",
+     "tests/test_floors test_verdicts_by_hand", "return most < f->predicted ? most : f->predicted;",
+     "return f->predicted < most ? f->predicted : most;"},
+    {"last_floor_unjudged", "bound", "study/extremes/floors.c",
+     "tests/test_floors test_verdicts_by_hand", "i < f->floors && !status; i++)",
+     "i + 1 < f->floors && !status; i++)"},
+    {"break_without_a_contact", "NaN", "study/extremes/stability.c",
+     "tests/test_stability test_verdicts_by_hand",
+     "if (isnan(c->stiffness) || method->contact->at_new_step)\n        return false;",
+     "if (method->contact->at_new_step)\n        return false;"},
+    {"accurate_though_worse_than_stated", "verdict", "tests/lab/judge.c",
+     "tests/lab/test_map test_classes_by_hand", "if (beyond <= 0 && is_accurate)",
+     "if (is_accurate)"},
+    {"last_vibration_of_a_row_alone", "verdict", "tests/lab/energy.c",
+     "tests/lab/test_energy test_verdicts_by_hand", "right &= br_vibration_is_right",
+     "right = br_vibration_is_right"},
+    {"mean_with_a_degree_too_many", "interval", "study/orders/lines.c",
+     "tests/test_orders test_means_of_two", "(double)row->repeat - 1)", "(double)row->repeat)"},
+    {"printed_digits_of_a_mean", "interval", "study/orders/lines.c",
+     "tests/test_orders test_means_of_two", "return row->repeat > 1 || isnan(",
+     "return isnan("},
+    {"time_of_all_repeats", "expected", "study/orders/program.c",
+     "tests/test_program test_times_of_repeated", "row.wall /= (double)repeat;", ""},
+    {"kept_if_one_is", "expected", "study/orders/program.c", "tests/test_program test_repeated",
+     "row.kept &= other->kept;", "row.kept |= other->kept;"},
+};
 
 #endif
