@@ -1564,9 +1564,7 @@ static const struct planted_bug planted_bugs[] = {
     {"units_of_any_dimension_suggested", "unit", "study/scene/units.c",
      "tests/test_suggestions units", "br_unit_read(whole, &unit) && br_dimension_is(unit.of, of)",
      "br_unit_read(whole, &unit)"},
-};
 
-enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs 
     /* ---- verdicts that a person derives, means, next terms ---- */
     {"next_terms_of_h_alone", "lost", "study/fit/joint_fit.c",
      "tests/test_fit test_next_term_of_each_axis", "full[DRIFT + axis] * x)", "full[DRIFT] * x)"},
@@ -1574,20 +1572,20 @@ enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs
      "tests/test_fit test_next_term_of_each_axis",
      "if (!plain)\n            least = fmin(least, c->attempt.sum);",
      "least = fmin(least, c->attempt.sum);"},
-    {"floor_without_a_prediction", "NaN", "study/extremes/floors.c",
+    {"floor_without_a_prediction", "bound", "study/extremes/floors.c",
      "tests/test_floors test_verdicts_by_hand", "return most < f->predicted ? most : f->predicted;",
      "return f->predicted < most ? f->predicted : most;"},
     {"last_floor_unjudged", "bound", "study/extremes/floors.c",
      "tests/test_floors test_verdicts_by_hand", "i < f->floors && !status; i++)",
      "i + 1 < f->floors && !status; i++)"},
-    {"break_without_a_contact", "NaN", "study/extremes/stability.c",
+    {"break_without_a_contact", "bound", "study/extremes/stability.c",
      "tests/test_stability test_verdicts_by_hand",
      "if (isnan(c->stiffness) || method->contact->at_new_step)\n        return false;",
      "if (method->contact->at_new_step)\n        return false;"},
-    {"accurate_though_worse_than_stated", "verdict", "tests/lab/judge.c",
+    {"accurate_though_worse_than_stated", "bound", "tests/lab/judge.c",
      "tests/lab/test_map test_classes_by_hand", "if (beyond <= 0 && is_accurate)",
      "if (is_accurate)"},
-    {"last_vibration_of_a_row_alone", "verdict", "tests/lab/energy.c",
+    {"last_vibration_of_a_row_alone", "bound", "tests/lab/energy.c",
      "tests/lab/test_energy test_verdicts_by_hand", "right &= br_vibration_is_right",
      "right = br_vibration_is_right"},
     {"mean_with_a_degree_too_many", "interval", "study/orders/lines.c",
@@ -1600,5 +1598,7 @@ enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs
     {"kept_if_one_is", "expected", "study/orders/program.c", "tests/test_program test_repeated",
      "row.kept &= other->kept;", "row.kept |= other->kept;"},
 };
+
+enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
 
 #endif
