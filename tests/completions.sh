@@ -9,7 +9,7 @@ failures=0
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 cd "$work" || exit 1
-touch mine.yaml mine.txt
+touch mine.yaml mine.txt folded.txt
 mkdir folder
 "$BEAMRATE" completions bash >beamrate.bash || exit 1
 "$BEAMRATE" completions zsh >_beamrate || exit 1
@@ -67,6 +67,7 @@ done
 offers_only riccati beamrate tables --solver r
 offers_only umfpack beamrate tables --solver = u
 offers_only riccati beamrate tables --solver = ri
+offers riccati beamrate tables --solver =
 offers 'fine:' beamrate study example1 --reference f
 offers 'l2,tip' beamrate study example1 --norm l2,
 offers 'l2,tip,energy' beamrate study example1 --norm l2,tip,e
@@ -87,6 +88,7 @@ if command -v fish >/dev/null; then
     }
     fish_offers study 'beamrate st'
     fish_offers --norm 'beamrate study --no'
+    fish_offers -n 'beamrate study -'
     fish_offers umfpack 'beamrate check --solver '
     fish_offers l2,tip 'beamrate study --norm l2,'
     fish_offers l2,tip,energy 'beamrate study --norm l2,tip,e'
@@ -122,7 +124,7 @@ beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
 beamrate study --reference=fi|LINE<beamrate study --reference=fine: >
 beamrate study mov|LINE<beamrate study moving_load >
 beamrate study mi|LINE<beamrate study mine.yaml >
-beamrate check --junit mine.t|LINE<beamrate check --junit mine.txt >
+beamrate check --junit fol|folded.txt
 beamrate check -o fo|LINE<beamrate check -o folder/>
 beamrate completions z|LINE<beamrate completions zsh >
 END

@@ -202,6 +202,9 @@ refused("numbers:2", lambda: br.Orders([3, -2, 1], h=[3, 2, 1]))
 study = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2)
 cell = study.cell[2][0]
 del study
+rod = "title: a rod\nlength: 2 m\nduration: 4 s\ndensity: 1 kg/m\naxial: {stiffness: 1 N, viscosity: 1 N s, load: 't [N/m]'}\n"
+study = br.Study(br.Scene("rod", rod), [2, 4], [8, 16])
+assert list(study.h) == [1, 0.5] and list(study.k) == [0.5, 0.25]
 assert cell.flag == ["", "", ""] or all(isinstance(f, str) for f in cell.flag)
 try:
     br.Study(scene, [2, 4, 8], [8, 16], progress=lambda share: 1 / 0)

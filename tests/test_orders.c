@@ -1356,3 +1356,31 @@ TEST(test_without_memory)
     br_test_without_memory(whole_table, csv, 60);
     br_test_without_memory(whole_study, full, 7);
 }
+
+/* Values of nothing but scatter: the limit is the finest mean with its interval, by Student's t of
+ * one degree of freedom, 12.706; and a mean has no printed digits. */
+TEST(test_means_of_two)
+{
+    static const double h[] = {4, 2, 1}, mean[] = {1.5, 1.6, 1.5};
+    struct br_numbers numbers = {.column = {br_resolution_column_find("h")}};
+    struct br_orders orders;
+    MUST(br_numbers_make_room(&numbers, 3, 1, &err));
+    MUST(br_numbers_add_quantity(&numbers, "drag", NULL, true, &err));
+    for (size_t i = 0; i < 3; i++) {
+        struct br_numbers_row *row = &numbers.row[i];
+        row->given[0] = row->z[0] = h[i];
+        row->number[0] = mean[i];
+        row->deviation[0] = 0.25;
+        row->repeat = 2;
+    }
+    MUST(br_numbers_check(&numbers, "made", &err));
+    MUST(br_orders_find(&numbers, 0, &orders, &err));
+    const struct br_orders_line *line = &orders.of[0].line[0];
+    assert_int_equal(line->limits.limit.sequence, BR_SEQUENCE_SCATTER);
+    CLOSE(line->limits.limit.value.low, 1.5 - 0.25 * 12.706204736, 1e-8);
+    CLOSE(line->limits.limit.value.high, 1.5 + 0.25 * 12.706204736, 1e-8);
+    for (size_t i = 0; i < 2; i++)
+        CLOSE(line->observed.point[i].rounding, 0, 0);
+    br_orders_clear(&orders);
+    br_numbers_clear(&numbers);
+}

@@ -369,6 +369,22 @@ TEST(test_places)
     }
 }
 
+/* One run after the other: their times do not overlap. */
+TEST(test_times_of_repeated)
+{
+    write_script("slow", "sleep 0.02; echo err=$1");
+    struct br_orders_request p = program(command_of("slow", "{n}"));
+    p.repeat = 4;
+    const double begun = br_seconds();
+    run(&p);
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        assert_true(numbers.row[i].wall >= 0.02);
+        sum += 4 * numbers.row[i].wall;
+    }
+    AT_MOST(sum, br_seconds() - begun);
+}
+
 /* The mean of 4 runs and its deviation; runs are kept one by one; one that fails fails its cell. */
 TEST(test_repeated)
 {
@@ -392,6 +408,7 @@ TEST(test_repeated)
     p.command = (char *)command_of("drawn", "{n} 1"); /* the same words each time */
     run(&p);
     has_entries(kept, 21); /* the first of each is there */
+    assert_false(numbers.row[0].kept || numbers.row[2].kept); /* others are new */
     p.command = (char *)command_of("drawn", "{n} {repeat}");
     shell("touch drawn.fail");
     p.kept = NULL;

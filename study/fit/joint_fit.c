@@ -641,8 +641,7 @@ static void fit_models(struct problem *problem, struct candidate candidate[MODEL
         c->attempt = best_attempt(problem, plain);
         if (isfinite(c->attempt.sum))
             c->criterion = br_akaike(c->attempt.sum, problem->count, models[i].count);
-        if (!plain)
-            least = fmin(least, c->attempt.sum);
+        least = plain ? least : fmin(least, c->attempt.sum);
     }
 }
 
