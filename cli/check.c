@@ -15,10 +15,12 @@ struct item {
     struct br_scene scene;
     struct br_verify verify;
     struct br_study_file study; /* a study of another program, instead of scene and verify */
+    struct br_check *check;     /* of that study; NULL: it is a scene */
 };
 
 struct run {
-    struct br_session session;
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
     bool all;
     char **listed;     /* with --all: the bundled scenes; owned; NULL: the command line has them */
     struct item *item; /* room for `most` */
@@ -37,8 +39,8 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
         struct br_verify_study *v = &item->verify.study[kind];
         struct br_error inner = {0};
-        if (v->n && br_method_read(&r->session.options->given[BR_OPT_METHOD], BR_METHOD_OPTION,
-                                   &v->method, &inner))
+        if (v->n &&
+            br_method_read(&r->options->given[BR_OPT_METHOD], BR_METHOD_OPTION, &v->method, &inner))
             return br_fail(err, inner.status, "%s: verify: %s: %s", item->path,
                            br_verify_names[kind], inner.message);
     }
@@ -50,13 +52,14 @@ static enum br_status choose_method(const struct run *r, struct item *item, stru
 static enum br_status read_study(struct run *r, struct item *item, const char *text,
                                  struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     if (br_study_file_read(item->path, text, o, &item->study, err))
         return err->status;
     if (item->study.request.expectations == 0)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: verify: missing, expected at least one study to check", item->path);
-    r->check[r->count++] = br_study_file_check(&item->study, o);
+    item->check = &r->check[r->count++];
+    *item->check = br_study_file_check(&item->study, o);
     return BR_OK;
 }
 
@@ -91,7 +94,7 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     r->most = o->words;
     if (r->all && br_scene_list(&r->listed, &r->most, err))
         return err->status;
@@ -116,7 +119,7 @@ static enum br_status check_accepted(const struct run *r, struct br_error *err)
         for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
             if (r->check[i].verify && r->check[i].verify->study[kind].count)
                 method[count++] = &r->check[i].verify->study[kind].method;
-    const enum br_status status = br_method_check_used(&r->session.options->given[BR_OPT_METHOD],
+    const enum br_status status = br_method_check_used(&r->options->given[BR_OPT_METHOD],
                                                        BR_METHOD_OPTION, method, count, err);
     free(method);
     return status;
@@ -135,7 +138,7 @@ static void announce(const struct run *r)
             }
         }
     }
-    br_session_announce(&r->session, &work);
+    br_session_announce(r->session, &work);
 }
 
 /* ---- computing ---- */
@@ -144,25 +147,21 @@ static void announce(const struct run *r)
 static enum br_status run_studies(struct run *r, const struct br_observer *observer,
                                   struct br_error *err)
 {
-    for (size_t i = 0; i < r->most; i++)
-        for (size_t c = 0; c < r->count; c++) {
-            struct br_study_file *study = &r->item[i].study;
-            if (!study->request.path || r->check[c].path != study->request.path)
-                continue;
-            study->request.observer = observer;
-            if (br_study_file_run(study, &r->check[c], err))
-                return err->status;
-        }
+    for (struct item *item = r->item; item < r->item + r->most; item++) {
+        item->study.request.observer = observer;
+        if (item->check && br_study_file_run(&item->study, item->check, err))
+            return err->status;
+    }
     return BR_OK;
 }
 
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const struct br_observer *observer = br_progress_start("checking", r->session.quiet);
+    const struct br_observer *observer = br_progress_start("checking", r->session->quiet);
     enum br_status status = run_studies(r, observer, err);
     if (!status)
-        status = br_check_run(r->check, r->count, r->session.threads, observer, err);
+        status = br_check_run(r->check, r->count, r->session->threads, observer, err);
     br_progress_end();
     r->wall_seconds = br_seconds() - start;
     return br_progress_result(status, err);
@@ -177,18 +176,18 @@ static enum br_status write_all(struct run *r, struct br_error *err)
         .count = r->count,
         .wall_seconds = r->wall_seconds,
     };
-    if (br_session_report(&r->session, 1, err))
+    if (br_session_report(r->session, 1, err))
         return err->status;
-    return br_verdicts_finish(&r->verdicts, &r->session, &findings, r->all, err);
+    return br_verdicts_finish(&r->verdicts, r->session, &findings, r->all, err);
 }
 
 /* Prepares what the reports need, so that a failure comes before the long computation. */
 static enum br_status prepare_reports(struct run *r, struct br_error *err)
 {
-    bool failed = br_verdicts_open(&r->verdicts, r->session.options, r->check, r->count, err);
+    bool failed = br_verdicts_open(&r->verdicts, r->options, r->check, r->count, err);
     for (size_t i = 0; i < r->most && !failed; i++)
         failed = br_verdicts_spare(&r->verdicts, r->item[i].study.request.table_path, err);
-    if (failed || br_session_open(&r->session, err))
+    if (failed || br_session_open(r->session, err))
         return err->status;
     br_warn_of_checks(r->check, r->count);
     return BR_OK;
@@ -206,22 +205,22 @@ static void clear(struct run *r)
     free(r->item);
     free(r->check);
     br_verdicts_clear(&r->verdicts);
-    br_session_close(&r->session);
     br_scene_list_free(r->listed, r->listed ? r->most : 0);
 }
 
 /* Only rank 0 writes and gives the verdict. */
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
     static struct run r;
-    r = (struct run){.session = br_session_begin(options),
-                     .all = br_option_given(options, BR_OPT_ALL)};
+    r = (struct run){
+        .options = options, .session = session, .all = br_option_given(options, BR_OPT_ALL)};
     if (r.all == (options->words > 0))
         return br_fail(
             err, BR_BAD_INPUT,
             r.all ? "--all and scenes are given, expected one of the two"
                   : "no scene is given, expected files, names of bundled scenes, or --all");
-    const bool writes = r.session.writes;
+    const bool writes = r.session->writes;
     bool failed = read_scenes(&r, err) || check_accepted(&r, err);
     if (!failed) {
         announce(&r);

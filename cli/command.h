@@ -8,6 +8,9 @@
 
 enum { BR_MOST_EXAMPLES = 8, BR_MOST_WORDS = 1 << 20 };
 
+struct br_session;
+struct br_vary_command;
+
 struct br_command {
     unsigned bit; /* its bit in br_option.commands */
     const char *name;
@@ -19,8 +22,10 @@ struct br_command {
     size_t least_words, most_words; /* number of arguments that are no options */
     const struct br_words *words;   /* the values that these may have; NULL: scenes */
     bool or_scenes;                 /* or scenes; `run` reads which is which */
-    /* The options are parsed. On failure err says why. */
-    enum br_status (*run)(const struct br_options *options, struct br_error *err);
+    /* The options are parsed; the session is closed afterwards. On failure err says why. */
+    enum br_status (*run)(const struct br_options *options, struct br_session *session,
+                          struct br_error *err);
+    const struct br_vary_command *vary; /* with --vary; NULL: it does not take that option */
 };
 
 /* NULL-terminated, in the order of the help text. */

@@ -28,7 +28,7 @@ struct entry {
 /* Begins as zeros. */
 struct list {
     struct entry *entry; /* `count` of them; owned */
-    size_t count;
+    size_t count, room;
 };
 
 static enum br_status fail_with_errno(const char *name, struct br_error *err)
@@ -47,10 +47,8 @@ static bool is_there(int folder, const char *name)
 
 static bool append(struct list *l, const struct entry *entry)
 {
-    struct entry *more = realloc(l->entry, (l->count + 1) * sizeof *more);
-    if (!more)
+    if (!br_grow(&l->entry, l->count, &l->room, sizeof *l->entry))
         return false;
-    l->entry = more;
     l->entry[l->count++] = *entry;
     return true;
 }

@@ -7,6 +7,7 @@
 #include "cli/extremes_experiment.h"
 #include "cli/progress.h"
 #include "cli/session.h"
+#include "cli/study_request.h"
 #include "study/base/words.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
@@ -24,8 +25,9 @@ struct part {
 };
 
 struct run {
-    struct br_session session;
-    struct part part[MOST_PARTS]; /* parts, in registry order */
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
+    struct part part[MOST_PARTS];     /* parts, in registry order */
     size_t parts;
     const char *scene_word; /* NULL: none is given */
     struct br_named_methods methods;
@@ -79,7 +81,7 @@ static const struct br_words experiments = {experiment_name, experiment_title, N
 static enum br_status check_options(const struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < OPTIONS; i++) {
-        bool wanted = !br_option_given(r->session.options, own_options[i].id);
+        bool wanted = !br_option_given(r->options, own_options[i].id);
         for (size_t e = 0; e < r->parts; e++)
             wanted |= accepts(r->part[e].experiment, own_options[i].id);
         if (!wanted)
@@ -111,7 +113,7 @@ static enum br_status read_scene_word(struct run *r, const char *word, struct br
 /* Chooses the named experiments, in the registry's order; without names, all. */
 static enum br_status choose_parts(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     size_t named = 0;
     for (const struct br_extremes_experiment *e = br_extremes_experiments; e->name; e++) {
         size_t times = 0;
@@ -147,20 +149,20 @@ static enum br_status open_scenes(struct run *r, struct part *p, struct br_error
             return err->status;
         p->scene[p->scenes] = &opened->scene;
     }
-    return p->scenes
-               ? br_option_steps(r->session.options, p->scene[0], &p->steps, &p->step_count, err)
-               : BR_OK;
+    const struct br_asked_steps steps = br_asked_steps(r->options);
+    return p->scenes ? br_asked_steps_make(&steps, p->scene[0], &p->steps, &p->step_count, err)
+                     : BR_OK;
 }
 
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const char *methods = br_option_text(o, BR_OPT_METHODS);
     if (br_ranks_size() > 1)
         return br_fail(err, BR_BAD_INPUT,
                        "found %d ranks, expected one: its threads share the work", br_ranks_size());
     r->job = (struct br_extremes_job){
-        .threads = r->session.threads,
+        .threads = r->session->threads,
         .n = o->whole[BR_OPT_N],
         .n_count = o->count[BR_OPT_N],
         .methods = &r->methods,
@@ -181,7 +183,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     struct part *p = &r->part[i];
     const struct br_extremes_experiment *experiment = p->experiment;
     const struct br_provenance provenance =
-        br_provenance_of(p->scenes == 1 ? p->opened : NULL, r->session.threads);
+        br_provenance_of(p->scenes == 1 ? p->opened : NULL, r->session->threads);
     struct br_extremes_job job = r->job;
     char what[64];
     snprintf(what, sizeof what, "%s (%zu of %zu)", experiment->name, i + 1, r->parts);
@@ -189,8 +191,8 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     job.scenes = p->scenes;
     job.steps = p->steps;
     job.step_count = p->step_count;
-    job.observer = br_progress_start(what, r->session.quiet);
-    const struct br_extremes_output to = {&r->session, &r->session.document[i], &p->verdict};
+    job.observer = br_progress_start(what, r->session->quiet);
+    const struct br_extremes_output to = {r->session, &r->session->document[i], &p->verdict};
     const enum br_status status = experiment->run(&job, &to, err);
     br_progress_end();
     if (status)
@@ -201,7 +203,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
 
 static enum br_status run_parts(struct run *r, struct br_error *err)
 {
-    enum br_status status = br_session_report(&r->session, r->parts, err);
+    enum br_status status = br_session_report(r->session, r->parts, err);
     for (size_t i = 0; i < r->parts && !status; i++)
         status = run_part(r, i, err);
     return status;
@@ -227,12 +229,12 @@ static void close_scenes(struct run *r)
     }
 }
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options)};
-    const bool failed = read_request(&r, err) || br_session_open(&r.session, err) ||
-                        run_parts(&r, err) || br_session_finish(&r.session, err) || judge(&r, err);
-    br_session_close(&r.session);
+    struct run r = {.options = options, .session = session};
+    const bool failed = read_request(&r, err) || br_session_open(r.session, err) ||
+                        run_parts(&r, err) || br_session_finish(r.session, err) || judge(&r, err);
     close_scenes(&r);
     return failed ? err->status : BR_OK;
 }

@@ -11,7 +11,7 @@
 #include "tables/reports.h"
 
 struct run {
-    struct br_session session;
+    struct br_session *session; /* borrowed */
     struct br_paper paper;
 };
 
@@ -32,36 +32,37 @@ static void put_caption(struct br_document *d, const struct br_paper_figure *f,
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
+    const struct br_provenance provenance = br_provenance_of(NULL, r->session->threads);
     struct br_finding finding[BR_MOST_CLAIMS];
-    if (br_session_report(&r->session, 1, err))
+    if (br_session_report(r->session, 1, err))
         return err->status;
-    struct br_document *d = r->session.document;
+    struct br_document *d = r->session->document;
     for (size_t i = 0; br_claims[i].name; i++)
         finding[i] = br_claim_measure(&br_claims[i], &r->paper);
     br_report_claims(finding, r->paper.request.n, r->paper.request.per_second, d);
     for (const struct br_paper_figure *f = br_paper_figures; f->number; f++) {
-        br_session_draw(&r->session, d, br_paper_figure_draw(f, &r->paper), NULL);
+        br_session_draw(r->session, d, br_paper_figure_draw(f, &r->paper), NULL);
         put_caption(d, f, &r->paper.example[f->example - 1]);
     }
     br_put_provenance(d, &provenance);
-    return br_session_finish(&r->session, err);
+    return br_session_finish(r->session, err);
 }
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options)};
+    (void)options;
+    struct run r = {.session = session};
     struct br_paper_request request = br_paper_request_default();
-    const bool writes = r.session.writes;
-    request.threads = r.session.threads;
-    bool failed = br_session_open(&r.session, err) || (writes && br_warn_of_paper(err));
+    const bool writes = r.session->writes;
+    request.threads = r.session->threads;
+    bool failed = br_session_open(r.session, err) || (writes && br_warn_of_paper(err));
     if (!failed) { /* on every rank: it takes a second */
-        const struct br_observer *observer = br_progress_start("marching", r.session.quiet);
+        const struct br_observer *observer = br_progress_start("marching", r.session->quiet);
         failed = br_paper_run(&r.paper, &request, observer, err);
         br_progress_end();
     }
     failed = failed || (writes && write_all(&r, err));
-    br_session_close(&r.session);
     br_paper_clear(&r.paper);
     return failed ? err->status : BR_OK;
 }

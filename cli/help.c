@@ -154,8 +154,10 @@ static void print_methods(FILE *out)
 /* The topics besides the commands. */
 static const char *const others[] = {"methods", "man", "markdown", NULL};
 
-static enum br_status run(const struct br_options *o, struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_session *session,
+                          struct br_error *err)
 {
+    (void)session;
     (void)err;
     const char *topic = o->words ? o->word[0] : "";
     const struct br_command *command = br_find_command(topic);

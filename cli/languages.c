@@ -141,17 +141,15 @@ static enum value value_of(const struct br_option *row, char words[MOST_WORDS])
 {
     const struct br_words *names =
         row->id == BR_OPT_METHODS ? br_method_fields[BR_METHOD_SCHEME].words : row->words;
-    size_t used = 0;
     words[0] = '\0';
     if (row->kind == BR_TAKES_FILE || row->kind == BR_TAKES_DIR)
         return row->kind == BR_TAKES_FILE ? FILES : FOLDERS;
     if (!names)
         return row->argument ? ANYTHING : FLAG;
-    for (size_t i = 0; names->name(i) && used < MOST_WORDS; i++) {
+    for (size_t i = 0; names->name(i); i++) {
         const char *name = names->name(i);
         const size_t colon = strcspn(name, ":"), length = colon + (name[colon] == ':');
-        used += (size_t)snprintf(words + used, MOST_WORDS - used, "%s%.*s", i ? " " : "",
-                                 (int)length, name);
+        br_append(words, MOST_WORDS, "%s%.*s", i ? " " : "", (int)length, name);
     }
     return strcmp(row->argument, "LIST") == 0 ? SOME_WORDS : ONE_WORD;
 }
@@ -211,10 +209,9 @@ static void write_command(FILE *out, const struct language *l, const struct br_c
 {
     struct br_option row[BR_OPTIONS];
     const size_t count = br_options_of(c, row);
-    char words[MOST_WORDS] = "", options[MOST_OPTIONS];
-    for (size_t i = 0, used = 0; i < count && used < sizeof options; i++)
-        used += (size_t)snprintf(options + used, sizeof options - used, "%s--%s", i ? " " : "",
-                                 row[i].name);
+    char words[MOST_WORDS] = "", options[MOST_OPTIONS] = "";
+    for (size_t i = 0; i < count; i++)
+        br_append(options, sizeof options, "%s--%s", i ? " " : "", row[i].name);
     if (c->words)
         br_words_join(c->words, " ", words, sizeof words);
     f.of['s'] = c->arguments;
@@ -307,7 +304,7 @@ static const struct {
       "Installed: share/beamrate/study/scenes (the bundled scenes), "
       "and the completions of bash, zsh and fish."}},
     {"ENVIRONMENT",
-     {"BEAMRATE_DATA: the folder that holds study/scenes and reference/printed, instead "
+     {"BEAMRATE_DATA: the folder that holds study/scenes, instead "
       "of the one the program was built or installed with.",
       "BEAMRATE_SILENCE: seconds after which a rank that sends nothing is regarded as dead, 60 by "
       "default.",
@@ -515,16 +512,17 @@ static const char *shell_name(size_t row)
 
 static const struct br_words shell_words = {shell_name, NULL, NULL};
 
-static enum br_status run(const struct br_options *o, struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_session *session,
+                          struct br_error *err)
 {
+    (void)session;
     static char scenes[MOST_SCENES]; /* the bundled ones, separated by blanks */
     char **name;
-    size_t count, used = 0;
+    size_t count;
     const enum br_status status = br_scene_list(&name, &count, err);
-    for (size_t i = 0; i < count && !status && used < MOST_SCENES; i++)
+    for (size_t i = 0; i < count && !status; i++)
         if (br_is_name(name[i]) && !strchr(name[i], ' ')) /* else no shell could complete it */
-            used += (size_t)snprintf(scenes + used, MOST_SCENES - used, "%s%s", used ? " " : "",
-                                     name[i]);
+            br_append(scenes, sizeof scenes, "%s%s", *scenes ? " " : "", name[i]);
     br_scene_list_free(name, count);
     if (!status)
         br_write_language(stdout, o->word[0], scenes);

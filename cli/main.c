@@ -10,6 +10,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
+#include "cli/vary.h"
 #include "plots/pictures.h"
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -56,6 +57,17 @@ static enum br_status unknown(const char *word, struct br_error *err)
                    *suggestion ? suggestion : "; 'beamrate --help' lists them");
 }
 
+static enum br_status run(const struct br_command *command, const struct br_options *options,
+                          struct br_error *err)
+{
+    struct br_session session = br_session_begin(options);
+    const enum br_status status = br_option_given(options, BR_OPT_VARY)
+                                      ? br_vary_run(options, &session, command->vary, err)
+                                      : command->run(options, &session, err);
+    br_session_close(&session);
+    return status;
+}
+
 static enum br_status run_command(int argc, const char **argv, struct br_error *err)
 {
     const char *word = argc > 1 ? argv[1] : "";
@@ -70,8 +82,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!command)
         return unknown(word, err);
     br_signals_install();
-    br_gnuplot_stop_when(br_signals_caught);
-    br_document_stop_when(br_signals_caught);
+    br_stop_when(br_signals_caught);
     if (br_remember_command_line(argc, argv, err))
         return err->status;
     struct br_options options;
@@ -79,7 +90,7 @@ static enum br_status run_command(int argc, const char **argv, struct br_error *
     if (!status && br_option_given(&options, BR_OPT_HELP))
         br_print_command_help(stdout, command);
     else if (!status)
-        status = command->run(&options, err);
+        status = run(command, &options, err);
     br_options_clear(&options);
     return status;
 }
@@ -145,7 +156,7 @@ int main(int argc, const char **argv)
     setvbuf(stderr, NULL, _IOLBF, BUFSIZ); /* lines of several programs do not mix */
     on_exit(name_the_end, NULL);
     gsl_set_error_handler_off(); /* its default ends the program; all its results are checked */
-    br_json_lacked_memory(); /* installs its allocator */
+    br_json_lacked_memory();     /* installs its allocator */
     const int code = run_all(argc, argv);
     returned = true;
     return code;

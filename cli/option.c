@@ -76,41 +76,6 @@ static enum br_status check_times(const struct br_option *row, const char *text,
     }
 }
 
-enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
-                            size_t *steps, struct br_error *err)
-{
-    double k = NAN;
-    struct br_error inner = {0};
-    br_read_time(text, scene->duration, &k);
-    if (br_steps_of(scene, k, steps, &inner))
-        return br_fail(err, BR_BAD_INPUT, "%s: %s", option, inner.message);
-    return BR_OK;
-}
-
-enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
-                               size_t **steps, size_t *count, struct br_error *err)
-{
-    const char *text = o->text[BR_OPT_K];
-    const size_t given = o->count[BR_OPT_STEPS], most = given ? given : text ? strlen(text) + 1 : 0;
-    *steps = most ? br_allocate(most, sizeof **steps) : NULL;
-    *count = given;
-    if (most && !*steps)
-        return br_no_memory(err, "the time steps");
-    if (given)
-        memcpy(*steps, o->whole[BR_OPT_STEPS], given * sizeof **steps);
-    for (const char *rest = given ? NULL : text; rest; rest = strchr(rest, ',')) {
-        rest += *rest == ',';
-        if (br_read_step("--k", rest, scene, &(*steps)[*count], err))
-            return err->status;
-        for (size_t i = 0; i < *count; i++)
-            if ((*steps)[i] == (*steps)[*count])
-                return br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
-                               br_time_step(scene, (*steps)[i]));
-        ++*count;
-    }
-    return BR_OK;
-}
-
 /* ---- values ---- */
 
 static enum br_status read_words(struct br_options *o, const struct br_option *row,
@@ -312,12 +277,4 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id)
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise)
 {
     return o->count[id] ? o->number[id][0] : otherwise;
-}
-
-bool br_format_wanted(const struct br_options *o, const char *name)
-{
-    for (size_t i = 0; i < o->count[BR_OPT_FORMAT]; i++)
-        if (strcmp(br_format_words.name((size_t)o->number[BR_OPT_FORMAT][i]), name) == 0)
-            return true;
-    return !o->count[BR_OPT_FORMAT];
 }

@@ -156,22 +156,10 @@ const char *br_option_text(const struct br_options *o, enum br_option_id id);
 /* The number, or the row; `otherwise` where there is none. */
 double br_option_number(const struct br_options *o, enum br_option_id id, double otherwise);
 
-/* Whether a format is to be written: --format names it, or is not given. */
-bool br_format_wanted(const struct br_options *o, const char *name);
-
 /* ---- times: "0.1", "0.1 s", "T/20" ---- */
 
 /* Reads a time, s, at the start of text; duration: of the scene, s. Returns the text that follows,
  * the end or a comma; NULL: it is no time. */
 const char *br_read_time(const char *text, double duration, double *seconds);
-
-/* The number of steps for the time step in text. Fails with BR_BAD_INPUT, naming the option. */
-enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
-                            size_t *steps, struct br_error *err);
-
-/* The numbers of steps by --steps, --k, or the default of --k: *steps (out, *count values) is owned
- * by the caller; NULL: there are none. Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
-enum br_status br_option_steps(const struct br_options *o, const struct br_scene *scene,
-                               size_t **steps, size_t *count, struct br_error *err);
 
 #endif

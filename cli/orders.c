@@ -12,7 +12,8 @@
 #include "study/scene/file.h"
 
 struct run {
-    struct br_session session;
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
     struct br_study_file study;
     struct br_check check;
     struct br_verdicts verdicts;
@@ -141,7 +142,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
 
 static enum br_status read_request(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const char *word = o->words ? o->word[0] : NULL;
     struct br_orders_request *q = &r->study.request;
     if (br_option_given(o, BR_OPT_RUN) == !!word)
@@ -162,10 +163,10 @@ static enum br_status read_request(struct run *r, struct br_error *err)
 /* Checks all that can be checked before a program is run. */
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
-    static const enum br_option_id of_verdicts[] = {
-        BR_OPT_COMPARE,  BR_OPT_UPDATE_BASELINE, BR_OPT_JUNIT,
-        BR_OPT_MARKDOWN, BR_OPT_GITHUB,          BR_OPTIONS};
+    const struct br_options *o = r->options;
+    static const enum br_option_id of_verdicts[] = {BR_OPT_COMPARE, BR_OPT_UPDATE_BASELINE,
+                                                    BR_OPT_JUNIT,   BR_OPT_MARKDOWN,
+                                                    BR_OPT_GITHUB,  BR_OPTIONS};
     r->check = br_study_file_check(&r->study, o);
     if (r->study.request.expectations == 0 && br_first_given(o, of_verdicts))
         return br_fail(err, BR_BAD_INPUT,
@@ -173,10 +174,10 @@ static enum br_status prepare(struct run *r, struct br_error *err)
                        "compared: give --expect, or 'verify:' in a study file");
     const bool failed = br_verdicts_open(&r->verdicts, o, &r->check, 1, err) ||
                         br_verdicts_spare(&r->verdicts, r->study.request.table_path, err) ||
-                        br_session_open(&r->session, err);
-    const bool open = br_output_is_open(&r->session.output);
+                        br_session_open(r->session, err);
+    const bool open = br_output_is_open(&r->session->output);
     snprintf(r->kept, sizeof r->kept, open ? "%s/.kept" : "%sorders-kept",
-             open ? r->session.output.folder : "");
+             open ? r->session->output.folder : "");
     r->study.request.kept = r->kept;
     return failed ? err->status : BR_OK;
 }
@@ -186,7 +187,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const double start = br_seconds();
-    const bool quiet = r->session.quiet || !r->study.request.command;
+    const bool quiet = r->session->quiet || !r->study.request.command;
     r->study.request.observer = br_progress_start("running", quiet);
     const enum br_status status = br_study_file_run(&r->study, &r->check, err);
     r->wall_seconds = br_seconds() - start;
@@ -203,10 +204,10 @@ static enum br_status build_report(struct run *r, struct br_document *d, struct 
     for (int axis = 0; axis < BR_AXES; axis++)
         if (br_orders_growth(&r->study.orders, (enum br_axis)axis, &growth[axis], err))
             return err->status;
-    const struct br_provenance provenance = br_provenance_of(NULL, r->session.threads);
+    const struct br_provenance provenance = br_provenance_of(NULL, r->session->threads);
     br_report_orders(&r->study.orders, growth, caption, d);
-    if (br_output_is_open(&r->session.output))
-        br_session_draw(&r->session, d, br_orders_draw(&r->study.orders, caption),
+    if (br_output_is_open(&r->session->output))
+        br_session_draw(r->session, d, br_orders_draw(&r->study.orders, caption),
                         "Errors, or differences of values, over sizes");
     br_put_provenance(d, &provenance);
     return BR_OK;
@@ -218,23 +219,24 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     const struct br_check_findings findings = {
         .checks = &r->check, .count = 1, .wall_seconds = r->wall_seconds};
     const bool judged = r->study.request.expectations > 0;
-    if (br_session_report(&r->session, judged ? 2 : 1, err) ||
-        build_report(r, &r->session.document[0], err))
+    if (br_session_report(r->session, judged ? 2 : 1, err) ||
+        build_report(r, &r->session->document[0], err))
         return err->status;
-    return judged ? br_verdicts_finish(&r->verdicts, &r->session, &findings, true, err)
-                  : br_verdicts_write(&r->verdicts, &r->session, NULL, err);
+    return judged ? br_verdicts_finish(&r->verdicts, r->session, &findings, true, err)
+                  : br_verdicts_write(&r->verdicts, r->session, NULL, err);
 }
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
     static struct run r;
-    r = (struct run){.session = br_session_begin(options)};
+    r = (struct run){.options = options, .session = session};
     const bool failed = br_session_alone(err) || read_request(&r, err) || prepare(&r, err) ||
-                        compute(&r, err) || write_all(&r, err) || br_numbers_check_runs(&r.study.numbers, err);
+                        compute(&r, err) || write_all(&r, err) ||
+                        br_numbers_check_runs(&r.study.numbers, err);
     br_verdicts_clear(&r.verdicts);
     br_check_clear(&r.check);
     br_study_file_clear(&r.study);
-    br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }
 

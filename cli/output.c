@@ -209,7 +209,10 @@ enum br_status br_output_file(const struct br_output *o, const char *name, FILE 
                        "found '%.900s', expected a file's name that does not begin with a dot",
                        name);
     snprintf(path, sizeof path, "%s/%s", o->staging, name);
-    *file = fopen(path, "w");
+    *file = fopen(path, "wx"); /* one result must not replace another */
+    if (!*file && errno == EEXIST)
+        return br_fail(err, BR_BAD_INPUT,
+                       "two results are called %.900s; rename the file of a scene", name);
     return *file ? BR_OK
                  : br_fail(err, errno == ENOMEM ? BR_NO_MEMORY : BR_IO, "%s: %s", path,
                            strerror(errno));

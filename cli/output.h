@@ -34,7 +34,8 @@ static inline bool br_output_is_open(const struct br_output *output)
     return output->staging[0];
 }
 
-/* Opens a file in the hidden folder for writing. Its name must not begin with a dot. */
+/* Opens a new file in the hidden folder for writing. Its name must not begin with a dot. Fails with
+ * BR_BAD_INPUT if another result has the name. */
 enum br_status br_output_file(const struct br_output *output, const char *name, FILE **file,
                               struct br_error *err);
 

@@ -11,7 +11,8 @@
 #include "tables/reports.h"
 
 struct run {
-    struct br_session session;
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
     struct br_study_request study;
     struct br_opened_scene opened;
     struct br_plan plan;
@@ -19,7 +20,7 @@ struct run {
 
 static enum br_status prepare(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const bool error = br_option_given(o, BR_OPT_ERROR);
     struct br_plan *p = &r->plan;
     if (br_session_alone(err) || br_study_request_read(o, &r->study, err))
@@ -41,7 +42,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
                                     br_option_number(o, BR_OPT_SECONDS, NAN)};
     p->request.norm = r->study.norm[0];
     p->request.judge = judge;
-    p->request.threads = r->session.threads;
+    p->request.threads = r->session->threads;
     p->request.time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (r->study.methods.count)
         p->methods = r->study.methods;
@@ -51,50 +52,50 @@ static enum br_status prepare(struct run *r, struct br_error *err)
 static enum br_status compute(struct run *r, struct br_error *err)
 {
     const char *name = r->opened.scene.name;
-    r->plan.request.observer = br_progress_start(name, r->session.quiet);
+    r->plan.request.observer = br_progress_start(name, r->session->quiet);
     const enum br_status status = br_plan_make(&r->plan, err);
     br_progress_end();
     if (!status)
         return br_progress_result(status, err);
     br_failed_in(err, name);
-    return status == BR_BAD_INPUT && br_option_given(r->session.options, BR_OPT_ERROR)
+    return status == BR_BAD_INPUT && br_option_given(r->options, BR_OPT_ERROR)
                ? br_failed_in(err, "--error")
                : status;
 }
 
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(&r->opened, r->session.threads);
-    if (br_session_report(&r->session, 1, err))
+    const struct br_provenance provenance = br_provenance_of(&r->opened, r->session->threads);
+    if (br_session_report(r->session, 1, err))
         return err->status;
     if (r->plan.chosen < r->plan.count)
         br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     const struct br_plan *p = &r->plan;
-    struct br_document *d = r->session.document;
-    br_report_plan(p, r->session.options->word[0], &provenance, d);
+    struct br_document *d = r->session->document;
+    br_report_plan(p, r->options->word[0], &provenance, d);
     const struct br_drawn_trials drawn = {&p->methods, p->request.norm, p->trial,       p->count,
                                           p->chosen,   p->goal.error,   p->goal.seconds};
     const struct br_trade_picture *const *picture = br_trade_pictures;
     while (*picture && !br_trade_picture_applies(*picture, &drawn))
         picture++;
     if (*picture)
-        br_session_draw(&r->session, d, br_trade_draw(*picture, &drawn, d->name, d->caption),
+        br_session_draw(r->session, d, br_trade_draw(*picture, &drawn, d->name, d->caption),
                         (*picture)->title);
-    const enum br_status status = br_session_finish(&r->session, err);
+    const enum br_status status = br_session_finish(r->session, err);
     if (!status && r->plan.chosen == r->plan.count)
         return br_fail(err, BR_NOT_FINITE, "%s: none of the %zu trials reaches the goal",
                        r->opened.scene.name, r->plan.count);
     return status;
 }
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
     static struct run r; /* large: all methods */
-    r = (struct run){.session = br_session_begin(options)};
+    r = (struct run){.options = options, .session = session};
     bool failed = prepare(&r, err);
     if (!failed)
-        failed = br_session_open(&r.session, err) || compute(&r, err) || write_all(&r, err);
-    br_session_close(&r.session);
+        failed = br_session_open(r.session, err) || compute(&r, err) || write_all(&r, err);
     br_plan_clear(&r.plan);
     br_opened_scene_clear(&r.opened);
     return failed ? err->status : BR_OK;

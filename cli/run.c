@@ -20,8 +20,9 @@ enum { PICTURE_ROWS = 2000 };
 static const char *const file_names[] = {"history.csv", "fields.csv", "fields.xdmf"};
 
 struct run {
-    struct br_session session;
-    const char *out, *json; /* paths of these options; NULL: not given */
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
+    const char *out, *json;           /* paths of these options; NULL: not given */
     struct br_run_plan plan;
     struct br_prediction prediction;
     struct br_warnings warnings;
@@ -39,21 +40,20 @@ struct run {
 
 static enum br_status open_results(struct run *r, struct br_error *err)
 {
-    enum br_status status = br_session_open(&r->session, err);
+    enum br_status status = br_session_open(r->session, err);
     for (int i = 0; i < FILES && !status; i++)
-        status = br_output_file(&r->session.output, file_names[i], &r->file[i], err);
+        status = br_output_file(&r->session->output, file_names[i], &r->file[i], err);
     if (status)
         return status;
     br_history_csv_head(r->file[HISTORY]);
-    const struct br_fields_request fields = {
+    r->fields = (struct br_fields){
         .csv = r->file[FIELDS_CSV],
         .xdmf = r->file[FIELDS_XDMF],
         .scene = &r->plan.marched,
         .n = r->plan.request.n,
         .axial_degree = r->plan.request.method.axial_degree,
-        .provenance = &r->provenance,
     };
-    return br_fields_begin(&r->fields, &fields, err);
+    return br_fields_begin(&r->fields, &r->provenance, err);
 }
 
 /* Fails where a write to one of the files did. */
@@ -123,7 +123,7 @@ static enum br_status write_results(struct run *r, const char *stopped, struct b
     static const struct br_document_format *const formats[] = {&br_document_text, &br_document_json,
                                                                &br_document_html, NULL};
     const bool failed =
-        close_results(r, stopped, err) || br_session_write(&r->session, formats, err);
+        close_results(r, stopped, err) || br_session_write(r->session, formats, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -146,7 +146,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
 {
     r->provenance = br_provenance_of(&r->plan.opened, 1);
     r->recorder = br_history_recorder(&r->record, r->plan.request.n);
-    if (r->out && !br_option_given(r->session.options, BR_OPT_NO_PLOTS))
+    if (r->out && !br_option_given(r->options, BR_OPT_NO_PLOTS))
         r->picture_stride = br_history_stride(r->plan.request.steps, PICTURE_ROWS);
     const bool failed = br_whole_file_open(&r->summary, "json", r->json, err) ||
                         check_places(r, err) || (r->out && open_results(r, err));
@@ -155,7 +155,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
 
 static enum br_status open_scene(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const bool failed = br_opened_scene_read(&r->plan.opened, o->word[0], err) ||
                         br_run_plan_make(&r->plan, o, err);
     return failed ? err->status : BR_OK;
@@ -185,7 +185,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     const struct br_planned_march one = planned(&r->plan);
     br_print_warnings("", &r->warnings);
     br_foreseen_add_march(&work, &one);
-    br_session_announce(&r->session, &work);
+    br_session_announce(r->session, &work);
     return BR_OK;
 }
 
@@ -203,7 +203,7 @@ static enum br_status march(struct run *r, struct br_error *err)
     struct br_run_request request = r->plan.request;
     request.output = output;
     request.outputs = outputs;
-    request.progress = br_progress_start("marching", r->session.quiet);
+    request.progress = br_progress_start("marching", r->session->quiet);
     const enum br_status status = br_run(&request, &r->report, err);
     br_progress_end();
     return status;
@@ -223,14 +223,14 @@ static enum br_status write_all(struct run *r, double start, struct br_error *er
         .provenance = &r->provenance,
         .wall_seconds = br_seconds() - start,
     };
-    if (br_session_report(&r->session, 1, err))
+    if (br_session_report(r->session, 1, err))
         return err->status;
-    struct br_document *d = r->session.document;
+    struct br_document *d = r->session->document;
     br_report_run(&findings, d);
     if (r->record.rows > 1)
-        br_session_draw(&r->session, d, br_history_draw(&r->plan.opened.scene, &r->record), NULL);
+        br_session_draw(r->session, d, br_history_draw(&r->plan.opened.scene, &r->record), NULL);
     const bool failed = (summary && br_document_print(summary, &br_document_json, d, NULL, err)) ||
-                        (terminal && !r->session.quiet && br_document_show(terminal, d, err)) ||
+                        (terminal && !r->session->quiet && br_document_show(terminal, d, err)) ||
                         (r->out && write_results(r, stopped, err)) ||
                         br_whole_file_commit(&r->summary, err);
     return failed ? err->status : BR_OK;
@@ -304,10 +304,12 @@ static void take_point(const struct br_run_report *p, const struct br_prediction
 }
 
 /* With --vary, options for one march alone are refused. */
-static enum br_status check_swept(const struct br_options *o, struct br_error *err)
+static enum br_status read_swept(const struct br_options *o, const void **request,
+                                 struct br_error *err)
 {
     static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
     const char *name = br_first_given(o, single);
+    *request = o;
     return name ? br_fail(err, BR_BAD_INPUT,
                           "--%s: --vary does not use it, since it is for one march; --out has the "
                           "results at all values",
@@ -320,7 +322,7 @@ static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, str
     struct br_run_plan *p = self;
     v->column = name_columns();
     const bool failed =
-        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->session.options, err);
+        br_vary_scene(v, i, &p->opened, err) || br_run_plan_make(p, v->request, err);
     return failed ? err->status : BR_OK;
 }
 
@@ -338,8 +340,9 @@ static enum br_status march_value(struct br_vary *v, size_t i, void *self, struc
     const struct br_run_plan *p = self;
     char text[BR_VARIED_TEXT];
     (void)err;
-    r = (struct run){.session = v->session, .plan = *p};
-    r.session.quiet = true;
+    struct br_session quiet = *v->session;
+    quiet.quiet = true;
+    r = (struct run){.session = &quiet, .plan = *p};
     r.plan.request.levels = r.plan.request.stride = 0;
     if (predict(&r, failure))
         return BR_OK;
@@ -367,6 +370,7 @@ static const struct br_vary_command varied = {
     .size = sizeof(struct br_run_plan),
     .columns = SWEPT,
     .alone = true,
+    .read = read_swept,
     .prepare = prepare_value,
     .foresee = foresee_value,
     .march = march_value,
@@ -375,15 +379,15 @@ static const struct br_vary_command varied = {
 
 /* ---- the command ---- */
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
     static struct run r;
     const double start = br_seconds();
     if (!br_ranks_first())
         return BR_OK; /* one rank does a single march */
-    if (br_option_given(options, BR_OPT_VARY))
-        return check_swept(options, err) ? err->status : br_vary_run(options, &varied, err);
-    r = (struct run){.session = br_session_begin(options),
+    r = (struct run){.options = options,
+                     .session = session,
                      .out = br_option_text(options, BR_OPT_OUT),
                      .json = br_option_text(options, BR_OPT_JSON)};
     const bool failed =
@@ -392,7 +396,6 @@ static enum br_status run(const struct br_options *options, struct br_error *err
     br_history_record_clear(&r.record);
     br_whole_file_discard(&r.summary);
     br_run_plan_clear(&r.plan);
-    br_session_close(&r.session);
     return failed ? err->status : BR_OK;
 }
 
@@ -411,4 +414,5 @@ const struct br_command br_command_run = {
     .least_words = 1,
     .most_words = 1,
     .run = run,
+    .vary = &varied,
 };

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cli/study_request.h"
+
 /* ---- times ---- */
 
 /* The time level (out) at t, s. */

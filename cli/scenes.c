@@ -86,8 +86,10 @@ static enum br_status begin(const char *path, struct br_error *err)
     return status;
 }
 
-static enum br_status run(const struct br_options *o, struct br_error *err)
+static enum br_status run(const struct br_options *o, struct br_session *session,
+                          struct br_error *err)
 {
+    (void)session;
     const char *file = br_option_text(o, BR_OPT_NEW);
     if (file && o->words)
         return br_fail(err, BR_BAD_INPUT, "expected one of: a scene, --new");

@@ -37,7 +37,11 @@ struct br_session br_session_begin(const struct br_options *options)
 {
     const bool writes = br_ranks_first();
     return (struct br_session){
-        .options = options,
+        .out = br_option_text(options, BR_OPT_OUT),
+        .resume = br_option_given(options, BR_OPT_RESUME),
+        .plots = !br_option_given(options, BR_OPT_NO_PLOTS),
+        .format = options->number[BR_OPT_FORMAT],
+        .formats = options->count[BR_OPT_FORMAT],
         .writes = writes,
         .quiet = br_option_given(options, BR_OPT_QUIET) || !writes,
         .threads = (int)br_option_number(options, BR_OPT_THREADS, 0),
@@ -55,23 +59,22 @@ enum br_status br_session_alone(struct br_error *err)
 
 enum br_status br_session_open(struct br_session *s, struct br_error *err)
 {
-    const char *folder = br_option_text(s->options, BR_OPT_OUT);
-    return s->writes && folder ? br_output_open(&s->output, folder, err) : BR_OK;
+    return s->writes && s->out ? br_output_open(&s->output, s->out, err) : BR_OK;
 }
 
 enum br_status br_session_keep(const struct br_session *s, struct br_kept *kept,
                                struct br_error *err)
 {
-    const bool resume = br_option_given(s->options, BR_OPT_RESUME);
     struct br_provenance here;
     *kept = (struct br_kept){0};
     if (!br_output_is_open(&s->output) || br_ranks_size() > 1)
-        return resume ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
-                                br_ranks_size() > 1 ? "one rank: several ranks keep no work"
-                                                    : "--out, the folder of the work that is kept")
-                      : BR_OK;
+        return s->resume
+                   ? br_fail(err, BR_BAD_INPUT, "--resume: expected %s",
+                             br_ranks_size() > 1 ? "one rank: several ranks keep no work"
+                                                 : "--out, the folder of the work that is kept")
+                   : BR_OK;
     br_provenance_fill(&here, 0);
-    return br_kept_open(kept, s->output.folder, resume, here.machine, err);
+    return br_kept_open(kept, s->output.folder, s->resume, here.machine, err);
 }
 
 void br_session_report_kept(const struct br_session *s, const struct br_kept *k)
@@ -124,7 +127,7 @@ void br_session_draw(struct br_session *s, struct br_document *report, struct br
                      const char *title)
 {
     struct br_figure *more = NULL;
-    if (figure.panels && !br_option_given(s->options, BR_OPT_NO_PLOTS)) {
+    if (figure.panels && s->plots) {
         br_put_picture(report, figure.stem, title ? title : figure.title);
         more = realloc(s->figure, (s->figures + 1) * sizeof *more);
         s->lost |= !more;
@@ -245,6 +248,14 @@ static enum br_status write_report(const struct br_session *s, const struct br_d
     return BR_OK;
 }
 
+static bool is_wanted(const struct br_session *s, const struct br_document_format *f)
+{
+    bool wanted = !s->formats;
+    for (size_t i = 0; i < s->formats; i++)
+        wanted |= br_document_formats[(size_t)s->format[i]] == f;
+    return wanted;
+}
+
 /* The page contains the pictures, so it is written after them. */
 enum br_status br_session_write(struct br_session *s, const struct br_document_format *const *f,
                                 struct br_error *err)
@@ -256,7 +267,7 @@ enum br_status br_session_write(struct br_session *s, const struct br_document_f
             return err->status;
     for (; *f; f++) {
         const bool page = *f == &br_document_html;
-        if (!br_format_wanted(s->options, (*f)->name))
+        if (!is_wanted(s, *f))
             continue;
         if (page && end_pictures(s, err))
             return err->status;

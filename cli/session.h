@@ -34,7 +34,11 @@ struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int t
 
 /* Begins with br_session_begin. */
 struct br_session {
-    const struct br_options *options;
+    const char *out;      /* the folder of --out; NULL: nothing is written */
+    bool resume, plots;   /* --resume; without --no-plots */
+    const double *format; /* formats of them: rows of br_document_formats, of --format; 0: all are
+                             written. Borrowed from the options */
+    size_t formats;
     bool writes;                  /* the first rank */
     bool quiet;                   /* --quiet, or another rank */
     int threads;                  /* of --threads; 0: all cores */
@@ -55,8 +59,7 @@ struct br_session br_session_begin(const struct br_options *options);
 /* Refuses several ranks (BR_BAD_INPUT), for work that measures time. */
 enum br_status br_session_alone(struct br_error *err);
 
-/* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. Close
- * the session even then. */
+/* Makes the folder of --out, so call it before a long computation. Fails as br_output_open. */
 enum br_status br_session_open(struct br_session *session, struct br_error *err);
 
 /* Opens the store of finished work (out) in the folder of --out, which is open. With --resume,

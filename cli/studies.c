@@ -21,8 +21,7 @@ static struct br_study *study_of(const struct br_studies *r, size_t h, size_t m)
 static enum br_status make_grid(struct br_studies *r, size_t job, struct br_error *err)
 {
     struct br_study_work *w = &r->work[job];
-    const struct br_study_request *q = &r->request;
-    const struct br_options *o = r->session->options;
+    const struct br_study_request *q = r->request;
     const struct br_scene *scene = &w->opened.scene;
     struct br_study *study = study_of(r, job, 0);
     *study = (struct br_study){
@@ -31,12 +30,12 @@ static enum br_status make_grid(struct br_studies *r, size_t job, struct br_erro
         .method = q->method,
         .reference_method = q->method,
         .judge = q->judge ? q->judge : br_judge_best(scene),
-        .n = o->whole[BR_OPT_N],
-        .n_count = o->count[BR_OPT_N],
+        .n = q->n,
+        .n_count = q->n_count,
     };
-    if (br_option_steps(o, scene, &w->steps, &study->k_count, err))
+    if (br_asked_steps_make(&q->steps, scene, &w->steps, &study->k_count, err))
         return err->status;
-    br_sort_counts(o->whole[BR_OPT_N], study->n_count);
+    br_sort_counts(q->n, q->n_count);
     br_sort_counts(w->steps, study->k_count);
     study->steps = w->steps;
     if (!study->judge->nests)
@@ -57,32 +56,27 @@ static void spread_study(struct br_studies *r, size_t job)
         exact->reference = (struct br_resolution){0};
     }
     for (size_t h = job; h < r->heads; h += r->jobs)
-        for (size_t m = 1; m < r->request.norms; m++) {
+        for (size_t m = 1; m < r->request->norms; m++) {
             struct br_study *study = study_of(r, h, m);
             *study = *study_of(r, h, m - 1);
-            study->norm = r->request.norm[m];
+            study->norm = r->request->norm[m];
             study_of(r, h, m - 1)->next_norm = study;
         }
 }
 
 /* ---- reports ---- */
 
-static enum br_status read_printed(const char *relative, struct br_report *report,
-                                   struct br_error *err)
+static enum br_status set_printed(const struct br_printed *printed, struct br_report *report,
+                                  struct br_error *err)
 {
-    char path[1024];
-    struct br_printed printed;
     const struct br_study *study = report->study;
     const size_t cells = study->n_count * study->k_count;
-    br_data_path(relative, path, sizeof path);
-    const bool read = !br_printed_read(path, &printed, err);
-    report->printed = read ? br_allocate(cells, sizeof(double)) : NULL;
+    report->printed = br_allocate(cells, sizeof(double));
     for (size_t c = 0; c < cells && report->printed; c++)
         report->printed[c] =
-            br_printed_error(&printed, study->n[c / study->k_count],
+            br_printed_error(printed, study->n[c / study->k_count],
                              br_time_step(study->scene, study->steps[c % study->k_count]));
-    br_printed_clear(&printed);
-    return report->printed ? BR_OK : read ? br_no_memory(err, "the printed values") : err->status;
+    return report->printed ? BR_OK : br_no_memory(err, "the printed values");
 }
 
 /* Starts a job's report in norm m. Its name ends with the norm, unless that is the default. */
@@ -90,7 +84,7 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
                                    size_t m, struct br_error *err)
 {
     struct br_study_work *w = &r->work[i];
-    const struct br_norm *norm = r->request.norm[m];
+    const struct br_norm *norm = r->request->norm[m];
     const struct br_scene *scene = &w->opened.scene;
     const bool usual = norm == br_norms[0];
     snprintf(w->name[m], sizeof w->name[m], "%s%s%s", job->name ? job->name : scene->name,
@@ -101,8 +95,9 @@ static enum br_status start_report(struct br_studies *r, const struct br_study_j
         .caption = w->caption,
         .study = study_of(r, i, m),
         .exact = r->heads > r->jobs ? study_of(r, r->jobs + i, m) : NULL,
+        .fitted = study_of(r, r->heads - r->jobs + i, m),
     };
-    return job->printed && norm->printed ? read_printed(job->printed, &w->report[m], err) : BR_OK;
+    return job->printed && norm->printed ? set_printed(job->printed, &w->report[m], err) : BR_OK;
 }
 
 /* ---- from the options to studies ---- */
@@ -116,7 +111,7 @@ static enum br_status prepare_job(struct br_studies *r, const struct br_study_jo
         make_grid(r, i, err))
         return err->status;
     spread_study(r, i);
-    for (size_t m = 0; m < r->request.norms; m++)
+    for (size_t m = 0; m < r->request->norms; m++)
         if (start_report(r, job, i, m, err))
             return err->status;
     return BR_OK;
@@ -125,10 +120,8 @@ static enum br_status prepare_job(struct br_studies *r, const struct br_study_jo
 enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_job *job,
                                   bool with_exact, struct br_error *err)
 {
-    const struct br_study_request *q = &r->request;
+    const struct br_study_request *q = r->request;
     bool axial = false;
-    if (br_study_request_read(r->session->options, &r->request, err))
-        return err->status;
     r->heads = with_exact && q->judge && q->judge->nests ? 2 * r->jobs : r->jobs;
     r->work = br_allocate(r->jobs, sizeof *r->work);
     r->study = br_allocate(r->heads * q->norms, sizeof *r->study);
@@ -147,10 +140,10 @@ enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_jo
 void br_studies_clear(void *self)
 {
     struct br_studies *r = self;
-    for (size_t i = 0; r->study && i < r->heads * r->request.norms; i++)
+    for (size_t i = 0; r->study && i < r->heads * r->request->norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
-        for (size_t m = 0; m < r->request.norms; m++)
+        for (size_t m = 0; m < r->request->norms; m++)
             br_report_clear(&r->work[i].report[m]);
         br_apart_clear(&r->work[i].apart);
         br_opened_scene_clear(&r->work[i].opened);
@@ -192,7 +185,7 @@ enum br_status br_studies_compute(struct br_studies *r, bool alone, struct br_er
 {
     const double start = br_seconds();
     const int threads = r->session->threads;
-    const size_t norms = r->request.norms;
+    const size_t norms = r->request->norms;
     struct br_study_work *const end = r->work + r->jobs;
     const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
     enum br_status status = br_study_run(r->study, r->heads, threads, observer, err);

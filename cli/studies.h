@@ -5,15 +5,16 @@
 
 #include "cli/study_request.h"
 #include "cli/vary.h"
+#include "reference/printed.h"
 #include "study/fit/apart.h"
 
 /* One study: a scene, and the printed table to compare it with, if any. */
 struct br_study_job {
-    const char *name;           /* of the result files; NULL: the scene's */
-    const char *scene;          /* a file, or a bundled scene */
-    const char *printed;        /* a data file below the data folder, or NULL */
-    const char *caption;        /* NULL: the scene's title */
-    const struct br_vary *vary; /* of --vary: gives the scene instead of `scene` */
+    const char *name;                 /* of the result files; NULL: the scene's */
+    const char *scene;                /* a file, or a bundled scene */
+    const struct br_printed *printed; /* the paper's table, or NULL */
+    const char *caption;              /* NULL: the scene's title */
+    const struct br_vary *vary;       /* of --vary: gives the scene instead of `scene` */
     size_t value;
 };
 
@@ -28,18 +29,21 @@ struct br_study_work {
 };
 
 struct br_studies {
-    struct br_session *session; /* borrowed */
-    const char *what;           /* for the progress */
+    const struct br_study_request *request; /* borrowed */
+    struct br_session *session;             /* borrowed */
+    const char *what;                       /* for the progress */
     size_t jobs;
-    struct br_study_request request;
     struct br_study_work *work; /* jobs */
     size_t heads;               /* jobs, or 2 * jobs: each against its reference, then each against
                                    the exact solution */
     struct br_study *study;     /* heads * norms: those in the first norm come first */
 };
 
-/* Sets up the jobs; session, what and jobs are set before. with_exact: a fine reference is followed
- * by the exact one. Fails with BR_BAD_INPUT or BR_NO_MEMORY; clear the studies even then. */
+extern const struct br_vary_command br_study_varied;
+
+/* Sets up the jobs; request, session, what and jobs are set before. with_exact: a fine reference is
+ * followed by the exact one. Fails with BR_BAD_INPUT or BR_NO_MEMORY; clear the studies even then.
+ */
 enum br_status br_studies_prepare(struct br_studies *studies, const struct br_study_job *job,
                                   bool with_exact, struct br_error *err);
 void br_studies_clear(void *studies);

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/scene.h"
+
 /* Reads "fine:N,K"; `arguments` begins after the colon. */
 static enum br_status read_fine(const char *text, const char *arguments, struct br_study_request *r,
                                 struct br_error *err)
@@ -49,7 +51,13 @@ enum br_status br_study_request_read(const struct br_options *o, struct br_study
     const char *const *given = &o->given[BR_OPT_METHOD];
     const char *reference = br_option_text(o, BR_OPT_REFERENCE);
     const char *methods = br_option_text(o, BR_OPT_METHODS);
-    *r = (struct br_study_request){.norms = o->count[BR_OPT_NORM], .method = br_method_default()};
+    *r = (struct br_study_request){
+        .n = o->whole[BR_OPT_N],
+        .n_count = o->count[BR_OPT_N],
+        .steps = br_asked_steps(o),
+        .norms = o->count[BR_OPT_NORM],
+        .method = br_method_default(),
+    };
     for (size_t i = 0; i < r->norms; i++)
         r->norm[i] = br_norms[(size_t)o->number[BR_OPT_NORM][i]];
     const struct br_method *const method = &r->method;
@@ -65,4 +73,40 @@ enum br_status br_study_request_fine(const struct br_study_request *r, const str
 {
     fine->n = r->reference_n;
     return br_read_step("--reference", r->reference_k, scene, &fine->steps, err);
+}
+
+/* ---- time steps ---- */
+
+enum br_status br_read_step(const char *option, const char *text, const struct br_scene *scene,
+                            size_t *steps, struct br_error *err)
+{
+    double k = NAN;
+    struct br_error inner = {0};
+    br_read_time(text, scene->duration, &k);
+    if (br_steps_of(scene, k, steps, &inner))
+        return br_fail(err, BR_BAD_INPUT, "%s: %s", option, inner.message);
+    return BR_OK;
+}
+
+enum br_status br_asked_steps_make(const struct br_asked_steps *asked, const struct br_scene *scene,
+                                   size_t **steps, size_t *count, struct br_error *err)
+{
+    const size_t given = asked->count, most = given ? given : asked->k ? strlen(asked->k) + 1 : 0;
+    *steps = most ? br_allocate(most, sizeof **steps) : NULL;
+    *count = given;
+    if (most && !*steps)
+        return br_no_memory(err, "the time steps");
+    if (given)
+        memcpy(*steps, asked->steps, given * sizeof **steps);
+    for (const char *rest = given ? NULL : asked->k; rest; rest = strchr(rest, ',')) {
+        rest += *rest == ',';
+        if (br_read_step("--k", rest, scene, &(*steps)[*count], err))
+            return err->status;
+        for (size_t i = 0; i < *count; i++)
+            if ((*steps)[i] == (*steps)[*count])
+                return br_fail(err, BR_BAD_INPUT, "--k: %g is given twice",
+                               br_time_step(scene, (*steps)[i]));
+        ++*count;
+    }
+    return BR_OK;
 }

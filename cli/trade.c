@@ -17,14 +17,14 @@
 /* A scene and its trials; must not be moved after br_trade_lay_out. */
 struct item {
     struct br_opened_scene opened;
-    struct br_printed printed; /* the paper's table of it; empty: none */
-    size_t *steps;             /* as --k has them; owned */
+    size_t *steps; /* as --k has them; owned */
     struct br_trade trade;
     struct br_kept kept;
 };
 
 struct run {
-    struct br_session session;
+    const struct br_options *options; /* borrowed */
+    struct br_session *session;       /* borrowed */
     struct br_study_request study;
     struct item *item; /* items, one a scene; owned */
     size_t items;
@@ -38,13 +38,13 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
 {
     static const enum br_option_id listed[] = {BR_OPT_N, BR_OPT_K, BR_OPT_STEPS, BR_OPT_TOLERANCES,
                                                BR_OPTIONS}; /* given lists are tried as they are */
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
     struct br_trial_request *q = &item->trade.request;
     struct br_named_method fine;
     *q = br_trial_request_default(scene);
     q->judge = r->study.judge;
-    q->threads = r->session.threads;
+    q->threads = r->session->threads;
     q->time_limit = br_option_number(o, BR_OPT_TIME_LIMIT, 0);
     if (!br_first_given(o, listed) || br_option_given(o, BR_OPT_SECONDS))
         q->seconds = br_option_number(o, BR_OPT_SECONDS, 0);
@@ -57,31 +57,26 @@ static enum br_status set_request(const struct run *r, struct item *item, struct
     return br_study_request_fine(&r->study, scene, &q->reference, err);
 }
 
-/* The paper's printed tables are of the bundled scenes only. */
-static enum br_status read_printed(struct item *item, struct br_error *err)
+/* The paper's printed table of a scene; NULL: there is none. They are of the bundled scenes only.
+ */
+static const struct br_printed *printed_of(const struct item *item)
 {
-    static const char *const tables[][2] = {
-        {"study/scenes/example1.yaml", "reference/printed/table1.csv"},
-        {"study/scenes/example2.yaml", "reference/printed/table2.csv"}};
-    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
-        char path[1024];
-        br_data_path(tables[i][0], path, sizeof path);
-        if (strcmp(path, item->opened.path) != 0)
-            continue;
-        br_data_path(tables[i][1], path, sizeof path);
-        return br_printed_read(path, &item->printed, err);
-    }
-    return BR_OK;
+    char path[1024];
+    br_data_path("study/scenes/example1.yaml", path, sizeof path);
+    if (strcmp(path, item->opened.path) == 0)
+        return &br_printed_table1;
+    br_data_path("study/scenes/example2.yaml", path, sizeof path);
+    return strcmp(path, item->opened.path) == 0 ? &br_printed_table2 : NULL;
 }
 
 static enum br_status lay_out(const struct run *r, struct item *item, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const struct br_scene *scene = &item->opened.scene;
     size_t steps = 0;
-    if (read_printed(item, err) || set_request(r, item, err))
+    if (set_request(r, item, err))
         return err->status;
-    if (br_option_steps(o, scene, &item->steps, &steps, err))
+    if (br_asked_steps_make(&r->study.steps, scene, &item->steps, &steps, err))
         return br_failed_in(err, scene->name);
     if (r->study.methods.count)
         item->trade.methods = r->study.methods;
@@ -94,7 +89,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
         .n_count = o->count[BR_OPT_N],
         .step_count = steps,
         .tolerances = o->count[BR_OPT_TOLERANCES],
-        .printed = item->printed.count ? &item->printed : NULL,
+        .printed = printed_of(item),
     };
     return br_trade_lay_out(&item->trade, &grid, err);
 }
@@ -102,7 +97,7 @@ static enum br_status lay_out(const struct run *r, struct item *item, struct br_
 /* Refuses a list that no method uses. */
 static enum br_status check_used(const struct run *r, bool split, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const struct br_named_methods *methods = &r->study.methods;
     bool fixed = methods->count == 0 || split, adaptive = methods->count == 0;
     for (size_t i = 0; i < methods->count; i++) {
@@ -126,7 +121,7 @@ static enum br_status check_norm(const struct run *r, struct br_error *err)
 
 static enum br_status read_scenes(struct run *r, struct br_error *err)
 {
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     if (!(r->item = br_allocate(o->words, sizeof *r->item)))
         return br_no_memory(err, "the scenes");
     for (size_t i = 0; i < o->words; i++) {
@@ -137,6 +132,10 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
         for (size_t j = 0; j < i; j++)
             if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
                 return br_fail(err, BR_BAD_INPUT, "scene %s is given twice", scene->name);
+        if (o->words > 1 && strcmp(scene->name, BR_SUMMARY) == 0)
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s: several scenes have a report of this name; rename the file",
+                           scene->name);
     }
     return BR_OK;
 }
@@ -151,9 +150,9 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     struct br_trade *trade = &item->trade;
     const struct br_trial_forecast *o = &trade->forecast;
     const char *name = item->opened.scene.name;
-    trade->request.observer = br_progress_start(name, r->session.quiet);
+    trade->request.observer = br_progress_start(name, r->session->quiet);
     enum br_status status = br_trade_foresee(trade, err);
-    if (!status && !r->session.quiet && (o->seconds >= worth_printing || o->left > 0)) {
+    if (!status && !r->session->quiet && (o->seconds >= worth_printing || o->left > 0)) {
         br_progress_end();
         fprintf(stderr, "%s: %zu trials take about %.0f s", name, o->planned, o->seconds);
         if (o->left)
@@ -165,7 +164,7 @@ static enum br_status run_one(struct run *r, struct item *item, struct br_error 
     if (!status)
         status = br_trade_run(trade, err);
     br_progress_end();
-    br_session_report_kept(&r->session, &item->kept);
+    br_session_report_kept(r->session, &item->kept);
     return status ? br_failed_in(err, name) : br_progress_result(status, err);
 }
 
@@ -173,7 +172,7 @@ static enum br_status run_all(struct run *r, struct br_error *err)
 {
     for (size_t i = 0; i < r->items; i++) {
         struct item *item = &r->item[i];
-        if (br_session_keep(&r->session, &item->kept, err))
+        if (br_session_keep(r->session, &item->kept, err))
             return err->status;
         item->trade.request.kept = *item->kept.folder ? &item->kept : NULL;
     }
@@ -191,13 +190,13 @@ static enum br_status run_all(struct run *r, struct br_error *err)
 static enum br_status write_all(struct run *r, struct br_error *err)
 {
     const struct br_trade **trade = br_allocate(r->items, sizeof *trade);
-    enum br_status status = trade ? br_session_report(&r->session, r->items + (r->items > 1), err)
+    enum br_status status = trade ? br_session_report(r->session, r->items + (r->items > 1), err)
                                   : br_no_memory(err, "the reports");
-    struct br_document *d = r->session.document;
+    struct br_document *d = r->session->document;
     struct br_provenance provenance;
     for (size_t i = 0; i < r->items && !status; i++) {
         trade[i] = &r->item[i].trade;
-        provenance = br_provenance_of(&r->item[i].opened, r->session.threads);
+        provenance = br_provenance_of(&r->item[i].opened, r->session->threads);
         br_report_trade(trade[i], &provenance, &d[i]);
         const struct br_drawn_trials drawn = {&trade[i]->methods,
                                               trade[i]->request.norm,
@@ -208,15 +207,15 @@ static enum br_status write_all(struct run *r, struct br_error *err)
                                               NAN};
         for (const struct br_trade_picture *const *p = br_trade_pictures; *p; p++)
             if (br_trade_picture_applies(*p, &drawn))
-                br_session_draw(&r->session, &d[i],
+                br_session_draw(r->session, &d[i],
                                 br_trade_draw(*p, &drawn, d[i].name, d[i].caption), (*p)->title);
     }
     if (!status && r->items > 1) {
-        provenance = br_provenance_of(&r->item[0].opened, r->session.threads);
+        provenance = br_provenance_of(&r->item[0].opened, r->session->threads);
         br_report_trade_summary(trade, r->items, &provenance, &d[r->items]);
     }
     free(trade);
-    return status ? status : br_session_finish(&r->session, err);
+    return status ? status : br_session_finish(r->session, err);
 }
 
 /* Failed trials are results; a scene in which all failed is a failure. */
@@ -252,7 +251,7 @@ static enum br_status check_split(const struct br_options *o, struct br_error *e
 static void add_runs(struct run *r, const struct br_named_method *c, size_t n, size_t step_count)
 {
     enum { DEFAULT_STEPS = 1000 };
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const size_t tolerances = c->method.scheme->adaptive ? o->count[BR_OPT_TOLERANCES] : 0;
     for (size_t j = 0; j < (step_count ? step_count : 1); j++)
         for (size_t t = 0; t < (tolerances ? tolerances : 1); t++) {
@@ -272,7 +271,7 @@ static void add_runs(struct run *r, const struct br_named_method *c, size_t n, s
 static enum br_status lay_out_split(struct run *r, struct br_error *err)
 {
     static const size_t default_n[] = {100};
-    const struct br_options *o = r->session.options;
+    const struct br_options *o = r->options;
     const struct br_named_methods *methods = &r->study.methods;
     const size_t *n = o->count[BR_OPT_N] ? o->whole[BR_OPT_N] : default_n;
     const size_t meshes = o->count[BR_OPT_N] ? o->count[BR_OPT_N] : 1;
@@ -281,7 +280,7 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
         (r->study.methods.count == 0 && /* default: the first scheme */
          br_named_methods_read("--methods", br_time_schemes[0]->name, &r->study.methods, err)) ||
         check_used(r, true, err) || read_scenes(r, err) ||
-        br_option_steps(o, &r->item->opened.scene, &r->item->steps, &steps, err))
+        br_asked_steps_make(&r->study.steps, &r->item->opened.scene, &r->item->steps, &steps, err))
         return err->status;
     r->split =
         br_allocate(methods->count * meshes * (steps + 1) * (o->count[BR_OPT_TOLERANCES] + 1),
@@ -296,11 +295,11 @@ static enum br_status lay_out_split(struct run *r, struct br_error *err)
 
 static enum br_status compute_split(struct run *r, struct br_error *err)
 {
-    const struct br_observer *observer = br_progress_start("splitting", r->session.quiet);
+    const struct br_observer *observer = br_progress_start("splitting", r->session->quiet);
     enum br_status status = BR_OK;
     for (size_t i = 0; i < r->splits && !status; i++) {
         br_progress_part(i, r->splits);
-        status = br_split_run(&r->split[i], r->session.threads, observer, err);
+        status = br_split_run(&r->split[i], r->session->threads, observer, err);
     }
     br_progress_end();
     return br_progress_result(status, err);
@@ -309,18 +308,18 @@ static enum br_status compute_split(struct run *r, struct br_error *err)
 /* The picture is over k or h, where the runs differ by one of them. */
 static enum br_status write_split(struct run *r, struct br_error *err)
 {
-    const struct br_provenance provenance = br_provenance_of(&r->item->opened, r->session.threads);
-    if (br_session_report(&r->session, 1, err))
+    const struct br_provenance provenance = br_provenance_of(&r->item->opened, r->session->threads);
+    if (br_session_report(r->session, 1, err))
         return err->status;
-    br_report_split(r->split, r->splits, &provenance, r->session.document);
-    br_session_draw(&r->session, r->session.document, br_split_draw(r->split, r->splits), NULL);
-    return br_session_finish(&r->session, err);
+    br_report_split(r->split, r->splits, &provenance, r->session->document);
+    br_session_draw(r->session, r->session->document, br_split_draw(r->split, r->splits), NULL);
+    return br_session_finish(r->session, err);
 }
 
 static bool split(struct run *r, struct br_error *err)
 {
-    const bool writes = r->session.writes;
-    return lay_out_split(r, err) || br_session_open(&r->session, err) ||
+    const bool writes = r->session->writes;
+    return lay_out_split(r, err) || br_session_open(r->session, err) ||
            (writes && br_warn_of_splits(r->split, r->splits, err)) || compute_split(r, err) ||
            (writes && write_split(r, err));
 }
@@ -329,24 +328,23 @@ static bool split(struct run *r, struct br_error *err)
 
 static bool trade(struct run *r, struct br_error *err)
 {
-    if (br_session_alone(err) || br_study_request_read(r->session.options, &r->study, err) ||
+    if (br_session_alone(err) || br_study_request_read(r->options, &r->study, err) ||
         check_norm(r, err) || check_used(r, false, err) || read_scenes(r, err))
         return true;
     for (size_t i = 0; i < r->items; i++)
         if (lay_out(r, &r->item[i], err))
             return true;
-    return br_session_open(&r->session, err) || run_all(r, err) || write_all(r, err) ||
+    return br_session_open(r->session, err) || run_all(r, err) || write_all(r, err) ||
            check(r, err);
 }
 
-static enum br_status run(const struct br_options *options, struct br_error *err)
+static enum br_status run(const struct br_options *options, struct br_session *session,
+                          struct br_error *err)
 {
-    struct run r = {.session = br_session_begin(options)};
+    struct run r = {.options = options, .session = session};
     const bool failed = br_option_given(options, BR_OPT_SPLIT) ? split(&r, err) : trade(&r, err);
-    br_session_close(&r.session);
     for (size_t i = 0; i < r.items; i++) {
         br_trade_clear(&r.item[i].trade);
-        br_printed_clear(&r.item[i].printed);
         br_opened_scene_clear(&r.item[i].opened);
         free(r.item[i].steps);
     }

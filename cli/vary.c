@@ -5,6 +5,7 @@
 
 #include "cli/progress.h"
 #include "plots/pictures.h"
+#include "study/ranks/ranks.h"
 #include "tables/reports.h"
 
 enum br_status br_vary_scene(const struct br_vary *v, size_t i, struct br_opened_scene *s,
@@ -22,12 +23,11 @@ static void *point_at(const struct br_vary_command *c, void *points, size_t i)
 }
 
 /* Prepares all points before the first march, so that a refusal comes early. */
-static enum br_status prepare(struct br_vary *v, const struct br_vary_command *c, void **points,
-                              struct br_error *err)
+static enum br_status prepare(struct br_vary *v, const struct br_options *o,
+                              const struct br_vary_command *c, void **points, struct br_error *err)
 {
-    const struct br_options *o = v->session.options;
     char text[BR_VARIED_TEXT];
-    if (br_opened_scene_read(&v->base, o->word[0], err) ||
+    if (c->read(o, &v->request, err) || br_opened_scene_read(&v->base, o->word[0], err) ||
         br_varied_read(br_option_text(o, BR_OPT_VARY), &v->varied, err))
         return err->status;
     if (!(*points = br_allocate(v->varied.count, c->size)))
@@ -47,13 +47,13 @@ static void announce(const struct br_vary *v, const struct br_vary_command *c, v
     struct br_foreseen work = {.alone = c->alone};
     for (size_t i = 0; i < v->points; i++)
         c->foresee(point_at(c, points, i), &work);
-    br_session_announce(&v->session, &work);
+    br_session_announce(v->session, &work);
 }
 
 static enum br_status march(struct br_vary *v, const struct br_vary_command *c, void *points,
                             struct br_error *err)
 {
-    enum br_status status = br_session_open(&v->session, err);
+    enum br_status status = br_session_open(v->session, err);
     for (size_t i = 0; i < v->points && !status; i++) {
         const struct br_error *failure = &v->found.failure[i];
         status = c->march(v, i, point_at(c, points, i), &v->found.failure[i], err);
@@ -67,7 +67,7 @@ static enum br_status march(struct br_vary *v, const struct br_vary_command *c, 
 
 static enum br_status write_all(struct br_vary *v, struct br_error *err)
 {
-    struct br_session *s = &v->session;
+    struct br_session *s = v->session;
     const struct br_variation *found = &v->found;
     const struct br_provenance provenance = br_provenance_of(&v->base, s->threads);
     size_t first;
@@ -85,15 +85,17 @@ static enum br_status write_all(struct br_vary *v, struct br_error *err)
                     : BR_OK;
 }
 
-enum br_status br_vary_run(const struct br_options *options, const struct br_vary_command *c,
-                           struct br_error *err)
+enum br_status br_vary_run(const struct br_options *options, struct br_session *session,
+                           const struct br_vary_command *c, struct br_error *err)
 {
-    struct br_vary v = {.session = br_session_begin(options)};
+    if (c->alone && !br_ranks_first())
+        return BR_OK; /* one rank does single marches */
+    struct br_vary v = {.session = session};
     void *points = NULL;
-    bool failed = prepare(&v, c, &points, err);
+    bool failed = prepare(&v, options, c, &points, err);
     if (!failed) {
         announce(&v, c, points);
-        failed = march(&v, c, points, err) || (v.session.writes && write_all(&v, err));
+        failed = march(&v, c, points, err) || (v.session->writes && write_all(&v, err));
     }
     for (size_t i = 0; i < v.points; i++)
         c->clear(point_at(c, points, i));
@@ -101,6 +103,5 @@ enum br_status br_vary_run(const struct br_options *options, const struct br_var
     br_variation_clear(&v.found);
     br_varied_clear(&v.varied);
     br_opened_scene_clear(&v.base);
-    br_session_close(&v.session);
     return failed ? err->status : BR_OK;
 }

@@ -8,7 +8,8 @@
 #include "study/scene/vary.h"
 
 struct br_vary {
-    struct br_session session;
+    struct br_session *session; /* borrowed */
+    const void *request;        /* what `read` has read */
     struct br_opened_scene base;
     struct br_varied varied;
     size_t points;                            /* number of values that are prepared */
@@ -22,6 +23,10 @@ struct br_vary_command {
     size_t size;        /* of a point */
     size_t columns;
     bool alone; /* as in struct br_foreseen */
+    /* Reads what is asked of all values alike, and refuses options that are for one value alone.
+     * *request (out): static, or the options. */
+    enum br_status (*read)(const struct br_options *options, const void **request,
+                           struct br_error *err);
     /* Checks everything that can be refused before the march, and names the columns. */
     enum br_status (*prepare)(struct br_vary *vary, size_t i, void *point, struct br_error *err);
     void (*foresee)(void *point, struct br_foreseen *work);
@@ -39,7 +44,7 @@ enum br_status br_vary_scene(const struct br_vary *vary, size_t i, struct br_ope
 
 /* Fails as br_session_finish, and, after all is written, with BR_NOT_FINITE if values have failed.
  */
-enum br_status br_vary_run(const struct br_options *options, const struct br_vary_command *command,
-                           struct br_error *err);
+enum br_status br_vary_run(const struct br_options *options, struct br_session *session,
+                           const struct br_vary_command *command, struct br_error *err);
 
 #endif

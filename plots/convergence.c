@@ -11,19 +11,19 @@
 /* Entry i of the study's list for an axis: n over h, steps over k. */
 static size_t entry_of(const struct br_report *r, int axis, size_t i)
 {
-    const struct br_study *study = br_report_fitted(r);
+    const struct br_study *study = r->fitted;
     return axis == BR_AXIS_SPACE ? study->n[i] : study->steps[i];
 }
 
 static size_t count_of(const struct br_report *r, int axis)
 {
-    return br_axis_count(br_report_fitted(r), axis);
+    return br_axis_count(r->fitted, axis);
 }
 
 /* h or k, m or s. */
 static double size_of(const struct br_report *r, int axis, size_t i)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     return axis == BR_AXIS_SPACE ? br_mesh_size(s->scene, s->n[i])
                                  : br_time_step(s->scene, s->steps[i]);
 }
@@ -33,7 +33,7 @@ typedef double of_cell(const struct br_report *r, size_t cell);
 
 static double error_of(const struct br_report *r, size_t cell)
 {
-    const struct br_cell *c = &br_report_fitted(r)->cell[cell];
+    const struct br_cell *c = &r->fitted->cell[cell];
     return c->flag[BR_PART_TOTAL] == BR_FLAG_FAILED ? (double)NAN : c->error[BR_PART_TOTAL];
 }
 
@@ -45,7 +45,7 @@ static double printed_of(const struct br_report *r, size_t cell)
 /* The relative difference of the error and the joint fit. */
 static double misfit_of(const struct br_report *r, size_t cell)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     const struct br_resolution at = s->cell[cell].at;
     const double size[] = {br_mesh_size(s->scene, at.n), br_time_step(s->scene, at.steps)};
     const double ref[] = {br_reference_mesh(s), br_reference_step(s)};
@@ -56,7 +56,7 @@ static double misfit_of(const struct br_report *r, size_t cell)
 static void add_points(const struct br_report *r, int axis, size_t at, of_cell *value,
                        struct br_series *series)
 {
-    const struct br_study *study = br_report_fitted(r);
+    const struct br_study *study = r->fitted;
     for (size_t i = 0; i < count_of(r, axis); i++) {
         const size_t cell = br_axis_cell(study, axis, i, at);
         const enum br_flag flag = study->cell[cell].flag[BR_PART_TOTAL];
@@ -100,7 +100,7 @@ static void add_curves(const struct br_report *r, int axis, of_cell *value, stru
 
 static struct br_panel *add_panel(const struct br_report *r, int axis, struct br_figure *f)
 {
-    const struct br_norm *norm = br_report_fitted(r)->norm;
+    const struct br_norm *norm = r->fitted->norm;
     const bool space = axis == BR_AXIS_SPACE;
     struct br_panel *p = br_panel_add(f, space ? "mesh size h (m)" : "time step k (s)", "");
     p->log_x = p->log_y = true;
@@ -133,7 +133,7 @@ static void say_fit(const struct br_report *r, enum br_part part, char text[256]
 
 static bool always(const struct br_report *r)
 {
-    return br_report_fitted(r)->n_count > 0 && br_report_fitted(r)->k_count > 0;
+    return r->fitted->n_count > 0 && r->fitted->k_count > 0;
 }
 
 static void fill_h(const struct br_report *r, struct br_figure *f)
@@ -201,7 +201,7 @@ static void add_order(const struct br_seen_order *o, const char *name, struct br
 /* Each part with what its order was found from, and the slopes of theory. */
 static void add_orders(const struct br_report *r, enum br_axis axis, struct br_figure *f)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     const bool both = s->scene->axial.modelled && s->scene->bending.modelled;
     const double whole = axis == BR_AXIS_SPACE ? s->scene->length : s->scene->duration;
     const struct br_seen_order *total = &r->seen[BR_PART_TOTAL][axis];
@@ -214,22 +214,15 @@ static void add_orders(const struct br_report *r, enum br_axis axis, struct br_f
     for (size_t i = 0; i < total->points; i++)
         br_point_add(&p->top, total->point[i].z, round(whole / total->point[i].z), NULL);
     for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++) {
-        const struct br_seen_order *o = &r->seen[part][axis];
-        size_t at = 0;
-        add_order(o, br_part_names[part], f);
-        while (at < slopes && slope[at] < o->theory.formal)
-            at++;
-        if (at < slopes && slope[at] == o->theory.formal)
-            continue;
-        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
-        slope[at] = o->theory.formal;
+        add_order(&r->seen[part][axis], br_part_names[part], f);
+        slopes = br_slope_put(slope, slopes, r->seen[part][axis].theory.formal);
     }
     br_slopes_add(f, slopes, slope);
 }
 
 static void fill_orders(const struct br_report *r, struct br_figure *f)
 {
-    const struct br_scene *scene = br_report_fitted(r)->scene;
+    const struct br_scene *scene = r->fitted->scene;
     const bool both = scene->axial.modelled && scene->bending.modelled;
     BR_SAY(f->hollow, "not in the order");
     for (enum br_part part = 0; part < (both ? BR_PARTS : 1); part++)
@@ -305,7 +298,7 @@ const struct br_convergence_picture *const br_convergence_pictures[] = {&orders,
 struct br_figure br_convergence_draw(const struct br_convergence_picture *picture,
                                      const struct br_report *r)
 {
-    const struct br_study *study = br_report_fitted(r);
+    const struct br_study *study = r->fitted;
     struct br_figure f = {.hollow = "not in the fits"};
     BR_SAY(f.stem, "%.400s-%s", r->name, picture->name);
     BR_SAY(f.title, "%s. %s", r->caption, picture->short_title);

@@ -36,8 +36,8 @@ static void draw_floors(const struct br_floors *f, size_t k, struct br_figure *f
            "Deviation from the exact discrete solution after %d steps of %s, k = %g s",
            BR_FLOOR_STEPS, f->scene[0]->name, step);
     br_panel_add(figure, "elements n", "relative deviation");
-    for (size_t m = 0; m < f->methods; m++) {
-        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->method[m].name);
+    for (size_t m = 0; m < f->method.count; m++) {
+        struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%s", f->method.list[m].name);
         for (size_t i = 0; i < f->n_count; i++)
             add_deviation(s, br_floor_at(f, 0, m, i, k), br_floor_at(f, 0, m, i, k)->n);
     }
@@ -49,8 +49,8 @@ static void draw_gathered(const struct br_floors *f, size_t scene, struct br_fig
 {
     struct br_panel *p = br_panel_add(figure, "steps N", "relative deviation");
     BR_SAY(p->title, "%s", f->scene[scene]->name);
-    for (size_t m = 0; m < f->methods; m += f->solvers) {
-        const char *name = f->method[m].name, *solver = strrchr(name, '+');
+    for (size_t m = 0; m < f->method.count; m += f->solvers) {
+        const char *name = f->method.list[m].name, *solver = strrchr(name, '+');
         const size_t length = solver ? (size_t)(solver - name) : strlen(name);
         struct br_series *s = br_series_add(figure, BR_PEN_CURVE, "%.*s", (int)length, name);
         for (size_t j = 0; j < f->k_count; j++)

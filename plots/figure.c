@@ -7,24 +7,6 @@
 
 #include "study/base/quote.h"
 
-/* Makes room for one more element in an array (in/out: *array, *room); false: no memory. */
-static bool grow(void *array, size_t count, size_t *room, size_t size)
-{
-    void **old = array;
-    if (count < *room)
-        return true;
-    const size_t more = 2 * *room + 8;
-    void *larger = br_allocate(more, size);
-    if (!larger)
-        return false;
-    if (count)
-        memcpy(larger, *old, count * size);
-    free(*old);
-    *old = larger;
-    *room = more;
-    return true;
-}
-
 static struct br_panel *last_panel(struct br_figure *f)
 {
     return &f->panel[f->panels - 1];
@@ -65,7 +47,7 @@ struct br_series *br_series_add(struct br_figure *f, enum br_pen pen, const char
 {
     struct br_panel *p = last_panel(f);
     struct br_series *s = NULL;
-    if (grow(&p->series, p->count, &p->room, sizeof *p->series))
+    if (br_grow(&p->series, p->count, &p->room, sizeof *p->series))
         s = br_allocate(1, sizeof *s);
     if (!s) {
         f->failed = f->lost.failed = true;
@@ -84,7 +66,7 @@ void br_point_add(struct br_series *s, double x, double y, const char *flag)
 {
     if (s->failed)
         return;
-    s->failed = !grow(&s->point, s->count, &s->room, sizeof *s->point);
+    s->failed = !br_grow(&s->point, s->count, &s->room, sizeof *s->point);
     if (!s->failed)
         s->point[s->count++] = (struct br_figure_point){x, y, flag};
 }
@@ -124,6 +106,18 @@ void br_mark_add(struct br_figure *f, double x, const char *title)
     struct br_series *s = br_series_add(f, BR_PEN_GUIDE, "%s", title);
     br_point_add(s, x, y.low, NULL);
     br_point_add(s, x, y.high, NULL);
+}
+
+size_t br_slope_put(double *slope, size_t count, double order)
+{
+    size_t at = 0;
+    while (at < count && slope[at] < order)
+        at++;
+    if (at < count && slope[at] == order)
+        return count;
+    memmove(slope + at + 1, slope + at, (count - at) * sizeof *slope);
+    slope[at] = order;
+    return count + 1;
 }
 
 /* Adds lines that rise from one point. They take at most two fifths of the panel's height, and a

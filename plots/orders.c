@@ -86,13 +86,8 @@ static void add_panel(struct br_figure *f, const struct br_orders *o, enum br_ax
         if (*finest->at)
             BR_SAY(p->title, "at %s", finest->at);
         const double order = round(o->of[i].answer[axis].order.value);
-        size_t at = 0; /* ascending */
-        while (at < slopes && slope[at] < order)
-            at++;
-        if (slopes == 3 || !(order >= 1) || (at < slopes && slope[at] == order))
-            continue;
-        memmove(slope + at + 1, slope + at, (slopes++ - at) * sizeof *slope);
-        slope[at] = order;
+        if (slopes < 3 && order >= 1)
+            slopes = br_slope_put(slope, slopes, order);
     }
     br_slopes_add(f, slopes, slope);
 }

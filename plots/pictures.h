@@ -138,6 +138,9 @@ void br_series_sort(struct br_series *series);
 void br_mark_add(struct br_figure *figure, double x, const char *title);
 void br_slopes_add(struct br_figure *figure, size_t count, const double *order);
 
+/* Puts an order into an ascending list of `count`, unless the list has it; returns the new count. */
+size_t br_slope_put(double *order, size_t count, double new);
+
 /* Whether a point can be drawn: finite, and positive along logarithmic axes. */
 bool br_is_drawn(const struct br_panel *panel, const struct br_figure_point *point);
 
@@ -275,10 +278,7 @@ struct br_figure br_history_draw(const struct br_scene *scene,
 
 /* Running gnuplot. All fail with BR_IO if gnuplot fails (the message is its line about
  * the error), or takes longer than a minute (or BEAMRATE_GNUPLOT_SECONDS); with BR_INTERRUPTED when
- * the work must stop. A gnuplot that has not ended is killed. */
-
-/* Sets the function that says whether to stop waiting for gnuplot; NULL, as at first: never. */
-void br_gnuplot_stop_when(bool (*stop)(void));
+ * the work must stop (br_must_stop). A gnuplot that has not ended is killed. */
 
 /* A gnuplot that works on a script; several may run side by side. */
 enum { BR_SCRIPT_NAME = 512 };

@@ -12,15 +12,10 @@
 #include <unistd.h>
 
 #include "plots/pictures.h"
+#include "solver/clock.h"
+#include "study/base/observer.h"
 
 extern char **environ;
-
-static bool (*stops)(void);
-
-void br_gnuplot_stop_when(bool (*stop)(void))
-{
-    stops = stop;
-}
 
 /* Starts a program in its own process group, so that its child processes can be ended, too. */
 static int start_group(pid_t *child, const posix_spawn_file_actions_t *actions, char *const words[])
@@ -69,10 +64,11 @@ static const char *reason(char *text)
     return why ? why : "it gives no reason";
 }
 
-/* The last bytes of whole pictures, without white space. */
+/* Extensions of pictures, and the last bytes of whole ones, without white space. */
 static const struct {
     const char *extension, *ending;
-} endings[] = {{".svg", "</svg>"}, {".png", "IEND\xae\x42\x60\x82"}, {".pdf", "%%EOF"}};
+} pictures[] = {{"svg", "</svg>"}, {"png", "IEND\xae\x42\x60\x82"}, {"pdf", "%%EOF"}};
+enum { PICTURES = sizeof pictures / sizeof *pictures, PDF = 2 };
 
 static bool ends_with(const char *path, const char *ending)
 {
@@ -88,22 +84,6 @@ static bool ends_with(const char *path, const char *ending)
         got--;
     const size_t size = strlen(ending);
     return got > 0 && got >= size && memcmp(tail + got - size, ending, size) == 0;
-}
-
-static enum br_status check_picture(const char *path, struct br_error *err)
-{
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; i < sizeof endings / sizeof *endings && dot; i++)
-        if (strcmp(dot, endings[i].extension) == 0 && ends_with(path, endings[i].ending))
-            return BR_OK;
-    return br_fail(err, BR_IO, "no complete %.900s was written; the disk may be full", path);
-}
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* How long gnuplot may take for one script, s. */
@@ -132,7 +112,7 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
     if (!g->said)
         return br_fail(err, BR_IO, "no file for what gnuplot says: %s", strerror(errno));
     const int failure = spawn(g, words);
-    g->started = now();
+    g->started = br_seconds();
     if (!failure)
         return BR_OK;
     fclose(g->said);
@@ -143,9 +123,9 @@ enum br_status br_gnuplot_start(struct br_gnuplot *g, const char *folder, const 
 
 static enum br_status check_time(const struct br_gnuplot *g, struct br_error *err)
 {
-    if (stops && stops())
+    if (br_must_stop())
         return br_fail(err, BR_INTERRUPTED, "interrupted");
-    if (now() - g->started < time_limit())
+    if (br_seconds() - g->started < time_limit())
         return BR_OK;
     return br_fail(err, BR_IO, "gnuplot did not end on %s within %g s (BEAMRATE_GNUPLOT_SECONDS)",
                    g->script, time_limit());
@@ -176,16 +156,18 @@ static enum br_status end_program(struct br_gnuplot *g, struct br_error *err)
  * cannot make the file. */
 enum br_status br_gnuplot_end(struct br_gnuplot *g, struct br_error *err)
 {
-    static const char *const extensions[] = {"svg", "png", "pdf"};
-    char path[3][sizeof g->folder + sizeof g->script];
+    char path[PICTURES][sizeof g->folder + sizeof g->script];
     const int stem = (int)(strrchr(g->script, '.') - g->script);
     enum br_status status = end_program(g, err);
-    for (size_t i = 0; i < 3; i++) {
-        snprintf(path[i], sizeof path[i], "%s/%.*s.%s", g->folder, stem, g->script, extensions[i]);
-        if (!status && (i < 2 || access(path[i], F_OK) == 0))
-            status = check_picture(path[i], err);
+    for (size_t i = 0; i < PICTURES; i++) {
+        snprintf(path[i], sizeof path[i], "%s/%.*s.%s", g->folder, stem, g->script,
+                 pictures[i].extension);
+        if (!status && (i != PDF || access(path[i], F_OK) == 0) &&
+            !ends_with(path[i], pictures[i].ending))
+            status = br_fail(err, BR_IO, "no complete %.900s was written; the disk may be full",
+                             path[i]);
     }
-    for (size_t i = 0; i < 3 && status; i++)
+    for (size_t i = 0; i < PICTURES && status; i++)
         unlink(path[i]);
     return status;
 }

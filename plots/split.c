@@ -35,7 +35,7 @@ static void add_points(const struct line *line, size_t part, struct br_series *s
         const struct br_split *s = &line->split[i];
         if (!is_on(line, s))
             continue;
-        const struct br_share *share = part < s->shares ? &s->share[part] : &s->whole;
+        const struct br_share *share = part < BR_SOURCES ? &s->share[part] : &s->whole;
         br_point_add(
             series,
             line->over_k ? br_time_step(s->scene, s->at.steps) : br_mesh_size(s->scene, s->at.n),
@@ -81,10 +81,10 @@ static void fill_panel(const struct line *line, struct br_figure *f)
     p->log_x = p->log_y = true;
     BR_SAY(p->y_label, "%s (%s)", first->norm[0]->symbol, first->norm[0]->unit_markup);
     name_panel(line, p);
-    add_points(line, first->shares, br_series_add(f, BR_PEN_BAND, "whole"));
-    for (size_t i = 0; i < first->shares; i++)
+    add_points(line, BR_SOURCES, br_series_add(f, BR_PEN_BAND, "whole"));
+    for (size_t i = 0; i < BR_SOURCES; i++)
         if (is_anywhere(line, i))
-            add_points(line, i, br_series_add(f, BR_PEN_CURVE, "%s", first->share[i].source->name));
+            add_points(line, i, br_series_add(f, BR_PEN_CURVE, "%s", first->share[i].name));
 }
 
 struct br_figure br_split_draw(const struct br_split *split, size_t count)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The paper's printed tables, as data: reference/printed/table1.csv and table2.csv. */
+/* The paper's Tables 1 and 2, as they are printed. */
 #ifndef BR_REFERENCE_PRINTED_H
 #define BR_REFERENCE_PRINTED_H
 
-#include "solver/status.h"
+#include <stddef.h>
 
 struct br_printed_cell {
     size_t n;
@@ -12,14 +12,11 @@ struct br_printed_cell {
 };
 
 struct br_printed {
-    struct br_printed_cell *cell; /* owned */
+    const struct br_printed_cell *cell;
     size_t count;
 };
 
-/* Reads a file with the columns n,k,error and a heading. Fails with BR_BAD_INPUT,
- * naming file and line. */
-enum br_status br_printed_read(const char *path, struct br_printed *printed, struct br_error *err);
-void br_printed_clear(struct br_printed *printed);
+extern const struct br_printed br_printed_table1, br_printed_table2;
 
 /* The printed error of (n, k), or NaN where the paper has none. */
 double br_printed_error(const struct br_printed *printed, size_t n, double k);

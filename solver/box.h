@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Intervals and boxes, for proof.c and breaks.c. */
+/* Intervals and boxes, for files that prove something of functions. */
 #ifndef BR_SOLVER_BOX_H
 #define BR_SOLVER_BOX_H
 
@@ -41,7 +41,7 @@ static inline struct br_box with(struct br_box box, enum br_variable v, iv a)
     return box;
 }
 
-static inline double magnitude(iv a)
+static inline double magnitude(iv a) /* the largest |a| */
 {
     return fmax(fabs(a.low), fabs(a.high));
 }

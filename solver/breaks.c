@@ -202,31 +202,14 @@ enum br_status br_breaks_add(const struct br_function *f, enum br_variable along
     return status;
 }
 
-/* Whether a guard's derivative by x is proved nonzero wherever the guard may be zero. */
-static bool has_single_front(const struct br_function *g, struct br_box box, int depth)
-{
-    iv value, slope[2];
-    if (sign_of(br_function_bound(g, box, &value), value) != UNDECIDED)
-        return true;
-    if (br_function_taylor(g, BR_X, box, 1, slope) && (slope[1].low > 0 || slope[1].high < 0))
-        return true;
-    struct br_box half[2];
-    split(box, depth % 2 ? BR_X : BR_T, half);
-    return depth > 0 && has_single_front(g, half[0], depth - 1) &&
-           has_single_front(g, half[1], depth - 1);
-}
-
 enum br_status br_front_times(const struct br_function *f, struct br_box box, struct br_breaks *out,
-                              bool *complete, struct br_error *err)
+                              struct br_error *err)
 {
-    enum { DEPTH = 12 };
     const struct br_function *g;
     enum br_status status = BR_OK;
-    *complete = true;
     for (size_t i = 0; (g = br_function_guard(f, i)) && !status; i++) {
         if (!is_moving(g, box))
             continue;
-        *complete = *complete && has_single_front(g, box, DEPTH);
         status = search(g, BR_T, with(box, BR_X, point(box.x.low)), out, err);
         if (!status)
             status = search(g, BR_T, with(box, BR_X, point(box.x.high)), out, err);

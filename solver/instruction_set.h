@@ -32,7 +32,8 @@ size_t br_instruction_set_find(const char *name);
 /* How the sweeps are compiled. A sweep is one chain of dependent multiply-adds, and their latency
  * limits its speed. So only the files of the sweeps and study/grid/ladder_loops.c are compiled with
  * contraction (-ffp-contract=fast; all others with =off), and on x86-64 the program picks at run
- * time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA: never). */
+ * time a copy that uses fused multiply-add where the processor has it (-DBR_NO_FMA: never; nor with
+ * BR_LONG, since long double has none). */
 
 #if defined __has_feature
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || \
@@ -44,7 +45,8 @@ size_t br_instruction_set_find(const char *name);
 #define BR_SANITIZED 1
 #endif
 
-#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED && !defined BR_NO_FMA
+#if defined __x86_64__ && defined __gnu_linux__ && !defined BR_SANITIZED && !defined BR_NO_FMA && \
+    !defined BR_LONG
 #define BR_SWEEP __attribute__((target_clones("default", "arch=x86-64-v3")))
 #else
 #define BR_SWEEP

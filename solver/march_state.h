@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What march.c, step.c and adaptive.c share of a march; for these and field_march.c alone. */
+/* What march.c, march_values.c, step.c, adaptive.c and field_march.c share of a march; for these
+ * alone. */
 #ifndef BR_SOLVER_MARCH_STATE_H
 #define BR_SOLVER_MARCH_STATE_H
 

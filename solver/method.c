@@ -82,9 +82,8 @@ static bool vibrates_undamped(const struct br_scene *s)
                               (s->bending.modelled && s->bending.viscosity == 0));
 }
 
-/* scene: NULL for the checks that need none. */
-static enum br_status check(const struct br_method *m, const struct br_scene *scene,
-                            struct br_error *err)
+enum br_status br_method_check(const struct br_method *m, const struct br_scene *scene,
+                               struct br_error *err)
 {
     const struct br_field rod = {.kind = BR_AXIAL, .n = 1, .h = 1, .degree = m->axial_degree};
     if (m->axial_degree != 1 && m->axial_degree != 2)
@@ -119,17 +118,6 @@ static enum br_status check(const struct br_method *m, const struct br_scene *sc
                        "friction rule '%s' needs the scene's regularisation, mu > 0",
                        m->friction->name);
     return br_friction_check(m->friction, &m->iteration, err);
-}
-
-enum br_status br_method_check(const struct br_method *m, struct br_error *err)
-{
-    return check(m, NULL, err);
-}
-
-enum br_status br_method_check_scene(const struct br_method *m, const struct br_scene *scene,
-                                     struct br_error *err)
-{
-    return check(m, scene, err);
 }
 
 /* ---- damping ---- */

@@ -42,13 +42,10 @@ double br_method_cost(const struct br_method *method, const struct br_scene *sce
  * else the first that takes its force at the new time level. */
 const struct br_contact_rule *br_contact_rule_of(const struct br_time_scheme *scheme);
 
-/* Refuses (BR_BAD_INPUT) a method that is invalid for every scene. */
-enum br_status br_method_check(const struct br_method *method, struct br_error *err);
-
 /* Refuses (BR_BAD_INPUT) a method that is invalid for this scene; rules for what the scene does not
- * model are not checked. */
-enum br_status br_method_check_scene(const struct br_method *method, const struct br_scene *scene,
-                                     struct br_error *err);
+ * model are not checked. scene: NULL refuses what is invalid for every scene. */
+enum br_status br_method_check(const struct br_method *method, const struct br_scene *scene,
+                               struct br_error *err);
 
 /* ---- damping ---- */
 

@@ -151,8 +151,8 @@ static enum br_finite divide(struct proof *p, struct br_box box)
     return both && !is_divisible(*side(&box, v)) ? judge_gap(p, box, v, half) : BR_FINITE;
 }
 
-enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
-                                iv *value, struct br_box *where)
+enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, iv *value,
+                                struct br_box *where)
 {
     struct proof p = {.f = f, .whole = used_box(f, box)};
     enum br_finite found = BR_FINITE;
@@ -162,8 +162,7 @@ enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, 
     while (p.count && found == BR_FINITE) {
         found = divide(&p, p.left[--p.count]);
         if (found == BR_FINITE && p.count &&
-            (++examined == (budget ? budget : MOST_BOXES) ||
-             p.count + 2 > sizeof p.left / sizeof *p.left))
+            (++examined == MOST_BOXES || p.count + 2 > sizeof p.left / sizeof *p.left))
             found = BR_UNBOUNDED;
     }
     *value = p.value;
@@ -212,12 +211,11 @@ static bool halve(const struct br_function *f, struct br_box whole, struct piece
     return true;
 }
 
-bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget, iv *value,
+bool br_enclose_values(const struct br_function *f, struct br_box box, iv *value,
                        struct br_box *peak)
 {
     enum { MOST = 500 };
     struct piece piece[MOST] = {piece_of(f, used_box(f, box))};
-    const size_t most = budget && budget < MOST ? budget : MOST;
     const struct br_box whole = piece[0].box;
     iv seen = {INFINITY, -INFINITY};
     for (size_t count = 1;; count++) {
@@ -231,13 +229,13 @@ bool br_enclose_values(const struct br_function *f, struct br_box box, size_t bu
             seen = (iv){fmin(seen.low, found), fmax(seen.high, found)};
         }
         const double above = value->high - seen.high, below = seen.low - value->low;
-        if (count == most || (above + below) * 20 <= width(seen) ||
+        if (count == MOST || (above + below) * 20 <= width(seen) ||
             !halve(f, whole, piece, above >= below ? top : bottom, count))
             break;
     }
     struct br_box where; /* a filled-in limit has a bound in small boxes only */
     return (isfinite(value->low) && isfinite(value->high)) ||
-           br_prove_bounded(f, box, 0, value, &where) == BR_FINITE;
+           br_prove_bounded(f, box, value, &where) == BR_FINITE;
 }
 
 /* Whether evaluation gives numbers at the neighbours of a point, in each variable. */
@@ -256,7 +254,7 @@ enum br_status br_must_be_finite(const struct br_function *f, struct br_box box,
     iv value;
     struct br_box where;
     char position[80];
-    const enum br_finite found = br_prove_bounded(f, box, 0, &value, &where);
+    const enum br_finite found = br_prove_bounded(f, box, &value, &where);
     if (found == BR_FINITE)
         return BR_OK;
     br_name_position(f, where, position);

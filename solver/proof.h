@@ -12,20 +12,18 @@ enum br_finite {
     BR_NOT_NUMBER, /* evaluate gives no finite number at the point `where` */
     BR_POLE,       /* it grows without bounds towards `where`, which is at most as wide as two
                       neighbouring numbers */
-    BR_UNBOUNDED,  /* it may have no bound in `where`, or the budget is exhausted there */
+    BR_UNBOUNDED,  /* it may have no bound in `where`, or too many boxes were examined */
 };
 
 /* Whether f is finite everywhere in the box. value: out if it is finite, encloses all its values,
- * perhaps widely; where: out if it is not. budget: how many boxes may be examined, 0 for the
- * default. */
-enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box, size_t budget,
+ * perhaps widely; where: out if it is not. */
+enum br_finite br_prove_bounded(const struct br_function *f, struct br_box box,
                                 struct br_interval *value, struct br_box *where);
 
 /* Encloses the values of a finite function to about a twentieth of their range, or as tightly as
- * `budget` boxes allow (0: the default). peak: out, a point where |f| is about largest. False: it
- * has no bound. */
-bool br_enclose_values(const struct br_function *f, struct br_box box, size_t budget,
-                       struct br_interval *value, struct br_box *peak);
+ * 500 boxes allow. peak: out, a point where |f| is about largest. False: it has no bound. */
+bool br_enclose_values(const struct br_function *f, struct br_box box, struct br_interval *value,
+                       struct br_box *peak);
 
 /* br_prove_bounded as a status: if f is not finite, BR_BAD_INPUT with a message of what was found
  * and where. */
@@ -51,10 +49,10 @@ enum br_status br_breaks_add(const struct br_function *f, enum br_variable along
                              struct br_breaks *breaks, struct br_error *err);
 
 /* Adds the times at which a guard that depends on x and t, such as x - c t, is zero at an end of
- * the box in x: there a front enters or leaves. *complete: out, whether these are all such times:
- * no front turns back or begins inside the box. Fails as br_breaks_add. */
+ * the box in x: there a front enters or leaves. Times at which a front turns back or begins inside
+ * the box are not among them. Fails as br_breaks_add. */
 enum br_status br_front_times(const struct br_function *f, struct br_box box,
-                              struct br_breaks *breaks, bool *complete, struct br_error *err);
+                              struct br_breaks *breaks, struct br_error *err);
 
 /* How polynomials have to approximate a function. */
 struct br_mesh_aim {

@@ -83,6 +83,23 @@ void *br_allocate_aligned(size_t count, size_t size)
     return memset(p, 0, bytes);
 }
 
+bool br_grow(void *array, size_t count, size_t *room, size_t size)
+{
+    void **old = array;
+    if (count < *room)
+        return true;
+    const size_t more = 2 * *room + 8;
+    void *larger = br_allocate(more, size);
+    if (!larger)
+        return false;
+    if (count)
+        memcpy(larger, *old, count * size);
+    free(*old);
+    *old = larger;
+    *room = more;
+    return true;
+}
+
 /* ---- memory with one owner ---- */
 
 struct br_store_block {

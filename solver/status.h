@@ -51,6 +51,10 @@ void *br_allocate(size_t count, size_t size);
 void *br_allocate_aligned(size_t count, size_t size);
 long br_allocation_fails_at(long i);
 
+/* Makes room for one more than `count` elements in an array of br_allocate. array: the address of
+ * its pointer, in/out; size: bytes of an element. False: no memory; the array is as it was. */
+bool br_grow(void *array, size_t count, size_t *room, size_t size);
+
 /* ---- memory with one owner: taken piece by piece, released at once ---- */
 
 struct br_store {

@@ -43,20 +43,17 @@ static int index_of(const json_t *word, const char *const *names, int count)
 
 static bool read_case(const json_t *o, struct br_case *c)
 {
-    const json_t *order = json_object_get(o, "order");
     const int kind = index_of(json_object_get(o, "study"), br_verify_names, BR_VERIFY_KINDS);
     const int verdict =
         index_of(json_object_get(o, "verdict"), br_verdict_names, BR_INCONCLUSIVE + 1);
     const json_t *highest = json_object_get(o, "highest"); /* older reports do not have it */
     struct br_expectation *e = &c->expected;
-    if (json_is_object(order)) /* of format 1 */
-        order = json_object_get(order, "value");
     c->kind = (enum br_verify_kind)kind;
     c->verdict = (enum br_verdict)verdict;
     c->measure = json_string_value(json_object_get(o, "norm"));
     c->part = json_string_value(json_object_get(o, "part"));
     return kind < BR_VERIFY_KINDS && verdict <= BR_INCONCLUSIVE && c->measure && c->part &&
-           read_number(order, -INFINITY, &c->order.value) &&
+           read_number(json_object_get(o, "order"), -INFINITY, &c->order.value) &&
            read_number(json_object_get(o, "constant"), 0, &c->constant) &&
            read_number(json_object_get(o, "expected"), 0, &e->order) &&
            (!highest || read_number(highest, 0, &e->highest)) &&
@@ -102,15 +99,14 @@ static bool read_method(const json_t *o, struct br_old_method *m)
     return good;
 }
 
-/* `first`: the scene has its methods and cases in format 1; else the cases are those of all scenes.
- */
+/* cases: of all scenes. */
 static enum br_status read_scene(const char *path, const json_t *o, const json_t *methods,
-                                 const json_t *cases, bool first, struct br_old_check *old,
+                                 const json_t *cases, struct br_old_check *old,
                                  struct br_error *err)
 {
     const json_t *problem = json_object_get(o, "problem"); /* null: of a scene; or of before */
     struct br_check *check = &old->check[old->count];
-    bool good = !first || json_is_array(cases);
+    bool good = true;
     for (int kind = 0; kind < BR_VERIFY_KINDS; kind++)
         good &= read_method(json_object_get(methods, br_verify_names[kind]),
                             &old->method[old->count][kind]);
@@ -118,7 +114,7 @@ static enum br_status read_scene(const char *path, const json_t *o, const json_t
     check->data = json_string_value(json_object_get(o, "data"));
     if (!good || !check->name || !read_number(json_object_get(o, "seconds"), 0, &check->seconds) ||
         !read_number(json_object_get(o, "element_steps"), 0, &check->element_steps))
-        return refuse(path, "scenes", "scenes with a name, methods, a cost and cases", err);
+        return refuse(path, "scenes", "scenes with a name, methods and a cost", err);
     if (json_is_string(problem) && !read_word(problem, check->problem, sizeof check->problem))
         return refuse(path, "problem", "a hash", err);
     for (size_t i = 0; i < old->count; i++)
@@ -130,7 +126,7 @@ static enum br_status read_scene(const char *path, const json_t *o, const json_t
         return br_no_memory(err, "the earlier check");
     for (size_t i = 0; i < json_array_size(cases); i++) {
         const json_t *row = json_array_get(cases, i);
-        if (!first && !json_equal(json_object_get(row, "scene"), json_object_get(o, "scene")))
+        if (!json_equal(json_object_get(row, "scene"), json_object_get(o, "scene")))
             continue;
         if (!read_case(row, &check->cases[check->count]))
             return refuse(path, check->name,
@@ -145,14 +141,12 @@ static enum br_status read_document(const char *path, const json_t *document,
                                     struct br_old_check *old, struct br_error *err)
 {
     const char *format = json_string_value(json_object_get(document, "format"));
-    const bool first = format && strcmp(format, "beamrate check 1") == 0;
-    const bool present = format && strcmp(format, "beamrate check") == 0 &&
-                         json_integer_value(json_object_get(document, "version")) == 2;
     const json_t *tables = json_object_get(document, "tables");
-    const json_t *list = json_object_get(first ? document : tables, "scenes");
-    const json_t *orders = first ? NULL : json_object_get(tables, "orders");
-    if (!first && !present)
-        return refuse(path, "format", "beamrate check, version 2, or beamrate check 1", err);
+    const json_t *list = json_object_get(tables, "scenes");
+    const json_t *methods = json_object_get(document, "methods");
+    if (!format || strcmp(format, "beamrate check") != 0 ||
+        json_integer_value(json_object_get(document, "version")) != 2)
+        return refuse(path, "format", "beamrate check, version 2", err);
     if (!json_is_array(list))
         return refuse(path, "scenes", "a list", err);
     enum br_status status = BR_OK;
@@ -163,12 +157,10 @@ static enum br_status read_document(const char *path, const json_t *document,
     if (!old->check || !old->method)
         return br_no_memory(err, "the earlier check");
     for (size_t i = 0; i < json_array_size(list) && !status; i++) {
-        const json_t *o = json_array_get(list, i), *methods = json_object_get(document, "methods");
         char number[32];
         snprintf(number, sizeof number, "%zu", i);
-        status =
-            read_scene(path, o, json_object_get(first ? o : methods, first ? "methods" : number),
-                       first ? json_object_get(o, "cases") : orders, first, old, err);
+        status = read_scene(path, json_array_get(list, i), json_object_get(methods, number),
+                            json_object_get(tables, "orders"), old, err);
     }
     return status;
 }

@@ -7,9 +7,10 @@
 #include <stddef.h>
 #include <string.h>
 
+#include "study/base/observer.h"
 #include "tables/markup.h"
 
-const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR", "SKIPPED"};
+const char *const br_outcome_names[] = {"PASS", "FAIL", "INCONCLUSIVE", "ERROR"};
 
 const struct br_document_format *const br_document_formats[] = {&br_document_text,
                                                                 &br_document_csv,
@@ -19,43 +20,27 @@ const struct br_document_format *const br_document_formats[] = {&br_document_tex
                                                                 &br_document_html,
                                                                 NULL};
 
-static bool (*must_stop)(void);
-
-void br_document_stop_when(bool (*stop)(void))
-{
-    must_stop = stop;
-}
-
-/* ---- memory: pieces that are released together ---- */
+/* ---- memory: small pieces of large ones, released together ---- */
 
 enum { PIECE = 1 << 14, ALIGNED = 16 };
-
-struct br_document_memory {
-    struct br_document_memory *next;
-    size_t used, size;
-    _Alignas(ALIGNED) char bytes[];
-};
 
 /* Memory of zeros; NULL after any failure. */
 static void *take(struct br_document *d, size_t size)
 {
-    struct br_document_memory *m = d->memory;
     size = (size + ALIGNED - 1) / ALIGNED * ALIGNED;
     if (d->failure.status)
         return NULL;
-    if (!m || m->size - m->used < size) {
-        const size_t room = size > PIECE ? size : PIECE;
-        m = br_allocate(1, sizeof *m + room);
-        if (!m) {
+    if (d->left < size) {
+        d->left = size > PIECE ? size : PIECE;
+        d->piece = br_store_take(&d->store, 1, d->left);
+        if (!d->piece) {
             br_no_memory(&d->failure, "a report");
             return NULL;
         }
-        m->next = d->memory;
-        m->size = room;
-        d->memory = m;
     }
-    m->used += size;
-    return m->bytes + m->used - size;
+    d->left -= size;
+    d->piece += size;
+    return d->piece - size;
 }
 
 /* A list with room for one more than `count` elements; NULL after a failure. */
@@ -118,10 +103,7 @@ const char *br_format(struct br_document *d, const char *format, ...)
 
 void br_document_clear(struct br_document *d)
 {
-    for (struct br_document_memory *m = d->memory, *next; m; m = next) {
-        next = m->next;
-        free(m);
-    }
+    br_store_clear(&d->store);
     *d = (struct br_document){.name = NULL};
 }
 
@@ -266,13 +248,6 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
     put_what(d, BR_BLOCK_FACT, &column, value);
 }
 
-void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
-                    const char *unit, const char *key)
-{
-    if (key)
-        BR_FACT(d, value, .key = key, .heading = heading, .unit = unit);
-}
-
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines)
 {
     if (lines && *lines)
@@ -388,6 +363,8 @@ void br_put_cell(struct br_document *d, const struct br_column *column, struct b
     if (d->failure.status)
         return;
     d->last = &t->row[t->rows - 1].cell[at];
+    if (d->last->value.kind != BR_NOTHING)
+        refuse(d, "two values in a row for", t->column[at].key);
     d->last->value = copy;
     d->next = at + 1;
     if (copy.kind != BR_NOTHING)
@@ -502,7 +479,7 @@ enum br_status br_document_status(const struct br_document *d, struct br_error *
 {
     if (d->failure.status)
         return br_fail(err, d->failure.status, "%s", d->failure.message);
-    return must_stop && must_stop() ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
+    return br_must_stop() ? br_fail(err, BR_INTERRUPTED, "interrupted") : BR_OK;
 }
 
 enum br_status br_document_print(FILE *out, const struct br_document_format *format,

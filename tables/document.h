@@ -127,7 +127,7 @@ enum br_outcome {
     BR_OUTCOME_FAIL,
     BR_OUTCOME_INCONCLUSIVE,
     BR_OUTCOME_ERROR,
-    BR_OUTCOME_SKIPPED
+    BR_OUTCOMES
 };
 extern const char *const br_outcome_names[]; /* "PASS", ... */
 
@@ -138,7 +138,7 @@ struct br_document_verdict {
     const char *message;      /* why it did not pass, or a remark; NULL: none */
     const char *file;         /* the file of the expectation; NULL: none */
     size_t line;              /* of the file */
-    double seconds;           /* NaN: not measured */
+    double seconds;
     bool of_row;              /* its numbers are in the last row, ... */
     size_t table, row;        /* ... this row of block[table].table; set by br_put_verdict */
     const char **detail;      /* lines; set by br_put_verdict_detail */
@@ -197,7 +197,9 @@ struct br_document {
     struct br_provenance provenance;
     size_t longest; /* bytes of its longest text */
     /* for building */
-    struct br_document_memory *memory;
+    struct br_store store;
+    char *piece; /* of the store; `left` bytes are free */
+    size_t left;
     struct br_document_cell *last; /* the last one that was put */
     const char **open;             /* the text that br_put_more extends; NULL: none */
     size_t next;                   /* column */
@@ -242,11 +244,9 @@ void br_put_fact(struct br_document *d, const struct br_column *what, struct br_
 #define BR_FACT(d, value, ...) br_put_fact((d), &(struct br_column){__VA_ARGS__}, (value))
 
 /* A fact with a formatted key; without a heading it is for programs only. unit: NULL, none. */
-#define br_put_fact_as(d, value, heading, unit, ...) \
-    br_put_fact_of((d), (value), (heading), (unit), br_format((d), __VA_ARGS__))
+#define br_put_fact_as(d, value, label, of_unit, ...) \
+    BR_FACT(d, value, .key = br_format((d), __VA_ARGS__), .heading = (label), .unit = (of_unit))
 #define br_hide_fact(d, value, unit, ...) br_put_fact_as((d), (value), NULL, (unit), __VA_ARGS__)
-void br_put_fact_of(struct br_document *d, struct br_value value, const char *heading,
-                    const char *unit, const char *key);
 
 /* A command line, or several, to copy; a fact in JSON. NULL or "": nothing is put. */
 void br_put_command(struct br_document *d, const char *key, const char *label, const char *lines);
@@ -314,20 +314,16 @@ struct br_document_format {
 extern const struct br_document_format br_document_text, br_document_csv, br_document_markdown,
     br_document_latex, br_document_json, br_document_html;
 
-/* Formats of the verdicts alone, for CI systems: JUnit's XML (a suite for each group) and the Test
- * Anything Protocol, version 14, both with the numbers of the rows by their keys; and annotations
- * of verdicts that did not pass (GitHub, Workflow commands for GitHub Actions). */
+/* Formats of the verdicts alone, for CI systems: JUnit's XML, a suite for each group, with the
+ * numbers of the rows by their keys; and annotations of verdicts that did not pass (GitHub, Workflow
+ * commands for GitHub Actions). */
 extern const struct br_document_format br_document_junit, br_document_github;
 
 /* The formats of every report; NULL-terminated. */
 extern const struct br_document_format *const br_document_formats[];
 
-/* Sets the function that says whether to stop building and printing documents; NULL, as at first:
- * never. It is asked for each table and each row. */
-void br_document_stop_when(bool (*stop)(void));
-
-/* The failure of the document: BR_OK, BR_NO_MEMORY, BR_INTERRUPTED where the program must stop, or
- * BR_IO where it was built wrongly. */
+/* The failure of the document: BR_OK, BR_NO_MEMORY, BR_INTERRUPTED where the program must stop
+ * (br_must_stop, which each table and each row asks), or BR_IO where it was built wrongly. */
 enum br_status br_document_status(const struct br_document *d, struct br_error *err);
 
 /* Prints it, or one table of it where the format is by_table. Fails with the failure of the

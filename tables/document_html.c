@@ -28,7 +28,7 @@ static const char style[] =
     ".PASS { color: var(--good); font-weight: 600; }\n"
     ".FAIL, .ERROR { color: var(--bad); font-weight: 600; }\n"
     ".INCONCLUSIVE { color: var(--doubt); font-weight: 600; }\n"
-    ".SKIPPED, dt { color: var(--quiet); }\n"
+    "dt { color: var(--quiet); }\n"
     ".scroll, .card, pre { overflow-x: auto; }\n"
     ".scroll { max-width: calc(50vw + min(50vw, 37.5rem) - 3rem); width: max-content; }\n"
     "table { border-collapse: collapse; font-variant-numeric: tabular-nums; }\n"

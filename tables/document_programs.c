@@ -96,7 +96,7 @@ static json_t *verdict(struct page *p, const struct br_document_verdict *v)
     put(p, o, "message", br_json_string(v->message));
     put(p, o, "file", br_json_string(v->file));
     put(p, o, "line", v->line ? json_integer((json_int_t)v->line) : json_null());
-    put(p, o, "seconds", br_json_number(v->seconds));
+    put(p, o, "seconds", json_real(v->seconds));
     put(p, o, "details", details);
     return o;
 }

@@ -1,35 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A report's verdicts for CI systems: JUnit's XML and GitHub's annotations. JUnit has the numbers
  * of a verdict's row by their keys. Both have the lines that explain a verdict. */
-#include <math.h>
 #include <string.h>
 
 #include "study/base/quote.h"
 #include "tables/document.h"
 
+/* ---- JUnit ---- */
+
 /* Prints "key: value", a line for each column of the verdict's row. */
-static void print_row(FILE *out, const struct br_quoting *target, const struct br_document *d,
-                      const struct br_document_verdict *v)
+static void print_row(FILE *out, const struct br_document *d, const struct br_document_verdict *v)
 {
     const struct br_document_table *t = v->of_row ? d->block[v->table].table : NULL;
     for (size_t c = 0; t && c < t->columns; c++)
         if (br_for_programs(t->column[c].flags)) {
             fprintf(out, "  %s: ", t->column[c].key);
-            br_document_print_value(out, target, "null", &br_document_cell_at(t, v->row, c)->value);
+            br_document_print_value(out, &br_for_xml, "null",
+                                    &br_document_cell_at(t, v->row, c)->value);
             fputc('\n', out);
         }
 }
 
 /* "  name: text" */
-static void print_line(FILE *out, const struct br_quoting *target, const char *name,
-                       const char *text)
+static void print_line(FILE *out, const char *name, const char *text)
 {
     fprintf(out, "  %s: ", name);
-    br_quote(out, target, text);
+    br_quote(out, &br_for_xml, text);
     fputc('\n', out);
 }
-
-/* ---- JUnit ---- */
 
 static void print_attribute(FILE *out, const char *name, const char *text)
 {
@@ -38,47 +36,43 @@ static void print_attribute(FILE *out, const char *name, const char *text)
     fputc('"', out);
 }
 
-/* Prints counts of the verdicts from `begin` to `end`; returns how many were skipped. */
-static size_t print_counts(FILE *out, const struct br_document *d, size_t begin, size_t end)
+/* Prints counts of the verdicts from `begin` to `end`. */
+static void print_counts(FILE *out, const struct br_document *d, size_t begin, size_t end)
 {
-    size_t of[BR_OUTCOME_SKIPPED + 1] = {0};
+    size_t of[BR_OUTCOMES] = {0};
     double seconds = 0;
     for (size_t i = begin; i < end; i++) {
         of[d->verdict[i].outcome]++;
-        seconds += isfinite(d->verdict[i].seconds) ? d->verdict[i].seconds : 0;
+        seconds += d->verdict[i].seconds;
     }
     fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"%zu\" time=\"%.6f\"", end - begin,
             of[BR_OUTCOME_FAIL] + of[BR_OUTCOME_INCONCLUSIVE], of[BR_OUTCOME_ERROR], seconds);
-    return of[BR_OUTCOME_SKIPPED];
 }
 
 /* Prints where it is expected, as the schemas have no attributes for that, and the explanations. */
 static void print_details(FILE *out, const struct br_document_verdict *v)
 {
     if (v->file)
-        print_line(out, &br_for_xml, "file", v->file);
+        print_line(out, "file", v->file);
     if (v->line)
         fprintf(out, "  line: %zu\n", v->line);
     for (size_t i = 0; i < v->details; i++)
-        print_line(out, &br_for_xml, "detail", v->detail[i]);
+        print_line(out, "detail", v->detail[i]);
 }
 
 static void print_testcase(FILE *out, const struct br_document *d,
                            const struct br_document_verdict *v)
 {
-    static const char *const elements[] = {NULL, "failure", "failure", "error", "skipped"};
+    static const char *const elements[] = {NULL, "failure", "failure", "error"};
     const char *element = elements[v->outcome];
-    fprintf(out, "    <testcase classname=\"beamrate%s", v->group ? "." : "");
-    br_quote(out, &br_for_xml, v->group ? v->group : "");
+    fputs("    <testcase classname=\"beamrate.", out);
+    br_quote(out, &br_for_xml, v->group);
     fputc('"', out);
     print_attribute(out, "name", v->name);
-    if (isfinite(v->seconds))
-        fprintf(out, " time=\"%.6f\"", v->seconds);
-    fputs(">\n", out);
+    fprintf(out, " time=\"%.6f\">\n", v->seconds);
     if (element) {
         fprintf(out, "      <%s", element);
-        if (v->outcome != BR_OUTCOME_SKIPPED)
-            print_attribute(out, "type", br_outcome_names[v->outcome]);
+        print_attribute(out, "type", br_outcome_names[v->outcome]);
         print_attribute(out, "message", v->message ? v->message : "");
         fputs(">\n", out);
         print_details(out, v);
@@ -86,10 +80,10 @@ static void print_testcase(FILE *out, const struct br_document *d,
     }
     fputs("      <system-out>\n", out);
     if (!element && v->message)
-        print_line(out, &br_for_xml, "message", v->message);
+        print_line(out, "message", v->message);
     if (!element)
         print_details(out, v);
-    print_row(out, &br_for_xml, d, v);
+    print_row(out, d, v);
     fputs("      </system-out>\n    </testcase>\n", out);
 }
 
@@ -102,16 +96,14 @@ static enum br_status write_junit(FILE *out, const struct br_document *d,
     print_counts(out, d, 0, d->verdicts);
     fputs(">\n", out);
     for (size_t begin = 0, end; begin < d->verdicts; begin = end) {
-        const char *group = d->verdict[begin].group, *other = group;
-        for (end = begin + 1; end < d->verdicts; end++) {
-            other = d->verdict[end].group;
-            if (group && other ? strcmp(group, other) != 0 : group != other)
-                break;
-        }
+        const char *group = d->verdict[begin].group;
+        end = begin + 1;
+        while (end < d->verdicts && strcmp(group, d->verdict[end].group) == 0)
+            end++;
         fputs("  <testsuite", out);
-        print_attribute(out, "name", group ? group : d->name);
-        const size_t skipped = print_counts(out, d, begin, end);
-        fprintf(out, " skipped=\"%zu\"", skipped);
+        print_attribute(out, "name", group);
+        print_counts(out, d, begin, end);
+        fputs(" skipped=\"0\"", out);
         if (d->provenance.date)
             fprintf(out, " timestamp=\"%.19s\"", d->provenance.date);
         fputs(">\n", out);
@@ -135,7 +127,7 @@ const struct br_document_format br_document_junit = {
 static enum br_status write_annotations(FILE *out, const struct br_document *d,
                                         const struct br_document_table *table, struct br_error *err)
 {
-    static const char *const levels[] = {NULL, "error", "warning", "error", "notice"};
+    static const char *const levels[] = {NULL, "error", "warning", "error"};
     (void)table, (void)err;
     for (size_t i = 0; i < d->verdicts; i++) {
         const struct br_document_verdict *v = &d->verdict[i];
@@ -150,7 +142,7 @@ static enum br_status write_annotations(FILE *out, const struct br_document *d,
         if (v->file && v->line)
             fprintf(out, "line=%zu,", v->line);
         fputs("title=", out);
-        br_quote(out, &br_for_github_property, v->group ? v->group : "beamrate");
+        br_quote(out, &br_for_github_property, v->group);
         fputs("::", out);
         br_quote(out, &br_for_github, v->name);
         fprintf(out, " %s", br_outcome_names[v->outcome]);

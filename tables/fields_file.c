@@ -28,13 +28,6 @@ static void axial_values(const double *nodal, size_t nodes, double *at_node, dou
         middle[i] = i == 0 ? NAN : (at_node[i - 1] + at_node[i]) / 2 - nodal[2 * i + 1] / 4;
 }
 
-/* Sets `count` variables to NaN. */
-static void blank(size_t first, size_t count, size_t nodes, double *values)
-{
-    for (size_t i = 0; i < count * nodes; i++)
-        values[first * nodes + i] = NAN;
-}
-
 void br_field_values(const struct br_march *march, double *values, double *work)
 {
     const struct br_field *field = br_march_field(march, BR_BENDING);
@@ -51,12 +44,9 @@ void br_field_values(const struct br_march *march, double *values, double *work)
         values[4 * nodes + i] = velocity[2 * i];
         values[5 * nodes + i] = velocity[2 * i + 1] / field->h;
     }
-    if (!br_march_models(march, BR_AXIAL))
-        blank(0, 2, nodes, values);
-    if (!br_march_models(march, BR_AXIAL) && quadratic)
-        blank(6, 2, nodes, values);
-    if (!br_march_models(march, BR_BENDING))
-        blank(2, 4, nodes, values);
+    for (size_t v = 0; v < br_field_variable_count(quadratic ? 2 : 1); v++)
+        for (size_t i = 0; i < nodes && !br_march_models(march, br_field_variables[v].kind); i++)
+            values[v * nodes + i] = NAN;
 }
 
 /* ---- the history ---- */
@@ -201,11 +191,11 @@ static void xdmf_piece(const struct br_fields *f, double time, size_t first)
             first / PIECE + 1, time);
     xdmf_array(f->xdmf, "Float", last + 1 - first, 3);
     for (size_t i = first; i <= last; i++)
-        fprintf(f->xdmf, "%.17g %.17g 0\n", f->modelled[BR_AXIAL] ? u[i] : 0,
-                f->modelled[BR_BENDING] ? w[i] : 0);
+        fprintf(f->xdmf, "%.17g %.17g 0\n", f->scene->axial.modelled ? u[i] : 0,
+                f->scene->bending.modelled ? w[i] : 0);
     fputs("</DataItem></Attribute>\n", f->xdmf);
     for (size_t v = 0; v < f->variables; v++)
-        if (f->modelled[br_field_variables[v].kind])
+        if (f->scene->field[br_field_variables[v].kind].modelled)
             xdmf_attribute(f, v, first);
     fputs("</Grid>\n", f->xdmf);
 }
@@ -225,22 +215,17 @@ static void xdmf_time(const struct br_fields *f, double time)
 
 /* ---- both ---- */
 
-enum br_status br_fields_begin(struct br_fields *f, const struct br_fields_request *q,
+enum br_status br_fields_begin(struct br_fields *f, const struct br_provenance *from,
                                struct br_error *err)
 {
-    *f = (struct br_fields){
-        .csv = q->csv,
-        .xdmf = q->xdmf,
-        .nodes = q->n + 1,
-        .variables = br_field_variable_count(q->axial_degree),
-        .h = q->scene->length / (double)q->n,
-        .modelled = {q->scene->axial.modelled, q->scene->bending.modelled},
-        .values = br_allocate((BR_FIELD_VARIABLES + 4) * (q->n + 1), sizeof *f->values),
-    };
+    f->nodes = f->n + 1;
+    f->variables = br_field_variable_count(f->axial_degree);
+    f->h = f->scene->length / (double)f->n;
+    f->values = br_allocate((BR_FIELD_VARIABLES + 4) * f->nodes, sizeof *f->values);
     if (!f->values)
         return br_no_memory(err, "the fields");
     csv_head(f);
-    xdmf_head(f, q->provenance);
+    xdmf_head(f, from);
     return BR_OK;
 }
 

@@ -8,26 +8,20 @@
 #include "study/run/run.h"
 #include "tables/document.h"
 
-/* What is written, and where. Borrowed. */
-struct br_fields_request {
-    FILE *csv, *xdmf;
-    const struct br_scene *scene;           /* as it is marched */
-    size_t n;                               /* elements */
-    int axial_degree;                       /* of the axial elements */
-    const struct br_provenance *provenance; /* of the march */
-};
-
-/* Begins as zeros. */
+/* What is written, and where. Borrowed. The rest begins as zeros. */
 struct br_fields {
     FILE *csv, *xdmf;
-    size_t nodes, variables;
-    double h;         /* m */
-    bool modelled[2]; /* by enum br_field_kind */
-    double *values;   /* owned: BR_FIELD_VARIABLES nodes, then workspace */
+    const struct br_scene *scene; /* as it is marched */
+    size_t n;                     /* elements */
+    int axial_degree;             /* of the axial elements */
+
+    size_t nodes, variables; /* private from here on */
+    double h;                /* m */
+    double *values;          /* owned: BR_FIELD_VARIABLES nodes, then workspace */
 };
 
 /* Writes the heads. Fails with BR_NO_MEMORY. */
-enum br_status br_fields_begin(struct br_fields *fields, const struct br_fields_request *request,
+enum br_status br_fields_begin(struct br_fields *fields, const struct br_provenance *provenance,
                                struct br_error *err);
 
 /* Adds the fields of a march as it is now; write errors stay in the files. */

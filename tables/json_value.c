@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tables/json_value.h"
 
-#include <math.h>
 #include <stdatomic.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "solver/status.h"
 #include "study/base/quote.h"
 
 static atomic_bool lacked, parsing;
@@ -36,11 +37,6 @@ json_t *br_json_parse(const char *text, json_error_t *why)
     json_t *json = json_loads(text, 0, why);
     atomic_store(&parsing, false);
     return json;
-}
-
-json_t *br_json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
 }
 
 /* A file's name need not be UTF-8, which JSON must be: it is written as for a terminal. */

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the JSON formats share; each returns a new reference, or NULL without memory. */
+/* JSON by jansson: memory, and texts. */
 #ifndef BR_TABLES_JSON_VALUE_H
 #define BR_TABLES_JSON_VALUE_H
 
 #include <jansson.h>
-
-#include "study/fit/fit.h"
-#include "tables/document.h"
+#include <stdbool.h>
 
 /* jansson silently drops a member that it has no memory for. This function notices it from its
  * first call on: false where no memory of jansson's has been refused. Call it before any document
@@ -18,7 +16,7 @@ bool br_json_lacked_memory(void);
  * results that were not yet in place stay whole for the next command. */
 json_t *br_json_parse(const char *text, json_error_t *why);
 
-json_t *br_json_number(double value);     /* what is not finite is null */
-json_t *br_json_string(const char *text); /* NULL is null; bytes that are not UTF-8 become \xff */
+/* A new reference; without memory NULL. NULL is null; bytes that are not UTF-8 become \xff. */
+json_t *br_json_string(const char *text);
 
 #endif

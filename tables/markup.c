@@ -97,7 +97,7 @@ static void print_unit(const struct br_markup_page *p, const char *before, const
 
 static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
 {
-    static const int colours[] = {32, 31, 33, 31, 0}; /* of a terminal, by outcomes */
+    static const int colours[] = {32, 31, 33, 31}; /* of a terminal, by outcomes */
     if (p->colour)
         fprintf(p->out, "\033[1;%dm", colours[outcome]);
     fprintf(p->out, p->markup->word, br_outcome_names[outcome], br_outcome_names[outcome]);
@@ -106,7 +106,7 @@ static void print_word(const struct br_markup_page *p, enum br_outcome outcome)
 
 bool br_markup_word(const struct br_markup_page *p, const char *text, size_t bytes)
 {
-    for (int word = BR_OUTCOME_PASS; word <= BR_OUTCOME_SKIPPED; word++)
+    for (int word = BR_OUTCOME_PASS; word < BR_OUTCOMES; word++)
         if (strlen(br_outcome_names[word]) == bytes &&
             memcmp(text, br_outcome_names[word], bytes) == 0) {
             print_word(p, (enum br_outcome)word);
@@ -289,10 +289,9 @@ static void print_verdict(const struct br_markup_page *p, const struct br_docume
     print_word(p, v->outcome);
     fputc(' ', p->out);
     br_markup_text(p, v->group);
-    fputs(v->group ? ", " : "", p->out);
-    br_markup_text(p, v->name);
+    br_markup_put(p, ", ", v->name, NULL);
     const size_t letters = strlen(v->name) + strlen(v->message ? v->message : "") +
-                           (v->group ? strlen(v->group) : 0) + strlen("INCONCLUSIVE , : ");
+                           strlen(v->group) + strlen("INCONCLUSIVE , : ");
     const bool wraps = v->message && p->columns && letters > (size_t)p->columns;
     fputs(!v->message ? "" : wraps ? ":\n" : ": ", p->out);
     if (wraps)
@@ -310,7 +309,7 @@ static void count_verdicts(const struct br_markup_page *p)
     const char *between = "";
     br_markup_heading(p, p->level + 1, "Verdicts");
     say(p, p->markup->note.before);
-    for (int outcome = BR_OUTCOME_PASS; outcome <= BR_OUTCOME_SKIPPED; outcome++) {
+    for (int outcome = BR_OUTCOME_PASS; outcome < BR_OUTCOMES; outcome++) {
         size_t count = 0;
         for (size_t i = 0; i < p->d->verdicts; i++)
             count += p->d->verdict[i].outcome == (enum br_outcome)outcome;

@@ -11,7 +11,7 @@ const struct br_document_format *const br_check_formats[] = {
     &br_document_markdown, &br_document_github, NULL,
 };
 
-enum { NAME = 64, FIRST_FAILURES = 3 };
+enum { NAME = 96, FIRST_FAILURES = 3 }; /* a column of `orders` has a name of 63 bytes at most */
 
 /* "space l2 axial" */
 static const char *name_of(const struct br_case *c, char name[NAME])

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "solver/scene.h"
 #include "study/extremes/extremes.h"
@@ -12,8 +14,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
 {
     br_put_table(d, "worst", "Deviation from the exact discrete solution, the worst over k",
                  BR_FOR_PEOPLE);
-    for (size_t cell = 0; cell < f->n_count * f->methods; cell++) {
-        const size_t row = cell / f->methods, method = cell % f->methods;
+    for (size_t cell = 0; cell < f->n_count * f->method.count; cell++) {
+        const size_t row = cell / f->method.count, method = cell % f->method.count;
         size_t refused = 0;
         double worst = 0;
         for (size_t j = 0; j < f->k_count; j++) {
@@ -27,8 +29,8 @@ static void put_floor_grid(struct br_document *d, const struct br_floors *f)
             br_put_row(d);
             BR_PUT(d, br_count(br_floor_at(f, 0, 0, row, 0)->n), .key = "n");
         }
-        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)), .heading = f->method[method].name,
-               .format = "%.1e");
+        BR_PUT(d, br_if(refused < f->k_count, br_number(worst)),
+               .heading = f->method.list[method].name, .format = "%.1e");
         if (refused == f->k_count)
             br_put_shown(d, "refused");
         else if (refused)
@@ -42,14 +44,18 @@ static void put_gathered_grid(struct br_document *d, const struct br_floors *f)
                  BR_FOR_PEOPLE);
     for (size_t i = 0; i < f->floors; i++) {
         const struct br_floor *floor = &f->floor[i];
-        char heading[32];
+        char key[32], heading[32];
         if (i % f->k_count == 0) {
             br_put_row(d);
             BR_PUT(d, br_text(floor->scene->name), .key = "scene");
             BR_PUT(d, br_text(floor->by->name), .key = "method");
         }
+        snprintf(key, sizeof key, "N%zu", floor->of); /* numbers may differ in later digits */
         snprintf(heading, sizeof heading, "N = %.3g", (double)floor->of);
-        BR_PUT(d, br_number(br_floor_deviation(floor)), .heading = heading, .format = "%.1e");
+        if (strtod(heading + strlen("N = "), NULL) != (double)floor->of)
+            snprintf(heading, sizeof heading, "N = %zu", floor->of);
+        BR_PUT(d, br_number(br_floor_deviation(floor)), .key = key, .heading = heading,
+               .format = "%.1e");
         if (floor->refused.status)
             br_put_shown(d, "refused");
     }
@@ -144,8 +150,14 @@ void br_report_floors(const struct br_floors *f, struct br_document *d)
 
 /* ---- stability ---- */
 
-static void put_stiffness(struct br_document *d, const struct br_stability_column *c)
+/* Begins a row of a column. */
+static void put_column(struct br_document *d, const struct br_stability_plane *p,
+                       const struct br_stability_column *c)
 {
+    br_put_row(d);
+    BR_PUT(d, br_text(p->by->name), .key = "method");
+    BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
+    BR_PUT(d, br_count(c->n), .key = "n");
     BR_PUT(d, br_number(c->stiffness), .key = "c_H", .unit = "N/m", .format = "%.4g");
 }
 
@@ -153,11 +165,7 @@ static void put_limits(struct br_document *d, const struct br_stability_plane *p
 {
     for (size_t i = 0; i < p->columns; i++) {
         const struct br_stability_column *c = &p->column[i];
-        br_put_row(d);
-        BR_PUT(d, br_text(p->by->name), .key = "method");
-        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
-        BR_PUT(d, br_count(c->n), .key = "n");
-        put_stiffness(d, c);
+        put_column(d, p, c);
         BR_PUT(d, br_if(c->largest > 0, br_number(c->largest)), .key = "largest",
                .heading = "largest stable k", .unit = "s", .format = "%.4g");
         BR_PUT(d, br_number(c->broken), .key = "broken", .heading = "breaks at k", .unit = "s",
@@ -173,11 +181,7 @@ static void put_points(struct br_document *d, const struct br_stability *s,
     for (size_t i = 0; i < p->columns * s->rows; i++) {
         const struct br_stability_column *c = &p->column[i / s->rows];
         const struct br_stability_point *point = &c->point[i % s->rows];
-        br_put_row(d);
-        BR_PUT(d, br_text(p->by->name), .key = "method");
-        BR_PUT(d, br_text(p->over_stiffness ? "c_H" : "n"), .key = "over");
-        BR_PUT(d, br_count(c->n), .key = "n");
-        put_stiffness(d, c);
+        put_column(d, p, c);
         BR_PUT(d, br_number(s->scene->duration / (double)point->steps), .key = "k", .unit = "s",
                .format = "%.4g");
         BR_PUT(d, br_text(br_stability_words[point->outcome]), .key = "outcome");

@@ -35,10 +35,10 @@ static void answer_run(struct br_document *d, const struct br_split *s)
     const char *between = "";
     br_put_answer(d, "%s. Error %.3e %s, by parts: ", describe(s, run),
                   s->whole.error[0][BR_PART_TOTAL], s->norm[0]->unit);
-    for (size_t i = 0; i < s->shares; i++)
+    for (size_t i = 0; i < BR_SOURCES; i++)
         if (is_known(&s->share[i], 0)) {
             const double share = br_share_of_sum(s, &s->share[i], 0, BR_PART_TOTAL);
-            br_put_more(d, "%s%s ", between, s->share[i].source->name);
+            br_put_more(d, "%s%s ", between, s->share[i].name);
             br_put_more(d, share_format(share), 100 * share);
             between = ", ";
         }
@@ -56,14 +56,14 @@ static void put_line(struct br_document *d, const struct br_split *s, size_t nor
 {
     static const char *const key[BR_PARTS] = {"error", "axial", "bending"},
                              *const floor_key[BR_PARTS] = {"floor", "axial_floor", "bending_floor"};
-    const bool is_sum = i == s->shares, is_whole = i > s->shares;
+    const bool is_sum = i == BR_SOURCES, is_whole = i > BR_SOURCES;
     const struct br_share *l = is_sum ? &s->sum : is_whole ? &s->whole : &s->share[i];
     const bool known = is_sum || (!is_whole && is_known(l, norm));
     const double share =
         is_sum ? l->error[norm][BR_PART_TOTAL] > 0 : br_share_of_sum(s, l, norm, BR_PART_TOTAL);
     br_hide(d, "norm", NULL, br_text(s->norm[norm]->name));
     br_hide(d, "unit", NULL, br_text(s->norm[norm]->unit));
-    BR_PUT(d, br_text(l->source ? l->source->name : is_sum ? "sum" : "whole"), .key = "part");
+    BR_PUT(d, br_text(l->name), .key = "part");
     br_hide(d, "applies", NULL, br_truth(!l->none));
     br_put_blank(d, l->none);
     for (enum br_part part = 0; part < BR_PARTS; part++) {
@@ -110,8 +110,8 @@ static void put_run_for_people(struct br_document *d, const struct br_split *s)
         snprintf(title, sizeof title, "%s; %s, %s", describe(s, run), s->norm[m]->name,
                  s->norm[m]->unit);
         br_put_table(d, "run", title, BR_FOR_PEOPLE);
-        for (size_t i = 0; i < s->shares + OTHERS; i++) {
-            if (i < s->shares && s->share[i].none)
+        for (size_t i = 0; i < BR_SOURCES + OTHERS; i++) {
+            if (i < BR_SOURCES && s->share[i].none)
                 continue;
             br_put_row(d);
             put_line(d, s, m, i);
@@ -125,9 +125,9 @@ static void put_run_for_people(struct br_document *d, const struct br_split *s)
                     whole / sum, whole < 0.9 * sum ? ", so the parts cancel in part" : "",
                     s->norm[m]->name);
     }
-    for (size_t i = 0; i < s->shares; i++)
+    for (size_t i = 0; i < BR_SOURCES; i++)
         if (s->share[i].none)
-            br_put_note(d, "Part %s is left out: %s.", s->share[i].source->name, s->share[i].none);
+            br_put_note(d, "Part %s is left out: %s.", s->share[i].name, s->share[i].none);
     br_put_note(
         d,
         "The march without time error is by %s.%s At the tip the sum of the parts differs from "
@@ -170,7 +170,7 @@ void br_report_split(const struct br_split *split, size_t count,
     br_put_table(d, "parts", "Parts of the error", BR_FOR_PROGRAMS | BR_MAIN);
     for (size_t r = 0; r < count; r++)
         for (size_t m = 0; m < split[r].norms; m++)
-            for (size_t i = 0; i < split[r].shares + OTHERS; i++) {
+            for (size_t i = 0; i < BR_SOURCES + OTHERS; i++) {
                 put_run(d, &split[r], r);
                 put_line(d, &split[r], m, i);
             }

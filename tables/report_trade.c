@@ -281,7 +281,7 @@ static void answer_scene(struct br_document *d, const struct br_trade *t)
 void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
                              const struct br_provenance *provenance, struct br_document *d)
 {
-    br_document_begin(d, "summary", "beamrate trade, several scenes", 1, "What a digit costs");
+    br_document_begin(d, BR_SUMMARY, "beamrate trade, several scenes", 1, "What a digit costs");
     for (size_t i = 0; i < scenes; i++)
         answer_scene(d, trade[i]);
     br_put_table(d, "cheapest", "Cheapest way to an error, by scene", BR_MAIN);

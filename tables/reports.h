@@ -77,9 +77,8 @@ void br_report_check(const struct br_check_findings *findings, struct br_documen
  * terminal. */
 extern const struct br_document_format *const br_check_formats[];
 
-/* Reads the JSON of an earlier check, for a comparison: that of br_report_check, or the older
- * format "beamrate check 1". Fails with BR_BAD_INPUT, naming the file and what is wrong with it, or
- * BR_NO_MEMORY; clear `old` even then. */
+/* Reads the JSON of an earlier check, as br_report_check has it, for a comparison. Fails with
+ * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then. */
 enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err);
 
 /* ---- trade, split, plan ---- */
@@ -89,7 +88,8 @@ enum br_status br_check_read_json(const char *path, struct br_old_check *old, st
 void br_report_trade(const struct br_trade *trade, const struct br_provenance *provenance,
                      struct br_document *d);
 
-/* Several scenes in one norm: the cheapest ways alone. The document is named "summary". */
+/* Several scenes in one norm: the cheapest ways alone. The document is named BR_SUMMARY. */
+#define BR_SUMMARY "summary"
 void br_report_trade_summary(const struct br_trade *const *trade, size_t scenes,
                              const struct br_provenance *provenance, struct br_document *d);
 

@@ -69,6 +69,7 @@ offers_only umfpack beamrate tables --solver = u
 offers_only riccati beamrate tables --solver = ri
 offers 'fine:' beamrate study example1 --reference f
 offers 'l2,tip' beamrate study example1 --norm l2,
+offers 'l2,tip,energy' beamrate study example1 --norm l2,tip,e
 offers_only 'csv,latex' beamrate study example1 --format = csv,l
 offers_only mine.yaml beamrate study mine
 offers_only '--version' beamrate --v
@@ -88,6 +89,7 @@ if command -v fish >/dev/null; then
     fish_offers --norm 'beamrate study --no'
     fish_offers umfpack 'beamrate check --solver '
     fish_offers l2,tip 'beamrate study --norm l2,'
+    fish_offers l2,tip,energy 'beamrate study --norm l2,tip,e'
     fish_offers moving_load 'beamrate study mov'
     fish_offers zsh 'beamrate completions '
 fi
@@ -120,6 +122,7 @@ beamrate study --norm l2,t|LINE<beamrate study --norm l2,tip,>
 beamrate study --reference=fi|LINE<beamrate study --reference=fine: >
 beamrate study mov|LINE<beamrate study moving_load >
 beamrate study mi|LINE<beamrate study mine.yaml >
+beamrate check --junit mine.t|LINE<beamrate check --junit mine.txt >
 beamrate check -o fo|LINE<beamrate check -o folder/>
 beamrate completions z|LINE<beamrate completions zsh >
 END

@@ -5,6 +5,7 @@
 #include "solver/function.h"
 #include "solver/scene.h"
 
+#include "tests/exact_points.h"
 #include "tests/exact_scenes.h"
 
 static void evaluate(void *self, size_t count, const double *x, double t, double *value)
@@ -48,7 +49,7 @@ void release(struct solved *s)
 double value_of(const struct solved *s, struct br_exact_quantity part, double x)
 {
     double value = NAN;
-    assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, 1, &x, &value, NULL), BR_OK);
+    assert_int_equal(exact_points(s->exact, s->state, &part, 1, &x, &value, NULL), BR_OK);
     return value;
 }
 

@@ -7,8 +7,11 @@
 # take minutes: of its lines only the command and the names of the options are tried. A block of YAML
 # whose first line is a remark that begins with NAME.yaml is that file, and passes 'check'; the first
 # line of any other one is a remark that begins with "part". A file that says "# needs PROGRAM" is
-# checked where that program is.
+# checked where that program is. A block of text begins with "$ COMMAND", and shows lines of what that
+# prints (shown.awk).
+# usage: examples.sh [--update]     --update writes the numbers of these blocks anew
 set -u
+here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d "${TMPDIR:-/tmp}/beamrate examples XXXXXX") || exit 99
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 99
@@ -24,13 +27,18 @@ export PATH XDG_STATE_HOME="$work/state" # what is trusted stays here
 # is added to the line.
 pages() {
     awk -v mode="$1" -v at="$2" -v scenes="$work/files/" '
-        FNR == 1 && mode == "page" { at = FILENAME; how = "" }
+        FNR == 1 && mode == "page" { at = FILENAME; how = ""; inside = 0 }
         mode == "help" { how = "short" }
         /^```/ && mode == "page" {
+            inside = !inside
             how = $0 == "```sh" ? "short" : $0 == "```sh long" ? "long" : substr($0, 4)
             file = whole = ""
             first = 1
             next
+        }
+        first && inside && (how == "" || how == "text") {
+            sub(/^\$ /, "")
+            print (/^beamrate / ? "shown\t" at "\t" $0 : "bad\t" at "\techo line " FNR ": no command")
         }
         how == "yaml" && first && /^# [a-z_]+\.yaml/ { file = scenes $2; sub(/\.yaml.*/, ".yaml", file) }
         how == "yaml" && first && !file && !/^# part/ { print "bad\t" at "\techo line " FNR ": YAML without a name" }
@@ -63,7 +71,9 @@ commands=$(beamrate --help | sed -n '/^Commands:/,/^$/s/^  \([a-z][a-z]*\) .*/\1
     for page in "$BEAMRATE_DATA"/README.md "$BEAMRATE_DATA"/docs/*.md; do
         pages page '' "$page"
     done
-} | awk -F '\t' '!seen[$3]++' >examples
+} >all
+grep -v '^shown' all | awk -F '\t' '!seen[$3]++' >examples
+grep '^shown' all | sort -t '	' -k 3 >shown
 
 # ---- running them ----
 
@@ -108,6 +118,9 @@ speaks() {
     ! grep -niw nan output | sed 's/^/# /' | grep .
 }
 
+update=
+[ "${1:-}" = --update ] && update=yes && : >examples
+
 # In a copy of the folder; a scene that is to be made is not there yet.
 number=0
 while IFS='	' read -r how origin line; do
@@ -129,6 +142,35 @@ while IFS='	' read -r how origin line; do
     echo "not ok $number - ${origin##*/}: $line"
     sed 's/^/# /' output
 done <examples
+# What pages show of an output is what it is today. First of all: what is seen to differ?
+printf 'ran on avx2:\n  a  1.50  in  2e-14 of\nb 2\nthe long\nend\n' >today
+seen=
+for shown in 'a 1.50' 'a 1.51' 'b 3' 'b 2 the' 'b 2|a 1.50' 'a 1.50|b 2' '...' 'ran on ...' 'in 9e-14' 'in -2e-14' \
+    'in 9e-13' 'in nan' 'ran on avx' 'the|long end' 'the long end more' 'ran on 2:'; do
+    echo '```text|$ beamrate x|'"$shown"'|```' | tr '|' '\n' >page
+    awk -v command='beamrate x' -f "$here/shown.awk" today page >output 2>&1 && seen="$seen $shown,"
+done
+number=$((number + 1))
+[ "$seen" = ' a 1.50, b 2 the, a 1.50|b 2, ..., ran on ..., in 9e-14, in -2e-14, the|long end,' ] || echo "not \c"
+echo "ok $number - comparison of what is shown"
+ran=
+while IFS='	' read -r how page line; do
+    number=$((number + 1))
+    if [ "$line" != "$ran" ]; then
+        rm -rf here && cp -a files here
+        (cd here && sh -c "$line") >today 2>&1 </dev/null
+        ran=$line
+    fi
+    if awk -v command="$line" -f "$here/shown.awk" today "$page" >renewed 2>output; then
+        echo "ok $number - ${page##*/} shows: $line"
+        continue
+    fi
+    echo "not ok $number - ${page##*/} shows: $line"
+    sed 's/^/# /' output
+    [ "$update" ] && cat renewed >"$page"
+    echo "# other numbers: ./bootstrap update; other words: by hand"
+done <shown
+[ "$update" ] && exit
 # Every scene and study file that is printed or lies in docs/orders/ passes its check.
 for scene in files/*.yaml; do
     number=$((number + 1))
@@ -143,4 +185,4 @@ for scene in files/*.yaml; do
     fi
 done
 echo "1..$number"
-[ "$(wc -w <examples)" -gt 100 ]
+[ "$(wc -w <examples)" -gt 100 ] && [ "$(wc -l <shown)" -ge 6 ]

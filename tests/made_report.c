@@ -131,6 +131,7 @@ void br_made_report(struct br_made_report *m, bool with_exact)
                                    .caption = BR_MADE_CAPTION,
                                    .study = &m->study,
                                    .exact = with_exact ? &m->exact : NULL,
+                                   .fitted = by_exact,
                                    .wall_seconds = 12.5};
     for (int part = 0; part < BR_PARTS; part++)
         fill_fits(&m->report.fits[part], part);

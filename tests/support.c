@@ -396,3 +396,11 @@ void br_test_without_memory(enum br_status (*attempt)(const void *data, struct b
     if (failed < least)
         fail_msg("%ld allocations failed, expected at least %ld", failed, least);
 }
+
+const struct br_warning *br_test_warning(const struct br_warnings *w, enum br_warning_kind kind)
+{
+    for (size_t i = 0; i < w->count; i++)
+        if (w->list[i].kind == kind)
+            return &w->list[i];
+    return NULL;
+}

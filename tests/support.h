@@ -8,6 +8,7 @@
 #include <stdio.h>
 
 #include "solver/march.h"
+#include "study/foresee/warnings.h"
 #include "study/grid/study.h"
 #include "tests/test.h"
 
@@ -56,6 +57,10 @@ struct br_method br_test_method(const char *solver, const char *contact, const c
 struct br_march *br_test_march(const struct br_scene *scene, size_t n, size_t steps,
                                const struct br_method *method);
 void br_test_advance(struct br_march *march, size_t until);
+
+/* The warning of that kind; NULL: there is none. */
+const struct br_warning *br_test_warning(const struct br_warnings *warnings,
+                                         enum br_warning_kind kind);
 
 /* A study in the L2 norm, by the default method and, where the judge is a fine run, with a
  * reference by it; the lists are borrowed. */

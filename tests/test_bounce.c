@@ -41,7 +41,7 @@ static bool is_warned(const struct br_scene *scene, const char *contact, size_t 
     method.contact = br_contact_rule_find(contact);
     const struct br_planned_march o = {.scene = scene, .method = &method, .n = 40, .steps = steps};
     MUST(br_check_ahead_cheaply(&o, &w, &err));
-    return br_warnings_find(&w, BR_WARN_BOUNCE);
+    return br_test_warning(&w, BR_WARN_BOUNCE);
 }
 
 /* Of the bundled scenes those are warned of that do gain energy on a finer mesh, at the steps of

@@ -44,20 +44,23 @@ TEST(test_differences)
     struct br_scene scene = br_test_bundled("example4");
     struct br_study grid[NORMS];
     make_grid(&scene, grid);
-    struct br_differences out[NORMS];
-    MUST(br_differences_run(grid, out, 2, NULL, &err));
+    struct br_study over[BR_AXES][NORMS];
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++)
+        MUST(br_differences_run(grid, axis, over[axis], 2, NULL, &err));
     for (size_t m = 0; m < NORMS; m++) {
-        assert_true(out[m].over[BR_AXIS_SPACE].norm == br_norms[m] && out[m].over[BR_AXIS_TIME].norm == br_norms[m]);
-        assert_true(out[m].over[BR_AXIS_SPACE].n_count == ROWS - 1 && out[m].over[BR_AXIS_SPACE].k_count == COLUMNS);
-        assert_true(out[m].over[BR_AXIS_TIME].n_count == ROWS && out[m].over[BR_AXIS_TIME].k_count == COLUMNS - 1);
-        for (size_t i = 0; i < ROWS - 1; i++)
-            for (size_t j = 0; j < COLUMNS; j++)
-                check_cell(&out[m].over[BR_AXIS_SPACE], i, j, (struct br_resolution){meshes[i + 1], steps[j]});
+        struct br_study *h = &over[BR_AXIS_SPACE][m], *k = &over[BR_AXIS_TIME][m];
+        assert_true(h->norm == br_norms[m] && k->norm == br_norms[m]);
+        assert_true(h->n_count == ROWS - 1 && h->k_count == COLUMNS);
+        assert_true(k->n_count == ROWS && k->k_count == COLUMNS - 1);
         for (size_t i = 0; i < ROWS; i++)
-            for (size_t j = 0; j < COLUMNS - 1; j++)
-                check_cell(&out[m].over[BR_AXIS_TIME], i, j, (struct br_resolution){meshes[i], steps[j + 1]});
-        br_study_clear(&out[m].over[BR_AXIS_SPACE]);
-        br_study_clear(&out[m].over[BR_AXIS_TIME]);
+            for (size_t j = 0; j < COLUMNS; j++) {
+                if (i + 1 < ROWS)
+                    check_cell(h, i, j, (struct br_resolution){meshes[i + 1], steps[j]});
+                if (j + 1 < COLUMNS)
+                    check_cell(k, i, j, (struct br_resolution){meshes[i], steps[j + 1]});
+            }
+        br_study_clear(h);
+        br_study_clear(k);
     }
     br_scene_clear(&scene);
 }
@@ -67,14 +70,16 @@ TEST(test_refusals)
     struct br_scene scene = br_test_bundled("example2");
     static const size_t odd[] = {10, 15};
     static const struct {
+        enum br_axis axis;
         size_t n_count, k_count;
         const size_t *n, *steps;
         const char *message;
     } bad[] = {
-        {1, 1, meshes, steps, "found 1 meshes and 1 time steps, expected at least two"},
-        {0, 3, meshes, steps, "found 0 meshes and 3 time steps, expected at least two"},
-        {2, 2, odd, steps, "n = 10 does not divide n = 15"},
-        {2, 2, meshes, odd, "the time levels of k = 0.1 s are not all among those of"},
+        {BR_AXIS_SPACE, 1, 3, meshes, steps, "found 1 meshes and 3 time steps, expected at least"},
+        {BR_AXIS_TIME, 3, 1, meshes, steps, "found 3 meshes and 1 time steps, expected at least"},
+        {BR_AXIS_SPACE, 2, 0, meshes, steps, "found 2 meshes and 0 time steps, expected at least"},
+        {BR_AXIS_SPACE, 2, 2, odd, steps, "n = 10 does not nest in the reference's 15 elements"},
+        {BR_AXIS_TIME, 2, 2, meshes, odd, "the time levels of k = 0.1 s are not all among"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         struct br_error err = {0};
@@ -82,8 +87,8 @@ TEST(test_refusals)
         make_grid(&scene, grid);
         grid[0].n_count = bad[i].n_count, grid[0].n = bad[i].n;
         grid[0].k_count = bad[i].k_count, grid[0].steps = bad[i].steps;
-        struct br_differences out[NORMS];
-        REFUSED(br_differences_run(grid, out, 1, NULL, &err), BR_BAD_INPUT, bad[i].message);
+        struct br_study out[NORMS];
+        REFUSED(br_differences_run(grid, bad[i].axis, out, 1, NULL, &err), BR_BAD_INPUT, bad[i].message);
     }
     br_scene_clear(&scene);
 }

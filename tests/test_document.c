@@ -120,7 +120,7 @@ static void build(struct br_document *d)
     br_put_verdict(d, &(struct br_document_verdict){BR_OUTCOME_FAIL, "scene_a", "order", "too low",
                                                     NULL, 0, .seconds = 0.5});
     br_put_verdict_detail(d, "found %g", 0.5);
-    br_put_verdict(d, &(struct br_document_verdict){.name = "silent", .seconds = NAN});
+    br_put_verdict(d, &(struct br_document_verdict){.group = "scene_b", .name = "silent"});
     br_put_provenance(d, &provenance);
 }
 
@@ -426,6 +426,10 @@ static void build_wrongly(struct br_document *d, size_t i)
     case 14:
         br_put_verdict_detail(d, "why");
         break;
+    case 15:
+        BR_PUT(d, br_count(1), .key = "x");
+        BR_PUT(d, br_count(2), .key = "x");
+        break;
     default:
         put_x(d, "u", "U");
         br_put_verdict(d, &(struct br_document_verdict){.name = "v", .of_row = true});
@@ -451,6 +455,7 @@ TEST(test_built_wrongly)
         "no value before the mark 'R'",
         "no text before 'more'",
         "no verdict before 'why'",
+        "two values in a row for 'x'",
         "no row for the verdict 'v'",
     };
     for (size_t i = 0; i < sizeof messages / sizeof *messages; i++) {

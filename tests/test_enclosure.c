@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enclosures of operations and of random trees over random boxes, judged by long
- * double: its value at a point of the box, and what evaluation gives there, lie inside; and they
- * are not much wider than what is seen there. Taylor coefficients against Cauchy's integral. */
+ * double: its value at a point of the box, and what evaluation gives there, lie inside; and
+ * they are not much wider than what is seen there. Taylor coefficients against Cauchy's integral.
+ */
 #include "study/known/operations.h"
 
 #include <complex.h>
@@ -14,7 +15,7 @@
 #include "tests/operation_oracle.h"
 
 typedef long double real;
-typedef long double complex point;
+typedef long double complex complex_point;
 typedef struct br_interval iv;
 
 enum { MOST_NODES = 40 };
@@ -257,34 +258,34 @@ TEST(test_quadratic)
 /* ---- Taylor coefficients ---- */
 
 enum { ORDER = 12 };
-typedef point function_of(point u);
+typedef complex_point function_of(complex_point u);
 
-static point cube(point u)
+static complex_point cube(complex_point u)
 {
     return u * u * u;
 }
 
-static point root_power(point u)
+static complex_point root_power(complex_point u)
 {
     return u * csqrtl(u);
 }
 
-static point inverse(point u)
+static complex_point inverse(complex_point u)
 {
     return 1 / u;
 }
 
-static point both(point u)
+static complex_point both(complex_point u)
 {
     return cpowl(u, u);
 }
 
-static point exp_less_one(point u)
+static complex_point exp_less_one(complex_point u)
 {
     return cexpl(u) - 1;
 }
 
-static point same(point u)
+static complex_point same(complex_point u)
 {
     return u;
 }
@@ -299,8 +300,8 @@ static void integrate(function_of *g, double shift, double t, real c[], real err
     for (int k = 0; k <= ORDER; k++)
         c[k] = 0;
     for (int i = 0; i < POINTS; i++) {
-        const point z = t + radius * cexpl(1.0iL * turn * i);
-        const point value = g((real)shift + z * ((real)0.7 + z * (real)0.2));
+        const complex_point z = t + radius * cexpl(1.0iL * turn * i);
+        const complex_point value = g((real)shift + z * ((real)0.7 + z * (real)0.2));
         largest = fmaxl(largest, cabsl(value));
         for (int k = 0; k <= ORDER; k++)
             c[k] += creall(value * cexpl(-1.0iL * turn * (i * k % POINTS))) / POINTS;
@@ -331,7 +332,7 @@ static void check_series(const char *text, function_of *g, double shift, struct 
                 p.high > b.high)
                 fail_msg("%s at %.17g: coefficient %d, %.21Lg +- %.1Lg, in %.17g .. %.17g", full, t,
                          k, c[k], error[k], p.low, p.high);
-            AT_MOST(p.high - p.low, 1e-11 * (br_magnitude(p) + pow(10, k)));
+            AT_MOST(p.high - p.low, 1e-11 * (magnitude(p) + pow(10, k)));
         }
     }
     br_function_free(&f);

@@ -75,12 +75,12 @@ TEST(test_refusals)
     refuses(&s, (struct br_exact_options){.max_modes = 60}, BR_NOT_FINITE, "no exact solution");
 
     struct solved solved = solve(&good, 1e-8);
-    const double x = 0.5;
-    double value;
-    const struct br_exact_quantity axial = {BR_AXIAL, false, 0}, high = {BR_BENDING, false, 4};
-    assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &axial, 1, &x, &value, NULL),
+    struct br_exact_projection *none;
+    const struct br_exact_mesh mesh = {4, 3};
+    const struct br_exact_quantity axial = {BR_AXIAL, false, 0}, high = {BR_BENDING, false, 3};
+    assert_int_equal(br_exact_projection_create(&none, solved.exact, &axial, &mesh, NULL),
                      BR_BAD_INPUT);
-    assert_int_equal(br_exact_evaluate(solved.exact, solved.state, &high, 1, &x, &value, NULL),
+    assert_int_equal(br_exact_projection_create(&none, solved.exact, &high, &mesh, NULL),
                      BR_BAD_INPUT);
     release(&solved);
     br_scene_clear(&good);
@@ -125,16 +125,12 @@ TEST(test_allocations)
         struct br_exact *exact = NULL;
         struct br_exact_state *state = NULL;
         struct br_exact_projection *projection = NULL;
-        const double x = 0.5;
-        double value;
         br_allocation_fails_at(failures);
         status = br_exact_create(&exact, &scene, &options, NULL);
         if (!status)
             status = br_exact_state_create(&state, exact, NULL);
         if (!status)
             status = br_exact_projection_create(&projection, exact, &part, &mesh, NULL);
-        if (!status)
-            status = br_exact_evaluate(exact, state, &part, 1, &x, &value, NULL);
         assert_true(status == BR_OK || status == BR_NO_MEMORY);
         br_exact_projection_free(projection);
         br_exact_state_free(state);

@@ -159,7 +159,7 @@ static bool goes(const struct br_scene *s, const struct br_method *m, size_t n, 
 {
     struct br_error err;
     return !m->scheme->needs_damping ||
-           (!br_method_check_scene(m, s, &err) &&
+           (!br_method_check(m, s, &err) &&
             !br_damping_check(m, s, n, s->duration / (double)steps, &err));
 }
 

@@ -336,13 +336,13 @@ static void print_floors(FILE *out)
     const struct br_scene scene = {.name = name};
     struct br_floors floors = {.scene = {&scene},
                                .scenes = 1,
-                               .methods = 2,
+                               .method.count = 2,
                                .n_count = 2,
                                .k_count = 3,
                                .floors = 12,
                                .floor = floor};
-    MUST(br_named_method_read("euler+riccati", &floors.method[0], &err));
-    MUST(br_named_method_read("euler+umfpack", &floors.method[1], &err));
+    MUST(br_named_method_read("euler+riccati", &floors.method.list[0], &err));
+    MUST(br_named_method_read("euler+umfpack", &floors.method.list[1], &err));
     for (int i = 0; i < 12; i++)
         floor[i] = (struct br_floor){.n = n[i / 3 % 2],
                                      .steps = 20,
@@ -362,14 +362,14 @@ static void print_drifts(FILE *out)
     struct br_floors d = {.gathered = true,
                           .scene = {&one, &two},
                           .scenes = 2,
-                          .methods = 2,
+                          .method.count = 2,
                           .solvers = 1,
                           .n_count = 1,
                           .k_count = 3,
                           .floors = 12,
                           .floor = drift};
-    MUST(br_named_method_read("euler+lagged+riccati", &d.method[0], &err));
-    MUST(br_named_method_read("bdf2+riccati", &d.method[1], &err));
+    MUST(br_named_method_read("euler+lagged+riccati", &d.method.list[0], &err));
+    MUST(br_named_method_read("bdf2+riccati", &d.method.list[1], &err));
     for (int i = 0; i < 12; i++)
         drift[i] = (struct br_floor){.of = steps[i % 3],
                                      .steps = steps[i % 3],

@@ -406,3 +406,22 @@ TEST(test_steep_in_k)
         CLOSE(found.order[BR_AXIS_TIME].value, t.q, 0.08);
     }
 }
+
+/* One error alone, C x^p (1 + 0.8 x + ...) with a next term in its size, and the same in the other size. */
+TEST(test_next_term_of_each_axis)
+{
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        struct br_observation o[SIZES * SIZES] = {{.error = 0}};
+        struct br_joint_fit found;
+        struct br_error err = {0};
+        for (size_t i = 0; i < SIZES * SIZES; i++) {
+            o[i].x[0] = ldexp(1, -(int)(i / SIZES));
+            o[i].x[1] = ldexp(1, -(int)(i % SIZES));
+            o[i].error = 0.1 * pow(o[i].x[axis], 1.5) * exp(0.8 * o[i].x[axis]);
+        }
+        MUST(br_joint_fit_solve(o, SIZES * SIZES, true, NULL, &found, &err));
+        assert_int_equal(found.kind, axis == BR_AXIS_SPACE ? BR_JOINT_SPACE : BR_JOINT_TIME);
+        CLOSE(found.order[axis].value, 1.5, 1e-6);
+        CLOSE(found.c[axis].value, 0.1, 1e-7);
+    }
+}

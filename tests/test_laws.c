@@ -392,13 +392,13 @@ TEST(test_refusals)
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_method m = br_method_default();
-        MUST(br_method_check(&m, &err));
+        MUST(br_method_check(&m, NULL, &err));
         m.iteration = rows[i].iteration;
-        MUST(br_method_check(&m, &err)); /* the exact law does not heed it */
+        MUST(br_method_check(&m, NULL, &err)); /* the exact law does not heed it */
         m.friction = br_friction_rule_find(rows[i].rule);
-        REFUSED(br_method_check(&m, &err), BR_BAD_INPUT, rows[i].message);
+        REFUSED(br_method_check(&m, NULL, &err), BR_BAD_INPUT, rows[i].message);
         m.iteration = br_iteration_defaults;
-        MUST(br_method_check(&m, &err));
+        MUST(br_method_check(&m, NULL, &err));
     }
 }
 

@@ -20,7 +20,7 @@ static struct br_warnings warnings_of(const struct br_scene *scene, size_t n, si
 /* Whether it is warned of with these words; NULL: not at all. */
 static bool is_said(const struct br_warnings *w, enum br_warning_kind kind, const char *said)
 {
-    const struct br_warning *one = br_warnings_find(w, kind);
+    const struct br_warning *one = br_test_warning(w, kind);
     return said ? one && strstr(one->text, said) : !one;
 }
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "dense_march.h"
-#include "reference/long_plain.h"
+#include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "support.h"
 

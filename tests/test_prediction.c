@@ -310,7 +310,7 @@ TEST(test_not_known)
     assert_true(isinf(br_predicted_most(&p, BR_AXIAL)));
     assert_non_null(strstr(p.why, "stability limit"));
     const struct br_warnings w = warnings_of(&s, &method, 10, 10);
-    const struct br_warning *one = br_warnings_find(&w, BR_WARN_UNKNOWN);
+    const struct br_warning *one = br_test_warning(&w, BR_WARN_UNKNOWN);
     assert_non_null(one);
     assert_non_null(strstr(one->text, "is not known"));
     assert_non_null(strstr(one->text, "stability limit"));
@@ -330,17 +330,17 @@ TEST(test_warnings)
     assert_int_equal(w.count, 0);
 
     w = warnings_of(&s, &method, 100, 2);
-    const struct br_warning *one = br_warnings_find(&w, BR_WARN_INACCURATE);
+    const struct br_warning *one = br_test_warning(&w, BR_WARN_INACCURATE);
     assert_non_null(one);
     assert_non_null(strstr(one->remedy, "--contact implicit"));
 
     method.solver = br_linear_solver_find("umfpack");
     w = warnings_of(&s, &method, 6400, 1000);
-    one = br_warnings_find(&w, BR_WARN_ROUND_OFF);
+    one = br_test_warning(&w, BR_WARN_ROUND_OFF);
     assert_non_null(one);
     assert_non_null(strstr(one->text, "--solver umfpack at n = 6400"));
     assert_non_null(strstr(one->remedy, "--solver auto"));
-    assert_null(br_warnings_find(&w, BR_WARN_INACCURATE));
+    assert_null(br_test_warning(&w, BR_WARN_INACCURATE));
     br_scene_clear(&s);
 }
 
@@ -464,10 +464,10 @@ TEST(test_hard)
         struct br_warnings w = {0};
         const struct br_planned_march o = hard_march(i, &s, &c, &p);
         MUST(br_check_ahead(&o, &w, &err));
-        const bool warned = br_warnings_find(&w, hard[i].kind);
+        const bool warned = br_test_warning(&w, hard[i].kind);
         const bool right =
             hard[i].why ? !p.known && strstr(p.why, hard[i].why) && warned &&
-                              br_warnings_find(&w, BR_WARN_UNKNOWN)
+                              br_test_warning(&w, BR_WARN_UNKNOWN)
             : p.known ? !warned && p.whole.high >= hard[i].off &&
                             (hard[i].times == 0 || p.whole.high <= hard[i].times * hard[i].off ||
                              isinf(hard[i].times))
@@ -509,11 +509,11 @@ TEST(test_list)
     br_warn(&w, BR_WARN_UNSTABLE, "less", "grows");
     br_warn(&w, BR_WARN_LONG, "none", "%d days", 4);
     assert_int_equal(w.count, 2);
-    const struct br_warning *one = br_warnings_find(&w, BR_WARN_LONG);
+    const struct br_warning *one = br_test_warning(&w, BR_WARN_LONG);
     assert_string_equal(one->text, "3 days");
     assert_string_equal(one->remedy, "");
     assert_int_equal(one->more, 1);
-    assert_null(br_warnings_find(&w, BR_WARN_ROUND_OFF));
+    assert_null(br_test_warning(&w, BR_WARN_ROUND_OFF));
     for (int kind = 0; kind < BR_WARNINGS; kind++)
         assert_non_null(br_warning_words[kind]);
 }

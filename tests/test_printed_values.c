@@ -99,9 +99,8 @@ static void march_and_write(struct watched *w)
     path_of(w, "fields.csv", path);
     FILE *csv = fopen(path, "w"), *xdmf = tmpfile();
     assert_true(csv && xdmf);
-    MUST(br_fields_begin(
-        &w->fields, &(struct br_fields_request){csv, xdmf, &w->scene, ELEMENTS, 1, &provenance},
-        &err));
+    w->fields = (struct br_fields){csv, xdmf, &w->scene, ELEMENTS, .axial_degree = 1};
+    MUST(br_fields_begin(&w->fields, &provenance, &err));
     MUST(br_run(&request, &w->report, &err));
     br_fields_end(&w->fields, NULL);
     assert_int_equal(fclose(csv) | fclose(xdmf), 0);

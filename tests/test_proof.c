@@ -62,7 +62,7 @@ TEST(test_poles)
         struct br_function f = br_test_function(poles[i].text);
         struct br_interval value;
         struct br_box where;
-        if (br_prove_bounded(&f, unit, 0, &value, &where) == BR_FINITE)
+        if (br_prove_bounded(&f, unit, &value, &where) == BR_FINITE)
             fail_msg("%s: within %g .. %g", poles[i].text, value.low, value.high);
         const double tolerance = strpbrk(poles[i].text, "s<") ? 0.26 : 1e-12;
         CLOSE(where.x.low, poles[i].at, tolerance);
@@ -121,11 +121,11 @@ TEST(test_finite)
         const double low = sound[i].low, high = sound[i].high, room = 0.06 * (high - low);
         struct br_interval value, tight;
         struct br_box where, peak;
-        if (br_prove_bounded(&f, unit, 0, &value, &where) != BR_FINITE)
+        if (br_prove_bounded(&f, unit, &value, &where) != BR_FINITE)
             fail_msg("%s: at x = %.17g, t = %.17g", sound[i].text, where.x.low, where.t.low);
         const bool loose = strstr(sound[i].text, "== 0 ?") || strstr(sound[i].text, "<= 0.3") ||
-                           strstr(sound[i].text, "2*x*t"); /* the budget does not suffice */
-        assert_true(br_enclose_values(&f, unit, 0, &tight, &peak));
+                           strstr(sound[i].text, "2*x*t"); /* the boxes do not suffice */
+        assert_true(br_enclose_values(&f, unit, &tight, &peak));
         if (!loose && !(tight.low >= low - room && tight.high <= high + room))
             fail_msg("%s: %g .. %g", sound[i].text, tight.low, tight.high);
         if (!(tight.low <= low && tight.high >= high && value.low <= low && value.high >= high))
@@ -134,20 +134,20 @@ TEST(test_finite)
     }
 }
 
-/* What nobody bounds, and what a budget does not reach. */
+/* What nobody bounds, and what the allowed boxes do not reach. */
 TEST(test_unbounded)
 {
     struct br_function f = br_test_function("1/(x^2 - 2*x*t + t^2 + 1e-9)");
     struct br_interval value;
     struct br_box where;
     struct br_error err;
-    assert_int_equal(br_prove_bounded(&f, unit, 100, &value, &where), BR_UNBOUNDED);
+    assert_int_equal(br_prove_bounded(&f, unit, &value, &where), BR_UNBOUNDED);
     br_function_free(&f);
     static const struct br_function_ops none = {0};
     const struct br_function unknown = {.ops = &none, .uses_x = true};
     assert_false(br_function_bound(&unknown, unit, &value));
     f = br_test_function("sqrt(t*t - 2*t + 1)");
-    assert_int_not_equal(br_prove_bounded(&f, unit, 0, &value, &where), BR_FINITE);
+    assert_int_not_equal(br_prove_bounded(&f, unit, &value, &where), BR_FINITE);
     br_function_free(&f);
     f = br_test_function("tan(pi*t)");
     REFUSED(br_must_be_finite(&f, unit, &err), BR_BAD_INPUT, "a pole at t = 0.5 s");
@@ -278,25 +278,22 @@ TEST(test_fronts)
 {
     static const struct {
         const char *text;
-        bool complete;
         size_t count;
         double at[2];
     } rows[] = {
-        {"x < 2*t - 0.5", true, 2, {0.25, 0.75}},
-        {"step(x - t^2 + 0.25)", true, 1, {0.5, 0}},
-        {"step((x - 0.5)^2 + (t - 0.5)^2 - 0.04)", false, 0, {0, 0}}, /* born inside */
-        {"x < 2 + t ? 1 : 0", true, 0, {0, 0}},
+        {"x < 2*t - 0.5", 2, {0.25, 0.75}},
+        {"step(x - t^2 + 0.25)", 1, {0.5, 0}},
+        {"step((x - 0.5)^2 + (t - 0.5)^2 - 0.04)", 0, {0, 0}}, /* born inside */
+        {"x < 2 + t ? 1 : 0", 0, {0, 0}},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         struct br_function f = br_test_function(rows[i].text);
         struct br_breaks b = {0};
         struct br_error err;
-        bool complete;
         MUST(br_breaks_add(&f, BR_T, unit, &b, &err));
         assert_int_equal(b.count, 0);
         assert_int_equal(b.moving, i != 3);
-        MUST(br_front_times(&f, unit, &b, &complete, &err));
-        assert_int_equal(complete, rows[i].complete);
+        MUST(br_front_times(&f, unit, &b, &err));
         assert_int_equal(b.count, rows[i].count);
         for (size_t k = 0; k < b.count; k++)
             CLOSE(b.at[k].low, rows[i].at[k], 1e-15);

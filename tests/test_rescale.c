@@ -210,9 +210,10 @@ static void compare_studies(size_t judge, const struct br_scene *now, const stru
 }
 
 /* What successive grids say without a judge. */
-static void differences_of(const struct br_scene *scene, struct br_differences *d)
+static struct br_study differences_of(const struct br_scene *scene, enum br_axis axis)
 {
     struct br_error err = {0};
+    struct br_study over;
     const struct br_study grid = {
         .scene = scene,
         .norm = &br_norm_energy,
@@ -222,19 +223,18 @@ static void differences_of(const struct br_scene *scene, struct br_differences *
         .n = meshes,
         .steps = steps,
     };
-    MUST(br_differences_run(&grid, d, 2, NULL, &err));
+    MUST(br_differences_run(&grid, axis, &over, 2, NULL, &err));
+    return over;
 }
 
 static void compare_differences(const struct br_scene *now, const struct factors *f)
 {
-    struct br_differences a, b;
-    differences_of(&before, &a);
-    differences_of(now, &b);
-    compare_cells(&a.over[BR_AXIS_SPACE], &b.over[BR_AXIS_SPACE], f);
-    compare_cells(&a.over[BR_AXIS_TIME], &b.over[BR_AXIS_TIME], f);
-    struct br_study *const all[] = {&a.over[0], &a.over[1], &b.over[0], &b.over[1]};
-    for (size_t i = 0; i < 4; i++)
-        br_study_clear(all[i]);
+    for (enum br_axis axis = 0; axis < BR_AXES; axis++) {
+        struct br_study a = differences_of(&before, axis), b = differences_of(now, axis);
+        compare_cells(&a, &b, f);
+        br_study_clear(&a);
+        br_study_clear(&b);
+    }
 }
 
 /* ---- what is done to the scene ---- */

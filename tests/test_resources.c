@@ -104,12 +104,12 @@ TEST(test_refused)
     o.n = 10000;
     o.steps = 10000000000;
     MUST(br_check_ahead(&o, &w, &err));
-    assert_non_null(br_warnings_find(&w, BR_WARN_LONG));
+    assert_non_null(br_test_warning(&w, BR_WARN_LONG));
     const double days = br_march_seconds(&o) / 86400, of_a_day = (double)o.steps / days;
     for (int longer = 0; longer < 2; longer++) { /* than a day: 22 hours, 26 hours */
         w = (struct br_warnings){0};
         o.steps = (size_t)(of_a_day * (longer ? 26 : 22) / 24);
         MUST(br_check_ahead(&o, &w, &err));
-        assert_int_equal(br_warnings_find(&w, BR_WARN_LONG) != NULL, longer);
+        assert_int_equal(br_test_warning(&w, BR_WARN_LONG) != NULL, longer);
     }
 }

@@ -104,6 +104,43 @@ TEST(scheme_orders)
     }
 }
 
+/* The estimate of the error of one step of length k, of the same equation from t = 0, where the
+ * states before are exact. */
+static double scalar_estimate(const struct br_stages *s, double k)
+{
+    double y[BR_KNOWN] = {[BR_NOW] = 1}, sum = 0;
+    y[BR_BEFORE] = (3 * exp(k) - sin(k) - cos(k)) / 2;
+    y[BR_BEFORE_THAT] = (3 * exp(2 * k) - sin(2 * k) - cos(2 * k)) / 2;
+    for (int i = 0; i < s->count; i++) {
+        const double tau = s->stage[i].gamma * k;
+        double z = 0;
+        y[BR_RATE] = -tau;
+        for (int j = 0; j < BR_KNOWN; j++)
+            z += s->stage[i].weight[j] * y[j];
+        y[BR_STAGE + i] = (z + tau * sin(s->stage[i].time * k)) / (1 + tau);
+    }
+    for (int j = 0; j < BR_KNOWN; j++)
+        sum += s->error[j] * y[j];
+    return fabs(sum);
+}
+
+/* Steps are chosen by the estimate's order, in the first step after a start, too. */
+TEST(estimate_orders)
+{
+    for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
+        for (size_t since = 0; since < 3; since++) {
+            struct br_stages stages;
+            br_time_scheme_step(*s, since, &stages);
+            const double coarse = scalar_estimate(&stages, 1.0 / 32);
+            const double fine = scalar_estimate(&stages, 1.0 / 128);
+            const double order = (*s)->adaptive ? log2(coarse / fine) / 2 : 0;
+            if (!(fabs(order - (*s)->estimate_order) <= 0.1))
+                fail_msg("%s, step %zu: the estimate is of order %.2f, its row has "
+                         ".estimate_order = %d",
+                         (*s)->name, since + 1, order, (*s)->estimate_order);
+        }
+}
+
 /* Ten steps, each a million times the relaxation time. The trapezoidal rule leaves all of it. */
 TEST(test_stiffness_is_damped)
 {

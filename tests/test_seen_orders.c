@@ -44,7 +44,7 @@ static void make(struct made *m, double a, double p, double b, double q)
     m->study.judged_by.own_error[BR_AXIAL][BR_DISPLACEMENT] = DBL_MIN;
     m->meshes = br_test_study(&m->scene, &br_judge_none, ROWS - 1, n, 1, steps);
     m->meshes.cell = m->difference;
-    m->report = (struct br_report){.study = &m->study, .apart = {&m->meshes}};
+    m->report = (struct br_report){.study = &m->study, .fitted = &m->study, .apart = {&m->meshes}};
 }
 
 static void see(struct made *m)

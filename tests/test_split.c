@@ -26,8 +26,8 @@ static struct br_split split_of(const struct br_scene *scene, size_t n, size_t s
 
 static const struct br_share *share_of(const struct br_split *split, const char *name)
 {
-    for (size_t i = 0; i < split->shares; i++)
-        if (strcmp(split->share[i].source->name, name) == 0)
+    for (size_t i = 0; i < BR_SOURCES; i++)
+        if (strcmp(split->share[i].name, name) == 0)
             return &split->share[i];
     fail_msg("there is no part called %s", name);
     return NULL;
@@ -39,12 +39,12 @@ static void check_triangle(const struct br_split *split, size_t m, enum br_part 
 {
     const double whole = split->whole.error[m][part];
     double slack = split->whole.floor[m][part], sum = whole;
-    for (size_t i = 0; i < split->shares; i++) {
+    for (size_t i = 0; i < BR_SOURCES; i++) {
         slack += split->share[i].floor[m][part];
         sum += split->share[i].error[m][part];
     }
     AT_MOST(whole, sum - whole + slack);
-    for (size_t i = 0; i < split->shares; i++)
+    for (size_t i = 0; i < BR_SOURCES; i++)
         AT_MOST(split->share[i].error[m][part], sum - split->share[i].error[m][part] + slack);
     CLOSE(split->sum.error[m][part], sum - whole, 1e-14 * sum);
 }
@@ -53,7 +53,7 @@ static void check_triangle(const struct br_split *split, size_t m, enum br_part 
 static void check_tip(const struct br_split *split, enum br_field_kind kind)
 {
     double sum = 0;
-    for (size_t i = 0; i < split->shares; i++)
+    for (size_t i = 0; i < BR_SOURCES; i++)
         sum += split->share[i].tip[kind];
     const double round_off = 1e-15 * (fabs(split->tip[kind]) + fabs(split->solution_tip[kind]));
     CLOSE(sum, split->tip[kind] - split->solution_tip[kind], round_off);

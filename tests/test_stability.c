@@ -227,6 +227,60 @@ TEST(test_verdict)
     br_scene_clear(&scene);
 }
 
+/* Verdicts by hand. A rod of a = 1 N, b = 0, L = 1 m on 4 elements gains nothing by a lagged
+ * contact of at most a/L = 1 N/m; with b = 0.5 N s and k = T/10 = 0.1 s, of at most (a + 2 b/k)/L =
+ * 11 N/m. */
+TEST(test_verdicts_by_hand)
+{
+    static const struct {
+        const char *by;
+        double viscosity, stiffness;
+        enum br_stability_outcome outcome;
+        bool right;
+    } rows[] = {
+        {"euler+lagged", 0, 1, BR_STABLE, true},
+        {"euler+lagged", 0, 1, BR_REFUSED, true},
+        {"euler+lagged", 0, 1, BR_UNSTABLE, false},
+        {"euler+lagged", 0, 1.0001, BR_UNSTABLE, true},
+        {"euler+lagged", 0.5, 10.999, BR_UNSTABLE, false},
+        {"euler+lagged", 0.5, 11.001, BR_UNSTABLE, true},
+        {"euler+lagged", 0, NAN, BR_UNSTABLE, false}, /* no contact */
+        {"euler+lagged", 0, NAN, BR_STABLE, true},
+        {"euler+implicit", 0, 1e6, BR_UNSTABLE, false},
+        {"euler+implicit", 0, 1e6, BR_REFUSED, true},
+        {"bdf2", 0, 1e6, BR_UNSTABLE, false},
+    };
+    enum { PLANES = 2, COLUMNS = 2, ROWS = 3, ALL = PLANES * COLUMNS * ROWS };
+    struct br_scene scene = br_test_bare();
+    scene.axial.stiffness = scene.length = scene.duration = 1;
+    for (size_t i = 0; i < ALL * sizeof rows / sizeof *rows; i++) {
+        const size_t row = i / ALL, place = i % ALL;
+        struct br_error err = {0};
+        size_t steps[ROWS] = {10, 10, 10};
+        struct br_stability_point point[PLANES][COLUMNS * ROWS];
+        struct br_stability_column column[PLANES][COLUMNS];
+        struct br_named_method method;
+        struct br_stability s = {.scene = &scene, .steps = steps, .rows = ROWS, .planes = PLANES};
+        scene.axial.viscosity = rows[row].viscosity;
+        MUST(br_named_method_read(rows[row].by, &method, &err));
+        for (size_t j = 0; j < ALL; j++)
+            point[j / (COLUMNS * ROWS)][j % (COLUMNS * ROWS)] = (struct br_stability_point){
+                .steps = 10, .outcome = j == place ? rows[row].outcome : BR_STABLE};
+        for (size_t p = 0; p < PLANES; p++) {
+            for (size_t c = 0; c < COLUMNS; c++)
+                column[p][c] = (struct br_stability_column){
+                    .n = 4, .stiffness = rows[row].stiffness, .point = &point[p][c * ROWS]};
+            s.plane[p] = (struct br_stability_plane){
+                .by = &method, .column = column[p], .point = point[p], .columns = COLUMNS};
+        }
+        const enum br_status status = br_stability_verdict(&s, &err);
+        if (status != (rows[row].right ? BR_OK : BR_VERDICT))
+            fail_msg("row %zu at place %zu: %s", row, place, status ? err.message : "passes");
+    }
+    assert_int_equal(
+        br_stability_verdict(&(struct br_stability){.planes = 0}, &(struct br_error){0}), BR_OK);
+}
+
 static bool stop_now(void *self)
 {
     (void)self;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "reference/exact/exact.h"
+#include "exact_points.h"
 #include "solver/scene.h"
 #include "study/grid/study.h"
 #include "study/grid/sweep.h"
@@ -145,8 +145,7 @@ static void values(const struct side *s, const struct what *what, size_t count, 
     const struct br_exact_quantity part = {what->kind, what->velocity,
                                            (unsigned)(what->derived ? order : 0)};
     if (s->exact) {
-        assert_int_equal(br_exact_evaluate(s->exact, s->state, &part, count, x, value, NULL),
-                         BR_OK);
+        assert_int_equal(exact_points(s->exact, s->state, &part, count, x, value, NULL), BR_OK);
         return;
     }
     double nodal[2 * (MOST_N + 1)];

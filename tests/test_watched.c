@@ -53,7 +53,7 @@ static bool start(struct watched *w, size_t n, size_t steps, const struct told *
     struct br_error err = {0};
     struct told t = told ? *told : (struct told){0};
     const struct br_method *method = t.method ? t.method : &w->method;
-    if (br_method_check_scene(&w->method, &w->scene, &err))
+    if (br_method_check(&w->method, &w->scene, &err))
         return false;
     const enum br_status status = br_march_create(&w->march, &w->scene, n, steps, &w->method, &err);
     if (status == BR_BAD_INPUT)

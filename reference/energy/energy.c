@@ -28,17 +28,6 @@ static real product(const struct br_field *f, enum br_element_matrix matrix, con
 
 /* ---- of a state ---- */
 
-double br_energy_kinetic(const struct br_field *field, const double *velocity)
-{
-    return (double)(product(field, BR_MASS, velocity, velocity) / 2);
-}
-
-double br_energy_stored(const struct br_field *field, const double *displacement)
-{
-    return (double)((real)field->stiffness *
-                    product(field, BR_STIFFNESS, displacement, displacement) / 2);
-}
-
 /* Energies of one field's state, J; of the axial field with the contact's potential. */
 struct field_energy {
     real kinetic, stored, contact;

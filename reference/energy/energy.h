@@ -55,11 +55,6 @@ double br_energy_added(const struct br_work *work, enum br_field_kind kind);
 double br_energy_put_in(const struct br_energy *start, const struct br_work *work,
                         enum br_field_kind kind);
 
-/* Of nodal values, laid out as in solver/field.h: of one field, J. displacement, velocity: in,
- * br_field_size values. */
-double br_energy_kinetic(const struct br_field *field, const double *velocity);
-double br_energy_stored(const struct br_field *field, const double *displacement);
-
 /* Energies of a march at its time (out), in a scene that models no more than the march does. Fails
  * with BR_NO_MEMORY. */
 enum br_status br_energy_sample(const struct br_march *march, const struct br_scene *scene,

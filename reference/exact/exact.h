@@ -143,14 +143,8 @@ void br_exact_field_at(const struct br_exact *exact, enum br_field_kind field, d
 struct br_exact_quantity {
     enum br_field_kind field;
     bool velocity;
-    unsigned order; /* of the derivative in x: axial 0 to 2, bending 0 to 3 */
+    unsigned order; /* of the derivative in x: axial 0 to 1, bending 0 to 2 */
 };
-
-/* value[i] (out) = quantity at x[i] in [0, L], i < count; m or m/s per m^order.
- * Fails with BR_BAD_INPUT or BR_NO_MEMORY. */
-enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
-                                 const struct br_exact_quantity *quantity, size_t count,
-                                 const double *x, double *value, struct br_error *err);
 
 /* L2 projection of a quantity on polynomials of a degree on each of n equal elements. */
 struct br_exact_projection;
@@ -159,8 +153,8 @@ struct br_exact_mesh {
     size_t degree;   /* at most 8 */
 };
 
-/* *out (owned by the caller). The quantity's order may be at most 1 (axial) or 2
- * (bending). Fails with BR_BAD_INPUT, BR_NO_MEMORY or BR_SINGULAR. */
+/* *out (owned by the caller). Fails with BR_BAD_INPUT (a field that is not modelled, a higher order
+ * or degree), BR_NO_MEMORY or BR_SINGULAR. */
 enum br_status br_exact_projection_create(struct br_exact_projection **out,
                                           const struct br_exact *exact,
                                           const struct br_exact_quantity *quantity,

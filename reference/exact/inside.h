@@ -41,9 +41,6 @@ static inline double br_pieces_width(const struct br_exact_pieces *p, size_t e)
     return (p->end[e + 1] - p->end[e]) / p->length;
 }
 
-/* The element that contains x, m; where two meet the left one. */
-size_t br_pieces_find(const struct br_exact_pieces *pieces, double x);
-
 /* Integral over all x / L of a series. */
 double br_pieces_integral(const struct br_exact_pieces *pieces, size_t extra, const double *c);
 
@@ -120,11 +117,6 @@ void br_list_add(struct br_list *list, double value, struct br_store *store);
 
 /* Sorts, and keeps one of equal numbers. */
 void br_list_sort(struct br_list *list);
-
-static inline struct br_interval *br_side(struct br_box *box, enum br_variable along)
-{
-    return along == BR_X ? &box->x : &box->t;
-}
 
 /* A bound on the error of a polynomial along one variable in the box; infinite where f is not
  * smooth. */

@@ -51,17 +51,6 @@ void br_legendre(size_t count, double xi, double *p)
         p[k] *= norm(k);
 }
 
-void br_legendre_derivative(size_t count, double xi, double *p, double *dp)
-{
-    if (!count)
-        return;
-    gsl_sf_legendre_Pl_deriv_array((int)count - 1, to_gsl(xi), p, dp);
-    for (size_t k = 0; k < count; k++) {
-        p[k] *= norm(k);
-        dp[k] *= 2 * norm(k); /* d(2 xi - 1) = 2 d xi */
-    }
-}
-
 double br_legendre_coupling(size_t k)
 {
     return k && k < KEPT ? couplings[k] : find_coupling(k);

@@ -15,9 +15,6 @@
 /* p[k] = p_k(xi), k < count; xi in [0, 1]. */
 void br_legendre(size_t count, double xi, double *p);
 
-/* The same, with the derivatives dp[k] = p_k'(xi). */
-void br_legendre_derivative(size_t count, double xi, double *p, double *dp);
-
 enum { BR_MOST_INTEGRALS = 15 };
 
 /* p[k] = p_k(xi), q[k] = integral of p_k from 0 to xi, k < count <= BR_MOST_INTEGRALS. */

@@ -5,6 +5,8 @@
 #include <gsl/gsl_interp.h>
 #include <math.h>
 
+#include "solver/box.h"
+
 /* Functions that the field depends on. */
 enum { MOST = 2 * BR_LOAD_TERMS + 4 };
 
@@ -129,11 +131,10 @@ static void add_breaks(struct work *w, enum br_variable v, const struct br_funct
 static void find_breaks(struct work *w, enum br_variable v)
 {
     for (const struct br_sight *s = w->subject; s < w->subject + w->subjects; s++) {
-        bool complete = true;
         if (has(s, v))
             add_breaks(w, v, s->f, s->box);
         if (v == BR_T && is_mixed(s) && !w->status)
-            w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], &complete, w->err);
+            w->status = br_front_times(s->f, s->box, &w->breaks[BR_T], w->err);
     }
     join_breaks(w, v);
 }
@@ -226,8 +227,8 @@ static void count_hidden(struct work *w, enum br_variable v)
             struct br_interval value;
             if (!(at.high - at.low > 4 * DBL_EPSILON * at.high))
                 continue;
-            *br_side(&box, v) = at;
-            if (br_prove_bounded(s->f, box, 0, &value, &where)) {
+            *side(&box, v) = at;
+            if (br_prove_bounded(s->f, box, &value, &where)) {
                 w->status = br_must_be_finite(s->f, box, w->err);
                 return;
             }
@@ -284,7 +285,7 @@ static void count_proved(struct work *w, enum br_variable v, const struct br_sig
             k--;
         for (; k + 1 < end->count && end->at[k] < here.high; k++) {
             struct br_box box = {{0, 0}, {0, 0}};
-            struct br_interval value, *cell = br_side(&box, v);
+            struct br_interval value, *cell = side(&box, v);
             *cell =
                 (struct br_interval){fmax(end->at[k], here.low), fmin(end->at[k + 1], here.high)};
             if (!(cell->low < cell->high && br_function_bound(s->f, box, &value)))

@@ -20,19 +20,6 @@ void br_pieces_init(struct br_exact_pieces *p, double length, size_t count, cons
         p->first[e + 1] = p->first[e] + terms[e];
 }
 
-size_t br_pieces_find(const struct br_exact_pieces *p, double x)
-{
-    size_t low = 0, high = p->count; /* end[low] < x <= end[high], but at the ends */
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (p->end[middle] < x)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 double br_pieces_integral(const struct br_exact_pieces *p, size_t extra, const double *c)
 {
     double sum = 0;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reference/exact/inside.h"
 
-#include <cblas.h>
 #include <math.h>
 #include <pthread.h>
 #include <stdint.h>
@@ -74,53 +73,19 @@ void br_exact_at(const struct br_exact *exact, double t, struct br_exact_state *
     state->friction_bound = br_law_bound(&exact->solution->law[BR_BENDING], state->time);
 }
 
-/* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the
- * field's (1 axial, 2 bending) plus extra. */
+/* Refuses (BR_BAD_INPUT) fields that are not modelled, and orders above the field's (1 axial, 2
+ * bending). */
 static enum br_status check_quantity(const struct br_exact *exact,
-                                     const struct br_exact_quantity *quantity, size_t extra,
-                                     struct br_error *err)
+                                     const struct br_exact_quantity *quantity, struct br_error *err)
 {
     const struct br_oscillators *field =
         quantity->field < BR_FIELDS ? exact->solution->field[quantity->field] : NULL;
     if (!field)
         return br_fail(err, BR_BAD_INPUT, "a field that is not modelled was asked for");
-    if (quantity->order > field->modes.degree + extra)
+    if (quantity->order > field->modes.degree)
         return br_fail(err, BR_BAD_INPUT,
                        "a derivative of order %u was asked for, expected at most %zu",
-                       quantity->order, field->modes.degree + extra);
-    return BR_OK;
-}
-
-enum br_status br_exact_evaluate(const struct br_exact *exact, const struct br_exact_state *state,
-                                 const struct br_exact_quantity *quantity, size_t count,
-                                 const double *x, double *value, struct br_error *err)
-{
-    const enum br_status status = check_quantity(exact, quantity, 1, err);
-    if (status)
-        return status;
-    const struct br_oscillators *field = exact->solution->field[quantity->field];
-    const struct br_exact_pieces *pieces = &field->modes.pieces;
-    const size_t room = br_modes_length(&field->modes, 0), degree = field->modes.degree;
-    const bool derive = quantity->order > degree;
-    const size_t extra = derive ? 0 : degree - quantity->order;
-    double *c = br_allocate(3 * room, sizeof *c);
-    if (!c)
-        return br_no_memory(err, "a series");
-    double *p = c + room, *dp = p + room;
-    const size_t order =
-        derive ? degree : quantity->order; /* of the series; it is derived once more */
-    br_modes_expand(&field->modes, order, state->mode[quantity->field][quantity->velocity], c);
-    cblas_dscal((int)br_modes_length(&field->modes, order),
-                pow(field->length, -(double)quantity->order), c, 1);
-    for (size_t i = 0; i < count; i++) {
-        const size_t e = br_pieces_find(pieces, x[i]), terms = pieces->terms[e] + extra;
-        const double h = br_pieces_width(pieces, e), *here = &c[br_pieces_at(pieces, e, extra)];
-        br_legendre_derivative(terms, (x[i] - pieces->end[e]) / (h * field->length), p, dp);
-        value[i] = cblas_ddot((int)terms, here, 1, derive ? dp : p, 1) / sqrt(h);
-        if (derive)
-            value[i] /= h;
-    }
-    free(c);
+                       quantity->order, field->modes.degree);
     return BR_OK;
 }
 
@@ -241,7 +206,7 @@ enum br_status br_exact_projection_create(struct br_exact_projection **out,
                                           const struct br_exact_mesh *mesh, struct br_error *err)
 {
     *out = NULL;
-    enum br_status status = check_quantity(exact, quantity, 0, err);
+    enum br_status status = check_quantity(exact, quantity, err);
     if (!status && (!mesh->elements || mesh->degree > 8))
         status = br_fail(err, BR_BAD_INPUT,
                          "%zu elements of degree %zu, expected 1 or more of at most 8",

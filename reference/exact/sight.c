@@ -11,6 +11,8 @@
 #include <gsl/gsl_sort.h>
 #include <math.h>
 
+#include "solver/box.h"
+
 /* ---- lists ---- */
 
 void br_list_add(struct br_list *list, double value, struct br_store *store)
@@ -35,26 +37,16 @@ void br_list_sort(struct br_list *list)
 
 /* ---- boxes ---- */
 
-static double magnitude(struct br_interval v)
-{
-    return fmax(fabs(v.low), fabs(v.high));
-}
-
-static double width(struct br_interval i)
-{
-    return i.high - i.low;
-}
-
 static struct br_interval along(struct br_box box, enum br_variable v)
 {
-    return *br_side(&box, v);
+    return *side(&box, v);
 }
 
 static void halve(struct br_box box, enum br_variable v, struct br_box half[2])
 {
     const struct br_interval i = along(box, v);
     half[0] = half[1] = box;
-    br_side(&half[0], v)->high = br_side(&half[1], v)->low = i.low + width(i) / 2;
+    side(&half[0], v)->high = side(&half[1], v)->low = i.low + width(i) / 2;
 }
 
 static double measure(struct br_box box)

@@ -1,12 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The recursions of plain.h in double, as a solver. */
+/* The recursions of plain.h as a solver: in double, and with BR_LONG in long double. */
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
-#include "solver/linear/linear_solver.h"
 #include "solver/linear/plain.h"
-#include "solver/linear/states.h"
 
 struct plain {
     struct br_states states;
@@ -21,27 +18,25 @@ static enum br_status predict(void *self, const struct br_drive *drive, double *
 {
     (void)err;
     struct plain *s = self;
-    const struct br_recursion_load load = {
-        drive->vector, drive->factor, {drive->tip[0], drive->tip[1]}};
-    *velocity = br_recursion_predict(&s->recursion, s->states.of[0], &load);
+    *velocity = (double)br_recursion_predict(&s->recursion, s->states.of[0], drive);
     return BR_OK;
 }
 
 static double finish(void *self, double force)
 {
     struct plain *s = self;
-    return br_recursion_finish(&s->recursion, s->states.of[0], force);
+    return (double)br_recursion_finish(&s->recursion, s->states.of[0], force);
 }
 
 static double tip_displacement(const void *self)
 {
     const struct plain *s = self;
-    return br_recursion_tip(&s->recursion, s->states.of[0]);
+    return (double)br_recursion_tip(&s->recursion, s->states.of[0]);
 }
 
 static double tip_compliance(const void *self)
 {
-    return ((const struct plain *)self)->recursion.compliance;
+    return (double)((const struct plain *)self)->recursion.compliance;
 }
 
 /* ---- states ---- */
@@ -95,7 +90,8 @@ static void strain_rate(const void *self, double *rate)
     const struct plain *s = self;
     const size_t m = (size_t)s->recursion.m;
     for (size_t i = 0; i < s->field.n; i++)
-        memcpy(rate + m * i, s->states.of[0] + (2 * i + 1) * m, m * sizeof *rate);
+        for (size_t c = 0; c < m; c++)
+            rate[m * i + c] = (double)s->states.of[0][(2 * i + 1) * m + c];
 }
 
 /* The square of u_x over an element is (kappa_0^2 + kappa_1^2 / 3) / h, of w_xx the same over h^3;
@@ -108,7 +104,7 @@ static void size_of(void *self, size_t which, double size[2])
     for (size_t j = 0; j < 2; j++) {
         long double sum[2] = {0};
         for (size_t i = 0; i < s->field.n; i++) {
-            const double *kappa = s->states.of[which] + (2 * i + j) * m;
+            const real *kappa = s->states.of[which] + (2 * i + j) * m;
             const long double first = kappa[0], second = m == 2 ? kappa[1] : 0;
             sum[0] += beam ? first * first + second * second / 3 : first * first;
             sum[1] += beam ? 0 : second * second;
@@ -135,6 +131,35 @@ const struct br_field_solver br_plain_form = {
     .size = size_of,
 };
 
+#ifdef BR_LONG
+
+bool br_long_plain_judges(void)
+{
+    volatile long double one = 1, tiny = DBL_EPSILON / 1024; /* valgrind's has 53 bits */
+    return one + tiny > one;
+}
+
+static double round_off(const struct br_field *field)
+{
+    (void)field;
+    return DBL_EPSILON;
+}
+
+const struct br_linear_solver br_long_plain = {
+    .name = "plain in long double",
+    .axial = &br_plain_form,
+    .axial_quadratic = &br_plain_form,
+    .bending = &br_plain_form,
+    .round_off = round_off,
+    .bytes = {184, 436, 282},
+    .state_bytes = {32, 64, 64},
+    .cost = br_cost_by_elements,
+    .step_cost = 120,
+    .element_cost = {10, 28, 16},
+};
+
+#else
+
 /* An upper estimate; the benchmark and tests/ measure less. The round-off of a tip that sticks does
  * not depend on the mesh. */
 static double round_off(const struct br_field *field)
@@ -156,3 +181,5 @@ const struct br_linear_solver br_plain = {
     .step_cost = 120,
     .element_cost = {2.5, 7.1, 3.9},
 };
+
+#endif

@@ -28,10 +28,10 @@
  * the tip's free velocity is known after the backward sweep, the laws find r, and the forward sweep
  * includes it.
  *
- * recursion.c implements this for all kinds of elements, with numbers of the type `real`: compiled
- * as double for the solver (plain.c), and with BR_LONG as long double for what round-off is measured
- * by (reference/long_plain.c), where the names begin with br_long. The state y has d
- * numbers, the control kappa m.
+ * recursion.c implements this for all kinds of elements, and plain.c the solver, with numbers of
+ * the type `real` (states.h): compiled as double for the solver `plain`, and with BR_LONG as long
+ * double for what round-off is measured by (br_long_plain), where the names begin with br_long. The
+ * state y has d numbers, the control kappa m.
  *
  *     rod             d = 1, m = 1    y = u             kappa = the elongation h u_x
  *     quadratic rod   d = 1, m = 2    y = u             kappa = the elongation, and the bubble
@@ -42,10 +42,7 @@
 #ifndef BR_SOLVER_PLAIN_H
 #define BR_SOLVER_PLAIN_H
 
-#include "solver/field.h"
-
 #ifdef BR_LONG
-typedef long double real;
 #define br_recursion_take br_long_recursion_take
 #define br_recursion_fill br_long_recursion_fill
 #define br_recursion_predict br_long_recursion_predict
@@ -53,9 +50,11 @@ typedef long double real;
 #define br_recursion_tip br_long_recursion_tip
 #define br_recursion_set br_long_recursion_set
 #define br_recursion_get br_long_recursion_get
-#else
-typedef double real;
+#define br_plain_form br_long_plain_form
 #endif
+
+#include "solver/linear/linear_solver.h"
+#include "solver/linear/states.h"
 
 /* A field and its tables. */
 struct br_recursion {
@@ -66,12 +65,6 @@ struct br_recursion {
     real compliance;                          /* z_tip */
     real *gain;                               /* for each element, by rows: A, K, S^-1, zeta */
     real *drive;                              /* m n, workspace: S^-1 s, m/s */
-};
-
-/* The loads in a step, as in struct br_drive. */
-struct br_recursion_load {
-    const real *vector; /* NULL: none */
-    real factor, tip[2];
 };
 
 /* The number of numbers in a state: for each element the controls of the displacement, m, and of
@@ -97,17 +90,16 @@ enum br_status br_recursion_fill(struct br_recursion *s, const char *who, struct
 /* predict, the backward sweep, returns the tip's velocity without contact and friction. finish, the
  * forward sweep, computes the state after the step and returns the tip's velocity; the force, N,
  * resists the tip. */
-real br_recursion_predict(struct br_recursion *s, const real *state,
-                          const struct br_recursion_load *by);
+real br_recursion_predict(struct br_recursion *s, const real *state, const struct br_drive *by);
 real br_recursion_finish(struct br_recursion *s, real *state, real force);
 
 /* The tip's displacement, m: of a beam the sum over its elements. */
 real br_recursion_tip(const struct br_recursion *s, const real *state);
 
 /* Displacement and velocity by nodes, laid out as in field.h; get: either may be NULL. */
-void br_recursion_set(const struct br_recursion *s, const real *displacement, const real *velocity,
-                      real *state);
-void br_recursion_get(const struct br_recursion *s, const real *state, real *displacement,
-                      real *velocity);
+void br_recursion_set(const struct br_recursion *s, const double *displacement,
+                      const double *velocity, real *state);
+void br_recursion_get(const struct br_recursion *s, const real *state, double *displacement,
+                      double *velocity);
 
 #endif

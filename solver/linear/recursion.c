@@ -2,7 +2,6 @@
 #include "solver/linear/plain.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "solver/instruction_set.h"
 #include "solver/linear/block.h"
@@ -196,11 +195,11 @@ enum br_status br_recursion_fill(struct br_recursion *s, const char *who, struct
 
 /* Backward sweep: drive = S^-1 s on every element. Returns v*. */
 INLINE real sweep_left(int d, int m, struct br_recursion *s, const real *state,
-                       const struct br_recursion_load *by)
+                       const struct br_drive *by)
 {
-    static const real none[4] = {0};
+    static const double none[4] = {0};
     const size_t n = s->n, stride = by->vector ? (size_t)m : 0;
-    const real *load = by->vector ? by->vector : none;
+    const double *load = by->vector ? by->vector : none;
     const real factor = by->factor, alpha = s->alpha, r[2] = {s->r[0], s->r[1]};
     const real *restrict gain = s->gain;
     real *restrict out = s->drive;
@@ -280,17 +279,11 @@ INLINE void sweep_right(int d, int m, struct br_recursion *s, real *state, real 
     e[m] = v[0];
 }
 
-/* Both sweeps, with constants d and m. */
-
-/* Functions with copies are static, since Clang 14 gives others no name that other files see; but
- * it shows their resolvers, so that both types need names of their own. */
-#ifdef BR_LONG
-#define predict long_predict
-#define finish long_finish
-#endif
+/* Both sweeps, with constants d and m. Functions with copies are static, since Clang 14 gives
+ * others no name that other files see. */
 
 BR_SWEEP
-static real predict(struct br_recursion *s, const real *state, const struct br_recursion_load *by)
+static real predict(struct br_recursion *s, const real *state, const struct br_drive *by)
 {
     return s->d == 2   ? sweep_left(2, 2, s, state, by)
            : s->m == 2 ? sweep_left(1, 2, s, state, by)
@@ -308,8 +301,7 @@ static void finish(struct br_recursion *s, real *state, real force)
         sweep_right(1, 1, s, state, force);
 }
 
-real br_recursion_predict(struct br_recursion *s, const real *state,
-                          const struct br_recursion_load *by)
+real br_recursion_predict(struct br_recursion *s, const real *state, const struct br_drive *by)
 {
     return predict(s, state, by);
 }
@@ -333,40 +325,42 @@ real br_recursion_tip(const struct br_recursion *s, const real *state)
     return w[0];
 }
 
-void br_recursion_set(const struct br_recursion *s, const real *displacement, const real *velocity,
-                      real *state)
+void br_recursion_set(const struct br_recursion *s, const double *displacement,
+                      const double *velocity, real *state)
 {
-    const real *const nodal[2] = {displacement, velocity};
+    const double *const nodal[2] = {displacement, velocity};
     const size_t m = (size_t)s->m, n = s->n;
     for (size_t j = 0; j < 2; j++) {
         for (size_t i = 0; i < n; i++) { /* the controls of an element, from its nodes */
-            const real *node = nodal[j] + m * i;
-            real *kappa = state + (2 * i + j) * m;
+            real node[4], *kappa = state + (2 * i + j) * m;
+            for (size_t a = 0; a < 2 * m; a++)
+                node[a] = nodal[j][m * i + a];
             kappa[0] = s->d == 2 ? node[3] - node[1] : node[m] - node[0];
             if (m == 2)
                 kappa[1] = s->d == 2 ? 3 * (node[1] + node[3]) - 6 * (node[2] - node[0]) : node[3];
         }
-        memcpy(state + (2 * n + j) * m, nodal[j] + m * n, m * sizeof(real));
+        for (size_t a = 0; a < m; a++)
+            state[(2 * n + j) * m + a] = nodal[j][m * n + a];
     }
 }
 
-void br_recursion_get(const struct br_recursion *s, const real *state, real *displacement,
-                      real *velocity)
+void br_recursion_get(const struct br_recursion *s, const real *state, double *displacement,
+                      double *velocity)
 {
-    real *const nodal[2] = {displacement, velocity};
+    double *const nodal[2] = {displacement, velocity};
     const size_t m = (size_t)s->m;
     for (size_t j = 0; j < 2; j++) {
-        real y[2] = {0}, *to = nodal[j];
-        if (!to)
-            continue;
-        memcpy(to, y, m * sizeof *to);
-        for (size_t i = 0; i < s->n; i++) {
+        real y[2] = {0};
+        double *to = nodal[j];
+        for (size_t a = 0; to && a < m; a++)
+            *to++ = 0;
+        for (size_t i = 0; to && i < s->n; i++) {
             const real *kappa = state + (2 * i + j) * m;
-            to += m;
             cross(s->d, kappa, y);
             if (s->m > s->d)
                 y[1] = kappa[1];
-            memcpy(to, y, m * sizeof *to);
+            for (size_t a = 0; a < m; a++)
+                *to++ = (double)y[a];
         }
     }
 }

@@ -10,7 +10,7 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
 {
     states->size = size;
     for (size_t i = 0; i < count; i++) {
-        double *fresh = br_store_take(&states->store, size, sizeof *fresh);
+        real *fresh = br_store_take(&states->store, size, sizeof *fresh);
         if (!fresh)
             return br_no_memory(err, "the states of a time scheme");
         states->of[states->count++] = fresh;
@@ -18,14 +18,8 @@ enum br_status br_states_add(struct br_states *states, size_t size, size_t count
     return BR_OK;
 }
 
-void br_states_clear(struct br_states *states)
-{
-    br_store_clear(&states->store);
-    *states = (struct br_states){0};
-}
-
 BR_SWEEP
-static void add_block(double *restrict sum, size_t size, double weight, const double *from)
+static void add_block(real *restrict sum, size_t size, double weight, const real *from)
 {
     for (size_t i = 0; i < size; i++)
         sum[i] += weight * from[i];
@@ -33,21 +27,21 @@ static void add_block(double *restrict sum, size_t size, double weight, const do
 
 /* add_block for four states at once, in the same order: the sum stays in registers. */
 BR_SWEEP
-static void add_four(double *restrict sum, size_t size, const double *weight, double *const *from,
+static void add_four(real *restrict sum, size_t size, const double *weight, real *const *from,
                      size_t first)
 {
-    const double *a = from[0] + first, *b = from[1] + first, *c = from[2] + first,
-                 *d = from[3] + first;
+    const real *a = from[0] + first, *b = from[1] + first, *c = from[2] + first,
+               *d = from[3] + first;
     for (size_t i = 0; i < size; i++)
         sum[i] = (((sum[i] + weight[0] * a[i]) + weight[1] * b[i]) + weight[2] * c[i]) +
                  weight[3] * d[i];
 }
 
-void br_add_states(double *to, size_t size, size_t count, double *const *from, const double *weight)
+void br_add_states(real *to, size_t size, size_t count, real *const *from, const double *weight)
 {
     for (size_t first = 0; first < size; first += BLOCK) {
         const size_t width = size - first < BLOCK ? size - first : BLOCK;
-        double sum[BLOCK] = {0};
+        real sum[BLOCK] = {0};
         for (size_t j = 0; j < count; j++) {
             const bool four = j + 4 <= count && weight[j] != 0 && weight[j + 1] != 0 &&
                               weight[j + 2] != 0 && weight[j + 3] != 0;
@@ -65,7 +59,7 @@ void br_add_states(double *to, size_t size, size_t count, double *const *from, c
 void br_free_states(void *self)
 {
     if (self)
-        br_states_clear(self);
+        br_store_clear(&((struct br_states *)self)->store);
     free(self);
 }
 
@@ -78,7 +72,7 @@ enum br_status br_keep_states(void *self, size_t count, struct br_error *err)
 void br_exchange_states(void *self, size_t a, size_t b)
 {
     struct br_states *states = self;
-    double *of_a = states->of[a];
+    real *of_a = states->of[a];
     states->of[a] = states->of[b];
     states->of[b] = of_a;
 }

@@ -16,14 +16,6 @@
 
 /* ---- the elements ---- */
 
-/* A without the clamped node: its lower band by columns. Entry (i, j), 0 <= i - j <= band, is
- * value[j * (band + 1) + i - j]; entries below the last row are zero. */
-struct band {
-    size_t order; /* unknowns a node times n */
-    size_t band;  /* below the diagonal: 1 axial, 3 bending */
-    double *value;
-};
-
 enum { MOST = 4 }; /* unknowns of an element */
 
 /* Element stiffness for unit material: B'B / h, or B' diag(1, 1/3) B / h^3. */
@@ -41,20 +33,6 @@ static double entry(const struct br_field *f, size_t a, size_t b)
     const double mass = f->kind == BR_AXIAL ? br_axial_mass[a][b] : br_bending_mass[a][b];
     const double stiff = f->viscosity + f->k * f->stiffness;
     return f->density * f->h * mass / f->k + stiff * stiffness_entry(f, a, b);
-}
-
-/* The lower band of A (out, a->value: zeroed by the caller). */
-static void band_assemble(const struct br_field *f, struct band *m)
-{
-    const size_t u = br_field_unknowns(f), rows = m->band + 1;
-    for (size_t e = 0; e < f->n; e++)
-        for (size_t a = 0; a < 2 * u; a++)
-            for (size_t b = 0; b <= a; b++) {
-                const size_t i = e * u + a, j = e * u + b;
-                if (j < u)
-                    continue; /* clamped */
-                m->value[(j - u) * rows + i - j] += entry(f, a, b);
-            }
 }
 
 /* `carried`: what an element adds to its right node. */
@@ -105,46 +83,17 @@ static void add_elements(const struct br_field *f, double mass, const double *v,
         add_bending(f, mass * f->h, v, stiffness, w, out);
 }
 
-/* ---- the matrix ---- */
-
-/* The first row of a column of the whole band, with its zeros. */
-static size_t first_row(const struct band *a, size_t column)
-{
-    return column > a->band ? column - a->band : 0;
-}
-
-/* The pattern (out) of both triangles by compressed columns, which is the same for all values. */
-static void write_pattern(const struct band *a, int *column, int *row)
-{
-    int count = 0;
-    for (size_t j = 0; j < a->order; j++) {
-        column[j] = count;
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++)
-            row[count++] = (int)i;
-    }
-    column[a->order] = count;
-}
-
-/* The values (out), in the same order. */
-static void write_values(const struct band *a, double *value)
-{
-    for (size_t j = 0; j < a->order; j++)
-        for (size_t i = first_row(a, j); i <= j + a->band && i < a->order; i++) {
-            const size_t low = i < j ? i : j, high = i < j ? j : i;
-            *value++ = a->value[low * (a->band + 1) + high - low];
-        }
-}
-
 /* ---- the system A x = b ---- */
 
 struct assembled {
     struct br_states states; /* nodal: displacement, then velocity */
     struct br_field field;
-    size_t unknowns; /* a node */
-    size_t nodal;    /* length of a nodal array, clamped node included */
-    size_t tip;      /* index of the tip's displacement in one */
-    struct band matrix;
-    int *column, *row; /* of A: order + 1 numbers, and one a value */
+    size_t unknowns;   /* a node */
+    size_t nodal;      /* length of a nodal array, clamped node included */
+    size_t tip;        /* index of the tip's displacement in one */
+    size_t order;      /* of A, which is without the clamped node */
+    size_t band;       /* of A, on each side of the diagonal: 1 axial, 3 bending */
+    int *column, *row; /* of A, by compressed columns: order + 1 numbers, and one a value */
     int *iwork;        /* workspace: 2 * order, of which the solve needs one */
     double *value;     /* of A, by columns */
     double *work;      /* workspace for the solve: 5 * order */
@@ -156,6 +105,39 @@ struct assembled {
     double loss;  /* relative loss of a solve (check_digits): the largest for all step lengths */
     double usual; /* loss of a march by usual_loss */
 };
+
+/* The first row of a column of A's band, with its zeros. */
+static size_t first_row(const struct assembled *s, size_t column)
+{
+    return column > s->band ? column - s->band : 0;
+}
+
+/* The pattern of A's whole band, which is the same for all values. */
+static void write_pattern(struct assembled *s)
+{
+    int count = 0;
+    for (size_t j = 0; j < s->order; j++) {
+        s->column[j] = count;
+        for (size_t i = first_row(s, j); i <= j + s->band && i < s->order; i++)
+            s->row[count++] = (int)i;
+    }
+    s->column[s->order] = count;
+}
+
+static void write_values(struct assembled *s)
+{
+    const struct br_field *f = &s->field;
+    const size_t u = s->unknowns;
+    memset(s->value, 0, (size_t)s->column[s->order] * sizeof *s->value);
+    for (size_t e = 0; e < f->n; e++)
+        for (size_t b = 0; b < 2 * u; b++)
+            for (size_t a = 0; a < 2 * u; a++) {
+                if (e == 0 && (a < u || b < u))
+                    continue; /* clamped */
+                const size_t i = e * u + a - u, j = e * u + b - u;
+                s->value[(size_t)s->column[j] + i - first_row(s, j)] += entry(f, a, b);
+            }
+}
 
 static enum br_status failed(struct br_error *err, const char *what, int status)
 {
@@ -170,7 +152,7 @@ static enum br_status failed(struct br_error *err, const char *what, int status)
  * positive definite (Sylvester's law of inertia). Else only the tip's compliance is checked. */
 static enum br_status check_definite(struct assembled *s, struct br_error *err)
 {
-    const int order = (int)s->matrix.order;
+    const int order = (int)s->order;
     int *rows = s->iwork, *columns = s->iwork + order, scaled;
     double *pivot = s->work;
     const int result = umfpack_di_get_numeric(NULL, NULL, NULL, NULL, NULL, NULL, rows, columns,
@@ -190,7 +172,6 @@ static enum br_status check_definite(struct assembled *s, struct br_error *err)
 
 static enum br_status factorise_values(struct assembled *s, struct br_error *err)
 {
-    write_values(&s->matrix, s->value);
     if (s->numeric)
         umfpack_di_free_numeric(&s->numeric);
     const int result = umfpack_di_numeric(s->column, s->row, s->value, s->symbolic, &s->numeric,
@@ -201,14 +182,11 @@ static enum br_status factorise_values(struct assembled *s, struct br_error *err
 /* Assembles and factorises A for s->field. */
 static enum br_status factorise_matrix(struct assembled *s, struct br_error *err)
 {
-    const size_t count = s->matrix.order * (s->matrix.band + 1);
-    memset(s->matrix.value, 0, count * sizeof *s->matrix.value);
-    band_assemble(&s->field, &s->matrix);
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(s->matrix.value[i]))
+    write_values(s);
+    for (int i = 0; i < s->column[s->order]; i++)
+        if (!isfinite(s->value[i]))
             return br_fail(err, BR_SINGULAR,
-                           "umfpack: the matrix has an entry %g, expected numbers",
-                           s->matrix.value[i]);
+                           "umfpack: the matrix has an entry %g, expected numbers", s->value[i]);
     const int traps = br_traps_lift(); /* UMFPACK may divide by a pivot of 0 */
     const enum br_status status = factorise_values(s, err);
     br_traps_restore(traps);
@@ -328,8 +306,7 @@ static enum br_status allocate(struct assembled *s, struct br_error *err)
     double **const nodal[] = {&s->free_velocity, &s->tip_response, &s->rhs, &s->residual,
                               &s->correction};
     struct br_store *store = &s->states.store;
-    const size_t order = s->matrix.order, most = order * (2 * s->matrix.band + 1);
-    s->matrix.value = br_store_take(store, order * (s->matrix.band + 1), sizeof(double));
+    const size_t order = s->order, most = order * (2 * s->band + 1);
     for (size_t i = 0; i < sizeof nodal / sizeof *nodal; i++)
         *nodal[i] = br_store_take(store, s->nodal, sizeof(double));
     s->column = br_store_take(store, order + 1, sizeof *s->column);
@@ -343,8 +320,8 @@ static enum br_status allocate(struct assembled *s, struct br_error *err)
 /* Finds the order of elimination, which does not depend on A's values. */
 static enum br_status analyse(struct assembled *s, struct br_error *err)
 {
-    const int order = (int)s->matrix.order;
-    write_pattern(&s->matrix, s->column, s->row);
+    const int order = (int)s->order;
+    write_pattern(s);
     umfpack_di_defaults(s->control);
     s->control[UMFPACK_STRATEGY] = UMFPACK_STRATEGY_SYMMETRIC;
     s->control[UMFPACK_IRSTEP] = 0;
@@ -368,7 +345,8 @@ static enum br_status assembled_create(const struct br_field *field, const struc
         .unknowns = unknowns,
         .nodal = br_field_size(field),
         .tip = order,
-        .matrix = {.order = order, .band = 2 * unknowns - 1},
+        .order = order,
+        .band = 2 * unknowns - 1,
         .usual = usual_loss(field),
     };
     if (field->n > 100 * 1000 * 1000) /* UMFPACK counts entries in int */
@@ -529,7 +507,7 @@ const struct br_linear_solver br_umfpack = {
     .bending = &assembled,
     .round_off = usual_loss,
     .residual = residual,
-    .bytes = {410, 1110, 0},
+    .bytes = {394, 1046, 0},
     .state_bytes = {16, 32, 0},
     .cost = br_cost_by_elements,
     .step_cost = 170,

@@ -15,6 +15,18 @@ bool br_observer_stops(const struct br_observer *o)
     return o && o->stop && o->stop(o->self);
 }
 
+static bool (*must_stop)(void);
+
+void br_stop_when(bool (*stop)(void))
+{
+    must_stop = stop;
+}
+
+bool br_must_stop(void)
+{
+    return must_stop && must_stop();
+}
+
 static void report_share(void *self, double fraction)
 {
     const struct br_observer_share *share = self;
@@ -35,10 +47,11 @@ static void prepare_share(void *self, double most)
 
 struct br_observer br_observer_of(struct br_observer_share *share)
 {
-    return (struct br_observer){.progress = share->whole->progress ? report_share : NULL,
+    const struct br_observer none = {0}, *whole = share->whole ? share->whole : &none;
+    return (struct br_observer){.progress = whole->progress ? report_share : NULL,
                                 .stop = stop_share,
                                 .self = share,
-                                .preparing = share->whole->preparing ? prepare_share : NULL};
+                                .preparing = whole->preparing ? prepare_share : NULL};
 }
 
 /* ---- threads ---- */

@@ -17,9 +17,14 @@ struct br_observer {
 /* Whether the observer asks to stop; false for NULL. */
 bool br_observer_stops(const struct br_observer *observer);
 
+/* Sets the function that says whether work without an observer must end; NULL, as at first: never.
+ */
+void br_stop_when(bool (*stop)(void));
+bool br_must_stop(void);
+
 /* A share of a longer work: its progress is `from` to `from` + `length` of the whole's. */
 struct br_observer_share {
-    const struct br_observer *whole; /* borrowed */
+    const struct br_observer *whole; /* borrowed; NULL: nobody */
     double from, length;
 };
 

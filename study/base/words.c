@@ -147,6 +147,16 @@ const char *br_read_number(const char *text, double *value)
     return end != text && isfinite(*value) && !lost ? end : NULL;
 }
 
+const char *br_skip_word(const char *text, const char *word)
+{
+    static const char blanks[] = " \t\n";
+    text += text ? strspn(text, blanks) : 0;
+    if (!text || strncmp(text, word, strlen(word)) != 0)
+        return NULL;
+    text += strlen(word);
+    return text + strspn(text, blanks);
+}
+
 static enum br_status not_in_range(const char *text, const struct br_number_range *r,
                                    struct br_error *err)
 {

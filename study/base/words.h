@@ -64,6 +64,10 @@ char *br_expected(const char *word, const char *const *names, size_t count, char
 /* Reads a finite number at the start of text; returns what follows, or NULL. */
 const char *br_read_number(const char *text, double *value);
 
+/* Skips blanks, a word and the blanks behind it; returns what follows, or NULL: the word is not
+ * there, or text is NULL. */
+const char *br_skip_word(const char *text, const char *word);
+
 /* The range of a number: (low, high), or the whole numbers in [low, high]. */
 struct br_number_range {
     double low, high;

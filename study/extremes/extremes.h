@@ -30,7 +30,7 @@ static inline double br_worst(double a, double b)
 /* ---- round-off ---- */
 
 /* How far the displacements of marches are from the exact discrete solution
- * (reference/long_plain.h), compared with the round-off that marches predict. One experiment with
+ * (br_long_plain), compared with the round-off that marches predict. One experiment with
  * two lists of marches: the floors of the linear solvers, and the round-off that steps gather. */
 
 /* One march. */
@@ -50,7 +50,7 @@ struct br_floor {
     struct br_error refused; /* status BR_OK where it marched */
 };
 
-enum { BR_FLOOR_STEPS = 20, BR_GATHERED_N = 10, BR_FLOOR_SCENES = 2, BR_FLOOR_METHODS = 32 };
+enum { BR_FLOOR_STEPS = 20, BR_GATHERED_N = 10, BR_FLOOR_SCENES = 2 };
 
 /* Not to be moved: its marches point to its scenes and methods. */
 struct br_floors {
@@ -63,8 +63,8 @@ struct br_floors {
      * slips); a lagged contact beyond its limit is not marched. */
     bool gathered;
     const struct br_scene *scene[BR_FLOOR_SCENES]; /* borrowed */
-    struct br_named_method method[BR_FLOOR_METHODS];
-    size_t scenes, methods, n_count, k_count;
+    struct br_named_methods method;
+    size_t scenes, n_count, k_count;
     size_t solvers;         /* per scheme and contact; adjacent */
     struct br_floor *floor; /* floors: by scene, method, n, k; owned */
     size_t floors;
@@ -146,7 +146,7 @@ struct br_stability_plane {
 /* Not to be moved. */
 struct br_stability {
     const struct br_scene *scene; /* borrowed */
-    struct br_named_method method[BR_STABILITY_METHODS];
+    struct br_named_methods method;
     size_t *steps; /* rows, descending: the smallest step first; owned */
     size_t rows;
     struct br_stability_plane plane[BR_STABILITY_PLANES];

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <float.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "reference/long_plain.h"
 #include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "study/base/each.h"
@@ -17,27 +15,13 @@
 
 /* ---- which methods are measured ---- */
 
-__attribute__((format(printf, 2, 3))) static void add_method(struct br_floors *f,
-                                                             const char *format, ...)
-{
-    char name[BR_METHOD_NAME_SIZE];
-    struct br_error ignored;
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(name, sizeof name, format, arguments);
-    va_end(arguments);
-    if (f->methods < BR_FLOOR_METHODS &&
-        br_named_method_read(name, &f->method[f->methods], &ignored) == BR_OK)
-        f->methods++;
-}
-
 /* Every linear solver. */
 static void add_solvers(struct br_floors *f)
 {
     for (const struct br_linear_solver *const *s = br_linear_solvers; *s; s++)
         if ((*s)->cost) /* else it chooses one of the others */
-            add_method(f, "%s", (*s)->name);
-    f->solvers = f->methods;
+            br_named_methods_add(&f->method, NULL, "%s", (*s)->name);
+    f->solvers = f->method.count;
 }
 
 /* Every scheme of equal steps; other solvers lose more in one step. */
@@ -49,7 +33,8 @@ static void add_schemes(struct br_floors *f)
         for (size_t c = 0; br_contact_rules[c]; c++)
             for (size_t i = 0; i < COUNT(solvers); i++)
                 if (!(*s)->adaptive && ((*s)->may_lag || br_contact_rules[c]->at_new_step))
-                    add_method(f, "%s+%s+%s", (*s)->name, br_contact_rules[c]->name, solvers[i]);
+                    br_named_methods_add(&f->method, NULL, "%s+%s+%s", (*s)->name,
+                                         br_contact_rules[c]->name, solvers[i]);
 }
 
 /* ---- what is measured ---- */
@@ -93,9 +78,9 @@ static bool is_usual_mesh(const struct br_method *m, size_t n)
 static void list_marches(struct br_floors *f, size_t at, size_t n, size_t steps, bool chosen)
 {
     const size_t most = f->gathered ? SIZE_MAX : BR_FLOOR_STEPS;
-    for (size_t i = 0; i < f->scenes * f->methods; i++) {
-        const struct br_scene *scene = f->scene[i / f->methods];
-        const struct br_named_method *by = &f->method[i % f->methods];
+    for (size_t i = 0; i < f->scenes * f->method.count; i++) {
+        const struct br_scene *scene = f->scene[i / f->method.count];
+        const struct br_named_method *by = &f->method.list[i % f->method.count];
         const bool grows = contact_grows(scene, &by->method, n, steps);
         const bool usual = f->gathered ? is_usual(&by->method, scene == f->scene[0], steps)
                                        : is_usual_mesh(&by->method, n);
@@ -137,7 +122,7 @@ static enum br_status prepare(struct br_floors *f, const struct br_extremes_job 
     f->k_count = job->steps    ? job->step_count
                  : f->gathered ? COUNT(gathered_steps)
                                : COUNT(usual_steps);
-    f->floors = f->scenes * f->methods * f->n_count * f->k_count;
+    f->floors = f->scenes * f->method.count * f->n_count * f->k_count;
     f->floor = br_allocate(f->floors, sizeof *f->floor);
     if (!f->floor)
         return br_no_memory(err, "the floors");
@@ -284,7 +269,7 @@ struct loop {
 /* The first march of a turn. Turns of the finest meshes and most steps come first. */
 static struct br_floor *first_of(const struct br_floors *f, size_t turn)
 {
-    const size_t groups = f->scenes * f->methods / f->solvers, grids = f->n_count * f->k_count;
+    const size_t groups = f->scenes * f->method.count / f->solvers, grids = f->n_count * f->k_count;
     return &f->floor[turn % groups * f->solvers * grids + grids - 1 - turn / groups];
 }
 
@@ -338,7 +323,7 @@ enum br_status br_floors_run(struct br_floors *f, bool gathered, const struct br
 const struct br_floor *br_floor_at(const struct br_floors *f, size_t scene, size_t method, size_t n,
                                    size_t k)
 {
-    return &f->floor[((scene * f->methods + method) * f->n_count + n) * f->k_count + k];
+    return &f->floor[((scene * f->method.count + method) * f->n_count + n) * f->k_count + k];
 }
 
 double br_floor_deviation(const struct br_floor *floor)
@@ -353,7 +338,7 @@ double br_floor_limit(const struct br_floor *f)
                         : f->n <= 12800   ? 2e-11
                         : f->n <= 1000000 ? 1e-9
                                           : INFINITY;
-    return f->predicted < most ? f->predicted : most;
+    return most < f->predicted ? most : f->predicted; /* NaN stays */
 }
 
 static enum br_status check(const struct br_floor *f, struct br_error *err)
@@ -366,7 +351,7 @@ static enum br_status check(const struct br_floor *f, struct br_error *err)
              f->n, f->steps, f->k);
     if (f->refused.status)
         return br_fail(err, BR_VERDICT, "%s: %.700s", what, f->refused.message);
-    if (!(br_floor_deviation(f) <= br_floor_limit(f)))
+    if (!(br_floor_deviation(f) <= br_floor_limit(f) && isfinite(br_floor_deviation(f))))
         return br_fail(err, BR_VERDICT, "%s: the round-off is %.2g, expected at most %.2g", what,
                        br_floor_deviation(f), br_floor_limit(f));
     if (!(f->time_error <= DBL_EPSILON))

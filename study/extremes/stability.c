@@ -240,18 +240,16 @@ static enum br_status take_steps(struct br_stability *s, const struct br_extreme
 }
 
 static enum br_status take_methods(struct br_stability *s, const struct br_extremes_job *job,
-                                   size_t *count, struct br_error *err)
+                                   struct br_error *err)
 {
-    *count = job->methods ? job->methods->count : 0;
-    if (*count > BR_STABILITY_METHODS)
-        return br_fail(err, BR_BAD_INPUT, "--methods: found %zu methods, expected at most %d",
-                       *count, BR_STABILITY_METHODS);
-    for (size_t i = 0; i < *count; i++)
-        s->method[i] = job->methods->list[i];
-    if (*count)
-        return BR_OK;
-    *count = 1;
-    return br_named_method_read("euler+lagged", &s->method[0], err);
+    if (job->methods)
+        s->method = *job->methods;
+    if (!s->method.count)
+        br_named_methods_add(&s->method, NULL, "euler+lagged");
+    return s->method.count <= BR_STABILITY_METHODS
+               ? BR_OK
+               : br_fail(err, BR_BAD_INPUT, "--methods: found %zu methods, expected at most %d",
+                         s->method.count, BR_STABILITY_METHODS);
 }
 
 static enum br_status prepare(struct br_stability *s, const struct br_extremes_job *job,
@@ -259,19 +257,18 @@ static enum br_status prepare(struct br_stability *s, const struct br_extremes_j
 {
     const size_t *n = job->n_count ? job->n : usual_n;
     const size_t n_count = job->n_count ? job->n_count : COUNT(usual_n);
-    size_t methods = 0;
     s->scene = job->scene[0];
     const struct br_contact *contact = &s->scene->contact;
     s->own = contact->modelled ? br_contact_stiffness(contact) : NAN;
     enum br_status status = take_steps(s, job, err);
     if (!status)
-        status = take_methods(s, job, &methods, err);
-    for (size_t i = 0; i < methods && !status; i++) {
-        status = br_method_check_scene(&s->method[i].method, s->scene, err);
+        status = take_methods(s, job, err);
+    for (size_t i = 0; i < s->method.count && !status; i++) {
+        status = br_method_check(&s->method.list[i].method, s->scene, err);
         if (!status)
-            status = add_plane(s, &s->method[i], false, n, n_count, err);
+            status = add_plane(s, &s->method.list[i], false, n, n_count, err);
         if (!status && s->own > 0)
-            status = add_plane(s, &s->method[i], true, n, n_count, err);
+            status = add_plane(s, &s->method.list[i], true, n, n_count, err);
     }
     return status;
 }

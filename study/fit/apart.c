@@ -34,7 +34,7 @@ void br_apart_clear(struct br_apart *a)
 {
     for (size_t m = 0; m < BR_MOST_NORMS; m++)
         for (int axis = 0; axis < BR_AXES; axis++)
-            br_study_clear(&a->of[m].over[axis]);
+            br_study_clear(&a->over[axis][m]);
 }
 
 /* ---- what is compared ---- */
@@ -103,7 +103,7 @@ static enum br_status add(struct br_study *to, struct br_study *more, int axis, 
 /* Compares the sizes [from, to) of an axis in all norms. *why (out): what has failed, which ends
  * the call only where memory or the user does. */
 static enum br_status compare(struct br_apart *a, const struct br_report *report, size_t norms,
-                              int axis, size_t from, size_t to, int threads,
+                              enum br_axis axis, size_t from, size_t to, int threads,
                               const struct br_observer *observer, struct br_error *why,
                               struct br_error *err)
 {
@@ -111,7 +111,7 @@ static enum br_status compare(struct br_apart *a, const struct br_report *report
     const size_t *size = a->size[axis];
     const struct br_study *s = report->study;
     struct br_study grid[BR_MOST_NORMS] = {0};
-    struct br_differences found[BR_MOST_NORMS] = {0};
+    struct br_study found[BR_MOST_NORMS] = {0};
     for (size_t m = 0; m < norms; m++)
         grid[m] = (struct br_study){.scene = s->scene,
                                     .method = s->method,
@@ -122,7 +122,7 @@ static enum br_status compare(struct br_apart *a, const struct br_report *report
                                     .steps = over_h ? &a->at[axis] : size + from,
                                     .k_count = over_h ? 1 : to - from,
                                     .next_norm = m + 1 < norms ? &grid[m + 1] : NULL};
-    enum br_status status = br_differences_run(grid, found, threads, observer, why);
+    enum br_status status = br_differences_run(grid, axis, found, threads, observer, why);
     if (status == BR_NO_MEMORY || status == BR_INTERRUPTED)
         return br_fail(err, status, "%s", why->message);
     a->first[axis] = front ? from : a->first[axis];
@@ -130,9 +130,9 @@ static enum br_status compare(struct br_apart *a, const struct br_report *report
     status = BR_OK;
     for (size_t m = 0; m < norms && !why->status; m++) {
         if (!status)
-            status = add(&a->of[m].over[axis], &found[m].over[axis], axis, front,
+            status = add(&a->over[axis][m], &found[m], axis, front,
                          size + a->first[axis], err);
-        br_study_clear(&found[m].over[axis]);
+        br_study_clear(&found[m]);
     }
     return status;
 }
@@ -150,7 +150,7 @@ enum br_status br_apart_meshes(struct br_apart *a, struct br_report *report, siz
         if (a->no_meshes.status)
             report[m].no_meshes = a->no_meshes.message;
         else
-            report[m].apart[BR_AXIS_SPACE] = &a->of[m].over[BR_AXIS_SPACE];
+            report[m].apart[BR_AXIS_SPACE] = &a->over[BR_AXIS_SPACE][m];
     return BR_OK;
 }
 
@@ -161,7 +161,7 @@ static enum br_status see(const struct br_apart *a, struct br_report *report, si
 {
     *settled = true;
     for (size_t m = 0; m < norms; m++) {
-        const struct br_study *over = &a->of[m].over[axis];
+        const struct br_study *over = &a->over[axis][m];
         struct br_seen_order before[BR_PARTS];
         for (int part = 0; part < BR_PARTS; part++)
             before[part] = report[m].seen[part][axis];

@@ -16,7 +16,7 @@ struct br_apart {
     size_t first[BR_AXES], end[BR_AXES];  /* ... those that have been marched; end 0: none */
     size_t at[BR_AXES];                   /* the number of steps, or the mesh, at which they are */
     struct br_error no_meshes;            /* why there are no differences of meshes */
-    struct br_differences of[BR_MOST_NORMS];
+    struct br_study over[BR_AXES][BR_MOST_NORMS];
 };
 void br_apart_clear(struct br_apart *apart);
 

@@ -385,7 +385,8 @@ enum br_status br_order_of_values(const double *h, const double *value, size_t c
     if (!point)
         return br_no_memory(err, "the order");
     for (size_t i = 0; i + 1 < count; i++)
-        point[i] = (struct br_order_point){h[i], h[i + 1], fabs(value[i] - value[i + 1])};
+        point[i] = (struct br_order_point){
+            .z = h[i], .z_against = h[i + 1], .error = fabs(value[i] - value[i + 1])};
     struct br_line_order found;
     const enum br_status status = br_line_order_find(point, count - 1, &found, err);
     *order = found.order;

@@ -629,7 +629,7 @@ static void widen_by_others(struct problem *problem, const struct candidate *can
 /* Fits all models; those with extras only where powers leave something to explain. */
 static void fit_models(struct problem *problem, struct candidate candidate[MODELS])
 {
-    double least = INFINITY; /* sum of squares */
+    double least = INFINITY; /* sum of squares, of powers alone */
     for (size_t i = 0; i < MODELS; i++) {
         struct candidate *c = &candidate[i];
         const struct attempt *plain = i < KINDS ? NULL : &candidate[i % KINDS].attempt;
@@ -641,7 +641,8 @@ static void fit_models(struct problem *problem, struct candidate candidate[MODEL
         c->attempt = best_attempt(problem, plain);
         if (isfinite(c->attempt.sum))
             c->criterion = br_akaike(c->attempt.sum, problem->count, models[i].count);
-        least = fmin(least, c->attempt.sum);
+        if (!plain)
+            least = fmin(least, c->attempt.sum);
     }
 }
 

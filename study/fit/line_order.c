@@ -134,27 +134,34 @@ static bool usable(const struct br_order_point *p)
     return p->error > 0 && isfinite(p->error);
 }
 
-/* scatter, rounding: NULL, it is not known. */
-static void take_rows(struct rows *r, const struct br_order_point *point, const double *scatter,
-                      const double *rounding, size_t count)
+/* The standard deviation of an error over the error. */
+static double scatter(const struct br_order_point *p)
+{
+    return p->deviation / p->error;
+}
+
+static void take_rows(struct rows *r, const struct br_order_point *point, size_t count)
 {
     double finest = NAN, slope, least = INFINITY;
-    for (size_t i = 0; i < count && scatter; i++)
-        if (usable(&point[i]))
-            least = scatter[i] > 0 && isfinite(scatter[i]) ? fmin(least, scatter[i]) : 0;
-    const bool weighted = least > 0 && isfinite(least);
     for (size_t i = 0; i < count; i++)
-        finest = usable(&point[i]) ? point[i].z : finest;
+        if (usable(&point[i])) {
+            finest = point[i].z;
+            least = scatter(&point[i]) > 0 && isfinite(scatter(&point[i]))
+                        ? fmin(least, scatter(&point[i]))
+                        : 0;
+        }
+    const bool weighted = least > 0 && isfinite(least);
     for (size_t i = 0; i < count; i++) {
-        if (!usable(&point[i]))
+        const struct br_order_point *p = &point[i];
+        if (!usable(p))
             continue;
         r->index[r->count] = i;
-        r->z[r->count] = point[i].z / finest;
-        r->x[r->count] = log(point[i].z / finest);
-        r->ratio[r->count] = point[i].z_against / point[i].z;
-        r->given[r->count] = weighted ? pow(least / scatter[i], 2) : 1;
-        r->rounded[r->count] = rounding ? pow(rounding[i], 2) / 3 : 0;
-        r->y[r->count++] = log(point[i].error);
+        r->z[r->count] = p->z / finest;
+        r->x[r->count] = log(p->z / finest);
+        r->ratio[r->count] = p->z_against / p->z;
+        r->given[r->count] = weighted ? pow(least / scatter(p), 2) : 1;
+        r->rounded[r->count] = pow(p->rounding / p->error, 2) / 3;
+        r->y[r->count++] = log(p->error);
     }
     if (r->count < 3)
         return;
@@ -529,13 +536,6 @@ static void describe(const struct mixture *all, const struct rows *r, struct br_
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    return br_line_order_of_means(point, NULL, NULL, count, found, err);
-}
-
-enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
-                                      const double *rounding, size_t count,
-                                      struct br_line_order *found, struct br_error *err)
-{
     enum { ARRAYS = 11 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                     .low99 = NAN,
@@ -552,7 +552,7 @@ enum br_status br_line_order_of_means(const struct br_order_point *point, const 
                                   &r.log_density, &r.least, &r.given, &r.curve, &r.rounded};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
-        take_rows(&r, point, scatter, rounding, count);
+        take_rows(&r, point, count);
         if (r.count >= 3 && isfinite(r.order))
             add_laws(&all, &r);
         if (all.count)

@@ -38,7 +38,9 @@ const char *br_law_text(enum br_law law);
  * solution is C (z^p - z_against^p). */
 struct br_order_point {
     double z, z_against; /* z_against < z: of the reference; 0: the solution itself */
-    double error;        /* in any unit */
+    double error;        /* in any unit, in which are also: */
+    double deviation;    /* its standard deviation, where it is a mean; 0: it is none */
+    double rounding;     /* half a unit of its last digit, where it was printed; 0: it was not */
 };
 
 struct br_line_order {
@@ -52,7 +54,9 @@ struct br_line_order {
 
 /* The order of point[count], from coarse to fine; rows whose error is not above 0, or not finite,
  * are left aside. An order of zero or less means that the errors stay or grow. Not known with less
- * than three rows. Fails with BR_NO_MEMORY. */
+ * than three rows. Errors weigh by their deviations, if all have one above 0. No law describes a
+ * line better than the digits of its errors do, and the interval holds what they leave open. Fails
+ * with BR_NO_MEMORY. */
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
 
@@ -63,14 +67,6 @@ enum br_flag br_line_order_flag(const struct br_line_order *found,
 /* The order that two errors show, the coarser one first; NaN: one of them is not above 0, or no
  * order from -60 to 60 makes such differences. */
 double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
-
-/* The same of errors that are means, or rounded; each array may be NULL. scatter[i] is the standard
- * deviation of error i over the error: errors weigh by their scatter, if all have one above 0.
- * rounding[i] is half a unit of the last printed digit over the error: no law describes a line
- * better than its digits do, and the interval holds what they leave open. */
-enum br_status br_line_order_of_means(const struct br_order_point *point, const double *scatter,
-                                      const double *rounding, size_t count,
-                                      struct br_line_order *found, struct br_error *err);
 
 /* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
  * their logarithms, at point[i]; and its band, by the lines of the order's low and high end, which

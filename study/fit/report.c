@@ -33,11 +33,6 @@ struct line {
 
 #define REMARK(o, ...) br_append((o)->remark, sizeof(o)->remark, __VA_ARGS__)
 
-struct br_study *br_report_fitted(const struct br_report *r)
-{
-    return r->exact ? r->exact : r->study;
-}
-
 /* ---- lines ---- */
 
 /* The errors along an axis, at index `at` of the other axis. */
@@ -53,8 +48,9 @@ static struct line line_of(const struct br_study *s, enum br_part part, int axis
         if (l.count == BR_MOST_SEEN)
             memmove(l.point, l.point + 1, --l.count * sizeof *l.point);
         l.point[l.count++] =
-            (struct br_order_point){br_axis_size(s->scene, axis, c->at),
-                                    br_axis_size(s->scene, axis, c->against), c->error[part]};
+            (struct br_order_point){.z = br_axis_size(s->scene, axis, c->at),
+                                    .z_against = br_axis_size(s->scene, axis, c->against),
+                                    .error = c->error[part]};
     }
     return l;
 }
@@ -184,8 +180,9 @@ static void fit_line(struct br_seen_order *o, const struct line *l)
     struct br_order_point counts[BR_MOST_SEEN];
     for (size_t i = 0; i < o->points; i++)
         counts[i] = (struct br_order_point){
-            o->point[i].z, br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
-            o->point[i].flag ? (double)NAN : o->point[i].error};
+            .z = o->point[i].z,
+            .z_against = br_axis_size(l->study->scene, l->axis, cell_of(l, o, i)->against),
+            .error = o->point[i].flag ? (double)NAN : o->point[i].error};
     for (size_t i = 0; i < o->points; i++)
         o->point[i].fit = br_line_fit(counts, o->points, i, &o->order);
 }
@@ -310,11 +307,11 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
         return status;
     if (determines(fit, BR_AXIS_SPACE, o->theory.formal) &&
         !(width_of(&o->order) <= width_of(&fit->order[BR_AXIS_SPACE])))
-        claim_joint(o, fit, br_report_fitted(r), part, BR_AXIS_SPACE);
+        claim_joint(o, fit, r->fitted, part, BR_AXIS_SPACE);
     else if (!apart)
         REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");
     if (apart && !agrees(o) && isfinite(o->theory.order) && !r->printed) {
-        const struct br_study *s = br_report_fitted(r);
+        const struct br_study *s = r->fitted;
         const bool lost = differences_of(apart, part, BR_AXIS_SPACE).flag == BR_FLAG_ROUND_OFF;
         size_t n = s->n[s->n_count - 1];
         n = !lost ? n : n < 32 ? 1 : n / 32;
@@ -327,7 +324,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
 /* The error of space on the finest mesh, from the finest difference of meshes; 0: not known. */
 static double error_of_space(const struct br_report *r, enum br_part part)
 {
-    const struct br_study *s = br_report_fitted(r), *meshes = r->apart[BR_AXIS_SPACE];
+    const struct br_study *s = r->fitted, *meshes = r->apart[BR_AXIS_SPACE];
     const double order = br_theory_of(s, part, BR_AXIS_SPACE).formal;
     if (!meshes)
         return 0; /* not known */
@@ -343,7 +340,7 @@ static double error_of_space(const struct br_report *r, enum br_part part)
 static enum br_status see_in_grid(const struct br_report *r, enum br_part part,
                                   struct br_seen_order *o, struct br_error *err)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     const struct br_joint_fit *fit = &r->fits[part].joint;
     const struct line l = line_of(s, part, BR_AXIS_TIME, s->n_count - 1); /* the finest mesh */
     if (determines(fit, BR_AXIS_TIME, o->theory.formal)) {
@@ -372,7 +369,7 @@ bool br_seen_settles(const struct br_seen_order *o)
 static enum br_status see_in_k(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     struct br_seen_order apart = *o;
     enum br_status status = see_in_grid(r, part, o, err);
     if (status || !r->apart[BR_AXIS_TIME] || br_seen_settles(o))
@@ -399,7 +396,7 @@ bool br_report_settles(const struct br_report *r, enum br_axis axis)
 
 enum br_status br_report_see_orders(struct br_report *r, enum br_axis axis, struct br_error *err)
 {
-    const struct br_study *s = br_report_fitted(r);
+    const struct br_study *s = r->fitted;
     const bool over_h = axis == BR_AXIS_SPACE;
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++) {
@@ -425,7 +422,7 @@ enum br_status br_report_finish(struct br_report *r, int threads, struct br_erro
 {
     enum br_status status = BR_OK;
     for (enum br_part part = 0; part < BR_PARTS && !status; part++)
-        status = br_fit(br_report_fitted(r), part, &r->fits[part], err);
+        status = br_fit(r->fitted, part, &r->fits[part], err);
     for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
         status = br_report_see_orders(r, axis, err);
     if (!status && r->exact)

@@ -29,13 +29,15 @@ struct br_seen_order {
 };
 
 struct br_report {
-    const char *name;           /* file name stem: "table1", or the scene's name; borrowed */
-    const char *caption;        /* one line; borrowed */
-    struct br_study *study;     /* borrowed */
-    struct br_study *exact;     /* the same cells against the exact solution; NULL: `study` is that,
-                                   or there is none. Borrowed */
-    double *printed;            /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
-                                   none; NULL: there is no printed table. Owned */
+    const char *name;        /* file name stem: "table1", or the scene's name; borrowed */
+    const char *caption;     /* one line; borrowed */
+    struct br_study *study;  /* borrowed */
+    struct br_study *exact;  /* the same cells against the exact solution; NULL: `study` is that,
+                                or there is none. Borrowed */
+    struct br_study *fitted; /* whose errors are fitted and drawn: `exact` where there is one,
+                                since there the reference limits no cell. Borrowed */
+    double *printed;         /* n_count * k_count, m^(3/2), by rows, NaN where the paper has
+                                none; NULL: there is no printed table. Owned */
     const struct br_study *apart[BR_AXES]; /* each mesh against the next; the study itself where it
                                               has such differences. Each time step against the next
                                               smaller one on one mesh. NULL: none. Flagged;
@@ -48,10 +50,6 @@ struct br_report {
     size_t triangles;
     double wall_seconds; /* of the whole study */
 };
-
-/* The study whose errors are fitted and drawn: the one against the exact solution where there is
- * one, since there the reference limits no cell. */
-struct br_study *br_report_fitted(const struct br_report *report);
 
 /* Sets the orders in h, or in k, from those errors and from the differences; after the fits. Fails
  * with BR_NO_MEMORY. */
@@ -66,8 +64,9 @@ bool br_seen_settles(const struct br_seen_order *order);
  * tolerance of a check, and are as in theory. */
 bool br_report_settles(const struct br_report *report, enum br_axis axis);
 
-/* Fits all components of those errors, sets their orders, and checks the printed values, where there are some, by the triangle inequality. The borrowed members and
- * `printed` must be set before. Fails with BR_NO_MEMORY or as br_study_run does. */
+/* Fits all components of those errors, sets their orders, and checks the printed values, where
+ * there are some, by the triangle inequality. The borrowed members and `printed` must be set
+ * before. Fails with BR_NO_MEMORY or as br_study_run does. */
 enum br_status br_report_finish(struct br_report *report, int threads, struct br_error *err);
 void br_report_clear(struct br_report *report);
 

@@ -86,7 +86,7 @@ static enum br_status load_mesh(const struct br_function *f, enum br_variable al
     struct br_box peak;
     enum br_status status = BR_OK;
     *mesh = (struct br_mesh){0};
-    if (!br_enclose_values(f, box, 0, &values, &peak))
+    if (!br_enclose_values(f, box, &values, &peak))
         return br_fail(err, BR_BAD_INPUT, "it cannot be bounded");
     const double most = fmax(fabs(values.low), fabs(values.high)), width = all.high - all.low;
     struct br_mesh_aim aim = {.degree = DEGREE, .tolerance = 1e-3 * most};
@@ -151,7 +151,7 @@ static double largest(const struct br_function *f, const struct br_scene *s, str
 {
     struct br_interval values;
     *peak = all_of(s);
-    return br_enclose_values(f, all_of(s), 0, &values, peak)
+    return br_enclose_values(f, all_of(s), &values, peak)
                ? fmax(fabs(values.low), fabs(values.high))
                : INFINITY;
 }
@@ -442,10 +442,16 @@ static const struct check {
 static void report(const struct loss *s, const struct check *check, struct br_warnings *w)
 {
     const struct br_planned_march *o = s->planned;
-    const char *share = br_unseen(w, check->kind, s->missed, s->size, check->large);
-    char with[40], near[60] = "";
-    if (!share)
+    const double ratio = s->missed / s->size;
+    const double share = s->missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
+    char all[16], with[40], near[60] = "";
+    w->unseen[check->kind] = fmax(w->unseen[check->kind], share);
+    if (share <= check->large)
         return;
+    if (share <= 0.995)
+        snprintf(all, sizeof all, "%.2g %%", 100 * share);
+    else
+        snprintf(all, sizeof all, "%s", share > 1.005 ? "more than all" : "all");
     if (check->in_time)
         snprintf(with, sizeof with, "k = %.4g s", o->scene->duration / (double)o->steps);
     else
@@ -459,7 +465,7 @@ static void report(const struct loss *s, const struct check *check, struct br_wa
                 check->changes, check->not_known, with);
     else
         br_warn(w, check->kind, check->remedy, "%s %s: with %s the error is %s of %s%s",
-                s->input->name, check->not_seen, with, share, check->part, near);
+                s->input->name, check->not_seen, with, all, check->part, near);
 }
 
 enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,

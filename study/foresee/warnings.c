@@ -9,6 +9,7 @@
 #include "reference/energy/energy.h"
 #include "solver/laws.h"
 #include "solver/linear/linear_solver.h"
+#include "study/base/words.h"
 #include "study/foresee/prediction.h"
 #include "study/grid/study.h"
 #include "study/run/run.h"
@@ -17,27 +18,6 @@ const char *const br_warning_words[] = {
     "unstable",     "bounce",        "round-off",    "inaccurate", "error-not-known",
     "load-in-time", "load-in-space", "initial-data", "long",
 };
-
-const struct br_warning *br_warnings_find(const struct br_warnings *w, enum br_warning_kind kind)
-{
-    for (size_t i = 0; i < w->count; i++)
-        if (w->list[i].kind == kind)
-            return &w->list[i];
-    return NULL;
-}
-
-const char *br_unseen(struct br_warnings *w, enum br_warning_kind kind, double missed, double size,
-                      double large)
-{
-    const double ratio = missed / size, share = missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
-    w->unseen[kind] = fmax(w->unseen[kind], share);
-    if (share <= large)
-        return NULL;
-    if (share > 0.995)
-        return share > 1.005 ? "more than all" : "all";
-    snprintf(w->share, sizeof w->share, "%.2g %%", 100 * share);
-    return w->share;
-}
 
 void br_warn(struct br_warnings *w, enum br_warning_kind kind, const char *remedy,
              const char *format, ...)
@@ -82,12 +62,11 @@ static void contact_remedy(const struct br_planned_march *o, const struct br_fie
 {
     const double longest = br_contact_limit_step(field, br_contact_stiffness(&o->scene->contact));
     const double steps = br_round_steps(o->scene->duration / longest);
-    int length = snprintf(text, 400, "--contact implicit  # has no limit\n");
+    strcpy(text, "--contact implicit  # has no limit\n");
     if (longest > 0 && isfinite(steps))
-        length += snprintf(text + length, 400 - (size_t)length,
-                           "--k T/%.0f  # time steps of at most %.4g s\n", steps, cut(longest));
-    snprintf(text + length, 400 - (size_t)length, "a contact stiffness of at most %.4g N/m",
-             cut(br_contact_limit_stiffness(field)));
+        br_append(text, 400, "--k T/%.0f  # time steps of at most %.4g s\n", steps, cut(longest));
+    br_append(text, 400, "a contact stiffness of at most %.4g N/m",
+              cut(br_contact_limit_stiffness(field)));
 }
 
 void br_check_contact(const struct br_planned_march *o, struct br_warnings *warnings)
@@ -206,12 +185,10 @@ static void round_off_remedy(const struct br_planned_march *o, double floor, cha
     alternative.method = &other;
     other.solver = br_linear_solvers[0];
     const double least = br_predict_round_off(&alternative);
-    int used = 0;
+    remedy[0] = '\0';
     if (least < floor / 2)
-        used = snprintf(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
-    snprintf(remedy + used, 400 - (size_t)used,
-             "fewer elements, since round-off grows with their "
-             "number");
+        br_append(remedy, 400, "--solver %s  # %.1e\n", br_linear_solvers[0]->name, least);
+    br_append(remedy, 400, "fewer elements, since round-off grows with their number");
 }
 
 static void warn_of_round_off(const struct br_planned_march *o, const struct br_prediction *p,
@@ -275,16 +252,13 @@ static enum br_status blame_lag(const struct br_planned_march *o, bool *blamed,
 static void accuracy_remedy(const struct br_planned_march *o, const struct br_prediction *p,
                             char remedy[400])
 {
-    int used = 0;
     remedy[0] = '\0';
     if (o->method->scheme->adaptive && p->time.error > aim)
-        used =
-            snprintf(remedy, 400, "--tolerance %.1g", o->method->tolerance * aim / p->time.error);
+        br_append(remedy, 400, "--tolerance %.1g", o->method->tolerance * aim / p->time.error);
     else if (p->time.error > aim && isfinite(steps_needed(o, p)))
-        used = snprintf(remedy, 400, "--k T/%.0f", steps_needed(o, p));
+        br_append(remedy, 400, "--k T/%.0f", steps_needed(o, p));
     if (p->space.error > aim && isfinite(elements_needed(o, p)))
-        snprintf(remedy + used, 400 - (size_t)used, "%s--n %.0f", used ? " " : "",
-                 elements_needed(o, p));
+        br_append(remedy, 400, "%s--n %.0f", *remedy ? " " : "", elements_needed(o, p));
 }
 
 static enum br_status warn_of_inaccuracy(const struct br_planned_march *o,

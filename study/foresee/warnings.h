@@ -33,24 +33,14 @@ struct br_warning {
 struct br_warnings {
     struct br_warning list[BR_WARNINGS];
     size_t count;
-    double unseen[BR_WARNINGS]; /* by kind: the largest share of a load, or of initial data */
-    char share[16];             /* room for a text of br_unseen */
+    double unseen[BR_WARNINGS]; /* by kind: the largest share of a load, or of initial data, that
+                                   levels, elements or nodes miss; INFINITY: not known */
 };
 
 /* Adds a warning; its text is the formatted one. The remedy may be NULL. */
 __attribute__((format(printf, 4, 5))) void br_warn(struct br_warnings *warnings,
                                                    enum br_warning_kind kind, const char *remedy,
                                                    const char *format, ...);
-
-/* Records that levels, elements or nodes miss so much of a load or of initial data of this size;
- * missed = INFINITY: not known. Returns the missed share as "31 %", "all" or "more than all" if it
- * is larger than `large`, else NULL. */
-const char *br_unseen(struct br_warnings *warnings, enum br_warning_kind kind, double missed,
-                      double size, double large);
-
-/* The warning of that kind, or NULL. */
-const struct br_warning *br_warnings_find(const struct br_warnings *warnings,
-                                          enum br_warning_kind kind);
 
 struct br_prediction;
 

@@ -9,6 +9,7 @@
 
 #include "solver/scene.h"
 #include "study/base/statement.h"
+#include "study/base/text.h"
 #include "study/grid/sweep.h"
 
 /* ---- costs ---- */
@@ -239,52 +240,25 @@ static void set_cells(struct br_study *s, const size_t *of, size_t batch)
 
 /* ---- results: the batch's number, then those of its studies ---- */
 
-/* Writes bytes, or reads them. */
-struct transfer {
-    FILE *file;
-    bool reads;
-    enum br_status failure; /* nothing passes any more */
-};
-
-static void pass(struct transfer *t, void *bytes, size_t size)
-{
-    if (t->failure || size == 0)
-        return;
-    if (!t->reads && fwrite(bytes, size, 1, t->file) != 1)
-        t->failure = BR_NO_MEMORY;
-    if (t->reads && fread(bytes, size, 1, t->file) != 1)
-        t->failure = BR_IO;
-}
-
-static void pass_events(struct transfer *t, struct br_study *s)
-{
-    size_t size = s->events && !t->reads ? strlen(s->events) + 1 : 0;
-    pass(t, &size, sizeof size);
-    if (t->reads) {
-        free(s->events);
-        s->events = size && !t->failure ? br_allocate(size, 1) : NULL;
-        if (size && !t->failure && !s->events)
-            t->failure = BR_NO_MEMORY;
-    }
-    pass(t, s->events, size);
-}
-
 /* All batches of a study report the same about it, except times; a failure is kept. */
-static void pass_study(struct transfer *t, struct br_study *s, const size_t *of, size_t batch)
+static void pass_study(struct br_record *r, struct br_study *s, const size_t *of, size_t batch)
 {
     bool audited = s->auditor != NULL;
     const struct br_error before = s->failure;
-    pass(t, &audited, sizeof audited);
-    pass(t, &s->judged_by, sizeof s->judged_by);
-    pass(t, &s->reference_scale, sizeof s->reference_scale);
-    pass(t, s->reference_size, sizeof s->reference_size);
-    pass(t, s->reference_error, sizeof s->reference_error);
-    pass(t, s->reference_tip, sizeof s->reference_tip);
-    pass(t, &s->failure, sizeof s->failure);
-    pass_events(t, s);
+    br_record_flag(r, &audited);
+    br_record_bytes(r, &s->judged_by, sizeof s->judged_by);
+    br_record_bytes(r, &s->reference_scale, sizeof s->reference_scale);
+    br_record_bytes(r, s->reference_size, sizeof s->reference_size);
+    br_record_bytes(r, s->reference_error, sizeof s->reference_error);
+    br_record_bytes(r, s->reference_tip, sizeof s->reference_tip);
+    br_record_bytes(r, &s->failure, sizeof s->failure);
+    char *printed = s->events;
+    br_record_text(r, &s->events, SIZE_MAX);
+    if (s->events != printed)
+        free(printed);
     for (size_t i = 0; i < br_study_cells(s); i++)
         if (of[i] == batch)
-            pass(t, &s->cell[i], sizeof s->cell[i]);
+            br_record_bytes(r, &s->cell[i], sizeof s->cell[i]);
     if (!audited)
         s->auditor = NULL;
     if (before.status)
@@ -295,7 +269,7 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
                               size_t batch, int threads, const struct br_observer *observer,
                               FILE *results, struct br_error *err)
 {
-    struct transfer t = {.file = results};
+    struct br_record r = {.to = results};
     struct br_study *copy = br_allocate(count, sizeof *copy);
     size_t copies = 0, written = 0;
     const size_t *of = b->of;
@@ -307,47 +281,43 @@ enum br_status br_batch_march(struct br_study *studies, size_t count, const stru
             copy[copies++] = studies[s];
         }
     enum br_status status = br_lockstep(copy, copies, threads, observer, err);
-    pass(&t, &batch, sizeof batch);
+    br_record_bytes(&r, &batch, sizeof batch);
     of = b->of;
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++])) {
         const bool takes = has_cells_in(&studies[s], of, batch);
         for (struct br_study *norm = takes ? &copy[written++] : NULL; norm;
              norm = norm->next_norm) {
-            pass_study(&t, norm, of, batch);
+            pass_study(&r, norm, of, batch);
             free(norm->events);
             norm->events = NULL;
         }
     }
     free(copy);
-    return !status && t.failure ? br_no_memory(err, "the results") : status;
+    return !status && r.wrong ? br_no_memory(err, "the results") : status;
 }
 
-static void read_batch(struct transfer *t, struct br_study *studies, size_t count,
+static void read_batch(struct br_record *r, struct br_study *studies, size_t count,
                        const struct br_batches *b)
 {
     size_t batch = SIZE_MAX;
     const size_t *of = b->of;
-    pass(t, &batch, sizeof batch);
+    br_record_bytes(r, &batch, sizeof batch);
     for (size_t s = 0; s < count; of += br_study_cells(&studies[s++]))
         for (struct br_study *norm = &studies[s]; norm; norm = norm->next_norm)
             if (has_cells_in(&studies[s], of, batch))
-                pass_study(t, norm, of, batch);
+                pass_study(r, norm, of, batch);
 }
 
 enum br_status br_batches_read(struct br_study *studies, size_t count, const struct br_batches *b,
                                char *bytes, size_t size, struct br_error *err)
 {
-    struct transfer t = {.file = fmemopen(bytes, size, "r"), .reads = true};
-    if (!t.file)
+    struct br_record r = {.from = bytes, .left = size};
+    for (size_t i = 0; i < b->count && !r.wrong; i++)
+        read_batch(&r, studies, count, b);
+    if (r.no_memory)
         return br_no_memory(err, "the results");
-    for (size_t i = 0; i < b->count && !t.failure; i++)
-        read_batch(&t, studies, count, b);
-    if (!t.failure && fgetc(t.file) != EOF)
-        t.failure = BR_IO;
-    fclose(t.file);
-    if (t.failure)
-        return br_fail(err, t.failure, "the results of the ranks: %s",
-                       t.failure == BR_IO ? "cut off, or too long" : "out of memory");
+    if (r.wrong || r.left)
+        return br_fail(err, BR_IO, "the results of the ranks: cut off, or too long");
     for (size_t s = 0; s < count; s++) /* a study that failed has failed in all its norms */
         for (struct br_study *norm = studies[s].next_norm; norm; norm = norm->next_norm)
             norm->failure = studies[s].failure;

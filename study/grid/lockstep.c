@@ -9,12 +9,9 @@
 #include "study/grid/lockstep.h"
 
 #include <math.h>
-#include <stdio.h>
 
 #include "solver/clock.h"
 #include "solver/scene.h"
-#include "study/base/each.h"
-#include "study/base/text.h"
 
 /* ---- measuring ---- */
 
@@ -138,43 +135,6 @@ void br_cell_failed(struct br_study *study, size_t index, const struct br_error 
     }
 }
 
-/* Writes the results of one cell in one norm. */
-static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_t index,
-                          const struct br_norm_sum *sum)
-{
-    struct br_cell *cell = &s->cell[index];
-    const struct br_cell *first = &l->study->cell[index];
-    cell->seconds = l->cell[index].seconds;
-    cell->unstable = l->cell[index].march && br_march_contact_unstable(l->cell[index].march);
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
-        cell->tip[kind] = first->tip[kind];
-    for (enum br_part part = 0; part < BR_PARTS && !cell->failure.status; part++) {
-        cell->error[part] = br_norm_value(s->norm, sum, part);
-        cell->worst_time[part] = sum->time[part];
-    }
-}
-
-/* Writes what was measured into the studies. */
-static void conclude_norms(struct br_lockstep *l)
-{
-    size_t m = 0;
-    for (struct br_study *s = l->study; s; s = s->next_norm, m++) {
-        s->auditor = l->study->auditor;
-        s->judged_by = l->reference.judge->report(l->reference.self);
-        s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
-        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-            const enum br_part part = br_part_of(kind);
-            s->reference_size[kind] = br_norm_value(s->norm, &l->reference.sum[m], part);
-            s->reference_tip[kind] = l->study->reference_tip[kind];
-        }
-        for (enum br_part part = 0; part < BR_PARTS; part++)
-            s->reference_error[part] =
-                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], part) : NAN;
-        for (size_t i = 0; i < br_study_cells(s); i++)
-            conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
-    }
-}
-
 /* ---- one batch ---- */
 
 static size_t batch_end(const struct br_lockstep *l, size_t b)
@@ -210,7 +170,7 @@ static void keep_failure(struct br_lockstep *l, enum br_field_kind kind, size_t 
     pthread_mutex_unlock(&l->lock);
 }
 
-static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
+void br_reference_batch(struct br_lockstep *l, enum br_field_kind kind, size_t b)
 {
     struct br_error failure = {0};
     for (size_t i = b * l->batch; i < batch_end(l, b) && l->study->scene->field[kind].modelled;
@@ -223,7 +183,7 @@ static void reference_batch(struct br_lockstep *l, enum br_field_kind kind, size
     }
 }
 
-static void add_up_batch(struct br_lockstep *l, size_t b)
+void br_sums_batch(struct br_lockstep *l, size_t b)
 {
     for (size_t i = b * l->batch; i < batch_end(l, b) && !failed_before(l, i); i++) {
         add_up(l, &l->reference, i);
@@ -256,7 +216,7 @@ static void cell_level(struct br_lockstep *l, size_t index, size_t cell)
 }
 
 /* Level by level: the cells of a task read the same projection while it is in the cache. */
-static void cells_batch(struct br_lockstep *l, size_t b, size_t task)
+void br_cells_batch(struct br_lockstep *l, size_t b, size_t task)
 {
     for (size_t i = b * l->batch; i < batch_end(l, b); i++) {
         if (atomic_load(&l->stopped) || failed_before(l, i))
@@ -264,217 +224,4 @@ static void cells_batch(struct br_lockstep *l, size_t b, size_t task)
         for (size_t c = l->task_cell[task]; c < l->task_cell[task + 1]; c++)
             cell_level(l, i, c);
     }
-}
-
-/* ---- running ---- */
-
-/* All the studies of a call, and their progress. */
-struct work {
-    struct br_study *studies;
-    struct br_lockstep *step;
-    size_t count;
-    pthread_mutex_t lock; /* of all lanes */
-    pthread_cond_t done;  /* a lane has done a batch */
-    atomic_size_t finished_batches;
-    size_t all_batches;
-    const struct br_observer *observer;
-};
-
-static void report_progress(struct work *work, struct br_lockstep *l)
-{
-    if (atomic_load(&l->stopped) || failed_before(l, l->level_count))
-        return;
-    const size_t done = atomic_fetch_add(&work->finished_batches, 1) + 1;
-    if (work->observer && work->observer->progress)
-        work->observer->progress(work->observer->self, (double)done / (double)work->all_batches);
-}
-
-/* The batches that are to be done: after a failure those up to it, so that it is the first one. */
-static size_t last_batch(struct br_lockstep *l)
-{
-    const size_t failed = atomic_load(&l->first_failed);
-    if (atomic_load(&l->stopped))
-        return 0;
-    return failed / l->batch < l->batches ? failed / l->batch + 1 : l->batches;
-}
-
-/* Whether a lane's next batch has what it reads, and a buffer that nobody reads any more. */
-static bool is_ready(const struct br_lockstep *l, size_t lane)
-{
-    const size_t b = l->lane[lane].done;
-    if (l->lane[lane].busy || (lane > BR_LANE_AXIAL && b == l->lane[BR_LANE_AXIAL].done))
-        return false;
-    if (lane > BR_LANE_BENDING)
-        return b < l->lane[BR_LANE_BENDING].done;
-    for (size_t reader = lane + 1; reader < BR_LANE_CELLS + l->tasks; reader++)
-        if (b == l->lane[reader].done + BR_LOCKSTEP_BUFFERS)
-            return false;
-    return true;
-}
-
-/* Chooses the ready lane with the earliest batch: *l and *lane (out). Returns whether anything is
- * left to do; *l is NULL if others do it, or have to end before it can begin. */
-static bool choose_lane(const struct work *work, struct br_lockstep **l, size_t *lane)
-{
-    bool left = false;
-    *l = NULL;
-    for (struct br_lockstep *s = work->step; s < work->step + work->count; s++) {
-        const size_t end = s->batches ? last_batch(s) : 0;
-        for (size_t i = 0; i < BR_LANE_CELLS + s->tasks && end; i++) {
-            if (s->lane[i].done >= end)
-                continue;
-            left = true;
-            if (is_ready(s, i) && (!*l || s->lane[i].done < (*l)->lane[*lane].done)) {
-                *l = s;
-                *lane = i;
-            }
-        }
-    }
-    return left;
-}
-
-static void do_batch(struct work *work, struct br_lockstep *l, size_t lane, size_t b)
-{
-    if (lane <= BR_LANE_BENDING)
-        reference_batch(l, lane == BR_LANE_AXIAL ? BR_AXIAL : BR_BENDING, b);
-    if (lane == BR_LANE_BENDING)
-        report_progress(work, l);
-    if (lane == BR_LANE_SUMS)
-        add_up_batch(l, b);
-    if (lane >= BR_LANE_CELLS)
-        cells_batch(l, b, lane - BR_LANE_CELLS);
-}
-
-/* What each thread does. */
-static void do_batches(void *self)
-{
-    struct work *work = self;
-    struct br_lockstep *l;
-    size_t i = 0;
-    pthread_mutex_lock(&work->lock);
-    while (choose_lane(work, &l, &i)) {
-        if (!l) {
-            pthread_cond_wait(&work->done, &work->lock);
-            continue;
-        }
-        struct br_lane *lane = &l->lane[i];
-        lane->busy = true;
-        pthread_mutex_unlock(&work->lock);
-        do_batch(work, l, i, lane->done);
-        pthread_mutex_lock(&work->lock);
-        lane->busy = false;
-        lane->done++;
-        pthread_cond_broadcast(&work->done);
-    }
-    pthread_mutex_unlock(&work->lock);
-}
-
-/* Keeps the reference's lines of events with the study. */
-static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
-                                  struct br_error *err)
-{
-    size_t size;
-    FILE *out = br_text_open(&study->events, &size);
-    if (out)
-        l->reference.judge->print_notes(l->reference.self, out);
-    return out && fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
-}
-
-/* Whether a failure ends the whole call, not only one study. */
-static bool is_fatal(const struct br_error *failure)
-{
-    return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
-}
-
-/* Whether a study succeeded. Copies its failure to all its norms. */
-static bool succeeded(struct br_study *first)
-{
-    for (struct br_study *s = first; s; s = s->next_norm)
-        s->failure = first->failure;
-    return !first->failure.status;
-}
-
-static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
-{
-    if (l->failure.status)
-        l->study->failure = l->failure;
-    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
-        if (l->cell[i].error.status == BR_NO_MEMORY)
-            l->study->failure = l->cell[i].error;
-    if (!l->study->failure.status && atomic_load(&l->stopped))
-        br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
-    if (is_fatal(&l->study->failure))
-        return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
-    if (!succeeded(l->study))
-        return BR_OK;
-    conclude_norms(l);
-    enum br_status status = BR_OK;
-    for (struct br_study *study = l->study; study && !status; study = study->next_norm)
-        status = keep_events(l, study, err);
-    return status;
-}
-
-static void create(struct work *work, size_t s)
-{
-    struct br_lockstep *l = &work->step[s];
-    struct br_study *study = &work->studies[s];
-    if (study->failure.status)
-        l->study = study;
-    else if (br_lockstep_create(l, study, work->observer, &study->failure))
-        l->batches = 0; /* nothing to march */
-}
-
-/* Sets up all studies of the scene of study `first`, unless a study before it has that scene; an
- * exact reference computes its solution here. Studies of one scene are set up one after the other,
- * since all of them use its functions (scene.h). */
-static enum br_status create_of_scene(void *self, size_t first, struct br_error *err)
-{
-    struct work *work = self;
-    const struct br_study *studies = work->studies;
-    (void)err;
-    for (size_t s = 0; s < first; s++)
-        if (studies[s].scene == studies[first].scene)
-            return BR_OK;
-    for (size_t s = first; s < work->count; s++)
-        if (studies[s].scene == studies[first].scene)
-            create(work, s);
-    return BR_OK;
-}
-
-static size_t most_lanes(const struct work *work)
-{
-    size_t most = 0;
-    for (size_t s = 0; s < work->count; s++)
-        most += BR_LANE_CELLS + work->step[s].tasks;
-    return most;
-}
-
-enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
-                           const struct br_observer *observer, struct br_error *err)
-{
-    struct work work = {.studies = studies,
-                        .count = count,
-                        .lock = PTHREAD_MUTEX_INITIALIZER,
-                        .done = PTHREAD_COND_INITIALIZER,
-                        .observer = observer};
-    work.step = br_allocate(count, sizeof *work.step);
-    if (!work.step)
-        return br_no_memory(err, "the studies");
-    threads = br_threads(threads);
-    br_each(&(struct br_each){count, threads, NULL, create_of_scene, NULL, &work}, NULL);
-    bool fatal = false;
-    for (size_t s = 0; s < count; s++) {
-        work.all_batches += work.step[s].batches;
-        fatal |= is_fatal(&studies[s].failure);
-    }
-    if (!fatal)
-        br_team(most_lanes(&work) < (size_t)threads ? (int)most_lanes(&work) : threads, do_batches,
-                &work);
-    enum br_status status = BR_OK;
-    for (size_t s = 0; s < count && !status; s++)
-        status = conclude(&work.step[s], err);
-    for (size_t s = 0; s < count; s++)
-        br_lockstep_clear(&work.step[s]);
-    free(work.step);
-    return status;
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* State that lockstep_setup.c creates and lockstep.c uses; private to these two. */
+/* The reference and the cells of a study on their way through time: lockstep_setup.c creates the
+ * state, lockstep.c does its batches, lanes.c chooses who does which, sweep.c takes the results.
+ * Private to these files. */
 #ifndef BR_STUDY_GRID_LOCKSTEP_H
 #define BR_STUDY_GRID_LOCKSTEP_H
 
@@ -88,5 +90,14 @@ void br_lockstep_clear(struct br_lockstep *lockstep);
 
 /* Marks a cell as failed in all norms, with the reason. */
 void br_cell_failed(struct br_study *study, size_t cell, const struct br_error *error);
+
+/* Batch b of a field of the reference, of the sums, and of the cells of a task. */
+void br_reference_batch(struct br_lockstep *lockstep, enum br_field_kind kind, size_t b);
+void br_sums_batch(struct br_lockstep *lockstep, size_t b);
+void br_cells_batch(struct br_lockstep *lockstep, size_t b, size_t task);
+
+/* Does all batches of `count` studies that are set up. */
+void br_lanes_run(struct br_lockstep *lockstep, size_t count, int threads,
+                  const struct br_observer *observer);
 
 #endif

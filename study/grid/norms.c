@@ -21,7 +21,6 @@ const struct br_norm br_norm_l2 = {
     .symbol = "error (31)",
     .unit = "m^(3/2)",
     .unit_markup = "m^{3/2}",
-    .unit_tex = "m$^{3/2}$",
     .theory = "(26) bounds the error by c (h^(1/2) + k), Remark 2.5 by c (h + k).",
     .level = BR_DISPLACEMENT,
     .printed = true,
@@ -35,7 +34,6 @@ const struct br_norm br_norm_energy = {
     .symbol = "error (25)",
     .unit = "m^(3/2)/s",
     .unit_markup = "m^{3/2}/s",
-    .unit_tex = "m$^{3/2}$/s",
     .theory = "Theorem 2.3 is about this norm: (26) bounds it by c (h^(1/2) + k), Remark 2.5 by "
               "c (h + k).",
     .level = BR_VELOCITY,
@@ -49,7 +47,6 @@ const struct br_norm br_norm_tip = {
     .symbol = "error at the tip",
     .unit = "m",
     .unit_markup = "m",
-    .unit_tex = "m",
     .theory = "What (25) bounds also bounds the error at the tip: (26) gives c (h^(1/2) + k), "
               "Remark 2.5 c (h + k).",
     .level = BR_TIP,

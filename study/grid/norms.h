@@ -32,7 +32,7 @@ struct br_norm {
     const char *name;                          /* as on the command line, and in file names */
     const char *title;                         /* a sentence for a person: what the error is */
     const char *symbol;                        /* a few words, for the axis of a plot */
-    const char *unit, *unit_markup, *unit_tex; /* plain, for gnuplot, for LaTeX */
+    const char *unit, *unit_markup;            /* plain, for gnuplot */
     const char *theory;                        /* a sentence: what is proved of it */
     enum br_measure level;                     /* its largest value over the time levels counts */
     bool energy;  /* squares add up, and the strain rates' are summed over time */

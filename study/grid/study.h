@@ -23,9 +23,8 @@ enum br_flag {
     BR_FLAG_OUTLIER,   /* the error is far from those of its neighbours */
     BR_CELL_FLAGS
 };
-const char *br_flag_name(
-    enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable", "stagnation",
-                      "not asymptotic", "outlier" */
+const char *br_flag_name(enum br_flag flag); /* "", "reference", "round-off", "failed", "unstable",
+                                           "stagnation", "not asymptotic", "outlier" */
 
 struct br_cell {
     struct br_resolution at;
@@ -73,6 +72,10 @@ struct br_study {
 };
 
 void br_study_clear(struct br_study *study);
+
+/* Checks the grid, sets the reference's time levels where it has none, and makes the cells, in all
+ * norms. Fails with BR_BAD_INPUT, naming the nearest values that would do, or BR_NO_MEMORY. */
+enum br_status br_study_prepare(struct br_study *study, struct br_error *err);
 
 /* How many cells a study has. */
 size_t br_study_cells(const struct br_study *study);

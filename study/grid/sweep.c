@@ -1,112 +1,163 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/grid/sweep.h"
 
+#include <math.h>
+#include <stdio.h>
+
+#include "study/base/each.h"
+#include "study/base/text.h"
+#include "study/grid/lockstep.h"
+
+/* ---- the set-up ---- */
+
+/* The studies of a call. */
+struct work {
+    struct br_study *studies;
+    struct br_lockstep *step; /* of each study */
+    size_t count;
+    const struct br_observer *observer;
+};
+
+static void create(struct work *work, size_t s)
+{
+    struct br_lockstep *l = &work->step[s];
+    struct br_study *study = &work->studies[s];
+    if (study->failure.status)
+        l->study = study;
+    else if (br_lockstep_create(l, study, work->observer, &study->failure))
+        l->batches = 0; /* nothing to march */
+}
+
+/* Sets up all studies of the scene of study `first`, unless a study before it has that scene; an
+ * exact reference computes its solution here. Studies of one scene are set up one after the other,
+ * since all of them use its functions (scene.h). */
+static enum br_status create_of_scene(void *self, size_t first, struct br_error *err)
+{
+    struct work *work = self;
+    const struct br_study *studies = work->studies;
+    (void)err;
+    for (size_t s = 0; s < first; s++)
+        if (studies[s].scene == studies[first].scene)
+            return BR_OK;
+    for (size_t s = first; s < work->count; s++)
+        if (studies[s].scene == studies[first].scene)
+            create(work, s);
+    return BR_OK;
+}
+
+/* ---- the results ---- */
+
+/* Writes the results of one cell in one norm. */
+static void conclude_cell(const struct br_lockstep *l, struct br_study *s, size_t index,
+                          const struct br_norm_sum *sum)
+{
+    struct br_cell *cell = &s->cell[index];
+    const struct br_cell *first = &l->study->cell[index];
+    cell->seconds = l->cell[index].seconds;
+    cell->unstable = l->cell[index].march && br_march_contact_unstable(l->cell[index].march);
+    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++)
+        cell->tip[kind] = first->tip[kind];
+    for (enum br_part part = 0; part < BR_PARTS && !cell->failure.status; part++) {
+        cell->error[part] = br_norm_value(s->norm, sum, part);
+        cell->worst_time[part] = sum->time[part];
+    }
+}
+
+/* Writes what was measured into the studies. */
+static void conclude_norms(struct br_lockstep *l)
+{
+    size_t m = 0;
+    for (struct br_study *s = l->study; s; s = s->next_norm, m++) {
+        s->auditor = l->study->auditor;
+        s->judged_by = l->reference.judge->report(l->reference.self);
+        s->reference_scale = br_norm_value(s->norm, &l->reference.sum[m], BR_PART_TOTAL);
+        for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
+            const enum br_part part = br_part_of(kind);
+            s->reference_size[kind] = br_norm_value(s->norm, &l->reference.sum[m], part);
+            s->reference_tip[kind] = l->study->reference_tip[kind];
+        }
+        for (enum br_part part = 0; part < BR_PARTS; part++)
+            s->reference_error[part] =
+                s->auditor ? br_norm_value(s->norm, &l->auditor.sum[m], part) : NAN;
+        for (size_t i = 0; i < br_study_cells(s); i++)
+            conclude_cell(l, s, i, &l->cell_sum[i * l->norms + m]);
+    }
+}
+
+/* Keeps the reference's lines of events with the study. */
+static enum br_status keep_events(struct br_lockstep *l, struct br_study *study,
+                                  struct br_error *err)
+{
+    size_t size;
+    FILE *out = br_text_open(&study->events, &size);
+    if (out)
+        l->reference.judge->print_notes(l->reference.self, out);
+    return out && fclose(out) == 0 ? BR_OK : br_no_memory(err, "the events");
+}
+
+/* Whether a failure ends the whole call, not only one study. */
+static bool is_fatal(const struct br_error *failure)
+{
+    return failure->status == BR_NO_MEMORY || failure->status == BR_INTERRUPTED;
+}
+
+/* Whether a study succeeded. Copies its failure to all its norms. */
+static bool succeeded(struct br_study *first)
+{
+    for (struct br_study *s = first; s; s = s->next_norm)
+        s->failure = first->failure;
+    return !first->failure.status;
+}
+
+static enum br_status conclude(struct br_lockstep *l, struct br_error *err)
+{
+    if (l->failure.status)
+        l->study->failure = l->failure;
+    for (size_t i = 0; l->cell && i < br_study_cells(l->study); i++)
+        if (l->cell[i].error.status == BR_NO_MEMORY)
+            l->study->failure = l->cell[i].error;
+    if (!l->study->failure.status && atomic_load(&l->stopped))
+        br_fail(&l->study->failure, BR_INTERRUPTED, "interrupted");
+    if (is_fatal(&l->study->failure))
+        return br_fail(err, l->study->failure.status, "%s", l->study->failure.message);
+    if (!succeeded(l->study))
+        return BR_OK;
+    conclude_norms(l);
+    enum br_status status = BR_OK;
+    for (struct br_study *study = l->study; study && !status; study = study->next_norm)
+        status = keep_events(l, study, err);
+    return status;
+}
+
+/* ---- studies ---- */
+
+enum br_status br_lockstep(struct br_study *studies, size_t count, int threads,
+                           const struct br_observer *observer, struct br_error *err)
+{
+    struct work work = {studies, br_allocate(count, sizeof *work.step), count, observer};
+    if (!work.step)
+        return br_no_memory(err, "the studies");
+    br_each(&(struct br_each){count, br_threads(threads), NULL, create_of_scene, NULL, &work},
+            NULL);
+    bool fatal = false;
+    for (size_t s = 0; s < count; s++)
+        fatal |= is_fatal(&studies[s].failure);
+    if (!fatal)
+        br_lanes_run(work.step, count, threads, observer);
+    enum br_status status = BR_OK;
+    for (size_t s = 0; s < count && !status; s++)
+        status = conclude(&work.step[s], err);
+    for (size_t s = 0; s < count; s++)
+        br_lockstep_clear(&work.step[s]);
+    free(work.step);
+    return status;
+}
+
 static struct br_engine usual = {br_lockstep, NULL};
 
 void br_engine_set(struct br_engine engine)
 {
     usual = engine;
-}
-
-/* The largest divisor of `of` that is <= a, and the smallest that is >= a. */
-static void nearest_divisors(size_t of, size_t a, size_t *below, size_t *above)
-{
-    *below = a < of ? a : of;
-    while (of % *below != 0)
-        (*below)--;
-    *above = a < of ? a : of;
-    while (of % *above != 0)
-        (*above)++;
-}
-
-/* The time levels of a reference that has none of its own: those of all cells. */
-static enum br_status common_levels(struct br_study *s, struct br_error *err)
-{
-    size_t common = 1;
-    for (size_t j = 0; j < s->k_count; j++) {
-        size_t a = common, b = s->steps[j];
-        while (b) {
-            const size_t rest = a % b;
-            a = b;
-            b = rest;
-        }
-        if (a == 0 || s->steps[j] / a > ((size_t)1 << 52) / common)
-            return br_fail(err, BR_BAD_INPUT, "the time steps have too few time levels in common");
-        common *= s->steps[j] / a;
-    }
-    s->reference = (struct br_resolution){.n = 0, .steps = common};
-    return BR_OK;
-}
-
-static enum br_status check_nesting(const struct br_study *s, struct br_error *err)
-{
-    size_t below, above;
-    for (size_t i = 0; i < s->n_count; i++) {
-        if (s->n[i] < 1)
-            return br_fail(err, BR_BAD_INPUT, "n is 0, expected at least one element");
-        if (s->reference.n % s->n[i] == 0)
-            continue;
-        nearest_divisors(s->reference.n, s->n[i], &below, &above);
-        return br_fail(err, BR_BAD_INPUT,
-                       "n = %zu does not nest in the reference's %zu elements; the nearest that do "
-                       "are %zu and %zu",
-                       s->n[i], s->reference.n, below, above);
-    }
-    for (size_t j = 0; j < s->k_count; j++) {
-        if (s->steps[j] >= 1 && s->reference.steps % s->steps[j] == 0)
-            continue;
-        nearest_divisors(s->reference.steps, s->steps[j] ? s->steps[j] : 1, &below, &above);
-        return br_fail(err, BR_BAD_INPUT,
-                       "the time levels of k = %g s are not all among the reference's (k = %g s); "
-                       "the nearest k that would do are %.10g and %.10g s",
-                       br_time_step(s->scene, s->steps[j]),
-                       br_time_step(s->scene, s->reference.steps), br_time_step(s->scene, above),
-                       br_time_step(s->scene, below));
-    }
-    return BR_OK;
-}
-
-static enum br_status create_cells(struct br_study *s, struct br_error *err)
-{
-    const size_t cells = br_study_cells(s);
-    s->cell = br_allocate(cells, sizeof *s->cell);
-    if (!s->cell)
-        return br_no_memory(err, "the table");
-    for (size_t c = 0; c < cells; c++)
-        s->cell[c] = (struct br_cell){
-            .at = br_study_resolution(s, c),
-            .against = s->judge->nests ? s->reference : (struct br_resolution){0},
-        };
-    return BR_OK;
-}
-
-static enum br_status prepare(struct br_study *s, struct br_error *err)
-{
-    if (s->n_count == 0 || s->k_count == 0)
-        return br_fail(err, BR_BAD_INPUT, "the list of %s is empty, expected at least one value",
-                       s->n_count == 0 ? "n" : "k");
-    if (s->judge->nests && (s->reference.n < 1 || s->reference.steps < 1))
-        return br_fail(err, BR_BAD_INPUT, "the reference needs at least one element and one step");
-    if (s->path && s->n_count != s->k_count)
-        return br_fail(err, BR_BAD_INPUT, "a path has %zu n and %zu k, expected as many",
-                       s->n_count, s->k_count);
-    for (size_t c = 0; c < br_study_cells(s); c++)
-        if (br_study_method(s, c)->axial_degree != s->method.axial_degree)
-            return br_fail(err, BR_BAD_INPUT, "the cells have axial elements of several degrees");
-    if (s->judge->nests && s->reference_method.axial_degree != s->method.axial_degree)
-        return br_fail(err, BR_BAD_INPUT,
-                       "the cells have axial elements of degree %d and the reference of degree %d, "
-                       "expected the same",
-                       s->method.axial_degree, s->reference_method.axial_degree);
-    const enum br_status status = s->judge->nests ? check_nesting(s, err) : common_levels(s, err);
-    if (status)
-        return status;
-    enum br_status table = BR_OK;
-    for (struct br_study *norm = s; norm && !table; norm = norm->next_norm) {
-        norm->reference = s->reference;
-        table = create_cells(norm, err);
-    }
-    return table;
 }
 
 enum br_status br_study_run_each(struct br_study *studies, size_t count, int threads,
@@ -117,7 +168,7 @@ enum br_status br_study_run_each(struct br_study *studies, size_t count, int thr
         for (struct br_study *s = &studies[i]; s; s = s->next_norm)
             s->cell = NULL, s->events = NULL, s->failure = (struct br_error){0};
     for (size_t i = 0; i < count && !status; i++)
-        if (prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
+        if (br_study_prepare(&studies[i], &studies[i].failure) == BR_NO_MEMORY)
             status = br_fail(err, BR_NO_MEMORY, "%s", studies[i].failure.message);
     const struct br_engine *engine = count && studies->engine.march ? &studies->engine : &usual;
     if (!status)

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "study/base/quote.h"
-#include "study/base/text.h"
 
 static const double usual_slice = 2, usual_reference = 0.1;
 
@@ -44,70 +43,6 @@ void br_kept_begin(const struct br_kept *k, const char *work, struct br_statemen
     br_state(text, "program", "%s", k->program);
     br_state(text, "machine", "%s", k->machine ? k->machine : "");
     br_state(text, "work", "%s", work);
-}
-
-/* ---- the numbers of an entry ---- */
-
-static void pass_bytes(struct br_record *r, void *bytes, size_t size)
-{
-    if (r->wrong || size == 0)
-        return;
-    if (!r->from)
-        r->wrong = fwrite(bytes, size, 1, r->to) != 1;
-    else if (size > r->left)
-        r->wrong = true;
-    else {
-        memcpy(bytes, r->from, size);
-        r->from += size;
-        r->left -= size;
-    }
-}
-
-static void pass(struct br_record *r, double *x, double low, double high, bool or_nan)
-{
-    double value = *x;
-    pass_bytes(r, &value, sizeof value);
-    r->wrong |= !((value >= low && value <= high && isfinite(value)) || (or_nan && isnan(value)));
-    if (!r->wrong)
-        *x = value;
-}
-
-void br_record_number(struct br_record *r, double *x, double low, double high)
-{
-    pass(r, x, low, high, false);
-}
-
-void br_record_or_nan(struct br_record *r, double *x, double low, double high)
-{
-    pass(r, x, low, high, true);
-}
-
-void br_record_count(struct br_record *r, size_t *count, size_t low, size_t high)
-{
-    size_t value = *count;
-    pass_bytes(r, &value, sizeof value);
-    r->wrong |= value < low || value > high;
-    if (!r->wrong)
-        *count = value;
-}
-
-void br_record_flag(struct br_record *r, bool *flag)
-{
-    size_t value = *flag;
-    br_record_count(r, &value, 0, 1);
-    *flag = value == 1;
-}
-
-void br_record_text(struct br_record *r, char **text, size_t most)
-{
-    const bool reads = r->from;
-    size_t size = !reads && *text ? strlen(*text) : 0;
-    br_record_count(r, &size, 0, reads && r->left < most ? r->left : most);
-    if (reads)
-        *text = r->wrong ? NULL : br_allocate(size + 1, 1);
-    r->wrong |= reads && !*text;
-    pass_bytes(r, *text, size);
-    r->wrong |= reads && *text && (strlen(*text) != size || br_not_utf8(*text));
 }
 
 /* ---- entries ---- */
@@ -213,7 +148,7 @@ bool br_kept_put(struct br_kept *k, const char *text, br_record_pass *pass_all, 
     struct br_record record = {.to = text ? br_text_open(&bytes, &size) : NULL};
     bool kept = false;
     if (record.to) {
-        pass_bytes(&record, (char *)text, strlen(text) + 1);
+        br_record_bytes(&record, (char *)text, strlen(text) + 1);
         if (!record.wrong)
             pass_all(&record, self);
         kept = fclose(record.to) == 0 && (record.wrong || put_in_place(k, text, bytes, size));

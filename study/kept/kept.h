@@ -14,6 +14,7 @@
 #include "study/base/observer.h"
 #include "study/base/sha256.h"
 #include "study/base/statement.h"
+#include "study/base/text.h"
 #include "study/grid/study.h"
 
 struct br_kept {
@@ -36,24 +37,7 @@ enum br_status br_kept_open(struct br_kept *kept, const char *folder, bool take,
 /* Begins the text of an entry: program and machine, and what work it is of ("trial"). */
 void br_kept_begin(const struct br_kept *kept, const char *work, struct br_statement *text);
 
-/* ---- the numbers of an entry ---- */
-
-/* One function passes the numbers of an entry, to read and to write them. Each has a range, with
- * its ends; a number out of it, or a rest, makes the record wrong, and nothing passes any more. */
-struct br_record {
-    const char *from; /* `left` bytes; NULL: it writes */
-    size_t left;
-    FILE *to;
-    bool wrong;
-};
-typedef void br_record_pass(struct br_record *record, void *self);
-
-void br_record_number(struct br_record *record, double *x, double low, double high);
-void br_record_or_nan(struct br_record *record, double *x, double low, double high);
-void br_record_count(struct br_record *record, size_t *count, size_t low, size_t high);
-void br_record_flag(struct br_record *record, bool *flag);
-/* UTF-8, of at most `most` bytes. What is read is owned by the caller, even of a wrong record. */
-void br_record_text(struct br_record *record, char **text, size_t most);
+/* ---- entries: text.h has their numbers ---- */
 
 /* Reads the entry of a text into *self (out; means nothing where it fails). False: it is not there,
  * or is not to be taken. kept or text NULL: nothing is. */

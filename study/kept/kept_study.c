@@ -6,7 +6,6 @@
 #include <stdint.h>
 
 #include "reference/exact/exact.h"
-#include "study/base/text.h"
 #include "study/grid/batches.h"
 #include "study/kept/kept.h"
 
@@ -215,17 +214,15 @@ static void keep_cells(const struct work *w, size_t slice)
 
 static enum br_status march(struct work *w, int threads, struct br_error *err)
 {
-    struct br_observer of_share;
-    if (w->share.whole)
-        of_share = br_observer_of(&w->share);
+    const struct br_observer of_share = br_observer_of(&w->share);
     enum br_status status = BR_OK;
     if (!(w->results = br_text_open(&w->bytes, &w->size)))
         return br_no_memory(err, "what is kept");
     w->share.length = 1 / (double)w->slices.count;
     for (size_t i = 0; i < w->slices.count && !status; i++) {
         w->share.from = (double)i * w->share.length;
-        status = br_batch_march(w->studies, w->count, &w->slices, i, threads,
-                                w->share.whole ? &of_share : NULL, w->results, err);
+        status = br_batch_march(w->studies, w->count, &w->slices, i, threads, &of_share, w->results,
+                                err);
         if (!status)
             keep_cells(w, i);
     }

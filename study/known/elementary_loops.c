@@ -3,13 +3,10 @@
 #include <math.h>
 #include <sleef.h>
 
+#include "solver/vectors.h"
 #include "study/known/operations.h"
 
-#define JOIN_(a, b) a##b
-#define JOIN(a, b) JOIN_(a, b)
-#define NAME(stem) JOIN(stem, BR_SET)
-
-enum { WIDTH = NAME(BR_WIDTH_) };
+#define NAME(stem) BR_JOIN(stem, BR_SET)
 
 #if !defined __x86_64__
 typedef double vector; /* no vectors */

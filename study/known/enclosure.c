@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct br_interval iv;
-
 /* ---- series of order + 1 intervals ---- */
 
 static iv add(iv a, iv b)
@@ -23,7 +21,7 @@ static iv multiply(iv a, iv b)
 
 static iv scale(double factor, iv a)
 {
-    return br_interval_multiply(br_point(factor), a);
+    return br_interval_multiply(point(factor), a);
 }
 
 struct rule;
@@ -62,7 +60,7 @@ static iv convolve_slope(const iv *a, const iv *b, size_t k, size_t to)
     iv sum = {0, 0};
     for (size_t j = 1; j <= to; j++)
         sum = add(sum, scale((double)j, multiply(a[j], b[k - j])));
-    return br_interval_divide(sum, br_point((double)k));
+    return br_interval_divide(sum, point((double)k));
 }
 
 /* Coefficient k of a^2. */
@@ -110,7 +108,7 @@ static void flow(const struct recurrence *r)
 {
     const struct rule *by = r->by;
     iv v[BR_TREE_WORK] = {by->next == SQUARE
-                              ? add(br_point(1), scale(by->slope, square_at(r->out, 0)))
+                              ? add(point(1), scale(by->slope, square_at(r->out, 0)))
                               : br_interval_apply(by->partner, r->a, false)};
     for (size_t k = 1; k <= r->order; k++) {
         r->out[k] = scale(by->sign, convolve_slope(r->a, v, k, k));
@@ -126,8 +124,8 @@ static void real_power_series(const struct recurrence *r, double n)
     for (size_t k = 1; k <= r->order; k++) {
         iv sum = {0, 0};
         for (size_t j = 1; j <= k; j++) {
-            const iv factor = br_interval_subtract(multiply(br_point(n), br_point((double)j)),
-                                                   br_point((double)(k - j)));
+            const iv factor = br_interval_subtract(multiply(point(n), point((double)j)),
+                                                   point((double)(k - j)));
             sum = add(sum, multiply(factor, multiply(r->a[j], r->out[k - j])));
         }
         r->out[k] = br_interval_divide(sum, scale((double)k, r->a[0]));
@@ -159,7 +157,7 @@ static void inverse(const struct recurrence *r)
     square_series(r->order, r->a, square);
     for (size_t k = 0; k <= r->order; k++)
         square[k] = scale(r->by->sign, square[k]);
-    square[0] = add(br_point(r->by->constant), square[0]);
+    square[0] = add(point(r->by->constant), square[0]);
     if (r->by->root) {
         w[0] = br_interval_apply(BR_OP_SQRT, square, false);
         root(&(struct recurrence){r->order, square, NULL, w, NULL});
@@ -170,7 +168,7 @@ static void inverse(const struct recurrence *r)
 /* log(a) / log(slope); slope 0: log(a) */
 static void logarithm(const struct recurrence *r)
 {
-    const iv base = br_point(r->by->slope);
+    const iv base = point(r->by->slope);
     integral(r, r->a, 1);
     for (size_t k = 1; k <= r->order && r->by->slope != 0; k++)
         r->out[k] = br_interval_divide(r->out[k], br_interval_apply(BR_OP_LOG, &base, false));
@@ -237,7 +235,7 @@ static void sum(const struct recurrence *r)
 {
     for (size_t k = 1; k <= r->order; k++)
         r->out[k] = r->by->sign > 0 ? add(r->a[k], r->b[k])
-                    : r->a == r->b  ? br_point(0)
+                    : r->a == r->b  ? point(0)
                                     : br_interval_subtract(r->a[k], r->b[k]);
 }
 
@@ -320,7 +318,7 @@ static void apply(enum br_operation o, size_t order, const iv *const argument[3]
 
 static iv variable_of(const struct br_node *n, struct br_box box)
 {
-    return n->operation == BR_OP_NUMBER ? br_point(n->number)
+    return n->operation == BR_OP_NUMBER ? point(n->number)
            : n->operation == BR_OP_X    ? box.x
                                         : box.t;
 }
@@ -343,7 +341,7 @@ bool br_tree_taylor(const struct br_tree *tree, iv *work, enum br_variable along
         }
         out[0] = variable_of(n, box);
         for (size_t k = 1; k <= order; k++)
-            out[k] = br_point(k == 1 && n->operation == variable);
+            out[k] = point(k == 1 && n->operation == variable);
     }
     br_round_as_before(rounding);
     memcpy(coefficient, work + (tree->count - 1) * size, size * sizeof *coefficient);
@@ -376,7 +374,7 @@ static iv slope_of(enum br_operation o, const struct form *const argument[3], in
         constant &= k >= br_operation_arguments(o) || br_is_zero(series[k][1]);
     }
     if (constant)
-        return br_point(0);
+        return point(0);
     if (o == BR_OP_ABS && br_has_zero(series[0][0]))
         return br_interval_multiply((iv){-1, 1}, series[0][1]);
     if ((o == BR_OP_MIN || o == BR_OP_MAX) &&
@@ -395,8 +393,8 @@ static void differentiate(enum br_operation o, const struct form *const argument
     if (exact)
         return;
     /* 2.5 units in the last place, and the rounding of these sums */
-    const double error = br_magnitude(f->slope[ERROR]) * (1 + 8 * DBL_EPSILON) +
-                         3 * DBL_EPSILON * br_magnitude(f->range) + 8 * 0x1p-1074;
+    const double error = magnitude(f->slope[ERROR]) * (1 + 8 * DBL_EPSILON) +
+                         3 * DBL_EPSILON * magnitude(f->range) + 8 * 0x1p-1074;
     f->slope[ERROR] = (iv){-error, error};
 }
 
@@ -410,11 +408,6 @@ static void cut(struct br_box box, struct br_box middle, struct form *f)
     if (!br_is_finite(mean) || mean.low > f->range.high || mean.high < f->range.low)
         return;
     f->range = (iv){fmax(f->range.low, mean.low), fmin(f->range.high, mean.high)};
-}
-
-static iv centre_of(iv a)
-{
-    return br_point(a.low + (a.high - a.low) / 2);
 }
 
 static bool are_equal(const struct br_node *n)
@@ -445,18 +438,18 @@ bool br_tree_bound(const struct br_tree *tree, iv *work, struct br_box box, iv *
 {
     struct form *forms = (struct form *)work;
     const int rounding = br_round_to_nearest();
-    const struct br_box middle = {centre_of(box.x), centre_of(box.t)};
+    const struct br_box centre = {point(middle(box.x)), point(middle(box.t))};
     const bool wide = !br_is_point(box.x) || !br_is_point(box.t);
     for (size_t i = 0; i < tree->count; i++) {
         const struct br_node *n = &tree->node[i];
         struct form *f = &forms[i];
         if (br_operation_arguments(n->operation))
-            bound_node(n, forms, wide, box, middle, f);
+            bound_node(n, forms, wide, box, centre, f);
         else
             *f = (struct form){
                 .range = variable_of(n, box),
-                .centre = variable_of(n, middle),
-                .slope = {br_point(n->operation == BR_OP_X), br_point(n->operation == BR_OP_T)}};
+                .centre = variable_of(n, centre),
+                .slope = {point(n->operation == BR_OP_X), point(n->operation == BR_OP_T)}};
     }
     br_round_as_before(rounding);
     *value = forms[tree->count - 1].range;

@@ -6,8 +6,6 @@
 #include <stdint.h>
 #include <string.h>
 
-typedef struct br_interval iv;
-
 const iv br_no_interval = {NAN, NAN};
 static const iv all_signs = {-1, 1}, either = {0, 1};
 
@@ -130,7 +128,7 @@ iv br_interval_divide(iv a, iv b)
 
 iv br_interval_square(iv a)
 {
-    const double most = br_magnitude(a),
+    const double most = magnitude(a),
                  least = br_has_zero(a) ? 0 : fmin(fabs(a.low), fabs(a.high));
     const double low = least * least, high = most * most;
     if (br_is_none(a))
@@ -198,7 +196,7 @@ static iv value_of(const struct monotone *m, iv a)
 /* Whether phase + k period may be in a, for an integer k. */
 static bool has_phase(iv a, double phase, double period)
 {
-    const double slack = 4 * DBL_EPSILON * (br_magnitude(a) + 1);
+    const double slack = 4 * DBL_EPSILON * (magnitude(a) + 1);
     const double k = ceil((a.low - slack - phase) / period);
     return phase + k * period <= a.high + slack;
 }
@@ -208,10 +206,10 @@ static iv wave(double (*f)(double), iv a, double top)
 {
     if (!br_is_finite(a))
         return br_no_interval;
-    if (br_magnitude(a) > 1e14 || a.high - a.low >= 2 * M_PI)
+    if (magnitude(a) > 1e14 || a.high - a.low >= 2 * M_PI)
         return all_signs;
     const iv ends =
-        br_interval_hull(increasing(f, br_point(a.low), 0), increasing(f, br_point(a.high), 0));
+        br_interval_hull(increasing(f, point(a.low), 0), increasing(f, point(a.high), 0));
     return clip((iv){has_phase(a, top + M_PI, 2 * M_PI) ? -1 : ends.low,
                      has_phase(a, top, 2 * M_PI) ? 1 : ends.high},
                 -1, 1);
@@ -219,14 +217,14 @@ static iv wave(double (*f)(double), iv a, double top)
 
 static iv tangent(iv a)
 {
-    const bool pole = !br_is_finite(a) || br_magnitude(a) > 1e14 || a.high - a.low >= M_PI ||
+    const bool pole = !br_is_finite(a) || magnitude(a) > 1e14 || a.high - a.low >= M_PI ||
                       has_phase(a, M_PI / 2, M_PI);
     return pole ? br_no_interval : increasing(tan, a, 0);
 }
 
 static iv absolute(iv a)
 {
-    return br_has_zero(a) ? (iv){0, br_magnitude(a)} : a.low > 0 ? a : negate(a);
+    return br_has_zero(a) ? (iv){0, magnitude(a)} : a.low > 0 ? a : negate(a);
 }
 
 /* ---- powers ---- */
@@ -239,17 +237,17 @@ static iv positive_power(iv a, iv b)
 static iv whole_power(iv a, double n)
 {
     if (n == 0)
-        return br_point(1);
+        return point(1);
     if (n < 0 && br_has_zero(a))
         return br_no_interval;
     if (n == 2)
         return br_interval_square(a);
     if (fmod(n, 2) == 0 || a.low >= 0)
-        return positive_power(absolute(a), br_point(n));
+        return positive_power(absolute(a), point(n));
     if (a.high <= 0)
-        return negate(positive_power(negate(a), br_point(n)));
-    return (iv){-positive_power(br_point(-a.low), br_point(n)).high,
-                positive_power(br_point(a.high), br_point(n)).high};
+        return negate(positive_power(negate(a), point(n)));
+    return (iv){-positive_power(point(-a.low), point(n)).high,
+                positive_power(point(a.high), point(n)).high};
 }
 
 static iv power(iv a, iv b)
@@ -265,7 +263,7 @@ static iv power(iv a, iv b)
 
 static iv truth(bool certain, bool impossible)
 {
-    return certain ? br_point(1) : impossible ? br_point(0) : either;
+    return certain ? point(1) : impossible ? point(0) : either;
 }
 
 static iv choose(iv condition, iv yes, iv no)
@@ -310,11 +308,11 @@ static iv binary(enum br_operation o, iv a, iv b, bool same)
     case BR_OP_ADD:
         return br_interval_add(a, b);
     case BR_OP_SUBTRACT:
-        return same && br_is_finite(a) ? br_point(0) : br_interval_subtract(a, b);
+        return same && br_is_finite(a) ? point(0) : br_interval_subtract(a, b);
     case BR_OP_MULTIPLY:
         return same ? br_interval_square(a) : br_interval_multiply(a, b);
     case BR_OP_DIVIDE:
-        return same && br_is_finite(a) && !br_has_zero(a) ? br_point(1) : br_interval_divide(a, b);
+        return same && br_is_finite(a) && !br_has_zero(a) ? point(1) : br_interval_divide(a, b);
     case BR_OP_POW:
         return power(a, b);
     case BR_OP_MIN:

@@ -7,6 +7,7 @@
 #include <fenv.h>
 #include <math.h>
 
+#include "solver/box.h"
 #include "solver/instruction_set.h"
 #include "study/known/expression.h"
 
@@ -54,11 +55,6 @@ static inline void br_round_as_before(int before)
  * both the exact values and the evaluated ones. It is "none" (NaN at both ends) where the operation
  * may have no value or a pole. An end is infinite where the operation may overflow. */
 
-static inline struct br_interval br_point(double a)
-{
-    return (struct br_interval){a, a};
-}
-
 static inline bool br_is_none(struct br_interval a)
 {
     return isnan(a.low) || isnan(a.high);
@@ -82,11 +78,6 @@ static inline bool br_has_zero(struct br_interval a)
 static inline bool br_is_zero(struct br_interval a)
 {
     return a.low == 0 && a.high == 0;
-}
-
-static inline double br_magnitude(struct br_interval a) /* the largest |a| */
-{
-    return fmax(fabs(a.low), fabs(a.high));
 }
 
 extern const struct br_interval br_no_interval;

@@ -102,7 +102,7 @@ static enum br_status plan_march(const struct br_scene *scene, size_t n, size_t 
                        "found n = %zu and %zu steps, expected at least 1 of each", n, steps);
     enum br_status status = br_library_method(list, method, err);
     if (!status)
-        status = br_method_check_scene(method, scene, err);
+        status = br_method_check(method, scene, err);
     return status ? status
                   : br_damping_check(method, scene, n, scene->duration / (double)steps, err);
 }

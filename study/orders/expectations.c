@@ -9,71 +9,61 @@
 
 /* ---- the text ---- */
 
-struct reader {
-    const char *at;
-    struct br_error *err;
-};
-
-static void skip_blanks(struct reader *r)
+static enum br_status refuse(const char *at, const char *expected, struct br_error *err)
 {
-    r->at += strspn(r->at, " \t\n");
+    return br_fail(err, BR_BAD_INPUT, "found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'", at,
+                   expected);
 }
 
-static bool takes(struct reader *r, const char *word)
+/* Whether a word is next, which is then skipped with the blanks around it. */
+static bool takes(const char **at, const char *word)
 {
-    skip_blanks(r);
-    const size_t length = strlen(word);
-    const bool found = strncmp(r->at, word, length) == 0;
-    r->at += found ? length : 0;
-    return found;
+    const char *behind = br_skip_word(*at, word);
+    *at = behind ? behind : *at;
+    return behind;
 }
 
-static enum br_status refuse(const struct reader *r, const char *expected)
+/* Whether a number above 0 is next. */
+static bool take_number(const char **at, double *value)
 {
-    return br_fail(r->err, BR_BAD_INPUT, "found '%.30s', expected %s, as in 'l2: h 2 +- 0.1'",
-                   r->at, expected);
-}
-
-static bool take_number(struct reader *r, double *value)
-{
-    skip_blanks(r);
-    const char *end = br_read_number(r->at, value);
-    r->at = end ? end : r->at;
-    return end && *value > 0;
+    const char *end = br_read_number(*at, value);
+    if (!end || !(*value > 0))
+        return false;
+    *at = br_skip_word(end, "");
+    return true;
 }
 
 /* "h 2 +- 0.1 down to 1e-9" */
-static enum br_status take_order(struct reader *r, struct br_order_expectation *e)
+static enum br_status take_order(const char **at, struct br_order_expectation *e,
+                                 struct br_error *err)
 {
     e->axis = BR_AXES;
     for (int axis = 0; axis < BR_AXES && e->axis == BR_AXES; axis++)
-        if (takes(r, br_axis_letters[axis]))
+        if (takes(at, br_axis_letters[axis]))
             e->axis = (enum br_axis)axis;
     if (e->axis == BR_AXES)
-        return refuse(r, "h or k");
-    if (!take_number(r, &e->order))
-        return refuse(r, "an order above 0");
-    if (!takes(r, "+-") && !takes(r, "\u00b1"))
-        return refuse(r, "'+-'");
-    if (!take_number(r, &e->tolerance) || !(e->tolerance < e->order))
-        return refuse(r, "a tolerance above 0 and below the order");
-    if (takes(r, "down to") && !take_number(r, &e->down_to))
-        return refuse(r, "an error above 0");
+        return refuse(*at, "h or k", err);
+    if (!take_number(at, &e->order))
+        return refuse(*at, "an order above 0", err);
+    if (!takes(at, "+-") && !takes(at, "\u00b1"))
+        return refuse(*at, "'+-'", err);
+    if (!take_number(at, &e->tolerance) || !(e->tolerance < e->order))
+        return refuse(*at, "a tolerance above 0 and below the order", err);
+    if (takes(at, "down to") && !take_number(at, &e->down_to))
+        return refuse(*at, "an error above 0", err);
     return BR_OK;
 }
 
-static enum br_status take_name(struct reader *r, char name[64])
+static enum br_status take_name(const char **at, char name[64], struct br_error *err)
 {
-    skip_blanks(r);
-    const char *colon = strchr(r->at, ':');
-    size_t length = colon ? (size_t)(colon - r->at) : 0;
-    while (length && strchr(" \t\n", r->at[length - 1]))
+    const char *colon = strchr(*at, ':');
+    size_t length = colon ? (size_t)(colon - *at) : 0;
+    while (length && strchr(" \t\n", (*at)[length - 1]))
         length--;
     if (length == 0 || length > 63)
-        return refuse(r, "a name of at most 63 bytes and ':'");
-    memcpy(name, r->at, length);
-    name[length] = '\0';
-    r->at = colon + 1;
+        return refuse(*at, "a name of at most 63 bytes and ':'", err);
+    snprintf(name, 64, "%.*s", (int)length, *at);
+    *at = br_skip_word(colon, ":");
     return BR_OK;
 }
 
@@ -81,7 +71,6 @@ enum br_status br_expectations_read(const char *text, size_t line,
                                     struct br_order_expectation **expectations, size_t *count,
                                     struct br_error *err)
 {
-    struct reader r = {text, err};
     size_t most = *count + 1;
     for (const char *c = text; *c; c++)
         most += *c == ',' || *c == ';';
@@ -92,11 +81,11 @@ enum br_status br_expectations_read(const char *text, size_t line,
         memcpy(all, *expectations, *count * sizeof *all);
     free(*expectations);
     *expectations = all;
+    const char *at = br_skip_word(text, "");
     char name[64] = "";
-    bool goes_on = true, named = false;
-    while (goes_on) {
+    for (bool goes_on = true, named = false; goes_on;) {
         struct br_order_expectation *e = &all[(*count)++];
-        if ((!named && take_name(&r, name)) || take_order(&r, e))
+        if ((!named && take_name(&at, name, err)) || take_order(&at, e, err))
             return err->status;
         strcpy(e->quantity, name);
         e->line = line;
@@ -104,11 +93,10 @@ enum br_status br_expectations_read(const char *text, size_t line,
             if (f->axis == e->axis && strcmp(f->quantity, name) == 0)
                 return br_fail(err, BR_BAD_INPUT, "the order of %s in %s is given twice", name,
                                br_axis_letters[e->axis]);
-        named = takes(&r, ",");
-        goes_on = named || takes(&r, ";");
+        named = takes(&at, ",");
+        goes_on = named || takes(&at, ";");
     }
-    skip_blanks(&r);
-    return *r.at ? refuse(&r, "',' or ';' or the end") : BR_OK;
+    return *at ? refuse(at, "',' or ';' or the end", err) : BR_OK;
 }
 
 /* ---- verdicts ---- */

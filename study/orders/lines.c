@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/fit/line_order.h"
 #include "study/orders/orders.h"
 
 static enum br_axis other(enum br_axis axis)
@@ -12,21 +11,11 @@ static enum br_axis other(enum br_axis axis)
     return axis == BR_AXIS_SPACE ? BR_AXIS_TIME : BR_AXIS_SPACE;
 }
 
-/* ---- rates ---- */
-
-static double rate(const struct br_point *coarse, const struct br_point *fine)
-{
-    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
-                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
-}
-
 double br_orders_rate(const struct br_orders_line *line, size_t i)
 {
     const struct br_point *p = line->observed.point;
-    return i ? rate(&p[i - 1], &p[i]) : NAN;
+    return i ? br_point_rate(&p[i - 1], &p[i]) : NAN;
 }
-
-/* ---- lines ---- */
 
 static double z_of(const struct br_numbers *numbers, size_t row, enum br_axis axis)
 {

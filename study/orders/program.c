@@ -37,8 +37,7 @@ struct job {
 enum end { BY_ITSELF, STOPPED, TOO_LONG, TOO_MUCH };
 
 struct run {
-    int printed[2]; /* files of standard output and error */
-    int *copy;      /* copies of the files that the run wrote; owned */
+    int *file; /* open ones: standard output, standard error, copies of what the run wrote; owned */
     struct br_process process;
     double own_peak; /* of this process when the run began, bytes */
     double wall;     /* s */
@@ -46,13 +45,7 @@ struct run {
     int status; /* as of wait4 */
     struct rusage usage;
 };
-
-/* Opens a file without a name, which the program cannot find in its folder. */
-static bool open_printed(int *file)
-{
-    *file = memfd_create("printed", MFD_CLOEXEC);
-    return *file >= 0 && fcntl(*file, F_SETFL, O_APPEND) == 0;
-}
+enum { PRINTED = 2 }; /* files */
 
 /* Where programs get their folders. */
 static const char *temporary(void)
@@ -72,20 +65,19 @@ static enum br_status begin(const struct job *j, const struct br_command_words *
                             struct br_error *err)
 {
     struct rusage own;
-    if (!r->copy)
-        return br_no_memory(err, "a run");
-    bool opened = open_printed(&r->printed[0]) && open_printed(&r->printed[1]);
-    for (size_t i = 0; i < cell->files && opened; i++)
-        opened = open_printed(&r->copy[i]);
-    if (!opened)
-        return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
+    for (size_t i = 0; i < PRINTED + cell->files; i++) {
+        /* A file without a name, which the program cannot find in its folder. */
+        r->file[i] = memfd_create("printed", MFD_CLOEXEC);
+        if (r->file[i] < 0 || fcntl(r->file[i], F_SETFL, O_APPEND) != 0)
+            return br_fail(err, BR_IO, "no file for what a program prints: %s", strerror(errno));
+    }
     r->process = (struct br_process){.program = cell->program,
                                      .word = cell->word,
                                      .environment = j->environment,
                                      .where = temporary(),
-                                     .output = {r->printed[0], r->printed[1]},
+                                     .output = {r->file[0], r->file[1]},
                                      .file = (const char *const *)cell->file,
-                                     .copy = r->copy,
+                                     .copy = r->file + PRINTED,
                                      .files = cell->files,
                                      .most = MOST_PRINTED};
     const int failure = br_process_start(&r->process);
@@ -103,7 +95,7 @@ static size_t size_of(int file)
 
 static bool prints_too_much(const struct run *r)
 {
-    return size_of(r->printed[0]) > MOST_PRINTED || size_of(r->printed[1]) > MOST_PRINTED;
+    return size_of(r->file[0]) > MOST_PRINTED || size_of(r->file[1]) > MOST_PRINTED;
 }
 
 /* Why a run must be ended; BY_ITSELF: it need not be. */
@@ -190,9 +182,9 @@ static enum br_status set_failure(const struct br_orders_request *p, const struc
         snprintf(what, sizeof what, "exit code %d", WEXITSTATUS(r->status));
     else
         snprintf(what, sizeof what, "%s", why);
-    last_lines(r->printed[1], tail);
+    last_lines(r->file[1], tail);
     if (!*tail)
-        last_lines(r->printed[0], tail);
+        last_lines(r->file[0], tail);
     if (asprintf(&row->failure, "%s; %s%s", what, *tail ? "it printed: " : "it printed nothing",
                  tail) >= 0)
         return BR_OK;
@@ -219,13 +211,12 @@ static enum br_status read_numbers(const struct br_orders_request *p, const stru
                                    struct br_numbers_row *row, struct br_error *why)
 {
     enum br_status status = BR_OK;
-    for (size_t i = 0, file = 0, quantity = 0; i < p->readings && !status; i++) {
+    for (size_t i = 0, file = PRINTED, quantity = 0; i < p->readings && !status; i++) {
         const struct br_reading *reading = &p->reading[i];
         const struct br_resolution_column *size = br_resolution_column_find(reading->name);
         char *text = NULL;
         size_t length = 0;
-        status = load(reading->file ? r->copy[file++] : r->printed[reading->complaints], &text,
-                      &length, why);
+        status = load(r->file[reading->file ? file++ : reading->complaints], &text, &length, why);
         if (!status)
             status = br_reading_take(
                 p, i, text, length, size ? &row->given[size->axis] : &row->number[quantity++], why);
@@ -264,21 +255,18 @@ static enum br_status finish(const struct br_orders_request *p, const struct run
 static enum br_status run_words(const struct job *j, const struct br_command_words *cell,
                                 struct br_numbers_row *row, struct br_error *err)
 {
-    struct run r = {.printed = {-1, -1}, .copy = br_allocate(cell->files + 1, sizeof *r.copy)};
-    for (size_t i = 0; i < cell->files && r.copy; i++)
-        r.copy[i] = -1;
+    struct run r = {.file = br_allocate(PRINTED + cell->files, sizeof *r.file)};
+    if (!r.file)
+        return br_no_memory(err, "a run");
     enum br_status status = begin(j, cell, &r, err);
     if (!status)
         status = watch(j->program, &r, err);
     if (!status)
         status = finish(j->program, &r, row, err);
-    for (int i = 0; i < 2; i++)
-        if (r.printed[i] >= 0)
-            close(r.printed[i]);
-    for (size_t i = 0; i < cell->files && r.copy; i++)
-        if (r.copy[i] >= 0)
-            close(r.copy[i]);
-    free(r.copy);
+    for (size_t i = 0; i < PRINTED + cell->files; i++)
+        if (r.file[i] > 0)
+            close(r.file[i]);
+    free(r.file);
     return status;
 }
 
@@ -329,46 +317,34 @@ static void pass_row(struct br_record *r, void *self)
         br_record_number(r, &of->row->number[i], -DBL_MAX, DBL_MAX);
 }
 
-/* Runs a cell and keeps it, but not where its program has changed during the run. */
-static enum br_status run_and_keep(const struct job *j, const struct br_command_words *words,
-                                   const char *text, struct row *of, struct br_error *err)
+/* Keeps a cell that has run, but not where its program has changed during the run. */
+static enum br_status keep(const struct job *j, const struct br_command_words *words,
+                           const char *text, struct row *of, struct br_error *err)
 {
     char *now = NULL;
-    bool failed = run_words(j, words, of->row, err);
-    if (!failed && !of->row->failure) {
-        failed = text_of(j, words, of->row->repeat, &now, err);
-        if (!failed && strcmp(text, now) == 0)
-            failed = !br_kept_put(j->kept, text, pass_row, of) &&
-                     br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
-                             j->program->kept, strerror(errno));
-    }
+    enum br_status status = text_of(j, words, of->row->repeat, &now, err);
+    if (!status && strcmp(text, now) == 0 && !br_kept_put(j->kept, text, pass_row, of))
+        status = br_fail(err, BR_IO, "%.800s: a finished cell could not be kept: %s",
+                         j->program->kept, strerror(errno));
     free(now);
-    return failed ? err->status : BR_OK;
-}
-
-static enum br_status take_row(const struct job *j, const struct br_command_words *words,
-                               struct br_numbers_row *row, struct br_error *err)
-{
-    struct row of = {row, j->numbers->quantities};
-    char *text = NULL;
-    if (!j->program->kept)
-        return run_words(j, words, row, err);
-    enum br_status status = text_of(j, words, row->repeat, &text, err);
-    row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
-    if (!status && !row->kept)
-        status = run_and_keep(j, words, text, &of, err);
-    free(text);
     return status;
 }
 
 static enum br_status take_turn(void *self, size_t i, struct br_error *err)
 {
     const struct job *j = self;
-    struct br_numbers_row *row = &j->numbers->row[i];
+    struct row of = {&j->numbers->row[i], j->numbers->quantities};
     struct br_command_words words = {NULL};
-    enum br_status status = br_command_split(j->program, row, &words, err);
-    if (!status)
-        status = take_row(j, &words, row, err);
+    char *text = NULL;
+    enum br_status status = br_command_split(j->program, of.row, &words, err);
+    if (!status && j->program->kept)
+        status = text_of(j, &words, of.row->repeat, &text, err);
+    of.row->kept = !status && br_kept_take(j->kept, text, pass_row, &of);
+    if (!status && !of.row->kept)
+        status = run_words(j, &words, of.row, err);
+    if (!status && text && !of.row->kept && !of.row->failure)
+        status = keep(j, &words, text, &of, err);
+    free(text);
     br_command_clear(&words);
     return status;
 }
@@ -380,15 +356,14 @@ static size_t count_of(const struct br_program_axis *axis)
     return axis->column ? axis->count : 1;
 }
 
-/* Makes a row for each run. *rows: out. */
-static enum br_status make_rows(const struct br_orders_request *p, struct br_numbers *numbers,
-                                size_t *rows, struct br_error *err)
+enum br_status br_program_rows(const struct br_orders_request *p, struct br_numbers *numbers,
+                               struct br_error *err)
 {
     const size_t repeat = p->repeat > 1 ? (size_t)p->repeat : 1;
     const size_t inner = count_of(&p->axis[BR_AXIS_TIME]);
-    *rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
-    const enum br_status status = br_numbers_make_room(numbers, *rows, p->readings, err);
-    for (size_t r = 0; r < *rows && !status; r++) {
+    const size_t rows = count_of(&p->axis[BR_AXIS_SPACE]) * inner * repeat;
+    const enum br_status status = br_numbers_make_room(numbers, rows, p->readings, err);
+    for (size_t r = 0; r < rows && !status; r++) {
         const size_t at[BR_AXES] = {
             [BR_AXIS_SPACE] = r / repeat / inner, [BR_AXIS_TIME] = r / repeat % inner};
         struct br_numbers_row *row = &numbers->row[r];
@@ -561,12 +536,15 @@ enum br_status br_program_run(const struct br_orders_request *program, struct br
         return br_fail(err, BR_BAD_INPUT, "found no list of resolutions, expected one or two");
     if (program->readings == 0)
         return br_fail(err, BR_BAD_INPUT, "found no reading, expected a number to look for");
-    struct br_each each = {
-        .threads = program->jobs, .observer = program->observer, .turn = take_turn, .self = &j};
-    const bool failed = make_rows(program, numbers, &each.count, err) ||
-                        make_quantities(program, numbers, err) || check_commands(&j, err) ||
-                        make_environment(&j, err) ||
-                        (program->kept && open_kept(&j, err)) || br_each(&each, err);
+    bool failed = br_program_rows(program, numbers, err) ||
+                  make_quantities(program, numbers, err) || check_commands(&j, err) ||
+                  make_environment(&j, err) || (program->kept && open_kept(&j, err));
+    const struct br_each each = {.count = numbers->rows,
+                                 .threads = program->jobs,
+                                 .observer = program->observer,
+                                 .turn = take_turn,
+                                 .self = &j};
+    failed = failed || br_each(&each, err);
     free(j.environment);
     if (failed)
         br_numbers_clear(numbers);

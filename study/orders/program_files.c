@@ -72,38 +72,28 @@ enum br_status br_command_state(struct br_statement *command, const struct br_co
     return add_command(command, c, NULL, err);
 }
 
-static size_t count_of(const struct br_program_axis *axis)
-{
-    return axis->column ? axis->count : 1;
-}
-
 enum br_status br_command_identify(const struct br_orders_request *r, const char *text,
                                    char sum[BR_SHA256_TEXT], struct br_error *err)
 {
     struct br_statement s;
     struct br_command_words before = {NULL};
+    struct br_numbers numbers = {0};
     char *real = realpath(r->path, NULL); /* NULL: a pipe, for example */
-    enum br_status status = BR_OK;
     br_statement_begin(&s);
     br_state(&s, "beamrate-trust", "%s", "3");
     br_state(&s, "place", "%s", real ? real : r->path);
     br_state(&s, "study", "%s", text);
     free(real);
-    const size_t inner = count_of(&r->axis[BR_AXIS_TIME]);
-    const size_t rows = count_of(&r->axis[BR_AXIS_SPACE]) * inner;
-    for (size_t i = 0; i < rows && !status; i++) {
+    enum br_status status = br_program_rows(r, &numbers, err);
+    for (size_t i = 0; i < numbers.rows && !status; i++) {
         struct br_command_words words = {NULL};
-        struct br_numbers_row row = {.kept = false};
-        const size_t at[BR_AXES] = {[BR_AXIS_SPACE] = i / inner, [BR_AXIS_TIME] = i % inner};
-        for (int axis = 0; axis < BR_AXES; axis++)
-            if (r->axis[axis].column)
-                row.given[axis] = r->axis[axis].given[at[axis]];
-        status = br_command_split(r, &row, &words, err);
+        status = br_command_split(r, &numbers.row[i], &words, err);
         if (!status)
             status = add_command(&s, &words, &before, err);
         br_command_clear(&before);
         before = words;
     }
+    br_numbers_clear(&numbers);
     br_command_clear(&before);
     char *all = br_statement_end(&s);
     if (all)

@@ -150,6 +150,11 @@ enum br_status br_table_read(const struct br_orders_request *request, struct br_
 enum br_status br_program_run(const struct br_orders_request *request, struct br_numbers *numbers,
                               struct br_error *err);
 
+/* Makes a row for each run of the list or grid, from coarse to fine, with its resolution. numbers:
+ * zeros. Fails as br_numbers_make_room. */
+enum br_status br_program_rows(const struct br_orders_request *request, struct br_numbers *numbers,
+                               struct br_error *err);
+
 /* A command at one resolution. */
 struct br_command_words {
     char **word;   /* owned; ends with NULL */

@@ -163,30 +163,33 @@ static enum br_status take_field(struct cursor *c, json_t *row, bool *more, stru
     return json_array_append_new(row, field) ? br_no_memory(err, "the table") : BR_OK;
 }
 
-/* Adds the row of a line, without fields; *row (out) is the table's. Fails where it is one row, or
- * one field, too many. */
-static enum br_status add_row(json_t *table, size_t line, const char *path, json_t **row,
-                              struct br_error *err)
+static const char *field(const json_t *table, size_t row, size_t column)
 {
-    const size_t rows = json_array_size(table), columns = json_array_size(json_array_get(table, 0));
-    *row = json_pack("[I]", (json_int_t)line);
-    if (json_array_append_new(table, *row))
+    return json_string_value(json_array_get(json_array_get(table, row), column));
+}
+
+static size_t fields(const json_t *table, size_t row)
+{
+    const size_t size = json_array_size(json_array_get(table, row));
+    return size ? size - 1 : 0;
+}
+
+/* Adds a line to a table, as a row. A separator at the end is none. Fails where it is one row, or
+ * one field, too many. */
+static enum br_status take_row(struct cursor *c, json_t *table, struct br_error *err)
+{
+    const size_t line = c->line, rows = json_array_size(table), columns = fields(table, 0);
+    json_t *row = json_pack("[I]", (json_int_t)line);
+    if (json_array_append_new(table, row))
         return br_no_memory(err, "the table");
     if (rows > BR_MOST_ROWS)
-        return br_fail(err, BR_BAD_INPUT, "%s:%zu: found row %zu, expected at most %d", path, line,
-                       rows, BR_MOST_ROWS);
-    if (rows > 0 && rows * (columns - 1) > BR_MOST_FIELDS)
+        return br_fail(err, BR_BAD_INPUT, "%s:%zu: found row %zu, expected at most %d", c->path,
+                       line, rows, BR_MOST_ROWS);
+    if (rows * columns > BR_MOST_FIELDS)
         return br_fail(err, BR_BAD_INPUT,
                        "%s:%zu: found row %zu of %zu fields, expected at most %d "
                        "fields in all",
-                       path, line, rows, columns - 1, BR_MOST_FIELDS);
-    return BR_OK;
-}
-
-/* Takes the fields of a line into a row. A separator at the end is none. */
-static enum br_status take_fields(struct cursor *c, json_t *row, struct br_error *err)
-{
-    const size_t line = c->line;
+                       c->path, line, rows, columns, BR_MOST_FIELDS);
     enum br_status status = BR_OK;
     while (is_blank(*c->at) && c->separator != '\t')
         c->at++;
@@ -204,17 +207,6 @@ static enum br_status take_fields(struct cursor *c, json_t *row, struct br_error
 }
 
 /* ---- the heading ---- */
-
-static const char *field(const json_t *table, size_t row, size_t column)
-{
-    return json_string_value(json_array_get(json_array_get(table, row), column));
-}
-
-static size_t fields(const json_t *table, size_t row)
-{
-    const size_t size = json_array_size(json_array_get(table, row));
-    return size ? size - 1 : 0;
-}
 
 bool br_is_missing(const char *text)
 {
@@ -433,27 +425,21 @@ static char find_separator(const char *line)
  * as many names as the first row has fields. */
 static enum br_status take_heading(struct cursor *c, json_t *table, struct br_error *err)
 {
-    json_t *row;
-    struct cursor apart = *c, next = *c;
+    struct cursor apart = *c, next;
     const char *comment;
-    if (add_row(table, c->line, c->path, &row, err) || take_fields(c, row, err) ||
-        c->separator != ' ')
+    if (take_row(c, table, err) || c->separator != ' ')
         return err->status;
     json_t *wide = json_array(), *first = json_array();
     apart.blanks = 2;
-    next.at = c->at;
-    const bool failed = !wide || !first || json_array_append_new(wide, json_integer(0)) ||
-                        json_array_append_new(first, json_integer(0)) ||
-                        take_fields(&apart, wide, err) ||
-                        (next_line(&next, &comment) && take_fields(&next, first, err));
-    const size_t given = json_array_size(row), columns = json_array_size(first);
-    if (!failed && given != columns && json_array_size(wide) == columns)
-        for (size_t i = 0; i + 1 < given || i + 1 < columns; i++)
-            i + 1 < columns ? json_array_set(row, i + 1, json_array_get(wide, i + 1))
-                            : json_array_remove(row, columns);
+    next = *c;
+    const bool failed =
+        take_row(&apart, wide, err) || (next_line(&next, &comment) && take_row(&next, first, err));
+    const size_t given = fields(table, 0), columns = fields(first, 0);
+    if (!failed && given != columns && fields(wide, 0) == columns)
+        json_array_set(table, 0, json_array_get(wide, 0));
     json_decref(wide);
     json_decref(first);
-    return failed && !err->status ? br_no_memory(err, "the table") : err->status;
+    return err->status;
 }
 
 /* Copies a text with lines of boxes as bars and dashes; a bar alone in its line is a blank. */
@@ -490,10 +476,10 @@ static enum br_status skip_titles(struct cursor *c, const char **comment, struct
         struct cursor ahead = *c;
         const char *below_title = NULL, *none;
         bool more = true;
-        json_t *lines = json_array(), *row;
+        json_t *lines = json_array();
         for (int i = 0; i < 3 && more && !err->status; i++) {
             ahead.separator = find_separator(ahead.at);
-            if (!add_row(lines, ahead.line, c->path, &row, err) && !take_fields(&ahead, row, err))
+            if (!take_row(&ahead, lines, err))
                 more = next_line(&ahead, i ? &none : &below_title);
         }
         const size_t above = fields(lines, 0), below = fields(lines, 1);
@@ -526,24 +512,20 @@ enum br_status br_table_split(const char *text, const char *path, bool only_last
                             : skip_titles(&c, &comment, err) ? err->status
                                                              : take_heading(&c, table, err);
     if (!status && comment && has_data(table, 0)) {
-        json_t *names = json_array(), *row = NULL;
+        json_t *names = json_array();
         struct cursor above = c;
         above.at = comment;
-        if (!add_row(names, c.line, path, &row, err) && !take_fields(&above, row, err) &&
-            fields(names, 0) == fields(table, 0) && !numbers(names, 0) &&
-            json_array_insert(table, 0, row))
+        if (!take_row(&above, names, err) && fields(names, 0) == fields(table, 0) &&
+            !numbers(names, 0) && json_array_insert(table, 0, json_array_get(names, 0)))
             br_no_memory(err, "the table");
         status = err->status;
         json_decref(names);
     }
     while (!status && next_line(&c, &none)) {
-        json_t *row;
         if (only_last)
             json_array_remove(table, 1);
         status = br_observer_stops(observer) ? br_fail(err, BR_INTERRUPTED, "interrupted")
-                                             : add_row(table, c.line, c.path, &row, err);
-        if (!status)
-            status = take_fields(&c, row, err);
+                                             : take_row(&c, table, err);
     }
     if (!status && c.doubtful && !c.commas)
         status = br_fail(err, BR_BAD_INPUT,

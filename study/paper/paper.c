@@ -190,25 +190,11 @@ static enum br_status solve_exactly(struct br_paper *p, size_t i,
     return status;
 }
 
-static enum br_status read_printed(struct br_paper_table *t, const char *file, struct br_error *err)
-{
-    char path[1024];
-    struct br_printed printed;
-    br_data_path(file, path, sizeof path);
-    const enum br_status status = br_printed_read(path, &printed, err);
-    for (size_t j = 0; j < 2 && !status; j++)
-        t->printed[j] =
-            br_printed_error(&printed, t->n[0], br_time_step(t->study.scene, t->steps[j]));
-    if (!status)
-        br_printed_clear(&printed);
-    return status;
-}
-
 static enum br_status run_tables(struct br_paper *p, const struct br_observer *observer,
                                  struct br_error *err)
 {
-    static const char *const file[BR_PAPER_TABLES] = {"reference/printed/table1.csv",
-                                                      "reference/printed/table2.csv"};
+    static const struct br_printed *const printed[BR_PAPER_TABLES] = {&br_printed_table1,
+                                                                      &br_printed_table2};
     enum br_status status = BR_OK;
     for (size_t i = 0; i < BR_PAPER_TABLES && !status; i++) {
         struct br_paper_table *t = &p->table[i];
@@ -223,14 +209,15 @@ static enum br_status run_tables(struct br_paper *p, const struct br_observer *o
             .n = t->n,
             .steps = t->steps,
         };
-        status = read_printed(t, file[i], err);
-        if (!status)
-            status = br_study_run(&t->study, 1, p->request.threads,
-                                  observer ? &(struct br_observer){.stop = observer->stop,
-                                                                   .self = observer->self,
-                                                                   .preparing = observer->preparing}
-                                           : NULL,
-                                  err);
+        for (size_t j = 0; j < 2; j++)
+            t->printed[j] =
+                br_printed_error(printed[i], t->n[0], br_time_step(t->study.scene, t->steps[j]));
+        status = br_study_run(&t->study, 1, p->request.threads,
+                              observer ? &(struct br_observer){.stop = observer->stop,
+                                                               .self = observer->self,
+                                                               .preparing = observer->preparing}
+                                       : NULL,
+                              err);
     }
     return status;
 }

@@ -170,27 +170,10 @@ static size_t values_of(const struct br_history_record *h)
     return 2 * (h->unknowns[BR_AXIAL] + h->unknowns[BR_BENDING]);
 }
 
-/* Room for one more of `size` bytes. */
-static bool grow(void **memory, size_t count, size_t *most, size_t size)
-{
-    if (count < *most)
-        return true;
-    const size_t wanted = *most ? 2 * *most : 64;
-    void *larger = br_allocate(wanted, size);
-    if (!larger)
-        return false;
-    if (count)
-        memcpy(larger, *memory, count * size);
-    free(*memory);
-    *memory = larger;
-    *most = wanted;
-    return true;
-}
-
 static enum br_status keep_row(void *self, const struct br_history_row *row, struct br_error *err)
 {
     struct br_history_record *h = self;
-    if (!grow((void **)&h->row, h->rows, &h->most_rows, sizeof *h->row))
+    if (!br_grow(&h->row, h->rows, &h->most_rows, sizeof *h->row))
         return br_no_memory(err, "the tip's history");
     h->row[h->rows++] = *row;
     return BR_OK;
@@ -211,10 +194,10 @@ static enum br_status keep_sample(void *self, const struct br_march *march,
         h->unknowns[kind] = br_field_unknowns(br_march_field(march, kind));
     const size_t size = values_of(h) * (h->n + 1);
     size_t most = h->most_samples;
-    if (!grow((void **)&h->at, h->samples, &most, sizeof *h->at))
+    if (!br_grow(&h->at, h->samples, &most, sizeof *h->at))
         return br_no_memory(err, "the fields");
     most = h->most_samples;
-    if (!grow((void **)&h->field, h->samples, &most, size * sizeof *h->field))
+    if (!br_grow(&h->field, h->samples, &most, size * sizeof *h->field))
         return br_no_memory(err, "the fields");
     h->most_samples = most;
     double *field = h->field + h->samples * size;

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Formulas of derived numbers. Their sources: docs/scenes.md. */
+/* Formulas of derived numbers, and cross-sections. Their sources: docs/scenes.md. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "study/base/words.h"
+#include "study/scene/units.h"
 #include "study/scene/value.h"
 
 /* ---- formulas: long double throughout, rounded once ---- */
@@ -190,4 +192,48 @@ enum br_status br_scene_derive(const struct br_scene_reader *r)
             *derived++ = (struct br_derived){p->what, p->words, key->unit, (double)n->value};
     }
     return status;
+}
+
+/* ---- cross-sections ---- */
+
+/* Area and second moment of area for bending in the direction of w. a, b: width and height of a
+ * rectangle, diameter and wall of a tube; b is 0 for a circle. The formulas of a tube avoid a
+ * difference of powers: (D^4 - d^4)/64 = (D^2 - d^2)/4 (D^2 + d^2)/16, with D - d = 2 b. */
+static void set_shape(struct br_scene_number *to, bool rectangle, long double a, long double b)
+{
+    const long double pi = 3.141592653589793238463L, inner = b > 0 ? a - 2 * b : 0;
+    const long double area = rectangle ? a * b : b > 0 ? pi * b * (a - b) : pi * a * a / 4;
+    to->value = area;
+    to->second = rectangle ? area * b * b / 12 : area * (a * a + inner * inner) / 16;
+}
+
+enum br_status br_scene_read_shape(struct br_scene_value *v)
+{
+    static const char *const words[] = {"rectangle", "circle", "tube"};
+    const char *text = br_yaml_text(v->node), *cross = strstr(text, " x ");
+    const size_t length = strcspn(text, " ");
+    struct br_si_number a, b = {0, 0};
+    size_t shape = 0;
+    char word[32], suggestion[BR_SUGGESTION] = "";
+    snprintf(word, sizeof word, "%.*s", (int)(length < 31 ? length : 31), text);
+    while (shape < 3 && strcmp(word, words[shape]) != 0)
+        shape++;
+    if (shape == 3)
+        br_suggestion(word, words, 3, suggestion);
+    if (shape == 3 || !text[length] || (shape == 1) == (cross != NULL))
+        return BR_REFUSE_VALUE(v, "found '%s', expected %s%s", text, v->key->help, suggestion);
+    v->unit = "m";
+    enum br_status status = br_scene_read_quantity(v, text + length + 1, cross, &a);
+    if (!status && cross)
+        status = br_scene_read_quantity(v, cross + strlen(" x "), NULL, &b);
+    if (status)
+        return status;
+    if (!(a.wide > 0 && (b.wide > 0 || shape == 1) && (shape != 2 || 2 * b.wide < a.wide)))
+        return BR_REFUSE_VALUE(
+            v,
+            "found '%s', expected lengths above 0, and the wall of a tube below its "
+            "radius",
+            text);
+    set_shape(&v->r->given->row[v->key - br_scene_keys], shape == 0, a.wide, b.wide);
+    return BR_OK;
 }

@@ -42,15 +42,12 @@ NUMBER(tolerance, tolerance, double)
 NUMBER(friction_parameter, iteration.parameter, double)
 NUMBER(friction_tolerance, iteration.tolerance, double)
 
-/* Words that are not rows of a registry: their index in the list is the value. */
-#define LIST(list, ...)                                           \
-    static const char *const list##_list[] = {__VA_ARGS__, NULL}; \
-    static const char *list##_name(size_t row)                    \
-    {                                                             \
-        return list##_list[row];                                  \
-    }                                                             \
-    static const struct br_words list##_words = {list##_name, NULL, NULL};
-LIST(degree, "1", "2")
+static const char *degree_name(size_t row)
+{
+    static const char *const degrees[] = {"1", "2", NULL};
+    return degrees[row];
+}
+static const struct br_words degree_words = {degree_name, NULL, NULL};
 
 static double get_degree(const struct br_method *m)
 {
@@ -250,7 +247,7 @@ enum br_status br_method_read(const char *const text[BR_METHOD_FIELDS], enum br_
     }
     if (!text[BR_METHOD_CONTACT] && !m->scheme->may_lag && !m->contact->at_new_step)
         m->contact = br_contact_rule_of(m->scheme);
-    return br_method_check(m, err);
+    return br_method_check(m, NULL, err);
 }
 
 /* ", as --solver riccati does": the first row that uses the field. */

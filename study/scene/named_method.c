@@ -33,14 +33,13 @@ static const char *title_of(const struct br_method_field *f)
 
 const char *br_named_method_kind(size_t kind, char *words, size_t size)
 {
-    size_t used = 0;
     double value;
     const char *word;
     if (kind >= KINDS)
         return NULL;
     words[0] = '\0';
-    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)) && used < size; i++)
-        used += (size_t)snprintf(words + used, size - used, "%s%s", i ? ", " : "", word);
+    for (size_t i = 0; (word = word_of(kinds[kind], i, &value)); i++)
+        br_append(words, size, "%s%s", i ? ", " : "", word);
     return title_of(kinds[kind]);
 }
 
@@ -97,7 +96,7 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *c,
         status = take_word(strsep(&rest, "+"), &c->method, taken, err);
     if (!taken[CONTACT])
         c->method.contact = br_contact_rule_of(c->method.scheme);
-    return status ? status : br_method_check(&c->method, err);
+    return status ? status : br_method_check(&c->method, NULL, err);
 }
 
 /* ---- lists ---- */
@@ -155,10 +154,8 @@ static bool begins(const struct br_scene *scene, const struct br_method *method)
     return !status;
 }
 
-/* Adds the method of that name, unless the scene refuses it or the list has it already. */
-__attribute__((format(printf, 3, 4))) static void add(const struct br_scene *scene,
-                                                      struct br_named_methods *all,
-                                                      const char *format, ...)
+void br_named_methods_add(struct br_named_methods *all, const struct br_scene *scene,
+                          const char *format, ...)
 {
     char name[BR_METHOD_NAME_SIZE];
     struct br_named_method c;
@@ -167,7 +164,7 @@ __attribute__((format(printf, 3, 4))) static void add(const struct br_scene *sce
     vsnprintf(name, sizeof name, format, arguments);
     va_end(arguments);
     if (!br_named_method_read(name, &c, NULL) && !contains(all, &c) &&
-        all->count < BR_MOST_NAMED_METHODS && begins(scene, &c.method))
+        all->count < BR_MOST_NAMED_METHODS && (!scene || begins(scene, &c.method)))
         all->list[all->count++] = c;
 }
 
@@ -175,11 +172,11 @@ static void add_scheme(const struct br_scene *scene, const struct br_time_scheme
                        struct br_named_methods *all)
 {
     if (!scene->contact.modelled || !scheme->may_lag) {
-        add(scene, all, "%s", scheme->name);
+        br_named_methods_add(all, scene, "%s", scheme->name);
         return;
     }
     for (const struct br_contact_rule *const *rule = br_contact_rules; *rule; rule++)
-        add(scene, all, "%s+%s", scheme->name, (*rule)->name);
+        br_named_methods_add(all, scene, "%s+%s", scheme->name, (*rule)->name);
 }
 
 void br_named_methods_default(const struct br_scene *scene, struct br_named_methods *all)
@@ -194,9 +191,9 @@ void br_named_methods_default(const struct br_scene *scene, struct br_named_meth
         add_scheme(scene, *s, all);
     for (const struct br_time_scheme *const *s = br_time_schemes; *s; s++)
         if (scene->axial.modelled && (s == second || (*s)->order > 2))
-            add(scene, all, "%s+p2", (*s)->name);
+            br_named_methods_add(all, scene, "%s+p2", (*s)->name);
     for (size_t i = 1; br_friction_rules[i] && scene->friction.law != BR_FRICTIONLESS; i++)
-        add(scene, all, "%s+%s", base, br_friction_rules[i]->name);
+        br_named_methods_add(all, scene, "%s+%s", base, br_friction_rules[i]->name);
     for (const struct br_linear_solver *const *s = &br_linear_solvers[1]; *s; s++)
-        add(scene, all, "%s+%s", base, (*s)->name);
+        br_named_methods_add(all, scene, "%s+%s", base, (*s)->name);
 }

@@ -32,6 +32,12 @@ enum br_status br_named_method_read(const char *name, struct br_named_method *na
 enum br_status br_named_methods_read(const char *option, const char *text,
                                      struct br_named_methods *methods, struct br_error *err);
 
+/* Adds the method of a formatted name, unless it is none, the list has it already or is full, or
+ * the scene refuses it; NULL: any scene. */
+__attribute__((format(printf, 3, 4))) void br_named_methods_add(struct br_named_methods *methods,
+                                                                const struct br_scene *scene,
+                                                                const char *format, ...);
+
 /* The methods (out) for a scene when the user names none: every time scheme with every contact rule
  * that it accepts; elements of degree 2 for the first scheme of order two and for higher orders;
  * and the first scheme of order two with every other friction rule and every other linear solver.

@@ -64,18 +64,4 @@ extern const struct br_scene_key br_scene_keys[];
 /* The row of a key, as "axial.stiffness" or "density", which must exist. */
 size_t br_scene_row(const char *path);
 
-/* Refuses (BR_BAD_INPUT) initial data that move the clamped end, that are not finite, or whose
- * slope is missing or is not the derivative. *culprit (out): the offset of the wrong function in
- * struct br_scene. */
-enum br_status br_scene_check_initial(const struct br_scene *scene, size_t *culprit,
-                                      struct br_error *err);
-
-/* ---- functions that are finite everywhere ---- */
-
-/* Checks that the function of a key (initial data, a history or a load) is proved to be finite
- * everywhere in [0, L] and [0, T] (solver/proof.h). Fails with BR_BAD_INPUT, naming value, x and t,
- * also if there is no proof. BR_OK for other keys. */
-enum br_status br_scene_scan(const struct br_scene *scene, const struct br_scene_key *key,
-                             struct br_error *err);
-
 #endif

@@ -2,10 +2,12 @@
 #include "study/scene/statement.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
+#include "study/base/text.h"
 #include "study/known/expression.h"
 #include "study/scene/method_fields.h"
-#include "study/scene/schema.h"
+#include "study/scene/value.h"
 
 static void state_number(struct br_statement *s, const char *name, double value)
 {
@@ -90,4 +92,35 @@ void br_state_method(struct br_statement *s, const struct br_method *m)
             br_state(s, f->name, "%s", br_method_field_text(f, m, value));
     br_state(s, "iterations", "%zu", m->iteration.most);
     br_state(s, "most_steps", "%zu", m->most_steps);
+}
+
+/* ---- a scene's file ---- */
+
+/* One line of br_scene_data: a number in the unit of its key, however the file writes it; other
+ * values as they are. */
+static void print_value(const struct br_scene_reader *r, const struct br_scene_key *k, FILE *out)
+{
+    const yaml_node_t *section = *k->section ? br_yaml_value(r, NULL, k->section) : NULL;
+    const yaml_node_t *node = br_yaml_value(r, section, k->name);
+    fprintf(out, "%s%s%s:", k->section, *k->section ? "." : "", k->name);
+    if (k->kind == BR_KEY_POSITIVE || k->kind == BR_KEY_NOT_NEGATIVE)
+        fprintf(out, " %.15g %s", *(const double *)((const char *)r->scene + k->offset), k->unit);
+    else if (node->type == YAML_SCALAR_NODE)
+        fprintf(out, " %s", br_yaml_text(node));
+    else
+        for (int factor = 0; factor < 2; factor++)
+            fprintf(out, "%s %s", factor ? " times" : "",
+                    br_yaml_text(br_yaml_value(r, node, factor ? "history" : "shape")));
+    fputc('\n', out);
+}
+
+enum br_status br_scene_data(const struct br_scene_reader *r, char **data)
+{
+    size_t size;
+    FILE *out = br_text_open(data, &size);
+    for (const struct br_scene_key *k = br_scene_keys; out && k->name; k++)
+        if (br_scene_line(r, k) && k->need != BR_MAKES && k->kind != BR_KEY_SECTION &&
+            k->kind != BR_KEY_TEXT && k->kind != BR_KEY_VERIFY)
+            print_value(r, k, out);
+    return out && fclose(out) == 0 ? BR_OK : br_no_memory(r->err, "the scene's data");
 }

@@ -39,14 +39,69 @@ enum br_status br_scene_pass_on(const struct br_scene_reader *r, size_t line, co
 size_t br_yaml_line(const yaml_node_t *node);
 const char *br_yaml_text(const yaml_node_t *node);
 
+/* The value of a key in a mapping (NULL: the whole document); NULL: not given. */
+const yaml_node_t *br_yaml_value(const struct br_scene_reader *r, const yaml_node_t *node,
+                                 const char *key);
+
+/* The line on which a key of the scene is given; 0: it is not. */
+static inline size_t br_scene_line(const struct br_scene_reader *r, const struct br_scene_key *key)
+{
+    return r->given->row[key - br_scene_keys].line;
+}
+
 /* Reads the value of a key that is not a section into the reader's scene. Fails with BR_BAD_INPUT
  * or BR_NO_MEMORY. */
 enum br_status br_scene_read_value(const struct br_scene_reader *r, const struct br_scene_key *key,
                                    const yaml_node_t *node);
 
-/* What the file of a whole scene says of the problem, a line a key ("density: 1 kg/m"); numbers that
- * were derived are the scene's. *data (out): owned by the caller. Fails with BR_NO_MEMORY. */
+/* A value that is read; for schema.c, expressions.c and engineering.c. */
+struct br_scene_value {
+    const struct br_scene_reader *r;
+    const struct br_scene_key *key;
+    const yaml_node_t *node;
+    const char *unit; /* the expected unit */
+    bool ratio;       /* a number without unit was found, and the key accepts it */
+};
+
+#define BR_REFUSE_VALUE(v, ...) \
+    br_scene_refuse((v)->r, br_yaml_line((v)->node), (v)->key->name, __VA_ARGS__)
+
+/* The key's member of the scene. */
+static inline void *br_scene_target(const struct br_scene_value *v)
+{
+    return (char *)v->r->scene + v->key->offset;
+}
+
+struct br_unit;
+struct br_si_number;
+
+/* Reads "value unit", as far as `end`, which points into the text; NULL: to the end of the text. */
+enum br_status br_scene_read_quantity(struct br_scene_value *v, const char *text, const char *end,
+                                      struct br_si_number *q);
+
+/* "rectangle 20 mm x 5 mm", "circle 10 mm", "tube 20 mm x 2 mm" */
+enum br_status br_scene_read_shape(struct br_scene_value *v);
+
+/* Reads any unit of the expected dimension. */
+enum br_status br_scene_read_unit(struct br_scene_value *v, const char *text, struct br_unit *unit);
+
+/* Keeps a text in the scene. */
+enum br_status br_scene_keep_text(const struct br_scene_value *v, const char *text);
+
+/* Reads the value of a key that is an expression, or a load. */
+enum br_status br_scene_read_expression(struct br_scene_value *v);
+
+/* What the file of a whole scene says of the problem, a line a key ("density: 1 kg/m"); numbers
+ * that were derived are the scene's. *data (out): owned by the caller. Fails with BR_NO_MEMORY. */
 enum br_status br_scene_data(const struct br_scene_reader *r, char **data);
+
+/* Derives loads, tip forces and initial data from the solutions of a scene (manufactured.c). */
+enum br_status br_scene_apply_solutions(const struct br_scene_reader *r);
+
+/* Refuses (BR_BAD_INPUT, at `line` where the file does not give the function) a function that is
+ * not proved to be finite everywhere in [0, L] and [0, T] (solver/proof.h), and initial data that
+ * move the clamped end, jump, or whose slope is missing or is not the derivative. */
+enum br_status br_scene_check_functions(const struct br_scene_reader *r, size_t line);
 
 /* ---- derived numbers ---- */
 

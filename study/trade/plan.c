@@ -49,9 +49,11 @@ static enum br_status add(struct br_plan *p, const struct br_trial *trial, struc
     return BR_OK;
 }
 
-static const struct br_trial *find(const struct br_plan *p, const struct br_trial *trial)
+/* From the trial `from` on. */
+static const struct br_trial *find(const struct br_plan *p, size_t from,
+                                   const struct br_trial *trial)
 {
-    for (size_t i = 0; i < p->count; i++)
+    for (size_t i = from; i < p->count; i++)
         if (br_trials_same(&p->trial[i], trial))
             return &p->trial[i];
     return NULL;
@@ -140,7 +142,7 @@ static double error_back(const struct br_plan *p, const struct br_named_method *
     *found = at[axis] >= back;
     at[axis] -= *found ? back : 0;
     const struct br_trial there = at_place(named, at[0], at[1]);
-    const struct br_trial *t = *found ? find(p, &there) : NULL;
+    const struct br_trial *t = *found ? find(p, 0, &there) : NULL;
     *found = t;
     return t && isfinite(br_trial_bound(t)) ? br_trial_bound(t) : INFINITY;
 }
@@ -194,7 +196,8 @@ static enum br_status add_front(struct br_plan *p, double work, bool *left, stru
         for (size_t i = 0; i < MESHES * levels && !status; i++) {
             const size_t place[] = {i / levels, i % levels};
             const struct br_trial trial = at_place(m, place[0], place[1]);
-            if (find(p, &trial) || !may_help(p, m, place) || expected_seconds(p, &trial) > allowed)
+            if (find(p, 0, &trial) || !may_help(p, m, place) ||
+                expected_seconds(p, &trial) > allowed)
                 continue;
             *left = true;
             if (work_of(p, &trial) <= work)
@@ -245,10 +248,8 @@ static enum br_status add_around(struct br_plan *p, const struct br_trial *best,
             const struct br_trial trial =
                 br_trial_at(best->named, (size_t)fmax(n, 1), adaptive ? 0 : (size_t)fmax(k, 10),
                             adaptive ? strtod(text, NULL) : 0);
-            bool there = false;
-            for (size_t t = p->grid; t < p->count; t++)
-                there |= br_trials_same(&p->trial[t], &trial);
-            if (!there && expected_seconds(p, &trial) <= 1.5 * allowed_seconds(p))
+            if (!find(p, p->grid, &trial) &&
+                expected_seconds(p, &trial) <= 1.5 * allowed_seconds(p))
                 status = add(p, &trial, err);
         }
     return status;

@@ -12,25 +12,6 @@
 
 /* ---- the sources of error, in the order in which the chain removes them ---- */
 
-static const char *without_friction(const struct br_scene *scene)
-{
-    return scene->friction.law == BR_FRICTIONLESS || !scene->bending.modelled
-               ? "the scene has no friction"
-               : NULL;
-}
-
-static const char *round_off(const struct br_scene *scene, const struct br_refinement *refined,
-                             struct br_stand *stand)
-{
-    (void)scene, (void)refined;
-    if (stand->method.solver == &br_riccati)
-        return "solver riccati has the least round-off, which is below the floor";
-    if (stand->method.solver == &br_auto)
-        return "auto chooses a solver with the least round-off, which is below the floor";
-    stand->method.solver = &br_riccati;
-    return NULL;
-}
-
 /* The rule that gives directly the result of an iterating rule. */
 static const struct br_friction_rule *direct(const struct br_friction_rule *rule)
 {
@@ -40,75 +21,69 @@ static const struct br_friction_rule *direct(const struct br_friction_rule *rule
     return rule;
 }
 
-static const char *iteration(const struct br_scene *scene, const struct br_refinement *refined,
-                             struct br_stand *stand)
-{
-    (void)refined;
-    if (without_friction(scene))
-        return without_friction(scene);
-    if (!stand->method.friction->iterates)
-        return "the friction law is solved directly";
-    stand->method.friction = direct(stand->method.friction);
-    return NULL;
-}
-
-static const char *smoothing(const struct br_scene *scene, const struct br_refinement *refined,
-                             struct br_stand *stand)
-{
-    (void)refined;
-    if (without_friction(scene))
-        return without_friction(scene);
-    if (!stand->method.friction->needs_regularisation)
-        return "the friction law is not smoothed";
-    stand->method.friction = br_friction_rules[0];
-    return NULL;
-}
-
-static const char *lag(const struct br_scene *scene, const struct br_refinement *refined,
-                       struct br_stand *stand)
-{
-    (void)refined;
-    if (!scene->contact.modelled || !scene->axial.modelled)
-        return "the scene has no contact";
-    if (stand->method.contact->at_new_step || !stand->method.scheme->may_lag)
-        return "the method's contact is implicit";
-    stand->method.contact = br_contact_rule_find("implicit");
-    return NULL;
-}
-
-static const char *time_steps(const struct br_scene *scene, const struct br_refinement *refined,
-                              struct br_stand *stand)
-{
-    (void)scene;
-    stand->method.scheme = refined->stand.method.scheme;
-    stand->method.tolerance = refined->stand.method.tolerance;
-    stand->method.contact = br_contact_rule_find("implicit");
-    stand->steps = refined->stand.steps;
-    return NULL;
-}
-
-static const char *space(const struct br_scene *scene, const struct br_refinement *refined,
-                         struct br_stand *stand)
-{
-    (void)scene, (void)refined;
-    stand->continuous = true;
-    return NULL;
-}
-
-const struct br_source br_sources[] = {
-    {"round-off", "round-off of the linear solver", round_off, false},
-    {"iteration", "tolerance of the friction's iteration", iteration, false},
-    {"mu", "friction smoothed over |v| <= mu", smoothing, false},
-    {"lag", "contact force from the step before", lag, false},
-    {"time", "time steps", time_steps, true},
-    {"space", "elements", space, true},
-    {.name = NULL},
+/* As in the tables and in JSON. */
+static const char *const names[BR_SOURCES] = {
+    [BR_SOURCE_ROUND_OFF] = "round-off", /* of the linear solver */
+    [BR_SOURCE_ITERATION] = "iteration", /* the tolerance of the friction's iteration */
+    [BR_SOURCE_SMOOTHING] = "mu",        /* friction smoothed over |v| <= mu */
+    [BR_SOURCE_LAG] = "lag",             /* the contact force of the step before */
+    [BR_SOURCE_TIME] = "time",           /* the time steps */
+    [BR_SOURCE_SPACE] = "space",         /* the elements */
 };
+
+/* Removes a source from a run of the scene and returns NULL; or returns, in a few words, why the
+ * run has no such source. */
+static const char *take_away(enum br_source source, const struct br_scene *scene,
+                             const struct br_stand *refined, struct br_stand *stand)
+{
+    struct br_method *m = &stand->method;
+    const bool friction = source == BR_SOURCE_ITERATION || source == BR_SOURCE_SMOOTHING;
+    if (friction && (scene->friction.law == BR_FRICTIONLESS || !scene->bending.modelled))
+        return "the scene has no friction";
+    switch (source) {
+    case BR_SOURCE_ROUND_OFF:
+        if (m->solver == &br_riccati)
+            return "solver riccati has the least round-off, which is below the floor";
+        if (m->solver == &br_auto)
+            return "auto chooses a solver with the least round-off, which is below the floor";
+        m->solver = &br_riccati;
+        break;
+    case BR_SOURCE_ITERATION:
+        if (!m->friction->iterates)
+            return "the friction law is solved directly";
+        m->friction = direct(m->friction);
+        break;
+    case BR_SOURCE_SMOOTHING:
+        if (!m->friction->needs_regularisation)
+            return "the friction law is not smoothed";
+        m->friction = br_friction_rules[0];
+        break;
+    case BR_SOURCE_LAG:
+        if (!scene->contact.modelled || !scene->axial.modelled)
+            return "the scene has no contact";
+        if (m->contact->at_new_step || !m->scheme->may_lag)
+            return "the method's contact is implicit";
+        m->contact = br_contact_rule_find("implicit");
+        break;
+    case BR_SOURCE_TIME:
+        m->scheme = refined->method.scheme;
+        m->tolerance = refined->method.tolerance;
+        m->contact = br_contact_rule_find("implicit");
+        stand->steps = refined->steps;
+        break;
+    case BR_SOURCE_SPACE:
+        stand->continuous = true;
+        break;
+    case BR_SOURCES:
+        break;
+    }
+    return NULL;
+}
 
 /* ---- distances of two marches, or of a march from the solution: studies of one cell ---- */
 
 /* `heads` distances, each in all norms. */
-enum { MOST_HEADS = BR_MOST_SOURCES + 3 };
+enum { MOST_HEADS = BR_SOURCES + 3 };
 struct distances {
     const struct br_split *split;
     struct br_study study[BR_MOST_NORMS][MOST_HEADS];
@@ -192,11 +167,8 @@ static struct br_refinement refined_by(const struct br_split *split,
         snprintf(r.name, sizeof r.name, "%s, k = %.3g s", scheme->name,
                  br_time_step(split->scene, r.stand.steps));
     }
-    for (const struct br_source *s = br_sources; s->name; s++) {
-        struct br_stand next = stand;
-        if (s->remove(split->scene, &r, &next) == NULL && !next.continuous)
-            stand = next;
-    }
+    for (enum br_source source = 0; source < BR_SOURCE_SPACE; source++)
+        take_away(source, split->scene, &r.stand, &stand);
     r.stand = stand;
     return r;
 }
@@ -275,7 +247,7 @@ struct chain {
     size_t whole;    /* head: the run and the solution */
     size_t audit[2]; /* heads: riccati against plain, for the run and before the first source in
                         time */
-    size_t link[BR_MOST_SOURCES]; /* heads, by share */
+    size_t link[BR_SOURCES]; /* heads */
     struct refining refining;
 };
 
@@ -292,20 +264,17 @@ static void add_links(struct br_split *split, struct chain *c)
 {
     struct br_stand stand = start(split);
     const struct br_stand solution = {.method = split->method, .continuous = true};
-    bool audited = false;
     c->whole = add_distance(c->d, &stand, &solution);
     c->audit[0] = add_audit(c, &stand);
-    for (const struct br_source *s = br_sources; s->name; s++) {
-        struct br_share *share = &split->share[split->shares++];
+    for (enum br_source source = 0; source < BR_SOURCES; source++) {
+        struct br_share *share = &split->share[source];
         struct br_stand next = stand;
-        *share = (struct br_share){.source = s};
-        share->none = s->remove(split->scene, &split->refined, &next);
-        if (share->none)
-            continue;
-        if (s->in_time && !audited)
+        share->name = names[source];
+        share->none = take_away(source, split->scene, &split->refined.stand, &next);
+        if (source == BR_SOURCE_TIME)
             c->audit[1] = add_audit(c, &stand);
-        audited |= s->in_time;
-        c->link[split->shares - 1] = add_distance(c->d, &stand, &next);
+        if (!share->none)
+            c->link[source] = add_distance(c->d, &stand, &next);
         stand = next;
     }
 }
@@ -317,12 +286,12 @@ static enum br_status check_links(const struct br_split *split, const struct cha
     const struct br_error *whole = failure_of(c->d, c->whole);
     if (whole->status)
         return br_fail(err, whole->status, "%.1000s", whole->message);
-    for (size_t i = 0; i < split->shares; i++) {
+    for (size_t i = 0; i < BR_SOURCES; i++) {
         if (split->share[i].none || !failed(c->d, c->link[i]))
             continue;
         const struct br_error *failure = failure_of(c->d, c->link[i]);
         return br_fail(err, failure->status ? failure->status : BR_NOT_FINITE,
-                       "the part of the error called %s: %.900s", split->share[i].source->name,
+                       "the part of the error called %s: %.900s", names[i],
                        failure->status ? failure->message : "it is not a number");
     }
     return BR_OK;
@@ -343,11 +312,11 @@ static double floor_of(const struct br_split *split, const struct chain *c,
     return floor;
 }
 
+/* in_time: the component needs the refined march. */
 static void set_share(const struct br_split *split, const struct chain *c, size_t head,
-                      struct br_share *share)
+                      bool in_time, struct br_share *share)
 {
     const struct br_study *s = &c->d->study[0][head];
-    const bool in_time = share->source && share->source->in_time;
     take_errors(c->d, head, share->error);
     for (size_t m = 0; m < split->norms; m++)
         for (enum br_part part = 0; part < BR_PARTS; part++)
@@ -371,15 +340,17 @@ static void set_whole(struct br_split *split, const struct chain *c)
         split->tip[kind] = s->cell[0].tip[kind];
         split->solution_tip[kind] = s->reference_tip[kind];
     }
-    set_share(split, c, c->whole, &split->whole);
+    split->sum.name = "sum";
+    split->whole.name = "whole";
+    set_share(split, c, c->whole, false, &split->whole);
 }
 
 static void set_shares(struct br_split *split, const struct chain *c)
 {
-    for (size_t i = 0; i < split->shares; i++) {
+    for (size_t i = 0; i < BR_SOURCES; i++) {
         struct br_share *share = &split->share[i];
         if (!share->none)
-            set_share(split, c, c->link[i], share);
+            set_share(split, c, c->link[i], i >= BR_SOURCE_TIME, share);
         for (size_t m = 0; m < split->norms; m++)
             for (enum br_part part = 0; part < BR_PARTS; part++)
                 split->sum.error[m][part] += share->error[m][part];
@@ -391,14 +362,8 @@ static void set_shares(struct br_split *split, const struct chain *c)
 enum br_status br_split_run(struct br_split *split, int threads, const struct br_observer *observer,
                             struct br_error *err)
 {
-    const struct br_split given = *split;
     struct chain c = {.refining.threads = threads};
-    *split = (struct br_split){.scene = given.scene,
-                               .method = given.method,
-                               .at = given.at,
-                               .norms = given.norms,
-                               .judge = br_judge_best(given.scene)};
-    memcpy(split->norm, given.norm, sizeof split->norm);
+    split->judge = br_judge_best(split->scene);
     if (split->at.n < 1 || split->at.steps < 1)
         return br_fail(err, BR_BAD_INPUT, "%s is 0, expected at least one",
                        split->at.n < 1 ? "n" : "the number of time steps");

@@ -3,7 +3,7 @@
  * each march removes one more source of error. The differences of neighbours, as functions of x and
  * t, add up to the whole error. Sources may interact; then their components depend on this order.
  *
- * To add a source: one row of br_sources in split.c, at its position in the chain. */
+ * To add a source: a name here, at its position in the chain, and what removes it in split.c. */
 #ifndef BR_STUDY_TRADE_SPLIT_H
 #define BR_STUDY_TRADE_SPLIT_H
 
@@ -11,7 +11,17 @@
 #include "study/grid/study.h"
 #include "study/scene/named_method.h"
 
-enum { BR_MOST_SOURCES = 8 };
+/* The sources, in the order of the chain. From BR_SOURCE_TIME on a component needs the refined
+ * march. */
+enum br_source {
+    BR_SOURCE_ROUND_OFF,
+    BR_SOURCE_ITERATION,
+    BR_SOURCE_SMOOTHING,
+    BR_SOURCE_LAG,
+    BR_SOURCE_TIME,
+    BR_SOURCE_SPACE,
+    BR_SOURCES
+};
 
 /* A link of the chain from a run to the solution. */
 struct br_stand {
@@ -26,22 +36,9 @@ struct br_refinement {
     char name[64];         /* "adaptive, tolerance 1e-11" */
 };
 
-struct br_source {
-    const char *name;  /* as in the tables and in JSON */
-    const char *title; /* a few words for a person */
-    /* Removes this source from a run of the scene and returns NULL; or returns, in a few words, why
-     * the run has no such source. */
-    const char *(*remove)(const struct br_scene *scene, const struct br_refinement *refined,
-                          struct br_stand *stand);
-    bool in_time; /* its component needs the refined march */
-};
-
-/* The chain, in its order; ends with a NULL name. */
-extern const struct br_source br_sources[];
-
 /* One component of the error, the sum of the components' norms, or the whole. */
 struct br_share {
-    const struct br_source *source;        /* NULL: the sum or the whole */
+    const char *name;                      /* as in the tables and in JSON */
     const char *none;                      /* why there is no such component; NULL: there is */
     double error[BR_MOST_NORMS][BR_PARTS]; /* its norm, in the norm's unit; 0 where there is none */
     double floor[BR_MOST_NORMS][BR_PARTS]; /* below it the component cannot be separated from
@@ -56,10 +53,9 @@ struct br_split {
     struct br_resolution at;
     const struct br_norm *norm[BR_MOST_NORMS];
     size_t norms;
-    /* out */
-    const struct br_judge *judge;           /* of the whole and of the last component */
-    struct br_share share[BR_MOST_SOURCES]; /* in the order of br_sources */
-    size_t shares;
+    /* out; in: zeros */
+    const struct br_judge *judge; /* of the whole and of the last component */
+    struct br_share share[BR_SOURCES];
     struct br_share whole;
     struct br_share sum; /* its norms are at least the whole's, its tip is; without floors */
     double tip[2], solution_tip[2]; /* of the run and of the solution, at t = T, m */

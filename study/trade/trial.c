@@ -228,13 +228,13 @@ static char *text_of(const struct br_trial *t, const struct br_trial_request *r)
     return br_statement_end(&text);
 }
 
-/* A trial and its request. */
-struct timed {
+/* One trial or more, and their request. */
+struct trials {
     struct br_trial *trial;
     const struct br_trial_request *request;
 };
 
-static void pass_cost(struct br_record *r, const struct timed *of)
+static void pass_cost(struct br_record *r, const struct trials *of)
 {
     const size_t most = (size_t)1 << 53; /* of a count */
     struct br_trial_cost *cost = &of->trial->cost;
@@ -252,7 +252,7 @@ static void pass_cost(struct br_record *r, const struct timed *of)
 /* The timing of a trial that is complete or over the limit. */
 static void pass_trial(struct br_record *r, void *self)
 {
-    const struct timed *of = self;
+    const struct trials *of = self;
     struct br_trial *t = of->trial;
     bool over = t->end == BR_TRIAL_OVER;
     char *why = t->failure.message;
@@ -276,7 +276,7 @@ static bool take_kept(struct br_trial *t, const struct br_trial_request *r)
     if (!r->kept)
         return false;
     char *text = text_of(t, r);
-    const bool taken = br_kept_take(r->kept, text, pass_trial, &(struct timed){&found, r});
+    const bool taken = br_kept_take(r->kept, text, pass_trial, &(struct trials){&found, r});
     free(text);
     if (taken) {
         *t = found;
@@ -290,41 +290,35 @@ static void keep_trial(struct br_trial *t, const struct br_trial_request *r)
     if (!r->kept || t->end == BR_TRIAL_FAILED)
         return;
     char *text = text_of(t, r);
-    br_kept_put(r->kept, text, pass_trial, &(struct timed){t, r});
+    br_kept_put(r->kept, text, pass_trial, &(struct trials){t, r});
     free(text);
 }
-
-/* Trials that are run in one call. */
-struct batch {
-    struct br_trial *trial;
-    const struct br_trial_request *request;
-};
 
 /* Times one trial: sets `cost` and, if the march is not complete, `end` and `failure`. A failure of
  * the march is a result of the trial; an interruption ends the call. */
 static enum br_status time_one(void *self, size_t i, struct br_error *err)
 {
-    const struct batch *batch = self;
-    struct br_trial *t = &batch->trial[i];
-    if (t->end == BR_TRIAL_LEFT || take_kept(t, batch->request))
+    const struct trials *all = self;
+    struct br_trial *t = &all->trial[i];
+    if (t->end == BR_TRIAL_LEFT || take_kept(t, all->request))
         return BR_OK;
-    const enum br_status status = repeat(t, batch->request, err);
+    const enum br_status status = repeat(t, all->request, err);
     if (status == BR_INTERRUPTED)
         return status;
     if (status && t->end != BR_TRIAL_OVER)
         t->end = BR_TRIAL_FAILED;
-    keep_trial(t, batch->request);
+    keep_trial(t, all->request);
     return BR_OK;
 }
 
 /* The approximate cost of a trial, for the observer. */
 static double work_of(const void *self, size_t i)
 {
-    const struct batch *batch = self;
-    const struct br_trial *t = &batch->trial[i];
+    const struct trials *all = self;
+    const struct br_trial *t = &all->trial[i];
     if (t->end == BR_TRIAL_LEFT)
         return 0;
-    return t->foreseen > 0 ? t->foreseen : br_trial_work(batch->request->scene, t);
+    return t->foreseen > 0 ? t->foreseen : br_trial_work(all->request->scene, t);
 }
 
 static void begin(struct br_trial *t)
@@ -477,12 +471,9 @@ enum br_status br_trials_run(struct br_trial *trial, size_t count,
                              const struct br_trial_request *request, struct br_error *err)
 {
     struct br_observer_share share = {.whole = request->observer, .length = 0.5};
-    struct br_observer part;
+    const struct br_observer part = br_observer_of(&share);
     struct br_trial_request own = *request;
-    if (request->observer) {
-        part = br_observer_of(&share);
-        own.observer = &part;
-    }
+    own.observer = &part;
     for (size_t i = 0; i < count; i++)
         begin(&trial[i]);
     const struct br_each each = {.count = count,
@@ -490,7 +481,7 @@ enum br_status br_trials_run(struct br_trial *trial, size_t count,
                                  .observer = own.observer,
                                  .turn = time_one,
                                  .work = work_of,
-                                 .self = &(struct batch){trial, &own}};
+                                 .self = &(struct trials){trial, &own}};
     enum br_status status = br_each(&each, err);
     share = (struct br_observer_share){request->observer, 0.5, 0.5};
     return status ? status : judge_all(trial, count, &own, err);

@@ -32,6 +32,9 @@ struct br_point {
     double rounding;        /* half a unit of its last digit, where it was printed; 0: it was not */
 };
 
+/* The order that two points show, the coarser one first; NaN as br_order_rate. */
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine);
+
 /* An expectation and what was observed. */
 struct br_case {
     enum br_verify_kind kind;

@@ -72,28 +72,31 @@ static void find_constants(struct br_case *c)
     }
 }
 
+/* As the search for an order takes it. */
+static struct br_order_point order_point(const struct br_point *p)
+{
+    return (struct br_order_point){p->z, p->z_against, p->error, p->deviation, p->rounding};
+}
+
+double br_point_rate(const struct br_point *coarse, const struct br_point *fine)
+{
+    const struct br_order_point both[] = {order_point(coarse), order_point(fine)};
+    return br_order_rate(&both[0], &both[1]);
+}
+
 /* The order with its intervals, from the points that are not left out; those that do not show it
  * are left out then. */
 static enum br_status find_order(struct br_case *c, struct br_error *err)
 {
     struct br_order_point *all = br_allocate(c->points, sizeof *all);
-    double *scatter = br_allocate(2 * c->points, sizeof *scatter);
     struct br_line_order found;
-    if (!all || !scatter) {
-        free(all);
-        free(scatter);
+    if (!all)
         return br_no_memory(err, "the verdict");
-    }
-    double *rounding = scatter + c->points;
     for (size_t i = 0; i < c->points; i++) {
-        const struct br_point *p = &c->point[i];
-        all[i] = (struct br_order_point){p->z, p->z_against, p->used ? p->error : NAN};
-        scatter[i] = p->deviation / p->error;
-        rounding[i] = p->rounding / p->error;
+        all[i] = order_point(&c->point[i]);
+        all[i].error = c->point[i].used ? all[i].error : NAN;
     }
-    const enum br_status status =
-        br_line_order_of_means(all, scatter, rounding, c->points, &found, err);
-    free(scatter);
+    const enum br_status status = br_line_order_find(all, c->points, &found, err);
     c->order = found.order;
     c->low99 = found.low99;
     c->high99 = found.high99;
@@ -118,11 +121,7 @@ static double rate_to(const struct br_case *c, size_t i)
     size_t before = i;
     while (before > 0 && !c->point[before - 1].used)
         before--;
-    if (!c->point[i].used || before == 0)
-        return NAN;
-    const struct br_point *fine = &c->point[i], *coarse = &c->point[before - 1];
-    return br_order_rate(&(struct br_order_point){coarse->z, coarse->z_against, coarse->error},
-                         &(struct br_order_point){fine->z, fine->z_against, fine->error});
+    return c->point[i].used && before ? br_point_rate(&c->point[before - 1], &c->point[i]) : NAN;
 }
 
 /* The orders that the two coarsest points and the two finest ones show by themselves. */

@@ -151,30 +151,17 @@ static bool parse_what(const char *text, struct br_expectation *e)
     return false;
 }
 
-static const char *skip(const char *text, const char *word)
-{
-    while (text && *text == ' ')
-        text++;
-    const size_t length = strlen(word);
-    if (!text || strncmp(text, word, length) != 0)
-        return NULL;
-    text += length;
-    while (*text == ' ')
-        text++;
-    return text;
-}
-
 /* "at most 3e-4 m^(3/2)" or "constant 2e-4 to 3e-4 m^(3/2)" */
 static bool parse_range(const char *text, struct br_expectation *e)
 {
-    const char *ceiling = skip(text, "at most");
+    const char *ceiling = br_skip_word(text, "at most");
     if (!ceiling) {
-        const char *floor = skip(text, "constant");
+        const char *floor = br_skip_word(text, "constant");
         floor = floor ? br_read_number(floor, &e->floor) : NULL;
-        ceiling = skip(floor, "to");
+        ceiling = br_skip_word(floor, "to");
     }
     const char *end = ceiling ? br_read_number(ceiling, &e->ceiling) : NULL;
-    end = skip(end, e->norm->unit);
+    end = br_skip_word(end, e->norm->unit);
     return end && !*end;
 }
 
@@ -182,12 +169,12 @@ static bool parse_range(const char *text, struct br_expectation *e)
 static bool parse_expectation(const char *text, struct br_expectation *e)
 {
     e->floor = e->ceiling = NAN;
-    const char *end = br_read_number(text, &e->order), *to = skip(end, "to");
-    end = skip(to ? br_read_number(to, &e->highest) : end, "+-");
+    const char *end = br_read_number(text, &e->order), *to = br_skip_word(end, "to");
+    end = br_skip_word(to ? br_read_number(to, &e->highest) : end, "+-");
     end = end ? br_read_number(end, &e->tolerance) : NULL;
     if (!end || !*end)
         return end != NULL;
-    end = skip(end, ",");
+    end = br_skip_word(end, ",");
     return end && parse_range(end, e);
 }
 

@@ -4,6 +4,7 @@
  *     bench --compare OLD NEW   prints the rows of two such files beside each other
  * It prints times and writes them, and fails on wrong results only. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,17 +30,23 @@ json_t *bench_row(const char *format, ...)
     return row;
 }
 
+/* What is not finite is null. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
 void bench_put(json_t *row, const char *unit, double value)
 {
     json_object_set_new(row, "unit", json_string(unit));
-    json_object_set_new(row, "value", br_json_number(value));
+    json_object_set_new(row, "value", number(value));
 }
 
 void bench_put_time(json_t *row, const char *unit, const struct bench_time *t)
 {
     bench_put(row, unit, t->median);
-    json_object_set_new(row, "min", br_json_number(t->least));
-    json_object_set_new(row, "max", br_json_number(t->most));
+    json_object_set_new(row, "min", number(t->least));
+    json_object_set_new(row, "max", number(t->most));
 }
 
 void bench_put_skipped(json_t *row, const char *reason)

@@ -164,8 +164,8 @@ static enum br_status run_balance(struct br_balance_row *row, struct br_error *e
     method.scheme = row->scheme;
     method.contact = contact ? br_contact_rule_find(contact) : br_contact_rule_of(row->scheme);
     method.tolerance = tolerance;
-    if (!status && (br_method_check(&method, &row->failure) ||
-                    br_method_check_scene(&method, &scene, &row->failure)))
+    if (!status && (br_method_check(&method, NULL, &row->failure) ||
+                    br_method_check(&method, &scene, &row->failure)))
         row->end = BR_VIBRATION_REFUSED;
     else if (!status)
         status = measure(row, &scene, &method, err);

@@ -13,6 +13,7 @@
 #include "study/scene/resolution.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
+#include "tests/support.h"
 
 enum { MOST_STEPS = 2500 }; /* steps of the exact solution, and of adaptive schemes */
 
@@ -57,9 +58,9 @@ __attribute__((format(printf, 3, 4))) static void decide(struct trial *t,
 /* Whether a warning before the march says that perhaps no digit is right. */
 static bool warned(const struct trial *t)
 {
-    return br_warnings_find(&t->warnings, BR_WARN_ROUND_OFF) ||
-           br_warnings_find(&t->warnings, BR_WARN_INACCURATE) ||
-           br_warnings_find(&t->warnings, BR_WARN_UNKNOWN);
+    return br_test_warning(&t->warnings, BR_WARN_ROUND_OFF) ||
+           br_test_warning(&t->warnings, BR_WARN_INACCURATE) ||
+           br_test_warning(&t->warnings, BR_WARN_UNKNOWN);
 }
 
 /* The request for a march of the unchanged case. */
@@ -79,6 +80,11 @@ static const double accurate = 0.05;    /* relative, of displacements */
 static const double refined_work = 3e6; /* elements times linear solves */
 static const double of_distance = 1.5;  /* from a judge to a finer one, times this: its error */
 
+double br_extreme_beyond(double error, double slack, double stated)
+{
+    return error <= slack + stated ? 0 : (error - slack) / fmax(stated, 1e-300);
+}
+
 /* Compares the distance of the march from the judge with the stated error. */
 static void compare(struct trial *t)
 {
@@ -91,7 +97,7 @@ static void compare(struct trial *t)
         const double divisor = t->judging->stated_divisor > 0 ? t->judging->stated_divisor : 1;
         const double stated = br_predicted_most(&t->prediction, kind) / divisor;
         const double slack = fmax(sure, of_distance * t->judge_error[kind]);
-        const double beyond = e <= slack + stated ? 0 : (e - slack) / fmax(stated, 1e-300);
+        const double beyond = br_extreme_beyond(e, slack, stated);
         if (isnan(beyond) || beyond > t->beyond || (beyond == t->beyond && !(e <= v->nearest))) {
             v->stated = stated;
             v->nearest = e;
@@ -166,30 +172,38 @@ static enum br_status ask_again(struct trial *t, struct br_error *err)
     return status;
 }
 
-static bool is_stated(const struct trial *t)
+enum br_extreme_class br_extreme_class_of(const struct br_extreme_verdict *v, double beyond)
 {
-    return t->verdict->error <= accurate || t->prediction.known;
+    const unsigned helps = 1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE |
+                           1u << BR_WARN_INITIAL | 1u << BR_WARN_BOUNCE;
+    const bool is_accurate = v->error <= accurate;
+    if (v->by == BR_BY_NOBODY)
+        return BR_EXTREME_UNJUDGED;
+    if (beyond <= 0 && is_accurate)
+        return BR_EXTREME_RIGHT;
+    if (v->warned & 1u << BR_WARN_UNSTABLE)
+        return BR_EXTREME_UNSTABLE;
+    if (!is_accurate && !v->known)
+        return BR_EXTREME_UNKNOWN;
+    return beyond <= 0 || v->warned & helps ? BR_EXTREME_WARNED : BR_EXTREME_WRONG;
 }
 
 static void decide_accuracy(struct trial *t)
 {
     const struct br_extreme_verdict *v = t->verdict;
-    const unsigned helps = 1u << BR_WARN_LOAD_TIME | 1u << BR_WARN_LOAD_SPACE |
-                           1u << BR_WARN_INITIAL | 1u << BR_WARN_BOUNCE;
-    if (v->by == BR_BY_NOBODY)
-        decide(t, BR_EXTREME_UNJUDGED, "nobody can judge it: %.150s", t->other->failure.message);
-    else if (t->beyond <= 0 && v->error <= accurate)
-        t->verdict->which = BR_EXTREME_RIGHT;
-    else if (v->warned & 1u << BR_WARN_UNSTABLE)
-        decide(t, BR_EXTREME_UNSTABLE, "beyond the stability limit");
-    else if (!is_stated(t))
-        decide(t, BR_EXTREME_UNKNOWN, "error %.2g, said to be not known: %.100s", v->error,
-               t->prediction.why);
-    else if (t->beyond <= 0 || v->warned & helps)
-        decide(t, BR_EXTREME_WARNED, "error %.2g, and says so", v->error);
-    else
-        decide(t, BR_EXTREME_WRONG, "error %.2g by %s, stated to be at most %.2g", v->nearest,
+    const enum br_extreme_class which = br_extreme_class_of(v, t->beyond);
+    if (which == BR_EXTREME_UNJUDGED)
+        decide(t, which, "nobody can judge it: %.150s", t->other->failure.message);
+    else if (which == BR_EXTREME_UNSTABLE)
+        decide(t, which, "beyond the stability limit");
+    else if (which == BR_EXTREME_UNKNOWN)
+        decide(t, which, "error %.2g, said to be not known: %.100s", v->error, t->prediction.why);
+    else if (which == BR_EXTREME_WARNED)
+        decide(t, which, "error %.2g, and says so", v->error);
+    else if (which == BR_EXTREME_WRONG)
+        decide(t, which, "error %.2g by %s, stated to be at most %.2g", v->nearest,
                br_extreme_judges[v->by], v->stated);
+    t->verdict->which = which;
 }
 
 static enum br_status judge_accuracy(struct trial *t, struct br_error *err)
@@ -230,7 +244,7 @@ static enum br_status read_case(struct trial *t, struct br_error *err)
     if (!status)
         status = br_model_select(&t->scene, t->one->wanted, &t->marched, &said);
     if (!status)
-        status = br_method_check(&t->method, &said);
+        status = br_method_check(&t->method, NULL, &said);
     const struct br_planned_march planned = {.scene = &t->marched,
                                              .method = &t->method,
                                              .n = t->one->n,

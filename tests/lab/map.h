@@ -117,6 +117,13 @@ struct br_extreme_verdict {
     char why[200];   /* the reason why it is not right; one line */
 };
 
+/* An error over the stated one, where it is larger than that and the slack of the judge; else 0. */
+double br_extreme_beyond(double error, double slack, double stated);
+
+/* The class of an answer by the members by, known, error and warned, and by how far an error is
+ * beyond the stated one. */
+enum br_extreme_class br_extreme_class_of(const struct br_extreme_verdict *verdict, double beyond);
+
 /* How judging is done; zeros: as the map does. */
 struct br_extreme_judging {
     bool quick;            /* without the exact solution */

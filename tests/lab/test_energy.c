@@ -76,14 +76,57 @@ TEST(test_one)
     assert_true(v.end == BR_VIBRATION_DONE && v.measured < 0 && br_vibration_is_right(&v));
 }
 
-TEST(test_balance_row)
+/* Verdicts by hand, of the measurement at each place of a row whose others are right; and of the
+ * same imbalance in a scene. Nobody predicts what steps by a tolerance take. */
+TEST(test_verdicts_by_hand)
 {
-    struct br_balance_row row = {.limit = 1e-11, .worst = 1e-12};
-    assert_true(br_balance_row_is_right(&row));
-    row.worst = 1e-10;
-    assert_false(br_balance_row_is_right(&row));
-    row.worst = NAN;
-    assert_false(br_balance_row_is_right(&row));
+    static const struct {
+        const char *scheme;
+        enum br_vibration_end end;
+        double measured, predicted, round_off, worst, limit;
+        bool right, closes; /* the vibration; the scene */
+    } rows[] = {
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, 0, 1e-12, 1e-11, true, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.5, 0.25, 0, 0, true, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.5, 0.2499, 0, 0, false, true},
+        {"euler", BR_VIBRATION_DONE, 0.5, 0.25, 0.2499, 0, 0, false, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, 1, 1e-11, 1e-11, true, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, 1, 1.001e-11, 1e-11, false, false},
+        {"euler", BR_VIBRATION_DONE, NAN, 0.25, 1, 0, 1, false, true},
+        {"euler", BR_VIBRATION_DONE, INFINITY, 0.25, INFINITY, 0, 1, false, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, NAN, 1, 0, 1, false, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, NAN, 0, 1, false, true},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, 1, NAN, 1, false, false},
+        {"euler", BR_VIBRATION_DONE, 0.25, 0.25, 1, 0, NAN, false, false},
+        {"euler", BR_VIBRATION_REFUSED, NAN, NAN, NAN, NAN, NAN, true, true},
+        {"euler", BR_VIBRATION_FAILED, 0.25, 0.25, 1, 0, 1, false, true},
+        {"euler", BR_VIBRATION_FAILED, 0.25, 0.25, 1, 2, 1, false, false},
+        {"adaptive", BR_VIBRATION_DONE, 0.25, NAN, 0, 0, 1, true, true},
+        {"adaptive", BR_VIBRATION_DONE, NAN, NAN, 0, 0, 1, false, true},
+        {"adaptive", BR_VIBRATION_DONE, 0.25, NAN, 0, 2, 1, false, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct br_vibration made = {.scheme = br_time_scheme_find(rows[i].scheme),
+                                          .end = rows[i].end,
+                                          .measured = rows[i].measured,
+                                          .predicted = rows[i].predicted,
+                                          .round_off = rows[i].round_off,
+                                          .worst = rows[i].worst,
+                                          .limit = rows[i].limit};
+        const struct br_balance_row scene = {
+            .end = made.end, .worst = made.worst, .limit = made.limit};
+        const struct br_vibration sound = {.scheme = made.scheme};
+        for (size_t place = 0; place < BR_VIBRATION_RATES * BR_VIBRATION_DENSITIES; place++) {
+            struct br_vibration_row row;
+            for (size_t j = 0; j < BR_VIBRATION_RATES * BR_VIBRATION_DENSITIES; j++)
+                row.at[j / BR_VIBRATION_DENSITIES][j % BR_VIBRATION_DENSITIES] =
+                    j == place ? made : sound;
+            if (br_vibration_row_is_right(&row) != rows[i].right)
+                fail_msg("row %zu, place %zu", i, place);
+        }
+        if (br_balance_row_is_right(&scene) != rows[i].closes)
+            fail_msg("row %zu, as the balance of a scene", i);
+    }
 }
 
 /* By every scheme, in every scene. The theory says how much each takes. */

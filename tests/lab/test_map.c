@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "solver/linear/linear_solver.h"
+#include "study/foresee/warnings.h"
 #include "tests/lab/map.h"
 #include "tests/lab/track.h"
 #include "tests/support.h"
@@ -119,6 +120,60 @@ TEST(test_boast)
     }
     assert_true(known >= 3);
     AT_MOST(0.5 * known, wrong);
+}
+
+/* Classes by hand: who states less than is true is wrong, whoever judges; 5 % where nothing is
+ * stated. */
+TEST(test_classes_by_hand)
+{
+    enum { TIME = 1u << BR_WARN_LOAD_TIME, UNSTABLE = 1u << BR_WARN_UNSTABLE };
+    enum { OTHER = 1u << BR_WARN_ROUND_OFF | 1u << BR_WARN_INACCURATE | 1u << BR_WARN_UNKNOWN };
+    static const struct {
+        enum br_extreme_by by;
+        bool known;
+        double error, slack, stated;
+        unsigned warned;
+        enum br_extreme_class which;
+    } rows[] = {
+        {BR_BY_NOBODY, true, 0, 0, 1, 0, BR_EXTREME_UNJUDGED},
+        {BR_BY_NOBODY, true, NAN, NAN, NAN, TIME, BR_EXTREME_UNJUDGED},
+        {BR_BY_EXACT, true, 0, 0, 0, 0, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, true, 0.01, 0, 0.01, 0, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, true, 0.05, 0, 0.05, 0, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, true, 0.0101, 0, 0.01, 0, BR_EXTREME_WRONG},
+        {BR_BY_REFINEMENT, true, 0.0101, 0, 0.01, OTHER, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, true, 0.0101, 0.0002, 0.01, 0, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, true, 1e-9, 0, 0, 0, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, true, 0.0101, 0, 0.01, TIME, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.0101, 0, 0.01, 1u << BR_WARN_LOAD_SPACE, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.0101, 0, 0.01, 1u << BR_WARN_INITIAL, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.0101, 0, 0.01, 1u << BR_WARN_BOUNCE, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.06, 0, 0.06, 0, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.06, 0, INFINITY, 0, BR_EXTREME_WARNED},
+        {BR_BY_EXACT, true, 0.06, 0, 0.06, UNSTABLE, BR_EXTREME_UNSTABLE},
+        {BR_BY_EXACT, true, 1e30, 0, 0.06, UNSTABLE, BR_EXTREME_UNSTABLE},
+        {BR_BY_EXACT, false, 0.04, 0, INFINITY, UNSTABLE, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, false, 0.05, 0, INFINITY, 0, BR_EXTREME_RIGHT},
+        {BR_BY_EXACT, false, 0.0501, 0, INFINITY, 0, BR_EXTREME_UNKNOWN},
+        {BR_BY_EXACT, false, 0.04, 0, 0.03, 0, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, false, NAN, 0, INFINITY, 0, BR_EXTREME_UNKNOWN},
+        {BR_BY_EXACT, true, NAN, 0, 0.01, 0, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, true, NAN, 0, INFINITY, 0, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, true, 0.01, NAN, 0.01, 0, BR_EXTREME_WRONG},
+        {BR_BY_EXACT, true, 0.01, 0, NAN, 0, BR_EXTREME_WRONG},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const struct br_extreme_verdict v = {.by = rows[i].by,
+                                             .known = rows[i].known,
+                                             .error = rows[i].error,
+                                             .warned = rows[i].warned};
+        const double beyond = br_extreme_beyond(rows[i].error, rows[i].slack, rows[i].stated);
+        const enum br_extreme_class which = br_extreme_class_of(&v, beyond);
+        if (which != rows[i].which)
+            fail_msg("row %zu: %s, expected %s", i, br_extreme_words[which],
+                     br_extreme_words[rows[i].which]);
+    }
+    CLOSE(br_extreme_beyond(0.5, 0.1, 0.01), 40, 1e-13);
 }
 
 /* ---- how far marches are from each other ---- */

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "study/extremes/extremes.h"
+#include "tests/exact_points.h"
 #include "tests/lab/step_matrix.h"
 
 /* Chooses even points of `count`, where an element has `parts`, and then points nearer and nearer
@@ -153,7 +154,7 @@ static enum br_status evaluate(const struct br_exact *exact, struct br_track *t,
     double x[BR_TRACK_POINTS];
     for (size_t p = 0; p < t->samples.points; p++)
         x[p] = length * (double)t->samples.point[p] / (double)(t->samples.n * t->samples.parts);
-    return br_exact_evaluate(exact, state, part, t->samples.points, x, value, &t->failure);
+    return exact_points(exact, state, part, t->samples.points, x, value, &t->failure);
 }
 
 static enum br_status read_exact(const struct br_exact *exact, struct br_track *t,

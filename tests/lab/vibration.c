@@ -251,7 +251,7 @@ enum br_status br_vibration_run(struct br_vibration *v, struct br_error *err)
         t.method.tolerance = v->tolerance;
     v->end = BR_VIBRATION_DONE;
     v->worst = 0;
-    if (br_method_check_scene(&t.method, &t.scene, &v->failure)) {
+    if (br_method_check(&t.method, &t.scene, &v->failure)) {
         v->end = BR_VIBRATION_REFUSED;
         return BR_OK;
     }

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A text as one YAML document, and how its values are refused. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/scene/value.h"
+
+/* "path:line: key: ..." */
+enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
+                               const char *format, ...)
+{
+    char *text = NULL;
+    va_list args;
+    va_start(args, format);
+    const int length = vasprintf(&text, format, args);
+    va_end(args);
+    if (length < 0)
+        return br_no_memory(r->err, "a message");
+    /* A long value must not hide what was expected, which is at the end of the text. */
+    enum { HEAD = 200, TAIL = 400 };
+    if (length > HEAD + TAIL)
+        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %.*s ... %s", r->path, line, key, HEAD, text,
+                text + length - TAIL);
+    else
+        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %s", r->path, line, key, text);
+    free(text);
+    return BR_BAD_INPUT;
+}
+
+enum br_status br_scene_pass_on(const struct br_scene_reader *r, size_t line, const char *key,
+                                const struct br_error *inner)
+{
+    if (inner->status == BR_BAD_INPUT)
+        return br_scene_refuse(r, line, key, "%s", inner->message);
+    return inner->status ? br_fail(r->err, inner->status, "%s", inner->message) : BR_OK;
+}
+
+size_t br_yaml_line(const yaml_node_t *node)
+{
+    return node->start_mark.line + 1;
+}
+
+const char *br_yaml_text(const yaml_node_t *node)
+{
+    return (const char *)node->data.scalar.value;
+}
+
+const yaml_node_t *br_yaml_value(const struct br_scene_reader *r, const yaml_node_t *node,
+                                 const char *key)
+{
+    node = node ? node : yaml_document_get_root_node(r->document);
+    for (yaml_node_pair_t *p = node->data.mapping.pairs.start; p < node->data.mapping.pairs.top;
+         p++)
+        if (strcmp(br_yaml_text(yaml_document_get_node(r->document, p->key)), key) == 0)
+            return yaml_document_get_node(r->document, p->value);
+    return NULL;
+}
+
+/* libyaml's loader states no error when it has no memory. */
+static enum br_status not_yaml(const struct br_scene_reader *r, const yaml_parser_t *parser)
+{
+    if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR)
+        return br_no_memory(r->err, "the YAML parser");
+    return br_fail(r->err, BR_BAD_INPUT, "%s:%zu: not YAML: %s", r->path,
+                   parser->problem_mark.line + 1, parser->problem ? parser->problem : "unreadable");
+}
+
+/* Checks what the loader does not. The loader's time grows with the square of the nesting depth. A
+ * second document would be ignored. A zero byte, which YAML can write as \0 in quotes, would end a
+ * text early. */
+static enum br_status check_event(const struct br_scene_reader *r, const yaml_event_t *event,
+                                  int depth, int documents)
+{
+    enum { DEEPEST = 32 };
+    const size_t line = event->start_mark.line + 1;
+    const char *text = (const char *)event->data.scalar.value;
+    if (depth > DEEPEST)
+        return br_scene_refuse(r, line, "scene",
+                               "found lists or mappings nested more than %d deep, expected a scene",
+                               DEEPEST);
+    if (documents > 1)
+        return br_scene_refuse(r, line, "scene", "a second document begins, expected one");
+    if (event->type == YAML_SCALAR_EVENT && strlen(text) != event->data.scalar.length)
+        return br_scene_refuse(r, line, "scene",
+                               "found '%s' followed by a zero byte, expected text", text);
+    return BR_OK;
+}
+
+static enum br_status check_events(const struct br_scene_reader *r, yaml_parser_t *parser)
+{
+    enum br_status status = BR_OK;
+    int depth = 0, documents = 0;
+    for (bool more = true; more && !status;) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(parser, &event))
+            return not_yaml(r, parser);
+        depth += event.type == YAML_SEQUENCE_START_EVENT || event.type == YAML_MAPPING_START_EVENT;
+        depth -= event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        documents += event.type == YAML_DOCUMENT_START_EVENT;
+        more = event.type != YAML_STREAM_END_EVENT;
+        status = check_event(r, &event, depth, documents);
+        yaml_event_delete(&event);
+    }
+    return status;
+}
+
+static enum br_status load(const struct br_scene_reader *r, yaml_parser_t *parser,
+                           br_yaml_take *take, void *self)
+{
+    if (!yaml_parser_load(parser, r->document))
+        return not_yaml(r, parser);
+    const enum br_status status = take(r, self);
+    yaml_document_delete(r->document);
+    return status;
+}
+
+enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *take, void *self,
+                            struct br_error *err)
+{
+    yaml_document_t document;
+    const struct br_scene_reader r = {.path = path, .document = &document, .err = err};
+    enum br_status status = BR_OK;
+    for (int pass = 0; pass < 2 && !status; pass++) {
+        yaml_parser_t parser;
+        if (!yaml_parser_initialize(&parser))
+            return br_no_memory(err, "the YAML parser");
+        yaml_parser_set_input_string(&parser, (const unsigned char *)text, strlen(text));
+        status = pass == 0 ? check_events(&r, &parser) : load(&r, &parser, take, self);
+        yaml_parser_delete(&parser);
+    }
+    return status;
+}
