@@ -53,9 +53,9 @@ int br_status_exit_code(enum br_status status)
 
 static atomic_long until_failure = -1;
 
-void br_allocation_fails_at(long i)
+long br_allocation_fails_at(long i)
 {
-    atomic_store(&until_failure, i);
+    return atomic_exchange(&until_failure, i);
 }
 
 static bool fails_now(void)

@@ -43,12 +43,13 @@ enum br_status br_status_of_errno(int reason);
 int br_status_exit_code(enum br_status status);
 
 /* calloc with a test hook: br_allocation_fails_at(i) makes the i-th allocation
- * from now on (0 = the next one) fail once; a negative i switches it off. */
+ * from now on (0 = the next one) fail once; a negative i switches it off. Returns how many would have
+ * come before the failure that it replaces; negative: it has happened. */
 void *br_allocate(size_t count, size_t size);
 
 /* Like br_allocate, but aligned to a cache line. */
 void *br_allocate_aligned(size_t count, size_t size);
-void br_allocation_fails_at(long i);
+long br_allocation_fails_at(long i);
 
 /* Makes room for one more than `count` elements in an array of br_allocate. array: the address of
  * its pointer, in/out; size: bytes of an element. False: no memory; the array is as it was. */

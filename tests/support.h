@@ -106,9 +106,9 @@ void br_test_rows(const char *section, void (*check)(char *row));
  * the file and contains `message`. */
 void br_test_scene_refused(const char *text, bool verify, const char *message);
 
-/* Fails every allocation of an attempt in turn until some attempts in a row succeed (a few
- * allocations can be done without): at least `least` fail, and each says so. attempt: allocates,
- * and cleans up after itself whatever happens. */
+/* Fails every allocation of an attempt in turn: at least `least` attempts fail, and each says so (a
+ * few allocations can be done without). attempt: allocates, and cleans up after itself whatever
+ * happens. */
 void br_test_without_memory(enum br_status (*attempt)(const void *data, struct br_error *err),
                             const void *data, long least);
 

@@ -66,7 +66,7 @@ struct patience {
     clock_t start;
     double seconds;
 };
-static const double usual_patience = 60, short_patience = 1;
+static const double usual_patience = 60, short_patience = 0.3;
 
 static bool may_be_refused(const struct hard_load *c)
 {
@@ -247,7 +247,7 @@ TEST(test_hard_loads)
         return;
     static struct hard_load c;
     size_t count[HARD_KINDS][OUTCOMES] = {0}, wrong = 0, refusals = 0, unsure = 0;
-    const size_t cases = br_test_long() ? 2000 : 60;
+    const size_t cases = br_test_long() ? 2000 : 4 * HARD_KINDS;
     for (size_t i = 0; i < cases; i++) {
         hard_load_draw(&c, i);
         count[c.kind][try(&c, false)]++;
@@ -273,7 +273,7 @@ TEST(test_patches_at_the_clamp)
     if (br_test_quick())
         return;
     static struct hard_load c;
-    const size_t cases = br_test_long() ? 500 : 40;
+    const size_t cases = br_test_long() ? 500 : 20;
     size_t right = 0;
     for (size_t i = 0; i < cases; i++) {
         hard_load_draw_at_clamp(&c, i);

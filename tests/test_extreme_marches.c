@@ -264,7 +264,7 @@ static void check_scene(uint64_t seed, size_t *compared)
 TEST(test_random_scenes)
 {
     size_t compared = 0;
-    const size_t most = getenv("BR_EXTREMES") ? (size_t)atol(getenv("BR_EXTREMES")) : 600;
+    const size_t most = getenv("BR_EXTREMES") ? (size_t)atol(getenv("BR_EXTREMES")) : 300;
     for (uint64_t seed = 1; seed <= (br_test_quick() ? 60 : most); seed++)
         check_scene(seed, &compared);
     print_message("# %zu scenes\n", compared);

@@ -548,7 +548,7 @@ static double coverage(size_t count, double finest)
 {
     struct br_test_random random = {count};
     int told = 0, right = 0;
-    for (int i = 0; i < (br_test_quick() ? 20 : 100); i++) {
+    for (int i = 0; i < (br_test_long() ? 100 : 40); i++) {
         const double a = br_test_uniform(&random, -1, 1), b = br_test_uniform(&random, -1, 1);
         const double c = br_test_uniform(&random, -1, 1);
         double h[MOST], value[MOST];

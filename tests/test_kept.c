@@ -486,7 +486,7 @@ TEST(test_damaged_with_a_right_sum)
     enum { MOST = 8, LONGEST = 20000 };
     static char path[MOST][1300], whole[LONGEST + 8], bytes[LONGEST + 8];
     struct br_test_random random = {31};
-    const size_t files = getenv("FUZZ") ? (size_t)atol(getenv("FUZZ")) : 48;
+    const size_t files = getenv("FUZZ") ? (size_t)atol(getenv("FUZZ")) : 24;
     start_works();
     for (size_t i = 0; i < files; i++) {
         const enum work work = (enum work)(i % WORKS);

@@ -1352,7 +1352,7 @@ TEST(test_without_memory)
 {
     static const char *const csv = "h,k,l2,u\n1,1,2,4\n1,.5,1.5,2\n1,.25,1.2,1.5\n.5,1,1.3,1\n"
                                    ".5,.5,.7,1\n.5,.25,.5,1\n.25,1,1.1,1\n.25,.5,.6,1\n"
-                                   ".25,.25,.3,1\n.125,1,1,1\n.125,.5,.5,1\n.125,.25,.25,1\n";
+                                   ".25,.25,.3,1\n";
     br_test_without_memory(whole_table, csv, 60);
     br_test_without_memory(whole_study, full, 7);
 }

@@ -58,8 +58,10 @@ TEST(test_schemes_without_a_limit)
     MUST(br_scene_list(&name, &count, &err));
     assert_true(count >= 33);
     for (size_t i = 0; i < count; i += br_test_quick() ? 8 : 1) {
-        check_sound(name[i], "euler+implicit,bdf2,trbdf2");
-        check_sound(name[i], "sdirk2,esdirk3,esdirk4");
+        if (i % 2 == 0 || br_test_long())
+            check_sound(name[i], "euler+implicit,bdf2,trbdf2");
+        if (i % 2 == 1 || br_test_long())
+            check_sound(name[i], "sdirk2,esdirk3,esdirk4");
         check_sound(name[i], i % 8 ? "bdf3" : "bdf3,adaptive"); /* whose own steps are many */
     }
     br_scene_list_free(name, count);
