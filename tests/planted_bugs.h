@@ -1596,6 +1596,11 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_program test_times_of_repeated", "row.wall /= (double)repeat;", ""},
     {"kept_if_one_is", "expected", "study/orders/program.c", "tests/test_program test_repeated",
      "row.kept &= other->kept;", "row.kept |= other->kept;"},
+    {"grid_limit_without_products", "interval", "study/fit/limits.c",
+     "tests/test_grid_convergence test_limit_of_a_grid_by_hand", "half += products;", ""},
+    {"grid_limit_to_one_side", "interval", "study/fit/limits.c",
+     "tests/test_grid_convergence test_limit_of_a_grid_by_hand",
+     "fmax(e->high - value, value - e->low)", "e->high - value"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -652,3 +652,23 @@ TEST(test_without_memory)
     const struct named c = {5, {16, 8, 4, 2, 1}, {2, 0.75, 1.0625, 0.984375, 1.00390625}, 0};
     br_test_without_memory(attempt, &c, 3);
 }
+
+/* By hand, of a value 10: over h 9 [8.5, 10.2] is left, which changes by 0.1 to the next k, over
+ * k 10.5 [10, 11.5], which changes by 0.3 to the next h. So 10 - 1 + 0.5, and 1.5 + 1.5 + 0.3
+ * around 10. */
+TEST(test_limit_of_a_grid_by_hand)
+{
+    struct br_limit_along along[BR_AXES] = {
+        {.limit = {.value = {9, 8.5, 10.2}, .sequence = BR_MONOTONE_CONVERGENCE},
+         .next = {.value = {9.3, NAN, NAN}},
+         .next_value = 10.2},
+        {.limit = {.value = {10.5, 10, 11.5}, .sequence = BR_MONOTONE_CONVERGENCE},
+         .next = {.value = {10.9, NAN, NAN}},
+         .next_value = 10.1}};
+    const struct br_grid_limit found = br_limit_of_grid(10, along);
+    CLOSE(found.value.value, 9.5, 1e-12);
+    CLOSE(found.value.low, 6.7, 1e-12);
+    CLOSE(found.value.high, 13.3, 1e-12);
+    along[1].limit.value.value = NAN;
+    assert_true(isnan(br_limit_of_grid(10, along).value.value));
+}
