@@ -1601,6 +1601,9 @@ static const struct planted_bug planted_bugs[] = {
     {"grid_limit_to_one_side", "interval", "study/fit/limits.c",
      "tests/test_grid_convergence test_limit_of_a_grid_by_hand",
      "fmax(e->high - value, value - e->low)", "e->high - value"},
+    {"triple_without_its_own_scatter", "interval", "study/fit/limits.c",
+     "tests/test_grid_convergence test_scatter_of_the_coarsest",
+     "leave_scatter(&limits->triple[i], half + i);", "leave_scatter(&limits->triple[i], half);"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -617,6 +617,21 @@ TEST(test_scatter)
         }
 }
 
+/* The half width of one mean by hand. Of 15, 7, 3, 1 only the first three hold the coarsest; the
+ * others are of order 1, and go to -1. */
+TEST(test_scatter_of_the_coarsest)
+{
+    static const double h[] = {8, 4, 2, 1}, value[] = {15, 7, 3, 1}, half[] = {10, 0.1, 0.1, 0.1};
+    struct br_limits limits;
+    MUST(br_limits_find(h, value, half, 4, 1, &limits, &err));
+    assert_int_equal(limits.triples, 2);
+    assert_int_equal(limits.triple[0].sequence, BR_SEQUENCE_UNKNOWN);
+    assert_int_equal(limits.triple[1].sequence, BR_MONOTONE_CONVERGENCE);
+    CLOSE(limits.triple[1].order, 1, 1e-13);
+    CLOSE(limits.triple[1].fine.limit, -1, 1e-12);
+    br_limits_clear(&limits);
+}
+
 TEST(test_bad_input)
 {
     static const double h[] = {4, 2, 1, 0.5}, v[] = {3, 2, 1.5, 1.3};
