@@ -1604,6 +1604,13 @@ static const struct planted_bug planted_bugs[] = {
     {"triple_without_its_own_scatter", "interval", "study/fit/limits.c",
      "tests/test_grid_convergence test_scatter_of_the_coarsest",
      "leave_scatter(&limits->triple[i], half + i);", "leave_scatter(&limits->triple[i], half);"},
+    {"scatter_carries_both_ways_in_full", "interval", "study/fit/limits.c",
+     "tests/test_grid_convergence test_half_widths_by_hand",
+     "squares += pow(gci.fine.uncertainty - uncertainty, 2) / 2;",
+     "squares += pow(gci.fine.uncertainty - uncertainty, 2);"},
+    {"scatter_of_the_finest_upwards_alone", "interval", "study/fit/limits.c",
+     "tests/test_grid_convergence test_half_widths_by_hand",
+     "limit->value.low = finest - uncertainty - own;", "limit->value.low = finest - uncertainty;"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -632,6 +632,24 @@ TEST(test_scatter_of_the_coarsest)
     br_limits_clear(&limits);
 }
 
+/* Of 6, 2, 1 on ratios of 2, 2^p is the quotient 4 of the differences, and U = 1.25/(4 - 1) = 5/12.
+ * Where the coarsest is 5 or 7, U is 1.25/2 or 1.25/4: changes by 10/48 and -5/48. Where the finest
+ * is 0.5 or 1.5, U is 1.25 1.5^2/(4 - 1.5) = 9/8 or 1.25 0.5^2/(4 - 0.5) = 5/56: changes by 17/24
+ * and -55/168. Their mean square adds to U, and the half width of the finest does, too. */
+TEST(test_half_widths_by_hand)
+{
+    static const double h[] = {4, 2, 1}, value[] = {6, 2, 1}, half[][3] = {{1, 0, 0}, {0, 0, 0.5}};
+    const double off[] = {5.0 / 12 + sqrt(62.5) / 48,
+                          5.0 / 12 + hypot(17.0 / 24, 55.0 / 168) / sqrt(2) + 0.5};
+    for (int i = 0; i < 2; i++) {
+        struct br_grid_limit limit;
+        MUST(br_limit_of_values(h, value, half[i], 3, 2, &limit, &err));
+        CLOSE(limit.value.value, 2.0 / 3, 1e-12);
+        CLOSE(limit.value.low, 1 - off[i], 1e-12);
+        CLOSE(limit.value.high, 1 + off[i], 1e-12);
+    }
+}
+
 TEST(test_bad_input)
 {
     static const double h[] = {4, 2, 1, 0.5}, v[] = {3, 2, 1.5, 1.3};
