@@ -149,6 +149,27 @@ TEST(test_stopped_and_resumed)
     br_scene_clear(&scene);
 }
 
+/* A tip that chatters does so, too, where its cell is taken from what is kept. */
+TEST(test_unstable_is_kept)
+{
+    static const size_t n = 4, steps = 10;
+    struct br_scene scene = br_test_bundled("example2");
+    scene.contact.stiffness = 1e9; /* N/m */
+    for (int take = 0; take < 2; take++) {
+        struct br_error err = {0};
+        struct br_kept kept = open_kept(take, "here");
+        struct br_study s = br_test_study(&scene, &br_judge_fine, 1, &n, 1, &steps);
+        s.reference_method.contact = br_contact_rule_find("implicit");
+        s.reference = (struct br_resolution){8, 20};
+        s.engine = br_kept_engine(&kept);
+        MUST(br_study_run(&s, 1, 1, NULL, &err));
+        assert_int_equal(atomic_load(&kept.taken), take);
+        assert_true(s.cell[0].unstable);
+        br_study_clear(&s);
+    }
+    br_scene_clear(&scene);
+}
+
 /* ---- all that is asked is in the text ---- */
 
 /* All members of each struct, in their order: whether they are in the text of a cell (CELL), of the
