@@ -1613,6 +1613,8 @@ static const struct planted_bug planted_bugs[] = {
      "limit->value.low = finest - uncertainty - own;", "limit->value.low = finest - uncertainty;"},
     {"kept_tip_does_not_chatter", "lost", "study/kept/kept_study.c",
      "tests/test_kept test_unstable_is_kept", "br_record_flag(r, &c->unstable);", ""},
+    {"failed_trials_are_kept", "lost", "study/trade/trial.c", "tests/test_kept test_failed_trials",
+     "if (!r->kept || t->end == BR_TRIAL_FAILED)", "if (!r->kept)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

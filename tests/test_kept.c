@@ -458,6 +458,27 @@ TEST(test_requests_of_trials)
     br_scene_clear(&small);
 }
 
+/* Nothing is kept of a trial that fails, so that nothing is found damaged. The third-order scheme
+ * refuses a vibration without damping. */
+TEST(test_failed_trials)
+{
+    struct br_error err = {0};
+    struct br_named_method named;
+    struct br_scene scene = br_test_bundled("impact");
+    struct br_trial_request request = br_trial_request_default(&scene);
+    MUST(br_named_method_read("bdf3", &named, &err));
+    for (int take = 0; take < 2; take++) {
+        struct br_kept kept = open_kept(take, "here");
+        struct br_trial trial = br_trial_at(&named, 10, 120, 0);
+        request.kept = &kept;
+        MUST(br_trials_run(&trial, 1, &request, &err));
+        assert_int_equal(trial.end, BR_TRIAL_FAILED);
+        assert_non_null(strstr(trial.failure.message, "of so little damping"));
+        assert_int_equal(atomic_load(&kept.bad), 0);
+    }
+    br_scene_clear(&scene);
+}
+
 /* A file's bytes, with its right sum again. */
 static void write_entry(const char *path, char *bytes, size_t size)
 {
