@@ -1615,6 +1615,9 @@ static const struct planted_bug planted_bugs[] = {
      "tests/test_kept test_unstable_is_kept", "br_record_flag(r, &c->unstable);", ""},
     {"failed_trials_are_kept", "lost", "study/trade/trial.c", "tests/test_kept test_failed_trials",
      "if (!r->kept || t->end == BR_TRIAL_FAILED)", "if (!r->kept)"},
+    {"memory_of_the_first_repeat", "expected", "study/orders/program.c",
+     "tests/test_program test_memory_of_repeated", "row.bytes = fmax(row.bytes, other->bytes);",
+     ""},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -589,6 +589,19 @@ TEST(test_cost)
         AT_MOST(numbers.row[0].bytes, 2e7);
 }
 
+/* The memory of a cell is that of the run that takes the most, here its second. */
+TEST(test_memory_of_repeated)
+{
+    static const double one[] = {4};
+    write_script("second", "case $1 in 2) awk 'BEGIN { s = \"x\"; while (length(s) < 1e8) s = s s "
+                           "}';; esac; echo err=1");
+    struct br_orders_request p = program(command_of("second", "{repeat} {n}"));
+    p.axis[BR_AXIS_SPACE] = (struct br_program_axis){&cells, one, 1};
+    p.repeat = 3;
+    run(&p);
+    AT_MOST(1.3e8, numbers.row[0].bytes);
+}
+
 /* ---- kept cells ---- */
 
 static const char counting[] = "echo run >> $0.runs; [ $1 = 8 ] && [ -e $0.fails ] && exit 1\n"
