@@ -1618,6 +1618,8 @@ static const struct planted_bug planted_bugs[] = {
     {"memory_of_the_first_repeat", "expected", "study/orders/program.c",
      "tests/test_program test_memory_of_repeated", "row.bytes = fmax(row.bytes, other->bytes);",
      ""},
+    {"broken_by_the_next_row", "lost", "study/extremes/stability.c",
+     "tests/test_stability test_broken_by", "w->column->by = p.outcome;", ""},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

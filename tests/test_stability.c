@@ -137,6 +137,41 @@ TEST(test_limit_of_columns)
     br_scene_clear(&scene);
 }
 
+/* What a column breaks by is found where it is found. This scheme takes the damping for enough up
+ * to k = b/(2 a 0.071) = 0.0704 s, so that it refuses 10 steps. Of 101 none is at t = 0.5 s, where
+ * the load is not a number; then 32 break by it, and 35 do not. */
+TEST(test_broken_by)
+{
+    static const size_t n = 10, steps[] = {101, 10};
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bare();
+    const struct br_scene *one = &scene;
+    struct br_named_methods named;
+    struct br_stability s;
+    MUST(br_named_methods_read("--methods", "bdf3", &named, &err));
+    scene.axial.stiffness = scene.length = scene.duration = scene.density = 1;
+    scene.axial.viscosity = 0.01;
+    scene.bending.modelled = false;
+    scene.axial.load = br_test_load("(t - 0.5)/(t - 0.5)");
+    MUST(br_stability_run(&s,
+                          &(struct br_extremes_job){.scene = &one,
+                                                    .scenes = 1,
+                                                    .n = &n,
+                                                    .n_count = 1,
+                                                    .steps = steps,
+                                                    .step_count = 2,
+                                                    .methods = &named},
+                          &err));
+    const struct br_stability_column *c = &s.plane[0].column[0];
+    assert_int_equal(c->point[0].outcome, BR_STABLE);
+    assert_int_equal(c->point[1].outcome, BR_REFUSED);
+    assert_int_equal(c->by, BR_UNSTABLE);
+    CLOSE(c->largest, 1.0 / 35, 1e-15);
+    CLOSE(c->broken, 1.0 / 34, 1e-15);
+    br_stability_clear(&s);
+    br_load_clear(&scene.axial.load);
+}
+
 /* The load puts in more and more energy; and a rod with no contact and no load has none. */
 TEST(test_growth_of_loads)
 {
