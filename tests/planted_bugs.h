@@ -1620,6 +1620,9 @@ static const struct planted_bug planted_bugs[] = {
      ""},
     {"broken_by_the_next_row", "lost", "study/extremes/stability.c",
      "tests/test_stability test_broken_by", "w->column->by = p.outcome;", ""},
+    {"limits_within_the_duration_alone", "bound", "study/extremes/stability.c",
+     "tests/test_stability test_limits_by_hand", "limit > 1e6 * s->scene->duration",
+     "limit > s->scene->duration"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -137,6 +137,36 @@ TEST(test_limit_of_columns)
     br_scene_clear(&scene);
 }
 
+/* By hand: a rod of one element, with a mass of 3 kg and a/L = 1 N/m, has a tip of 1 kg that
+ * c_H - 1 = 4 kg/k^2 makes break. The duration is 1 s, and theory is silent beyond a million. */
+TEST(test_limits_by_hand)
+{
+    static const struct {
+        double stiffness, limit, tolerance;
+    } rows[] = {
+        {5, 1, 1e-9}, {1.0004, 100, 1e-6}, {1 + 1.6e-11, 5e5, 50}, {1 + 1e-12, INFINITY, 0}};
+    static const size_t n = 1, steps = 100;
+    struct br_scene scene = br_test_bare();
+    const struct br_scene *one = &scene;
+    const struct br_extremes_job job = {
+        .scene = &one, .scenes = 1, .n = &n, .n_count = 1, .steps = &steps, .step_count = 1};
+    scene.axial.stiffness = scene.length = scene.duration = 1;
+    scene.axial.viscosity = 0;
+    scene.density = 3;
+    scene.bending.modelled = false;
+    scene.contact = (struct br_contact){.modelled = true, .gap = 1};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_stability s;
+        scene.contact.stiffness = rows[i].stiffness;
+        MUST(br_stability_run(&s, &job, &err));
+        const double found = s.plane[0].column[0].predicted;
+        if (!(found == rows[i].limit || fabs(found - rows[i].limit) <= rows[i].tolerance))
+            fail_msg("row %zu: %.9g s, by hand %g s", i, found, rows[i].limit);
+        br_stability_clear(&s);
+    }
+}
+
 /* What a column breaks by is found where it is found. This scheme takes the damping for enough up
  * to k = b/(2 a 0.071) = 0.0704 s, so that it refuses 10 steps. Of 101 none is at t = 0.5 s, where
  * the load is not a number; then 32 break by it, and 35 do not. */
