@@ -1623,6 +1623,9 @@ static const struct planted_bug planted_bugs[] = {
     {"limits_within_the_duration_alone", "bound", "study/extremes/stability.c",
      "tests/test_stability test_limits_by_hand", "limit > 1e6 * s->scene->duration",
      "limit > s->scene->duration"},
+    {"yardstick_of_linear_elements", "expected", "study/extremes/stability.c",
+     "tests/test_stability test_share_of_two_marches", "euler.axial_degree = method->axial_degree;",
+     ""},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

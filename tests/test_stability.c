@@ -239,33 +239,37 @@ TEST(test_judge)
 }
 
 /* The energy at the end over what its own march and one by implicit Euler, on the same mesh with
- * the same steps, have put in. */
+ * the same steps, have put in; of linear and of quadratic elements. */
 TEST(test_share_of_two_marches)
 {
     struct br_error err = {0};
     struct br_scene scene = br_test_bundled("impact");
     struct br_stability s;
-    MUST(run(&s, &scene, "bdf2", &err));
-    struct br_run_report r[2];
-    struct br_method method[2] = {br_method_default(), br_method_default()};
-    method[0].scheme = br_time_scheme_find("bdf2");
-    method[0].contact = method[1].contact = br_contact_rule_find("implicit");
-    for (int i = 0; i < 2; i++) {
-        const struct br_run_request request = {.scene = &scene,
-                                               .wanted = BR_WANT_AXIAL,
-                                               .method = method[i],
-                                               .n = 10,
-                                               .steps = 40,
-                                               .energies = true};
-        assert_false(scene.bending.modelled);
-        MUST(br_run(&request, &r[i], &err));
+    MUST(run(&s, &scene, "bdf2,bdf2+p2", &err));
+    assert_int_equal(s.planes, 4);
+    for (int degree = 1; degree <= 2; degree++) {
+        struct br_run_report r[2];
+        struct br_method method[2] = {br_method_default(), br_method_default()};
+        method[0].scheme = br_time_scheme_find("bdf2");
+        method[0].contact = method[1].contact = br_contact_rule_find("implicit");
+        method[0].axial_degree = method[1].axial_degree = degree;
+        for (int i = 0; i < 2; i++) {
+            const struct br_run_request request = {.scene = &scene,
+                                                   .wanted = BR_WANT_AXIAL,
+                                                   .method = method[i],
+                                                   .n = 10,
+                                                   .steps = 40,
+                                                   .energies = true};
+            assert_false(scene.bending.modelled);
+            MUST(br_run(&request, &r[i], &err));
+        }
+        const double put_in = br_energy_put_in(&r[0].energy_start, &r[0].work, BR_AXIAL) +
+                              br_energy_put_in(&r[1].energy_start, &r[1].work, BR_AXIAL);
+        const struct br_stability_point *point = &s.plane[2 * (degree - 1)].column[0].point[1];
+        assert_int_equal(point->steps, 40);
+        CLOSE(point->share, br_energy_total(&r[0].energy_now) / put_in, 1e-12);
+        assert_true(point->share > 0.01);
     }
-    const double put_in = br_energy_put_in(&r[0].energy_start, &r[0].work, BR_AXIAL) +
-                          br_energy_put_in(&r[1].energy_start, &r[1].work, BR_AXIAL);
-    const struct br_stability_point *point = &s.plane[0].column[0].point[1];
-    assert_int_equal(point->steps, 40);
-    CLOSE(point->share, br_energy_total(&r[0].energy_now) / put_in, 1e-12);
-    assert_true(point->share > 0.01);
     br_stability_clear(&s);
     br_scene_clear(&scene);
 }
