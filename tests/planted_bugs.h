@@ -1626,6 +1626,9 @@ static const struct planted_bug planted_bugs[] = {
     {"yardstick_of_linear_elements", "expected", "study/extremes/stability.c",
      "tests/test_stability test_share_of_two_marches", "euler.axial_degree = method->axial_degree;",
      ""},
+    {"time_level_of_the_end_alone", "bound", "study/extremes/floors.c",
+     "tests/test_floors test_drift", "fmax(floor->time_error, time_error(floor, march, i + 1))",
+     "time_error(floor, march, i + 1)"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };
