@@ -1629,6 +1629,8 @@ static const struct planted_bug planted_bugs[] = {
     {"time_level_of_the_end_alone", "bound", "study/extremes/floors.c",
      "tests/test_floors test_drift", "fmax(floor->time_error, time_error(floor, march, i + 1))",
      "time_error(floor, march, i + 1)"},
+    {"page_replaces_results", "lost", "cli/commit.c", "tests/test_whole test_scene_called_report",
+     "if (strcmp(new->entry[i].name, BR_PAGE) != 0 && same_stem", "if (same_stem"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -259,6 +259,16 @@ TEST(test_edited)
     assert_false(cli_is_there("set/history.csv"));
 }
 
+/* The results of a scene that is called as the page is: a page does not replace them. */
+TEST(test_scene_called_report)
+{
+    clear_set();
+    assert_int_equal(write_as_program("report.csv report.html"), 0);
+    assert_int_equal(write_as_program("report.html summary.csv"), 0);
+    assert_string_equal(cli_read("set/report.csv"), "report.csv");
+    assert_true(cli_is_there("set/summary.csv"));
+}
+
 /* ---- two at once ---- */
 
 /* One waits for the lock of a file that is then removed, and made again by a third. */
