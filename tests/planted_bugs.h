@@ -1631,6 +1631,9 @@ static const struct planted_bug planted_bugs[] = {
      "time_error(floor, march, i + 1)"},
     {"page_replaces_results", "lost", "cli/commit.c", "tests/test_whole test_scene_called_report",
      "if (strcmp(new->entry[i].name, BR_PAGE) != 0 && same_stem", "if (same_stem"},
+    {"interval_of_one_model", "interval", "study/fit/joint_fit.c",
+     "tests/test_fit test_interval_of_what_is_not_ruled_out",
+     "candidate[i].criterion <= least + not_ruled_out", "candidate[i].criterion <= least"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

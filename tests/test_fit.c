@@ -425,3 +425,42 @@ TEST(test_next_term_of_each_axis)
         CLOSE(found.c[axis].value, 0.1, 1e-7);
     }
 }
+
+/* By hand: x^1.5 of six sizes, with errors of the logarithm that are +-0.01 by turns and add up to
+ * zero over each size, so that no order is off. A next term C x^p exp(D x) is not ruled out: two
+ * unknowns have n ln S + 2 36 3/(36 - 4), three n ln S + 2 36 4/(36 - 5), 2.54 more. So the
+ * interval is at least that of p beside D, by the regression of ln e on ln x and x; t is that of
+ * 36 - 3 degrees of freedom. */
+TEST(test_interval_of_what_is_not_ruled_out)
+{
+    enum { LINE = 6 };
+    static const double noise = 0.01, t = 2.0345;
+    for (int axis = 0; axis < BR_AXES; axis++) {
+        struct br_observation o[LINE * LINE] = {{.error = 0}};
+        struct br_joint_fit found;
+        struct br_error err = {0};
+        double l[LINE], x[LINE], mean_l = 0, mean_x = 0, ll = 0, lx = 0, xx = 0;
+        for (int i = 0; i < LINE * LINE; i++) {
+            o[i].x[axis] = ldexp(1, -(i / LINE));
+            o[i].x[1 - axis] = ldexp(1, -(i % LINE));
+            o[i].error = pow(o[i].x[axis], 1.5) * exp((i / LINE + i % LINE) % 2 ? noise : -noise);
+        }
+        for (int i = 0; i < LINE; i++) {
+            x[i] = ldexp(1, -i);
+            l[i] = log(x[i]);
+            mean_x += x[i] / LINE;
+            mean_l += l[i] / LINE;
+        }
+        for (int i = 0; i < LINE; i++) {
+            ll += LINE * pow(l[i] - mean_l, 2);
+            lx += LINE * (l[i] - mean_l) * (x[i] - mean_x);
+            xx += LINE * pow(x[i] - mean_x, 2);
+        }
+        const double half = t * noise * sqrt(36.0 / 33 / (ll - lx * lx / xx));
+        MUST(br_joint_fit_solve(o, LINE * LINE, true, NULL, &found, &err));
+        assert_int_equal(found.kind, axis == BR_AXIS_SPACE ? BR_JOINT_SPACE : BR_JOINT_TIME);
+        CLOSE(found.order[axis].value, 1.5, 1e-6);
+        AT_MOST(found.order[axis].low, 1.5 - 0.9999 * half);
+        AT_MOST(1.5 + 0.9999 * half, found.order[axis].high);
+    }
+}
