@@ -1634,6 +1634,9 @@ static const struct planted_bug planted_bugs[] = {
     {"interval_of_one_model", "interval", "study/fit/joint_fit.c",
      "tests/test_fit test_interval_of_what_is_not_ruled_out",
      "candidate[i].criterion <= least + not_ruled_out", "candidate[i].criterion <= least"},
+    {"floor_of_one_march", "bound", "study/trade/split.c",
+     "tests/test_split test_floor_of_two_marches", "2 * c->d->study[norm][audit]",
+     "c->d->study[norm][audit]"},
 };
 
 enum { PLANTED_BUGS = sizeof planted_bugs / sizeof *planted_bugs };

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "solver/linear/linear_solver.h"
 #include "solver/scene.h"
 #include "study/grid/sweep.h"
 #include "study/trade/split.h"
@@ -108,6 +109,30 @@ TEST(test_links)
     CLOSE(time->tip[BR_BENDING] + space->tip[BR_BENDING],
           end[3].w_tip - split.solution_tip[BR_BENDING], 1e-15);
     assert_true(split.tip[BR_BENDING] == end[0].w_tip);
+    br_scene_clear(&scene);
+}
+
+/* A part that needs no refined march has a floor of twice the difference of two solvers' marches of
+ * the run: its own round-off may be as large as that, and so may that of the march beside it. */
+TEST(test_floor_of_two_marches)
+{
+    struct br_error err = {0};
+    struct br_scene scene = br_test_bundled("example2");
+    const struct br_split split = split_of(&scene, 50, 100, br_method_default());
+    struct br_study study =
+        br_test_study(&scene, &br_judge_fine, 1, &split.at.n, 1, &split.at.steps);
+    study.norm = split.norm[0];
+    study.method = study.reference_method = split.method;
+    study.method.solver = br_linear_solver_find("plain");
+    study.reference_method.solver = br_linear_solver_find("riccati");
+    study.reference = split.at;
+    MUST(br_study_run(&study, 1, 1, NULL, &err));
+    for (int part = 0; part < BR_PARTS; part++) {
+        const double apart = study.cell[0].error[part];
+        assert_true(apart > 0);
+        CLOSE(share_of(&split, "lag")->floor[0][part], 2 * apart, 1e-9 * apart);
+    }
+    br_study_clear(&study);
     br_scene_clear(&scene);
 }
 
