@@ -1611,6 +1611,8 @@ static const struct planted_bug planted_bugs[] = {
     {"scatter_of_the_finest_upwards_alone", "interval", "study/fit/limits.c",
      "tests/test_grid_convergence test_half_widths_by_hand",
      "limit->value.low = finest - uncertainty - own;", "limit->value.low = finest - uncertainty;"},
+    {"first_steps_do_not_widen", "bound", "study/foresee/prediction.c",
+     "tests/test_prediction test_layer", "e.high = fmax(e.high, first * doubt);", ""},
     {"kept_tip_does_not_chatter", "lost", "study/kept/kept_study.c",
      "tests/test_kept test_unstable_is_kept", "br_record_flag(r, &c->unstable);", ""},
     {"failed_trials_are_kept", "lost", "study/trade/trial.c", "tests/test_kept test_failed_trials",

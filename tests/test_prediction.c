@@ -231,6 +231,16 @@ TEST(test_random)
     assert_int_equal(t.far_too_low, 0);
 }
 
+static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
+                                    size_t n, size_t k)
+{
+    const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
+    struct br_error err = {0};
+    struct br_prediction p;
+    MUST(br_predict(&o, &p, &err));
+    return p;
+}
+
 /* What dies away in a hundredth of a step, and leaves the tip elsewhere: equal steps that are 16
  * times smaller do not see it either. */
 TEST(test_layer)
@@ -251,20 +261,17 @@ TEST(test_layer)
     assert_int_equal(t.known, 6);
     assert_int_equal(t.below, 6);
     assert_int_equal(t.within_3, 6);
+    /* Here time and space go apart, so that d is 3 (docs/error.md), and the first steps decide. */
+    struct br_method method = br_method_default();
+    method.contact = br_contact_rule_find("implicit");
+    const struct br_prediction p = predict(&s, &method, few[0], 1000);
+    assert_true(p.known);
+    AT_MOST(p.whole.low, p.whole.error / 3);
+    AT_MOST(2.99999 * p.whole.error, p.whole.high);
     br_scene_clear(&s);
 }
 
 /* ---- what is plainly inaccurate, or not known ---- */
-
-static struct br_prediction predict(const struct br_scene *scene, const struct br_method *method,
-                                    size_t n, size_t k)
-{
-    const struct br_planned_march o = {.scene = scene, .method = method, .n = n, .steps = k};
-    struct br_error err = {0};
-    struct br_prediction p;
-    MUST(br_predict(&o, &p, &err));
-    return p;
-}
 
 static struct br_warnings warnings_of(const struct br_scene *scene, const struct br_method *method,
                                       size_t n, size_t k)
