@@ -394,7 +394,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (line)
             say_formal(d, o, of);
     }
-    if (o->numbers->taken[0])
+    if (o->numbers->taken)
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);

@@ -30,6 +30,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->folder);
     free(r->errors);
     free(r->columns);
+    free(r->where);
     free(r->values);
     free((struct br_reading *)r->reading);
     free(r->expectation);
@@ -122,11 +123,10 @@ enum br_status br_orders_check_lists(const struct br_orders_request *r,
                            "%s: an order of %s in %s is expected, and there is no resolution of %s",
                            br_orders_path(r), e->quantity, br_axis_letters[e->axis],
                            e->axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
-        if (numbers->assumed && e->axis == BR_AXIS_SPACE)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: an order of %s in h is expected, and h follows from numbers of %s: "
-                           "state the dimension of the mesh (--dimension, or 'dimension:')",
-                           br_orders_path(r), e->quantity, numbers->column[e->axis]->name);
+        if (numbers->unsettled)
+            return br_fail(err, BR_BAD_INPUT, "%s: an order of %s in %s is expected, and %s",
+                           br_orders_path(r), e->quantity, br_axis_letters[e->axis],
+                           numbers->unsettled);
     }
     return BR_OK;
 }
@@ -229,6 +229,8 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
     add_text(&sum, r->values);
     if (r->columns)
         add_text(&sum, r->columns);
+    if (r->where)
+        add_text(&sum, r->where);
     if (r->repeat > 1) {
         snprintf(text, sizeof text, "repeat %.17g", r->repeat);
         add_text(&sum, text);
