@@ -150,6 +150,19 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
     return best;
 }
 
+/* Of the ways in which a column states these sizes the simplest: cells of one dimension are n. */
+static const struct br_candidate *simplest(const struct contest *t, const struct br_candidate *best)
+{
+    for (size_t i = 0; i < t->candidates && best->size.states->is_volume; i++) {
+        const struct br_candidate *c = &t->candidate[i];
+        if (c->size.column == best->size.column && !c->size.states->is_volume &&
+            has_usual_name(&t->roles->column[c->size.column], c->size.states) &&
+            br_evidence_same(t->roles, best->log_z, c->log_z, 1e-9))
+            return c;
+    }
+    return best;
+}
+
 /* ---- words ---- */
 
 enum { TEXT = 400 };
@@ -350,6 +363,11 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     char why[TEXT + 100], reading[TEXT];
     if (best->wrong_way && !by_hand)
         return check_direction(t, best, err) ? err->status : refuse_growth(t, best, err);
+    for (size_t i = 0; i < t->candidates && best->odds < least_odds; i++) {
+        const struct br_candidate *c = &t->candidate[i];
+        if (c->wrong_way && has_usual_name(&r->column[c->size.column], c->size.states))
+            return check_direction(t, c, err) ? err->status : refuse_growth(t, c, err);
+    }
     if (best->odds < least_odds && best->contradicts_rates) {
         snprintf(why, sizeof why, "the table has other rates than %s gives",
                  say_reading(r, best, reading));
@@ -361,9 +379,10 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
         return ask(t, best, second, err);
     if (check_direction(t, best, err))
         return err->status;
-    if ((second && best->odds - second->odds < sure_lead) ||
-        (best->contradicts_rates && !by_hand))
-        assume(t, best, second && best->odds - second->odds < 9 ? second : NULL);
+    const double lead = second ? best->odds - second->odds : INFINITY;
+    best = simplest(t, best);
+    if (lead < sure_lead || (best->contradicts_rates && !by_hand))
+        assume(t, best, lead < 9 ? second : NULL);
     r->size[t->axis] = best->size;
     r->log_z[t->axis] = best->log_z;
     r->column[best->size.column].role = BR_ROLE_SIZE;

@@ -238,7 +238,7 @@ static double grow_all(const struct view *v)
         const struct br_role_column *c = &v->roles->column[i];
         const bool named = c->kind == BR_KIND_ERROR;
         if (!may_have_errors(v, i) || c->least < 0 || (c->is_whole && !named) ||
-            c->by_hand ? c->role != BR_ROLE_ERROR : false)
+            (c->by_hand && c->role != BR_ROLE_ERROR))
             continue;
         const double fall = fall_of(v, i);
         if (fall > 0.05)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What headings may mean. */
 #include <ctype.h>
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "study/reading/roles.h"
@@ -13,16 +15,18 @@ static const struct {
     double odds;
     const char *names;
 } of_sizes[] = {
-    {"h", 4,
+    {"h", 5,
      " h dx dy \xce\x94x deltax meshsize meshwidth elementsize elsize cellsize gridspacing meshspacing "
      "spacing hmax maxh hmin minh hmean havg hx hy meshh gridwidth cellwidth resolutionkm resolutionm "
-     "meshsizeh steph stepsizeh stepwidth elementlength lc gitterweite maschenweite "},
+     "steph stepwidth elementlength lc gitterweite maschenweite "},
     {"h", 1.75, " gridsize size mesh grid resolution delta stepsize chanh "},
+    {"n", 5,
+     " nx ny cellsperside elementsperside 1h 1dx inverseh invh hinv invdx 1overh gridresolution nxny "
+     "numel1d cellsperdim samples nsamples paths npaths "},
     {"n", 4,
-     " n nx ny nel nelements resolution cellsperside elementsperside intervals 1h 1dx inverseh invh "
-     "hinv invdx 1overh subdivisions nsub ndivisions divisions numintervals nintervals gridresolution "
-     "nxny nn numel1d cellsperdim "},
-    {"n", 2, " grid mesh gridsize size samples nsamples paths npaths m "},
+     " n nel nelements resolution intervals subdivisions nsub ndivisions divisions numintervals "
+     "nintervals nn "},
+    {"n", 2, " grid mesh gridsize size m "},
     {"n", 1.5, " points gridpoints numpts npts npoints numpoints nodes nnodes numnodes "},
     {"points", 2.5, " points gridpoints numpts npts npoints numpoints "},
     {"points", 1.75, " nodes nnodes numnodes meshpoints "},
@@ -127,26 +131,24 @@ static bool is_of_a_side(const char *name)
 
 double br_name_odds(const char *name, const struct br_resolution_column *column)
 {
-    const double unknown = 0.5;
-    char whole[LONGEST], bare[LONGEST], shown[LONGEST];
-    double best = -1;
-    bool known = false;
+    const double unknown = column->axis == BR_AXIS_TIME ? -9 : 0.5, definite = 5, excluded = -2;
+    char whole[LONGEST], bare[LONGEST];
+    double best = -9, most = 0;
     if (!name)
-        return column->axis == BR_AXIS_TIME ? -9 : unknown;
+        return unknown;
     plain(name, whole);
     without_fill(name, bare);
-    snprintf(shown, sizeof shown, "%s", bare);
     if (is_of_a_side(name))
-        return strcmp(column->name, "n") == 0 ? 4 : column->axis == BR_AXIS_TIME ? -9 : unknown;
-    for (int pass = 0; pass < 2 && !known; pass++)
+        return strcmp(column->name, "n") == 0 ? definite : fmin(excluded, unknown);
+    for (int pass = 0; pass < 2 && most == 0; pass++)
         for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++) {
-            if (!lists(of_sizes[i].names, pass ? shown : whole))
+            if (!lists(of_sizes[i].names, pass ? bare : whole))
                 continue;
-            known = true;
-            if (strcmp(of_sizes[i].column, column->name) == 0 && of_sizes[i].odds > best)
-                best = of_sizes[i].odds;
+            most = fmax(most, of_sizes[i].odds);
+            if (strcmp(of_sizes[i].column, column->name) == 0)
+                best = fmax(best, of_sizes[i].odds);
         }
-    return best > 0 ? best : column->axis == BR_AXIS_TIME ? -9 : unknown;
+    return best > 0 ? best : most >= definite ? fmin(excluded, unknown) : unknown;
 }
 
 enum br_kind br_kind_of(const char *name)

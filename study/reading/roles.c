@@ -516,33 +516,34 @@ static bool is_asked(const struct br_roles *r, const struct br_role_column *c)
     return c->name && (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name));
 }
 
-static const char *why_aside(const struct br_roles *r, const struct br_candidate *over, size_t i)
+static const char *why_aside(const struct br_roles *r, size_t i)
 {
     static const char *const of_kinds[] = {
-        [BR_KIND_RATE] = "a rate",       [BR_KIND_FACTOR] = "a factor",
-        [BR_KIND_COST] = "a cost or an index", [BR_KIND_DEVIATION] = "deviations of no column",
-        [BR_KIND_DEGREE] = "a degree",   [BR_KIND_REPEAT] = "the number of a run"};
+        [BR_KIND_RATE] = "a rate",
+        [BR_KIND_FACTOR] = "a factor",
+        [BR_KIND_COST] = "a cost or an index",
+        [BR_KIND_DEVIATION] = "deviations of no column",
+        [BR_KIND_DEGREE] = "a degree",
+        [BR_KIND_REPEAT] = "the number of a run",
+    };
     const struct br_role_column *c = &r->column[i];
-    double *log_z = NULL;
     if (c->why)
         return c->why;
     if (!c->numbers)
         return c->words ? "words" : "no numbers";
+    if (of_kinds[c->kind] && !c->by_hand)
+        return of_kinds[c->kind];
     if (c->words)
         return "words among numbers";
-    if (c->numbers == 1 || !(c->least < c->most))
+    if (!(c->least < c->most))
         return "one number only";
-    (void)log_z;
-    (void)over;
-    if (c->name && !c->by_hand && is_size_by_name(c->name))
+    if (c->name && is_size_by_name(c->name))
         return "another size";
-    if (of_kinds[c->kind])
-        return of_kinds[c->kind];
     return r->wishes->errors || r->wishes->values ? "not asked for"
            : c->least < 0                         ? "both signs: --value, if it is studied"
            : c->is_whole                          ? "a count"
-                                                  : "it does not fall as errors do: --error or --value, "
-                                                    "if it is studied";
+                                                  : "no error by its numbers: --error or --value, if "
+                                                    "it is studied";
 }
 
 /* The column whose deviations these are: it has the same words, or is the only one. */
@@ -587,7 +588,7 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
     }
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE)
-            r->column[i].why = why_aside(r, over, i);
+            r->column[i].why = why_aside(r, i);
 }
 
 /* An error that halves exactly beside sizes that do not is a size, more likely. */
