@@ -208,8 +208,7 @@ static enum br_status take_maps(struct source *s, json_t *maps)
     return BR_OK;
 }
 
-/* Keeps the columns that pandas' schema says to have no numbers; those of its index go if they
- * count. */
+/* Keeps the columns that pandas' schema says to have no numbers. */
 static void take_schema(struct source *s, const json_t *schema)
 {
     static const char types[] = " datetime duration string boolean any ";
