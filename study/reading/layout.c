@@ -429,6 +429,8 @@ static bool take_named_index(struct layout *l, size_t line)
 {
     enum br_separator by;
     const size_t above = next_text(l, line, -1), wanted = l->width - 1;
+    if (l->by < BR_BY_WIDE_BLANKS || l->seen[line].count != 1 || l->seen[line].numbers)
+        return false;
     if (above == l->lines || wanted < 1 || split_names(l, line, 1, &by) != 1 ||
         split_names(l, above, wanted, &by) != wanted || l->seen[above].numbers)
         return false;
@@ -440,35 +442,86 @@ static bool take_named_index(struct layout *l, size_t line)
     return true;
 }
 
-/* Puts a line of groups before the names below it, which repeat: rho, and error, EOC. */
-static enum br_status join_groups(struct layout *l, size_t line)
+/* Of names that repeat, "N error EOC error EOC": how many are in each of the groups; 0: none. */
+static size_t period_of(const struct layout *l, size_t groups)
 {
-    const char **name = l->fields->heading;
-    enum br_separator by;
-    const size_t above = br_line_split(l->line[line].text, l->by, l->piece);
-    size_t period = 0, lead = l->width;
-    const size_t groups = above ? above : 1;
-    for (size_t p = 1; p * groups <= l->width && groups > 1; p++) {
+    const char *const *name = l->fields->heading;
+    for (size_t p = groups > 1 ? l->width / groups : 0; p > 0; p--) {
         bool repeats = true;
         for (size_t i = l->width - p * groups; i + p < l->width && repeats; i++)
             repeats = name[i] && name[i + p] && strcmp(name[i], name[i + p]) == 0;
-        if (repeats) {
-            period = p;
-            lead = l->width - p * groups;
-        }
+        if (repeats)
+            return p;
     }
-    if (!period || l->seen[line].numbers || split_names(l, line, groups, &by) != groups)
+    return 0;
+}
+
+/* How many columns a piece stands above, as LaTeX has it; the piece (out) becomes its text. */
+static size_t columns_of(struct br_piece *piece)
+{
+    static const char command[] = "\\multicolumn{";
+    char *text = strstr(piece->text, command);
+    if (!text || text >= piece->text + piece->length)
+        return 1;
+    const size_t columns = strtoul(text + strlen(command), &text, 10);
+    for (int i = 0; i < 2; i++)
+        text += strcspn(text, "{") + (text[strcspn(text, "{")] == '{');
+    piece->text = text;
+    piece->length = strcspn(text, "}");
+    return columns > 0 && columns <= BR_MOST_COLUMNS ? columns : 1;
+}
+
+/* Finds the group of each column (out; NULL: none) in a line above the heading. */
+static bool find_groups(const struct layout *l, size_t line, const char **group)
+{
+    const size_t count = br_line_split(l->line[line].text, l->by, l->piece);
+    const size_t period = period_of(l, count);
+    size_t column = 0;
+    if (period && !l->seen[line].numbers) {
+        for (size_t i = 0; i < count * period; i++)
+            group[l->width - count * period + i] = br_piece_close(&l->piece[i / period], l->by);
+        return true;
+    }
+    for (size_t i = 0; i < count && column < l->width; i++) {
+        const size_t columns = columns_of(&l->piece[i]);
+        const char *text = br_piece_close(&l->piece[i], l->by);
+        for (size_t j = 0; j < columns && column < l->width; j++, column++)
+            group[column] = text && *text ? text : column ? group[column - 1] : NULL;
+    }
+    return column == l->width;
+}
+
+/* Whether the names need those of the line above: two are the same, or all are units. */
+static bool lack_groups(const struct layout *l)
+{
+    const char *const *name = l->fields->heading;
+    bool units = true, same = false;
+    for (size_t i = 0; i < l->width; i++) {
+        units &= name[i] && strchr("[(", *name[i]);
+        for (size_t j = 0; j < i && l->width < 100; j++)
+            same |= name[i] && name[j] && strcmp(name[i], name[j]) == 0;
+    }
+    return units || same;
+}
+
+/* Puts a line of groups before the names below it: rho, and error, EOC. */
+static enum br_status join_groups(struct layout *l, size_t line)
+{
+    const char **name = l->fields->heading;
+    if (!lack_groups(l))
         return BR_OK;
-    for (size_t g = 0; g < groups; g++) {
-        const char *group = br_piece_close(&l->piece[g], by);
-        for (size_t i = lead + g * period; group && *group && i < lead + (g + 1) * period; i++) {
-            const size_t size = strlen(group) + strlen(name[i]) + 2;
-            char *joined = br_store_take(&l->fields->store, size, 1);
-            if (!joined)
-                return br_no_memory(l->err, "the table");
-            snprintf(joined, size, "%s %s", group, name[i]);
-            name[i] = joined;
-        }
+    const char **group = br_store_take(&l->fields->store, l->width, sizeof *group);
+    if (!group)
+        return br_no_memory(l->err, "the table");
+    if (!find_groups(l, line, group))
+        return BR_OK;
+    for (size_t i = 0; i < l->width; i++) {
+        const char *own = name[i] ? name[i] : "", *above = group[i] ? group[i] : "";
+        char *joined = br_store_take(&l->fields->store, strlen(own) + strlen(above) + 2, 1);
+        if (!joined)
+            return br_no_memory(l->err, "the table");
+        sprintf(joined, "%s%s%s", above, *own && *above ? " " : "", own);
+        name[i] = *joined ? joined : NULL;
     }
     l->seen[line].is_used = true;
     return BR_OK;
@@ -506,7 +559,7 @@ static bool is_title(const struct layout *l, size_t line)
 {
     const size_t count = br_line_split(l->line[line].text, l->by, l->piece);
     const char *const text = l->line[line].text;
-    return count < 2 || l->by <= BR_BY_COLONS || strchr(":.", text[strlen(text) - 1]) ||
+    return count < 2 || l->by <= BR_BY_COLONS || strchr(":.[({=", text[strlen(text) - 1]) ||
            (l->by >= BR_BY_WIDE_BLANKS && l->line[line].number + 1 < l->line[l->first].number);
 }
 
