@@ -14,6 +14,7 @@ struct source {
     struct br_error *err;
     json_t *records; /* owned */
     json_t *words;   /* names of columns that a schema says to have no numbers; owned */
+    size_t room;     /* of fields->left */
     bool failed;     /* no memory */
 };
 
@@ -133,6 +134,22 @@ static enum br_status take_records(struct source *s, json_t *records)
     return BR_OK;
 }
 
+/* Names a value that stands beside the table. */
+static void leave(struct source *s, const char *name, const json_t *value)
+{
+    struct br_fields *f = s->fields;
+    char *text = json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT);
+    const size_t size = strlen(name) + (text ? strlen(text) : 0) + 3;
+    char *line = br_store_take(&f->store, size, 1);
+    f->left = br_store_grow(&f->store, f->left, f->lefts, &s->room, sizeof *f->left);
+    if (text && line && f->left) {
+        snprintf(line, size, "%s: %s", name, text);
+        f->left[f->lefts++] = (struct br_left_line){0, line, "beside the table"};
+    }
+    s->failed |= !text || !line || !f->left;
+    free(text);
+}
+
 /* {"h": [...], "l2": [...]}; what is no list stands beside the table. */
 static enum br_status take_columns(struct source *s, json_t *columns)
 {
@@ -140,8 +157,10 @@ static enum br_status take_columns(struct source *s, json_t *columns)
     json_t *column, *value;
     size_t i, size = 0;
     json_object_foreach (columns, name, column) {
-        if (!json_is_array(column))
+        if (!json_is_array(column)) {
+            leave(s, name, column);
             continue;
+        }
         if (size && size != json_array_size(column))
             return refuse(s, "found columns of several lengths");
         size = json_array_size(column);
@@ -208,8 +227,7 @@ static enum br_status take_maps(struct source *s, json_t *maps)
     return BR_OK;
 }
 
-/* Keeps the columns that pandas' schema says to have no numbers; those of its index go if they
- * count. */
+/* Keeps the columns that pandas' schema says to have no numbers. */
 static void take_schema(struct source *s, const json_t *schema)
 {
     static const char types[] = " datetime duration string boolean any ";
@@ -232,9 +250,10 @@ static enum br_status take_member(struct source *s, json_t *object)
     json_t *value, *table = NULL;
     json_object_foreach (object, key, value) {
         const enum kind kind = kind_in(value);
-        if (kind != OBJECTS && !(kind == ARRAYS && json_is_object(value)) &&
-            !(kind == ARRAYS && json_is_array(value)))
+        if (kind != OBJECTS && kind != ARRAYS) {
+            leave(s, key, value);
             continue;
+        }
         if (table)
             return refuse(s, "found several tables");
         table = value;
@@ -390,7 +409,7 @@ static json_t *load(const struct source *s, const char *text)
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err)
 {
-    struct source s = {path, fields, err, json_array(), json_array(), false};
+    struct source s = {path, fields, err, json_array(), json_array(), 0, false};
     char *copy = without_nan(text);
     json_t *columns = json_object(), *all = NULL;
     enum br_status status = !copy || !columns || !s.records || !s.words

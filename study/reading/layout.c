@@ -31,6 +31,7 @@ struct layout {
     struct br_piece *piece; /* of the last line that was split */
     enum br_separator by;
     size_t width;
+    bool *gap, *index;  /* by column: it is one of rates without a name; of row numbers */
     size_t *has_number; /* by column: the rows that have one there, or a missing one */
     size_t first, last; /* rows, as lines */
 };
@@ -76,7 +77,8 @@ static struct seen look_at(const struct layout *l, size_t line)
 
 enum { SAMPLE = 100 /* lines at each end of the text */ };
 
-/* How well this way explains the lines; l->width (out): the commonest. A wider row costs two. */
+/* How well this way explains the lines; l->width (out): the commonest. A number counts three, a
+ * word costs one, and a wider row costs two numbers. */
 static long measure(struct layout *l, long *gain, size_t *rows)
 {
     memset(gain, 0, (BR_MOST_COLUMNS + 2) * sizeof *gain);
@@ -89,7 +91,7 @@ static long measure(struct layout *l, long *gain, size_t *rows)
             continue;
         const struct seen s = look_at(l, i);
         rows[s.count] += s.numbers > s.words;
-        gain[s.count] += s.numbers ? (long)s.numbers - (long)s.words : 0;
+        gain[s.count] += s.numbers ? 3 * (long)s.numbers - (long)s.words : 0;
     }
     size_t best = 1, wider = 0;
     for (size_t i = 1; i <= BR_MOST_COLUMNS + 1; i++)
@@ -97,7 +99,7 @@ static long measure(struct layout *l, long *gain, size_t *rows)
     for (size_t i = best + 1; i <= BR_MOST_COLUMNS + 1; i++)
         wider += rows[i];
     l->width = best;
-    return gain[best] - 2 * (long)wider;
+    return gain[best] - 6 * (long)wider;
 }
 
 static void choose(struct layout *l, long *gain, size_t *rows)
@@ -111,7 +113,7 @@ static void choose(struct layout *l, long *gain, size_t *rows)
             l->by = (enum br_separator)i;
             l->fields->mark = comma ? ',' : '.';
             const long score = measure(l, gain, rows);
-            if (score <= most)
+            if (score <= most || (comma && l->width == 1))
                 continue;
             most = score;
             by = l->by;
@@ -233,9 +235,27 @@ static void leave(struct layout *l, size_t line, const char *why)
     l->seen[line].is_used = true;
 }
 
-/* Finds the ends of the table: without rows of means; with a first or last row that is short. */
+/* Whether a row has a word where others have a number. */
+static bool has_other_words(const struct layout *l, size_t line)
+{
+    size_t words = 0;
+    look_at(l, line);
+    for (size_t i = 0; i < l->width; i++)
+        words += l->has_number[i] > 1 && content_of(&l->piece[i], l->fields->mark) == WORD;
+    return words > 0;
+}
+
+/* Finds the ends of the table: without titles and rows of means; with a first or last row that is
+ * short. */
 static void find_ends(struct layout *l)
 {
+    for (size_t next; l->first < l->last && !l->seen[next = next_text(l, l->first, 1)].is_row &&
+                      has_other_words(l, l->first);) {
+        l->seen[l->first].is_row = false;
+        while (!l->seen[next].is_row)
+            next = next_text(l, next, 1);
+        l->first = next;
+    }
     while (l->last > l->first && l->has_number[0] && is_summary(l, l->last) &&
            next_text(l, l->last, -1) < l->lines) {
         l->seen[l->last].is_row = false;
@@ -257,7 +277,8 @@ static enum br_status check_one_table(const struct layout *l)
             before = inside && l->line[i].kind == BR_LINE_TEXT ? i : before;
             continue;
         }
-        const bool is_data = s->numbers > 1 && s->numbers > s->words && l->by > BR_BY_COLONS;
+        const bool is_data =
+            (s->numbers > 1 || i > l->last) && s->numbers > s->words && l->by > BR_BY_COLONS;
         if (s->count != l->width && is_data && !(s->words && !inside))
             return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as %s has",
                            l->path, l->line[i].number, s->count > l->width ? "more" : "fewer",
@@ -296,8 +317,10 @@ static bool has_index(const struct layout *l)
 {
     struct br_field_number one, two = {0, 0};
     const size_t next = next_text(l, l->first, 1);
+    if (next > l->last)
+        return false;
     char text[2][32] = {"", ""};
-    for (int i = 0; i < 2 && (i == 0 || next <= l->last); i++) {
+    for (int i = 0; i < 2; i++) {
         br_line_split(l->line[i ? next : l->first].text, l->by, l->piece);
         const bool quoted = *l->piece[0].text == '"';
         snprintf(text[i], sizeof text[i], "%.*s", (int)l->piece[0].length - 2 * quoted,
@@ -309,7 +332,7 @@ static bool has_index(const struct layout *l)
            (!br_field_read(text[1], '.', &two) || two.value == one.value + 1);
 }
 
-/* Which columns begin with a gap; returns how many. */
+/* Which columns begin with a gap (out); returns how many. */
 static size_t find_gaps(const struct layout *l, bool *gap)
 {
     const struct seen s = look_at(l, l->first);
@@ -358,56 +381,147 @@ static void take_names(struct layout *l, size_t line, enum br_separator by, cons
     }
 }
 
-/* Whether the line names the columns, all of them or all but an index or rates; then takes it. */
-static bool take_heading(struct layout *l, size_t line, bool *skipped)
+/* Whether the line names all columns; then takes it. */
+static bool take_heading(struct layout *l, size_t line)
 {
     enum br_separator by;
-    if (split_names(l, line, l->width, &by) == l->width) {
-        take_names(l, line, by, NULL);
-        return true;
-    }
-    const size_t gaps = l->line[line].kind == BR_LINE_TEXT ? find_gaps(l, skipped) : 0;
-    if (gaps && gaps < l->width && split_names(l, line, l->width - gaps, &by) == l->width - gaps) {
-        take_names(l, line, by, skipped);
-        return true;
-    }
-    memset(skipped, 0, l->width * sizeof *skipped);
-    skipped[0] = l->line[line].kind == BR_LINE_TEXT && l->width > 1 && has_index(l);
-    if (!skipped[0] || split_names(l, line, l->width - 1, &by) != l->width - 1)
+    if (split_names(l, line, l->width, &by) != l->width)
         return false;
-    take_names(l, line, by, skipped);
+    for (size_t i = 0; i < l->width && l->line[line].kind == BR_LINE_COMMENT; i++)
+        if (content_of(&l->piece[i], '.') == NUMBER ||
+            (l->piece[i].length && l->piece[i].text[l->piece[i].length - 1] == ':'))
+            return false;
+    take_names(l, line, by, NULL);
     return true;
 }
 
-/* Puts a line of groups before the names below it, which repeat: rho, and error, EOC. */
-static enum br_status join_groups(struct layout *l, size_t line)
+static size_t count_rows(const struct layout *l)
 {
-    const char **name = l->fields->heading;
+    size_t rows = 0;
+    for (size_t i = l->first; i <= l->last; i++)
+        rows += l->seen[i].is_row;
+    return rows;
+}
+
+/* Whether the line names all columns but an index or rates; then takes it. */
+static bool take_short_heading(struct layout *l, size_t line)
+{
     enum br_separator by;
-    const size_t above = br_line_split(l->line[line].text, l->by, l->piece);
-    size_t period = 0, lead = l->width;
-    const size_t groups = above ? above : 1;
-    for (size_t p = 1; p * groups <= l->width && groups > 1; p++) {
+    const size_t gaps = find_gaps(l, l->gap);
+    const bool enough = l->seen[l->first].count == l->width || count_rows(l) > 1;
+    if (gaps && gaps < l->width && enough &&
+        split_names(l, line, l->width - gaps, &by) == l->width - gaps) {
+        take_names(l, line, by, l->gap);
+        return true;
+    }
+    memset(l->gap, 0, l->width * sizeof *l->gap);
+    bool *index = l->index;
+    index[0] = l->width > 1 && has_index(l);
+    if (!index[0] || split_names(l, line, l->width - 1, &by) != l->width - 1)
+        return false;
+    take_names(l, line, by, index);
+    return true;
+}
+
+/* Whether the line has the name of an index alone, below the names of the other columns, as pandas
+ * prints it; then takes both. */
+static bool take_named_index(struct layout *l, size_t line)
+{
+    enum br_separator by;
+    const size_t above = next_text(l, line, -1), wanted = l->width - 1;
+    if (l->by < BR_BY_WIDE_BLANKS || l->seen[line].count != 1 || l->seen[line].numbers)
+        return false;
+    if (above == l->lines || wanted < 1 || split_names(l, line, 1, &by) != 1 ||
+        split_names(l, above, wanted, &by) != wanted || l->seen[above].numbers)
+        return false;
+    l->index[0] = true;
+    take_names(l, above, by, l->index);
+    split_names(l, line, 1, &by);
+    l->fields->heading[0] = br_piece_close(&l->piece[0], by);
+    l->seen[line].is_used = true;
+    return true;
+}
+
+/* Of names that repeat, "N error EOC error EOC": how many are in each of the groups; 0: none. */
+static size_t period_of(const struct layout *l, size_t groups)
+{
+    const char *const *name = l->fields->heading;
+    for (size_t p = groups > 1 ? l->width / groups : 0; p > 0; p--) {
         bool repeats = true;
         for (size_t i = l->width - p * groups; i + p < l->width && repeats; i++)
             repeats = name[i] && name[i + p] && strcmp(name[i], name[i + p]) == 0;
-        if (repeats) {
-            period = p;
-            lead = l->width - p * groups;
-        }
+        if (repeats)
+            return p;
     }
-    if (!period || l->seen[line].numbers || split_names(l, line, groups, &by) != groups)
+    return 0;
+}
+
+/* How many columns a piece stands above, as LaTeX has it; the piece (out) becomes its text. */
+static size_t columns_of(struct br_piece *piece)
+{
+    static const char command[] = "\\multicolumn{";
+    char *text = strstr(piece->text, command);
+    if (!text || text >= piece->text + piece->length)
+        return 1;
+    const size_t columns = strtoul(text + strlen(command), &text, 10);
+    for (int i = 0; i < 2; i++)
+        text += strcspn(text, "{") + (text[strcspn(text, "{")] == '{');
+    piece->text = text;
+    piece->length = strcspn(text, "}");
+    return columns > 0 && columns <= BR_MOST_COLUMNS ? columns : 1;
+}
+
+/* Finds the group of each column (out; NULL: none) in a line above the heading. */
+static bool find_groups(const struct layout *l, size_t line, const char **group)
+{
+    const size_t count = br_line_split(l->line[line].text, l->by, l->piece);
+    const size_t period = period_of(l, count);
+    size_t column = 0;
+    if (period && !l->seen[line].numbers) {
+        for (size_t i = 0; i < count * period; i++)
+            group[l->width - count * period + i] = br_piece_close(&l->piece[i / period], l->by);
+        return true;
+    }
+    for (size_t i = 0; i < count && column < l->width; i++) {
+        const size_t columns = columns_of(&l->piece[i]);
+        const char *text = br_piece_close(&l->piece[i], l->by);
+        for (size_t j = 0; j < columns && column < l->width; j++, column++)
+            group[column] = text && *text ? text : column ? group[column - 1] : NULL;
+    }
+    return column == l->width;
+}
+
+/* Whether the names need those of the line above: two are the same, or all are units. */
+static bool lack_groups(const struct layout *l)
+{
+    const char *const *name = l->fields->heading;
+    bool units = true, same = false;
+    for (size_t i = 0; i < l->width; i++) {
+        units &= name[i] && strchr("[(", *name[i]);
+        for (size_t j = 0; j < i && l->width < 100; j++)
+            same |= name[i] && name[j] && strcmp(name[i], name[j]) == 0;
+    }
+    return units || same;
+}
+
+/* Puts a line of groups before the names below it: rho, and error, EOC. */
+static enum br_status join_groups(struct layout *l, size_t line)
+{
+    const char **name = l->fields->heading;
+    if (!lack_groups(l))
         return BR_OK;
-    for (size_t g = 0; g < groups; g++) {
-        const char *group = br_piece_close(&l->piece[g], by);
-        for (size_t i = lead + g * period; group && *group && i < lead + (g + 1) * period; i++) {
-            const size_t size = strlen(group) + strlen(name[i]) + 2;
-            char *joined = br_store_take(&l->fields->store, size, 1);
-            if (!joined)
-                return br_no_memory(l->err, "the table");
-            snprintf(joined, size, "%s %s", group, name[i]);
-            name[i] = joined;
-        }
+    const char **group = br_store_take(&l->fields->store, l->width, sizeof *group);
+    if (!group)
+        return br_no_memory(l->err, "the table");
+    if (!find_groups(l, line, group))
+        return BR_OK;
+    for (size_t i = 0; i < l->width; i++) {
+        const char *own = name[i] ? name[i] : "", *above = group[i] ? group[i] : "";
+        char *joined = br_store_take(&l->fields->store, strlen(own) + strlen(above) + 2, 1);
+        if (!joined)
+            return br_no_memory(l->err, "the table");
+        sprintf(joined, "%s%s%s", above, *own && *above ? " " : "", own);
+        name[i] = *joined ? joined : NULL;
     }
     l->seen[line].is_used = true;
     return BR_OK;
@@ -431,9 +545,8 @@ static enum br_status name_pairs(struct layout *l)
 /* Whether the first row is a heading of words and numbers: "p,1,2,3". */
 static bool has_names_in_row(const struct layout *l)
 {
-    size_t words = 0, rows = 0;
-    for (size_t i = l->first; i <= l->last; i++)
-        rows += l->seen[i].is_row;
+    size_t words = 0;
+    const size_t rows = count_rows(l);
     look_at(l, l->first);
     for (size_t i = 0; i < l->width && rows > 2; i++)
         words += content_of(&l->piece[i], l->fields->mark) == WORD && l->has_number[i] + 1 >= rows;
@@ -446,37 +559,36 @@ static bool is_title(const struct layout *l, size_t line)
 {
     const size_t count = br_line_split(l->line[line].text, l->by, l->piece);
     const char *const text = l->line[line].text;
-    return count < 2 || l->by <= BR_BY_COLONS || strchr(":.", text[strlen(text) - 1]) ||
+    return count < 2 || l->by <= BR_BY_COLONS || strchr(":.[({=", text[strlen(text) - 1]) ||
            (l->by >= BR_BY_WIDE_BLANKS && l->line[line].number + 1 < l->line[l->first].number);
 }
 
 static enum br_status find_heading(struct layout *l)
 {
-    bool *skipped = br_store_take(&l->fields->store, l->width, sizeof *skipped);
-    const size_t above = next_text(l, l->first, -1);
-    if (!skipped)
-        return br_no_memory(l->err, "the table");
+    const size_t above = next_text(l, l->first, -1), first = l->first;
     if (l->by <= BR_BY_COLONS)
         return name_pairs(l);
-    if (above < l->lines && take_heading(l, above, skipped)) {
+    if (above < l->lines && take_heading(l, above)) {
         const size_t group = next_text(l, above, -1);
         return group < l->lines ? join_groups(l, group) : BR_OK;
     }
     for (size_t i = l->first; i-- > 0;)
-        if (l->line[i].kind == BR_LINE_COMMENT && take_heading(l, i, skipped))
+        if (l->line[i].kind == BR_LINE_COMMENT && take_heading(l, i))
             return BR_OK;
+    if (above < l->lines && (take_short_heading(l, above) || take_named_index(l, above)))
+        return BR_OK;
     if (has_names_in_row(l)) {
-        const size_t line = l->first;
-        l->seen[line].is_row = false;
-        l->first = next_text(l, line, 1);
-        take_heading(l, line, skipped);
+        l->seen[first].is_row = false;
+        l->first = next_text(l, first, 1);
+        take_heading(l, first);
         return BR_OK;
     }
     if (above == l->lines || is_title(l, above))
         return BR_OK;
     const size_t count = br_line_split(l->line[above].text, l->by, l->piece);
+    const size_t row = l->width > count && is_short(l, first) ? next_text(l, first, 1) : first;
     return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as the heading has",
-                   l->path, l->line[l->first].number, l->width > count ? "more" : "fewer", count);
+                   l->path, l->line[row].number, l->width > count ? "more" : "fewer", count);
 }
 
 /* ---- fields ---- */
@@ -488,13 +600,13 @@ static bool place_pieces(const struct layout *l, size_t line, size_t *column)
     const size_t count = l->seen[line].count;
     size_t rates = 0, used = 0;
     for (size_t i = 0; i < l->width; i++)
-        rates += is_rate(l->fields->heading[i]);
+        rates += l->gap[i] || is_rate(l->fields->heading[i]);
     const bool behind = count == l->width || (line == l->first && !l->fields->heading_line) ||
                         (line == l->first && l->by < BR_BY_WIDE_BLANKS);
     if (!behind && count + rates != l->width)
         return false;
     for (size_t i = 0; i < l->width && used < count; i++)
-        if (behind || !is_rate(l->fields->heading[i]))
+        if (behind || !(l->gap[i] || is_rate(l->fields->heading[i])))
             column[used++] = i;
     return true;
 }
@@ -553,7 +665,7 @@ static enum br_status check_marks(const struct layout *l)
     bool points = false;
     for (size_t i = 0; i < f->rows * f->columns; i++) {
         bool doubtful = false;
-        if (!f->field[i] || 2 * l->has_number[i % f->columns] <= f->rows)
+        if (!f->field[i])
             continue;
         const char *const at = strchr(f->field[i], '.');
         points |= at && strspn(f->field[i], "+-0123456789.") >= (size_t)(at - f->field[i]);
@@ -654,6 +766,8 @@ static enum br_status lay_out(struct layout *l)
     l->has_number = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *l->has_number);
     l->fields->left = br_store_take(store, l->lines, sizeof *l->fields->left);
     l->fields->heading = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *l->fields->heading);
+    l->gap = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *l->gap);
+    l->index = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *l->index);
     long *gain = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *gain);
     if (store->failed)
         return br_no_memory(l->err, "the table");

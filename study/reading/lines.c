@@ -214,6 +214,28 @@ static char *quoted_end(char *at, enum br_separator by)
     return end && (by < BR_BY_WIDE_BLANKS || !end[1] || is_blank(end[1])) ? end + 1 : NULL;
 }
 
+/* Whether the blanks at `at` stand in a number: "1.0 x 10^-2", "1.2 +- 0.1", "5 %". */
+static bool is_in_number(const char *begin, const char *at, size_t blanks)
+{
+    static const char *const signs[] = {"x",  "*",   "\u00d7", "\u00b7", "\\times", "\\cdot",
+                                        "+-", "+/-", "\u00b1", "\\pm",   "%",       "\\%"};
+    const char *const next = at + blanks;
+    for (size_t i = 0; i < sizeof signs / sizeof *signs; i++) {
+        const size_t size = strlen(signs[i]);
+        const bool ahead = strncmp(next, signs[i], size) == 0 && isdigit((unsigned char)at[-1]);
+        if (ahead && (strchr(signs[i], '%')
+                          ? !next[size] || is_blank(next[size])
+                          : is_blank(next[size]) &&
+                                isdigit((unsigned char)next[size + strspn(next + size, " ")])))
+            return true;
+        if (!strchr(signs[i], '%') && at - begin > (long)size + 1 &&
+            is_blank(at[-(long)size - 1]) && strncmp(at - size, signs[i], size) == 0 &&
+            isdigit((unsigned char)*next) && isdigit((unsigned char)*begin))
+            return true;
+    }
+    return false;
+}
+
 static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece)
 {
     const bool bar = by == BR_BY_BARS && (*at == '|' || *at == BR_BOX_BAR);
@@ -224,7 +246,8 @@ static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece
             at++;
         char *const begin = at, *end = quoted_end(at, by);
         at = end ? end : at;
-        while (*at && !ends_piece(begin, at, by, &bytes))
+        while (*at && !(ends_piece(begin, at, by, &bytes) &&
+                        !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
             at++;
         for (end = at; end > begin && is_blank(end[-1]); end--)
             ;
