@@ -298,7 +298,7 @@ static void list_left(struct source *s)
     s->no_memory |= !s->numbers->left;
     for (size_t i = 0; i < r->columns; i++)
         if (r->column[i].role == BR_ROLE_ASIDE || r->column[i].role == BR_ROLE_DEGREE) {
-            say(s, "%s", name_of(&r->column[i], i, name));
+            say(s, r->column[i].name ? "%s" : "column %s", name_of(&r->column[i], i, name));
             leave(s, r->column[i].why);
         }
     for (size_t i = 0; i < r->rows; i++)

@@ -186,7 +186,7 @@ static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
     if (s->is_volume)
         snprintf(text, TEXT, "h = %s^(-1/%g)", name, c->size.dimension);
     else if (s->is_size)
-        snprintf(text, TEXT, "%s = %s", br_axis_letters[s->axis], name);
+        snprintf(text, TEXT, "%s from %s", br_axis_letters[s->axis], name);
     else if (s->is_power)
         snprintf(text, TEXT, "h = 2^-%s", name);
     else
@@ -326,8 +326,9 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
     }
     shown_name(r, best->size.column, name);
     return br_fail(err, BR_BAD_INPUT,
-                   "%s: the errors grow where %s gets finer: rates%s; --column '%s=%s', if %s is %s",
-                   r->wishes->path, say_reading(r, best, reading), rates, name,
+                   "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
+                   r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, reading), rates,
+                   name,
                    best->size.states->is_size ? "n" : "h", name,
                    best->size.states->is_size ? "a count" : "a size");
 }
@@ -389,22 +390,42 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     return BR_OK;
 }
 
-/* Rows on one line: of one case, and of one size along the other axis. */
-static void set_lines(struct br_roles *r)
+/* The numbers along the other axis, before they are known: of time those that are chosen, of space
+ * those of a column with a usual name. NULL: there are none. */
+static const double *other_sizes(const struct br_roles *r, enum br_axis axis)
 {
-    const double *time = r->log_z[BR_AXIS_TIME];
+    if (axis == BR_AXIS_SPACE)
+        return r->log_z[BR_AXIS_TIME];
+    for (size_t i = 0; i < r->columns; i++)
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            if (s->axis == BR_AXIS_SPACE && r->column[i].least < r->column[i].most &&
+                (r->column[i].by_hand ? r->column[i].stated == s
+                                      : br_name_odds(r->column[i].name, s) >= 4))
+                return r->column[i].number;
+    return NULL;
+}
+
+static bool is_near(double a, double b)
+{
+    return fabs(a - b) <= 1e-9 * fmax(fabs(a), fabs(b));
+}
+
+/* Rows on one line: of one case, and of one size along the other axis. */
+static void set_lines(struct br_roles *r, enum br_axis axis)
+{
+    const double *other = other_sizes(r, axis);
     bool repeats = false;
     size_t lines = r->groups;
-    for (size_t i = 0; i < r->rows && time; i++)
+    for (size_t i = 0; i < r->rows && other; i++)
         for (size_t j = 0; j < i && !repeats; j++)
-            repeats = r->group[i] == r->group[j] && fabs(time[i] - time[j]) < 1e-9;
+            repeats = r->group[i] == r->group[j] && is_near(other[i], other[j]);
     for (size_t i = 0; i < r->rows; i++) {
         r->line[i] = r->group[i];
         if (!repeats || r->dropped[i])
             continue;
         r->line[i] = lines++;
         for (size_t j = 0; j < i; j++)
-            if (r->group[i] == r->group[j] && fabs(time[i] - time[j]) < 1e-9) {
+            if (r->group[i] == r->group[j] && is_near(other[i], other[j])) {
                 r->line[i] = r->line[j];
                 break;
             }
@@ -416,7 +437,7 @@ enum br_status br_decide_sizes(struct br_roles *r, struct br_error *err)
     bool time_gives_rates = false;
     for (int i = BR_AXES; i-- > 0;) { /* time first: it is only known by its name */
         struct contest t = {.roles = r, .axis = (enum br_axis)i};
-        set_lines(r);
+        set_lines(r, t.axis);
         if (gather(&t, err) || check_counts(&t, err))
             return err->status;
         const struct br_candidate *best = best_of(&t, NULL);

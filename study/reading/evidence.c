@@ -121,7 +121,7 @@ static void find_rates(struct view *v)
             c->role == BR_ROLE_CASE)
             continue;
         const struct residual best = best_of_rates(v, c, BR_NO_ROW);
-        if (!best.compared)
+        if (!best.compared || (!c->name && best.worst > 0)) /* without a name it may be a factor */
             continue;
         v->rates.columns++;
         v->rates.compared = best.compared > v->rates.compared ? best.compared : v->rates.compared;
@@ -230,20 +230,46 @@ static double fall_of(const struct view *v, size_t column)
     return size > 0 ? fall / size : 0;
 }
 
-/* Whether nothing falls with these sizes, and something grows. */
+/* Whether a column falls below what it is at the coarsest size of a line, also where round-off lets
+ * it grow again. */
+static bool dips(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    double first = NAN;
+    size_t line = BR_NO_ROW;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p);) {
+        first = line == v->roles->line[p.coarse] ? first : fabs(e[p.coarse]);
+        line = v->roles->line[p.coarse];
+        if (fabs(e[p.fine]) < 0.95 * first)
+            return true;
+    }
+    return false;
+}
+
+/* Whether a column grows from each size to the next finer one, as far as it changes. */
+static bool climbs(const struct view *v, size_t column)
+{
+    const double *e = v->roles->column[column].number;
+    struct pair p;
+    for (size_t at = 0; next_pair(v, &at, &p);)
+        if (fabs(e[p.fine]) < 0.999 * fabs(e[p.coarse]))
+            return false;
+    return fall_of(v, column) < -0.05;
+}
+
+/* Whether no error falls with these sizes, and one grows from each to the next. */
 static double grow_all(const struct view *v)
 {
     bool grow = false;
     for (size_t i = 0; i < v->roles->columns; i++) {
         const struct br_role_column *c = &v->roles->column[i];
-        const bool named = c->kind == BR_KIND_ERROR;
-        if (!may_have_errors(v, i) || c->least < 0 || (c->is_whole && !named) ||
-            (c->by_hand && c->role != BR_ROLE_ERROR))
+        if (!may_have_errors(v, i) || c->least < 0 || c->is_value ||
+            (c->is_whole && c->kind != BR_KIND_ERROR) || (c->by_hand && c->role != BR_ROLE_ERROR))
             continue;
-        const double fall = fall_of(v, i);
-        if (fall > 0.05)
+        if (dips(v, i))
             return false;
-        grow |= fall < -0.05;
+        grow |= climbs(v, i);
     }
     return grow;
 }
@@ -253,7 +279,7 @@ static double some_fall(const struct view *v)
     bool falls = false;
     for (size_t i = 0; i < v->roles->columns && !falls; i++)
         falls = may_have_errors(v, i) && !v->roles->column[i].is_whole &&
-                v->roles->column[i].least >= 0 && fall_of(v, i) > 0.05;
+                !v->roles->column[i].is_value && v->roles->column[i].least >= 0 && dips(v, i);
     return falls;
 }
 
@@ -323,6 +349,27 @@ static double is_beside_a_size(const struct view *v)
     return 0;
 }
 
+/* Unknowns, beside cells that grow by one factor. */
+static double is_beside_cells(const struct view *v)
+{
+    const struct br_resolution_column *cells = br_resolution_column_find("cells");
+    for (size_t i = 0; i < v->roles->columns && has_name(v, "dofs"); i++) {
+        const struct br_role_column *c = &v->roles->column[i];
+        struct pair p;
+        double first = NAN;
+        bool steady = i != v->candidate->size.column && c->is_whole && !c->words &&
+                      c->numbers == v->roles->rows && br_name_odds(c->name, cells) >= 4;
+        for (size_t at = 0; steady && next_pair(v, &at, &p);) {
+            const double ratio = c->number[p.fine] / c->number[p.coarse];
+            first = isnan(first) ? ratio : first;
+            steady = ratio > 1 && fabs(ratio / first - 1) < 0.02;
+        }
+        if (steady && first > 1)
+            return 1;
+    }
+    return 0;
+}
+
 static double name(const struct view *v)
 {
     return br_name_odds(own(v)->name, v->candidate->size.states);
@@ -355,6 +402,7 @@ static const struct {
     {halves, 0.75, "its sizes halve"},
     {counts_up, -4, "levels count by one"},
     {has_a_second, 3, "another column states the same sizes"},
+    {is_beside_cells, -3, "cells beside the unknowns state the mesh"},
     {is_beside_a_size, -4, "another column is called h, n or level"},
     {some_fall, 0.5, "something falls with its sizes"},
     {grow_all, -3, "all that may be errors grows where its sizes fall"},
@@ -378,7 +426,6 @@ void br_evidence_weigh(const struct br_roles *roles, struct br_candidate *c, con
 struct error_view {
     struct view v;
     size_t column;
-    double fall;
 };
 
 static const struct br_role_column *tried(const struct error_view *e)
@@ -399,12 +446,12 @@ static bool is_of_another_kind(const struct error_view *e)
 
 static bool falls(const struct error_view *e)
 {
-    return e->fall > 0.05;
+    return dips(&e->v, e->column);
 }
 
 static bool grows_finer(const struct error_view *e)
 {
-    return e->fall < -0.05;
+    return climbs(&e->v, e->column);
 }
 
 static bool is_count(const struct error_view *e)
@@ -459,9 +506,8 @@ static const struct {
 double br_evidence_of_errors(const struct br_roles *roles, const struct br_candidate *candidate,
                              const size_t *sorted, size_t column)
 {
-    struct error_view e = {{roles, candidate, sorted, {0}}, column, 0};
+    struct error_view e = {{roles, candidate, sorted, {0}}, column};
     double odds = 0;
-    e.fall = fall_of(&e.v, column);
     for (size_t i = 0; i < sizeof of_errors / sizeof *of_errors; i++)
         odds += of_errors[i].holds(&e) ? of_errors[i].log_odds : 0;
     return odds;

@@ -189,6 +189,7 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
         if (c->name && (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
             !c->stated && !is_size_by_name(c->name))
             c->role = BR_ROLE_ERROR;
+        c->is_value = c->name && br_lists(r->wishes->values, c->name);
     }
     return BR_OK;
 }
@@ -277,6 +278,17 @@ static enum br_status take_numbers(struct br_roles *r, struct br_error *err)
         read_numbers(r, i);
     }
     return BR_OK;
+}
+
+/* deal.II prints rates in columns without a heading, which begin or end with a gap. */
+static void find_rates_without_a_name(struct br_roles *r)
+{
+    for (size_t i = 0; i < r->columns && r->rows > 2; i++) {
+        struct br_role_column *c = &r->column[i];
+        const bool gap = isnan(c->number[0]) || isnan(c->number[r->rows - 1]);
+        if (r->fields->heading_line && !c->name && gap && c->numbers + 1 >= r->rows - 1 && !c->words)
+            c->kind = BR_KIND_RATE;
+    }
 }
 
 /* MOOSE writes a row of zeros before the first solution. */
@@ -577,8 +589,8 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
                                                  c->role != BR_ROLE_DEGREE &&
                                                  br_evidence_of_errors(r, over, sorted, i) >= 1);
         c->role = !studied ? c->role == BR_ROLE_DEGREE ? BR_ROLE_DEGREE : BR_ROLE_ASIDE
-                  : br_lists(r->wishes->values, c->name ? c->name : "") ? BR_ROLE_VALUE
-                                                                        : BR_ROLE_ERROR;
+                  : c->is_value ? BR_ROLE_VALUE
+                                : BR_ROLE_ERROR;
     }
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
@@ -738,6 +750,7 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
     if (take_names(r, err) || take_numbers(r, err))
         return err->status;
     drop_zeros(r);
+    find_rates_without_a_name(r);
     if (take_where(r, err) || find_cases(r, err) || br_decide_sizes(r, err))
         return err->status;
     const bool sizes = r->size[BR_AXIS_SPACE].states || r->size[BR_AXIS_TIME].states;

@@ -42,7 +42,7 @@ struct br_role_column {
     double *number, *deviation; /* rows; NaN: none */
     double *rounding;           /* half a unit of the last digit, relative */
     size_t numbers, words;      /* how many fields are one or the other */
-    bool is_whole;
+    bool is_whole, is_value; /* is_value: --value says that its limit is not known */
     double least, most;
 
     bool by_hand; /* --column says what it is */
