@@ -110,7 +110,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
         if (r->dropped[i])
             continue;
         struct br_numbers_row *row = &n->row[s->cell[i]];
-        row->given[axis] = r->halves ? (double)i : r->column[size->column].number[i];
+        row->given[axis] = r->halves ? round(-r->log_z[axis][i] / log(2))
+                                     : r->column[size->column].number[i];
         row->z[axis] = br_numbers_z(size->states, row->given[axis], size->dimension);
     }
     const char *unit = r->halves ? NULL : r->column[size->column].unit;

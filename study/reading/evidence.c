@@ -37,7 +37,8 @@ static bool next_pair(const struct view *v, size_t *at, struct pair *pair)
 
 static const struct br_role_column *own(const struct view *v)
 {
-    return &v->roles->column[v->candidate->size.column];
+    static const struct br_role_column none = {.is_whole = true}; /* h halves from row to row */
+    return v->candidate->size.column == BR_NO_ROW ? &none : &v->roles->column[v->candidate->size.column];
 }
 
 static bool has_name(const struct view *v, const char *name)
@@ -76,15 +77,18 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
     const struct br_role_column *z = own(v);
     struct residual found = {0};
     struct pair p;
+    double sign = 0; /* of rates over a count, which some print */
+    for (size_t i = 0; i < v->roles->rows; i++)
+        sign += isnan(rate->number[i]) ? 0 : rate->number[i];
     for (size_t at = 0; next_pair(v, &at, &p);) {
         const size_t row = finer ? p.fine : p.coarse;
         const double seen = log(fabs(e->number[p.coarse] / e->number[p.fine])) / p.ratio;
-        const double digits = e->rounding[p.coarse] + e->rounding[p.fine] +
-                              (z->is_whole ? 0 : fabs(seen)) *
-                                  (z->rounding[p.coarse] + z->rounding[p.fine]);
+        const double of_sizes =
+            z->is_whole ? 0 : fabs(seen) * (z->rounding[p.coarse] + z->rounding[p.fine]);
+        const double digits = e->rounding[p.coarse] + e->rounding[p.fine] + of_sizes;
         if (isnan(rate->number[row]) || !isfinite(seen))
             continue;
-        const double off = fabs(fabs(seen) - fabs(rate->number[row]));
+        const double off = fabs(seen - (sign < 0 ? -1 : 1) * rate->number[row]);
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);
@@ -156,7 +160,7 @@ static bool grows_by(const struct view *v, double more, double factor, bool stea
     size_t pairs = 0;
     double before = steadily ? 0.25 : 0.02, off = 1;
     struct pair p;
-    for (size_t at = 0; next_pair(v, &at, &p); pairs++) {
+    for (size_t at = 0; number && next_pair(v, &at, &p); pairs++) {
         off = fabs((number[p.fine] + more) / (number[p.coarse] + more) / factor - 1);
         if (!(off <= before + 1e-9))
             return false;
@@ -325,6 +329,8 @@ static double has_a_second(const struct view *v)
             continue;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++) {
             const bool named = br_name_odds(c->name, s) > 1.5;
+            if (!named && br_name_odds(own(v)->name, v->candidate->size.states) <= 0.5)
+                continue; /* of two unknown columns one may have errors of order one */
             if (s->axis != BR_AXIS_SPACE || strcmp(s->name, "dofs") == 0 ||
                 !(named || (c->is_whole && !s->is_size && c->least >= 1)))
                 continue;

@@ -56,10 +56,10 @@ static const struct {
     {BR_KIND_DEVIATION, " std sigma sd stderr sem stdev stddev deviation uncertainty unc pm "},
     {BR_KIND_RATE, " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
                    "poc ordre ordnung ordem orden alpha "},
-    {BR_KIND_FACTOR, " ratio ratios red reduction factor factors quotient "},
+    {BR_KIND_FACTOR, " ratio ratios reduction factor factors quotient "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
-     "cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
+     "solver cycle index row memory mem ram newton gmres cg nit niter flops cost elapsed ms step id idx "
      "date timestamp run_id speedup zeit "},
     {BR_KIND_DEGREE, " degree deg poly polynomial polydeg pdeg "},
     {BR_KIND_REPEAT, " seed repeat replicate trial run sample rep repetition "},
@@ -166,6 +166,8 @@ enum br_kind br_kind_of(const char *name)
         return strcmp(last, "p") == 0 || strcmp(last, "q") == 0 ? BR_KIND_DEGREE : BR_KIND_RATE;
     if (words == 1 && strcmp(last, "k") == 0)
         return BR_KIND_UNKNOWN;
+    if (words == 1 && strcmp(last, "red") == 0)
+        return BR_KIND_FACTOR;
     for (size_t i = 0; i < sizeof of_kinds / sizeof *of_kinds; i++)
         for (at = name; next_word(&at, word);)
             if (lists(of_kinds[i].words, word))

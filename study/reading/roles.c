@@ -507,10 +507,13 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
     size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);
     if (!c.log_z || !sorted)
         return br_no_memory(err, "the table");
-    for (size_t i = 0; i < r->rows; i++)
-        c.log_z[i] = r->dropped[i] ? (double)NAN : -log(2) * (double)i;
-    br_decide_sort(r, &c, sorted);
-    br_evidence_weigh(r, &c, sorted);
+    for (int up = 0; up < 2 && !c.agrees_with_rates; up++) { /* the last row is the finest, or the first */
+        for (size_t i = 0; i < r->rows; i++)
+            c.log_z[i] = r->dropped[i] ? (double)NAN
+                                       : -log(2) * (double)(up ? r->rows - 1 - i : i);
+        br_decide_sort(r, &c, sorted);
+        br_evidence_weigh(r, &c, sorted);
+    }
     if (!c.agrees_with_rates)
         return br_roles_refuse(r, "found no column of a resolution, and the rates of the table do "
                                   "not tell that h halves from row to row",
