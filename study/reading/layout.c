@@ -90,8 +90,13 @@ static long measure(struct layout *l, long *gain, size_t *rows)
         if (l->line[i].kind != BR_LINE_TEXT)
             continue;
         const struct seen s = look_at(l, i);
-        rows[s.count] += s.numbers > s.words;
-        gain[s.count] += s.numbers ? 3 * (long)s.numbers - (long)s.words : 0;
+        const long more = s.numbers ? 3 * (long)s.numbers - (long)s.words : 0;
+        size_t filled = s.count;
+        while (filled > 1 && !l->piece[filled - 1].length)
+            filled--;
+        rows[filled] += s.numbers > s.words;
+        gain[s.count] += more;
+        gain[filled] += filled < s.count ? more : 0;
     }
     size_t best = 1, wider = 0;
     for (size_t i = 1; i <= BR_MOST_COLUMNS + 1; i++)
@@ -264,6 +269,13 @@ static void find_ends(struct layout *l)
     const size_t above = next_text(l, l->first, -1), below = next_text(l, l->last, 1);
     l->first = is_short(l, above) ? above : l->first;
     l->last = is_short(l, below) ? below : l->last;
+}
+
+static enum br_status refuse_row(const struct layout *l, size_t line, const char *like)
+{
+    return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as the %s has", l->path,
+                   l->line[line].number, l->seen[line].count > l->width ? "more" : "fewer",
+                   l->width, like);
 }
 
 /* Refuses what is no row between rows, and rows beside them that are others. */
@@ -585,6 +597,8 @@ static enum br_status find_heading(struct layout *l)
     }
     if (above == l->lines || is_title(l, above))
         return BR_OK;
+    if (l->seen[above].numbers)
+        return refuse_row(l, above, "first row");
     const size_t count = br_line_split(l->line[above].text, l->by, l->piece);
     const size_t row = l->width > count && is_short(l, first) ? next_text(l, first, 1) : first;
     return br_fail(l->err, BR_BAD_INPUT, "%s:%zu: found %s than %zu fields, as the heading has",
@@ -636,9 +650,7 @@ static enum br_status take_row(struct layout *l, size_t line, size_t *column)
     const size_t row = f->rows++;
     look_at(l, line);
     if (!place_pieces(l, line, column))
-        return br_fail(l->err, BR_BAD_INPUT,
-                       "%s:%zu: found fewer than %zu fields, as the heading has", l->path,
-                       l->line[line].number, l->width);
+        return refuse_row(l, line, l->fields->heading_line ? "heading" : "first row");
     f->line[row] = l->line[line].number;
     for (size_t i = 0; i < l->seen[line].count; i++) {
         const struct br_piece *piece = &l->piece[i];

@@ -38,7 +38,8 @@ static bool make_plain(const char *text, char plain[LONGEST])
     size_t length = 0;
     bool raised = false;
     while (*text && length + 8 < LONGEST) {
-        size_t i = 0;
+        const bool may_be_sign = (unsigned char)*text >= 0x80 || strchr("\\*+${}`", *text);
+        size_t i = may_be_sign ? 0 : SIGNS;
         while (i < SIGNS && strncmp(text, signs[i].sign, strlen(signs[i].sign)) != 0)
             i++;
         const bool up = i >= FIRST_RAISED && i <= LAST_RAISED;
