@@ -316,52 +316,80 @@ static bool same_names(const struct br_numbers *n, const struct expected *e, cha
     return false;
 }
 
-static int by_rows(const void *a, const void *b)
+/* A row of numbers, or of what is expected. */
+struct place {
+    size_t line; /* its place in the table; where rows have no lines, sizes decide */
+    double z[BR_AXES];
+};
+
+static int by_place(const void *a, const void *b)
 {
-    const double *x = a, *y = b;
-    const int first = (x[0] < y[0]) - (x[0] > y[0]);
-    return first ? first : (x[1] < y[1]) - (x[1] > y[1]);
+    const struct place *x = a, *y = b;
+    if (x->line != y->line)
+        return x->line < y->line ? -1 : 1;
+    const int first = (x->z[0] < y->z[0]) - (x->z[0] > y->z[0]);
+    return first ? first : (x->z[1] < y->z[1]) - (x->z[1] > y->z[1]);
 }
 
-/* Whether the sizes are the expected ones, up to a factor. */
-static bool same_sizes(const struct br_numbers *n, const struct expected *e, char *why)
+/* Whether the sizes of an axis are the expected ones, up to a factor. */
+static bool same_axis(const struct place *found, const struct place *expected, size_t rows,
+                      int axis, double tolerance, char *why)
 {
-    double sorted[MOST_SIZES][BR_AXES] = {{0}};
-    size_t rows = 0;
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        const struct sizes *s = &e->axis[axis];
-        if (!n->column[axis] != !s->count) {
-            snprintf(why, 400, "%s axis of %s", s->count ? "no" : "an", axis ? "k" : "h");
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < rows; i++) {
+        const double ratio = found[i].z[axis] / expected[i].z[axis];
+        least = fmin(least, ratio);
+        most = fmax(most, ratio);
+    }
+    if (most / least - 1 <= tolerance)
+        return true;
+    snprintf(why, 400, "ratios of sizes from %.4g to %.4g", least, most);
+    return false;
+}
+
+/* Whether the sizes are the expected ones, row by row. reversed: the rows of the table are. */
+static bool same_sizes(const struct br_numbers *n, const struct expected *e, bool reversed,
+                       char *why)
+{
+    struct place found[MOST_SIZES] = {{0}}, expected[MOST_SIZES] = {{0}};
+    const size_t rows = e->axis[0].count ? e->axis[0].count : e->axis[1].count;
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (!n->column[axis] != !e->axis[axis].count) {
+            snprintf(why, 400, "%s axis of %s", n->column[axis] ? "an" : "no", axis ? "k" : "h");
             return false;
         }
-        rows = s->count ? s->count : rows;
-        for (size_t i = 0; i < s->count; i++)
-            sorted[i][axis] = s->z[i];
-    }
-    qsort(sorted, rows, sizeof *sorted, by_rows);
     if (rows != n->rows) {
         snprintf(why, 400, "%zu rows, expected %zu", n->rows, rows);
         return false;
     }
-    for (int axis = 0; axis < BR_AXES; axis++) {
-        double least = INFINITY, most = 0;
-        for (size_t i = 0; i < rows && n->column[axis]; i++) {
-            const double ratio = n->row[i].z[axis] / sorted[i][axis];
-            least = fmin(least, ratio);
-            most = fmax(most, ratio);
-        }
-        if (n->column[axis] && !(most / least - 1 <= e->axis[axis].tolerance)) {
-            snprintf(why, 400, "%s: ratios of sizes from %.4g to %.4g (%.250s)",
-                     n->column[axis]->name, least, most, n->taken);
-            return false;
+    const bool lines = rows > 1 && n->row[0].line != n->row[1].line;
+    for (size_t i = 0; i < rows; i++) {
+        found[i].line = lines ? n->row[i].line : 0;
+        expected[i].line = lines ? reversed ? rows - i : i : 0;
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            found[i].z[axis] = n->column[axis] ? n->row[i].z[axis] : 1;
+            expected[i].z[axis] = n->column[axis] ? e->axis[axis].z[i] : 1;
         }
     }
+    qsort(found, rows, sizeof *found, by_place);
+    qsort(expected, rows, sizeof *expected, by_place);
+    for (int axis = 0; axis < BR_AXES; axis++)
+        if (!same_axis(found, expected, rows, axis, n->column[axis] ? e->axis[axis].tolerance : 0,
+                       why))
+            return false;
     return true;
 }
 
-/* The verdict on numbers, or on a refusal. sizes_only: names do not count. */
+/* What differs in a copy of a table. */
+struct change {
+    bool names;    /* so they do not count */
+    bool reversed; /* the rows */
+};
+
+/* The verdict on numbers, or on a refusal. */
 static struct outcome judge(const struct br_numbers *n, enum br_status status,
-                            const struct br_error *err, const struct expected *e, bool sizes_only)
+                            const struct br_error *err, const struct expected *e,
+                            struct change change)
 {
     struct outcome o = {.verdict = RIGHT};
     if (status) {
@@ -373,18 +401,22 @@ static struct outcome judge(const struct br_numbers *n, enum br_status status,
     }
     const bool assumed = n->assumed || strstr(n->taken, "assum");
     if (e->asks || e->refuses)
-        snprintf(o.why, sizeof o.why, "read: %.590s", n->taken);
-    else if (same_sizes(n, e, o.why) && (sizes_only || same_names(n, e, o.why))) {
+        snprintf(o.why, sizeof o.why, "it should ask");
+    else if (same_sizes(n, e, change.reversed, o.why) &&
+             (change.names || same_names(n, e, o.why))) {
         for (size_t i = 0; i < e->lefts; i++)
             o.unnamed += !strstr(n->taken, e->left[i].text);
         o.verdict = assumed ? ASSUMED : RIGHT;
         return o;
     }
+    const size_t used = strlen(o.why);
+    snprintf(o.why + used, sizeof o.why - used, " (%.200s)", n->taken);
     o.verdict = assumed ? WRONG_ASSUMED : WRONG;
     return o;
 }
 
-static struct outcome read_table(const char *table, const struct table_case *c, bool sizes_only)
+static struct outcome read_table(const char *table, const struct table_case *c,
+                                 struct change change)
 {
     struct br_error err = {0};
     struct br_numbers n = {0};
@@ -396,7 +428,7 @@ static struct outcome read_table(const char *table, const struct table_case *c, 
         status = br_orders_read(&r, &n, &err);
     else
         status = br_fail(&err, BR_BAD_INPUT, "no such option: %s", c->options);
-    const struct outcome o = judge(&n, status, &err, &c->expected, sizes_only);
+    const struct outcome o = judge(&n, status, &err, &c->expected, change);
     br_numbers_clear(&n);
     br_orders_request_clear(&r);
     return o;
@@ -411,15 +443,33 @@ struct grid {
     char *room;
 };
 
-/* Splits a table whose lines all have the same number of fields; returns whether this is one. */
+/* Makes two blanks and more a tab. */
+static void join_blanks(char *line)
+{
+    char *out = line;
+    for (; *line; line++)
+        if (line[0] == ' ' && line[1] == ' ') {
+            line += strspn(line, " ") - 1;
+            *out++ = '\t';
+        } else
+            *out++ = *line;
+    *out = '\0';
+}
+
+/* Splits a table whose lines all have the same number of fields; returns whether this is one.
+ * separator: '2': two blanks. */
 static bool split_by(const struct table_case *c, char separator, struct grid *g)
 {
     char *line, *word;
+    const bool two = separator == '2';
     memset(g, 0, sizeof *g);
     g->room = copy_of(c->table, c->length);
     for (char *next = g->room; next;) {
         size_t count = 0;
         next = part(next, '\n', &line);
+        if (two)
+            join_blanks(line);
+        separator = two ? '\t' : separator;
         if (separator == '|' && *line == '|')
             line++;
         if (separator == '|' && *line && line[strlen(line) - 1] == '|')
@@ -444,7 +494,7 @@ static bool split_by(const struct table_case *c, char separator, struct grid *g)
 static bool is_number(const char *text)
 {
     char *end;
-    if (!*text || strcmp(text, "-") == 0)
+    if (strspn(text, "-") == strlen(text) || strcmp(text, "NA") == 0)
         return true;
     strtod(text, &end);
     return *end == '\0';
@@ -453,8 +503,8 @@ static bool is_number(const char *text)
 /* Whether a table is simple: a heading of words, and rows of numbers. */
 static bool split(const struct table_case *c, struct grid *g)
 {
-    static const char separators[] = "|\t,; ";
-    for (size_t s = 0; s < 5; s++) {
+    static const char separators[] = "|\t,; 2";
+    for (size_t s = 0; s < 6; s++) {
         bool simple = split_by(c, separators[s], g);
         for (size_t i = 0; simple && i < g->rows; i++)
             for (size_t j = 0; j < g->columns; j++)
@@ -666,7 +716,8 @@ static void try_copies(const struct table_case *c, enum verdict original, bool a
         if (!copies[i].make(&copy, &c->expected))
             continue;
         write_copy(&copy, text);
-        const struct outcome o = read_table(text, c, !copies[i].keeps);
+        const struct outcome o =
+            read_table(text, c, (struct change){!copies[i].keeps, copy.reversed});
         count(&tallies[i], &o);
         if (o.verdict >= WRONG || (copies[i].keeps && o.verdict > ASSUMED) || (all && o.verdict))
             printf("# %s, %s: %s: %s\n", c->name, copies[i].name, verdict_names[o.verdict], o.why);
@@ -747,7 +798,7 @@ int main(int arguments, char **argument)
             continue;
         }
         char *table = copy_of(cases[i].table, cases[i].length);
-        const struct outcome o = read_table(table, &cases[i], false);
+        const struct outcome o = read_table(table, &cases[i], (struct change){false, false});
         free(table);
         count(tally_of(kinds, &known, cases[i].kind), &o);
         count(&total, &o);
