@@ -39,7 +39,8 @@ enum {
     MOST_NAMES = 32,
     MOST_FIELDS = 32,
     LONGEST = 1 << 16, /* of a case's table, bytes */
-    LONGEST_FILE = 1 << 21
+    LONGEST_FILE = 1 << 21,
+    LEAST_RIGHT = 95 /* percent of all tables */
 };
 
 /* ---- cases ---- */
@@ -175,7 +176,7 @@ static void read_expected(const char *name, char *text, struct expected *e)
 /* Reads the heading of a case: its line after "@@". */
 static void read_heading(char *line, struct table_case *c)
 {
-    char *kind, *options, *expectation, *rest = part(line, '|', &kind);
+    char *kind, *options = "", *expectation, *rest = part(line, '|', &kind);
     char *slash = strchr(kind, '/');
     rest = rest ? part(rest, '|', &options) : NULL;
     if (!slash || !rest)
@@ -470,6 +471,8 @@ static bool split_by(const struct table_case *c, char separator, struct grid *g)
         if (two)
             join_blanks(line);
         separator = two ? '\t' : separator;
+        if (!g->rows)
+            line += strspn(line, "#% "); /* the heading may be a comment */
         if (separator == '|' && *line == '|')
             line++;
         if (separator == '|' && *line && line[strlen(line) - 1] == '|')
@@ -661,18 +664,19 @@ static bool misname(struct copy *copy, const struct expected *e)
 static const struct {
     const char *name;
     bool (*make)(struct copy *, const struct expected *);
-    bool keeps; /* it means the same */
+    bool keeps;  /* it means the same */
+    size_t most; /* wrong claims that are let pass: what headings that lie can make true */
 } copies[] = {
-    {"columns from right to left", permute, true},
-    {"columns moved by one", rotate, true},
-    {"rows from fine to coarse", reverse, true},
-    {"CSV", as_csv, true},
-    {"blanks", with_blanks, true},
-    {"bars", with_bars, true},
-    {"tabs", with_tabs, true},
-    {"all headings hidden but rates", hide, false},
-    {"headings of size and error swapped", swap, false},
-    {"h called n, n called h", misname, false},
+    {"columns from right to left", permute, true, 0},
+    {"columns moved by one", rotate, true, 0},
+    {"rows from fine to coarse", reverse, true, 0},
+    {"CSV", as_csv, true, 0},
+    {"blanks", with_blanks, true, 0},
+    {"bars", with_bars, true, 0},
+    {"tabs", with_tabs, true, 0},
+    {"all headings hidden but rates", hide, false, 0},
+    {"headings of size and error swapped", swap, false, 0},
+    {"h called n, n called h", misname, false, 0},
 };
 enum { COPIES = sizeof copies / sizeof *copies };
 
@@ -812,13 +816,15 @@ int main(int arguments, char **argument)
     print(&total);
     printf("# left aside without a word: %zu\n", total.unnamed);
     print_heading("copies of the right ones");
-    size_t claimed = 0, lost = 0;
+    const size_t read = total.of[RIGHT] + total.of[ASSUMED];
+    const bool good = total.of[WRONG] == 0 && read * 100 >= LEAST_RIGHT * total.all;
+    bool kept = true;
     for (size_t i = 0; i < COPIES; i++) {
-        print(&spoilt[i]);
-        claimed += spoilt[i].of[WRONG];
-        lost += copies[i].keeps ? spoilt[i].all - spoilt[i].of[RIGHT] - spoilt[i].of[ASSUMED] : 0;
+        const struct tally *t = &spoilt[i];
+        print(t);
+        kept &= t->of[WRONG] <= copies[i].most &&
+                (!copies[i].keeps || t->of[RIGHT] + t->of[ASSUMED] == t->all);
     }
-    const bool good = total.of[WRONG] == 0, kept = claimed == 0 && lost == 0;
     printf("%sok 1 - %zu tables\n%sok 2 - copies\n", good ? "" : "not ", number,
            kept ? "" : "not ");
     for (size_t i = 0; i < files; i++)
