@@ -242,7 +242,10 @@ static bool set_options(const char *options, struct br_orders_request *r)
     const struct {
         const char *name;
         char **text;
-    } lists[] = {{"--column", &r->columns}, {"--error", &r->errors}, {"--value", &r->values}};
+    } lists[] = {{"--column", &r->columns},
+                 {"--error", &r->errors},
+                 {"--value", &r->values},
+                 {"--where", &r->where}};
     char *name = NULL;
     while (*(next += strspn(next, " "))) {
         char *word = *next == '\'' ? next + 1 : next;
@@ -348,14 +351,23 @@ static bool same_axis(const struct place *found, const struct place *expected, s
     return false;
 }
 
+/* What differs in a copy of a table. */
+struct change {
+    bool names;    /* so they do not count */
+    bool reversed; /* the rows */
+};
+
 /* Whether the sizes are the expected ones, row by row. reversed: the rows of the table are. */
-static bool same_sizes(const struct br_numbers *n, const struct expected *e, bool reversed,
+static bool same_sizes(const struct br_numbers *n, const struct expected *e, struct change change,
                        char *why)
 {
     struct place found[MOST_SIZES] = {{0}}, expected[MOST_SIZES] = {{0}};
     const size_t rows = e->axis[0].count ? e->axis[0].count : e->axis[1].count;
+    /* Without a name a time step may be any size. */
+    const int turn = change.names && !n->column[0] != !n->column[1] &&
+                     !e->axis[0].count != !e->axis[1].count && !n->column[0] != !e->axis[0].count;
     for (int axis = 0; axis < BR_AXES; axis++)
-        if (!n->column[axis] != !e->axis[axis].count) {
+        if (!n->column[axis] != !e->axis[axis ^ turn].count) {
             snprintf(why, 400, "%s axis of %s", n->column[axis] ? "an" : "no", axis ? "k" : "h");
             return false;
         }
@@ -366,28 +378,31 @@ static bool same_sizes(const struct br_numbers *n, const struct expected *e, boo
     const bool lines = rows > 1 && n->row[0].line != n->row[1].line;
     for (size_t i = 0; i < rows; i++) {
         found[i].line = lines ? n->row[i].line : 0;
-        expected[i].line = lines ? reversed ? rows - i : i : 0;
+        expected[i].line = lines ? change.reversed ? rows - i : i : 0;
         for (int axis = 0; axis < BR_AXES; axis++) {
             found[i].z[axis] = n->column[axis] ? n->row[i].z[axis] : 1;
-            expected[i].z[axis] = n->column[axis] ? e->axis[axis].z[i] : 1;
+            expected[i].z[axis] = n->column[axis] ? e->axis[axis ^ turn].z[i] : 1;
         }
     }
     qsort(found, rows, sizeof *found, by_place);
     qsort(expected, rows, sizeof *expected, by_place);
     for (int axis = 0; axis < BR_AXES; axis++)
-        if (!same_axis(found, expected, rows, axis, n->column[axis] ? e->axis[axis].tolerance : 0,
-                       why))
+        if (!same_axis(found, expected, rows, axis,
+                       n->column[axis] ? e->axis[axis ^ turn].tolerance : 0, why))
             return false;
     return true;
 }
 
-/* What differs in a copy of a table. */
-struct change {
-    bool names;    /* so they do not count */
-    bool reversed; /* the rows */
-};
-
 /* The verdict on numbers, or on a refusal. */
+/* Whether a text is named as left aside. */
+static bool names_left(const struct br_numbers *n, const char *text)
+{
+    for (size_t i = 0; i < n->lefts; i++)
+        if (strstr(n->left[i].what, text))
+            return true;
+    return false;
+}
+
 static struct outcome judge(const struct br_numbers *n, enum br_status status,
                             const struct br_error *err, const struct expected *e,
                             struct change change)
@@ -400,13 +415,12 @@ static struct outcome judge(const struct br_numbers *n, enum br_status status,
             o.verdict = helps ? ASKED : REFUSED;
         return o;
     }
-    const bool assumed = n->assumed || strstr(n->taken, "assum");
+    const bool assumed = n->assumed || n->unsettled;
     if (e->asks || e->refuses)
         snprintf(o.why, sizeof o.why, "it should ask");
-    else if (same_sizes(n, e, change.reversed, o.why) &&
-             (change.names || same_names(n, e, o.why))) {
+    else if (same_sizes(n, e, change, o.why) && (change.names || same_names(n, e, o.why))) {
         for (size_t i = 0; i < e->lefts; i++)
-            o.unnamed += !strstr(n->taken, e->left[i].text);
+            o.unnamed += !names_left(n, e->left[i].text);
         o.verdict = assumed ? ASSUMED : RIGHT;
         return o;
     }
