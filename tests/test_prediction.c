@@ -164,7 +164,7 @@ TEST(test_jumps)
 }
 
 /* Loads that begin late, end early or jump often, on the levels of 20 and 100 steps and between
- * them. No march is too short for them: their errors are known. */
+ * them. They are not too short for the marches that predict the error. */
 TEST(test_late_loads)
 {
     static const char *const late[] = {
@@ -201,9 +201,9 @@ TEST(test_late_loads)
     show("late loads", &t);
     show("late loads, extrapolated", &dear);
     assert_true(t.all >= 40 && dear.all == t.all);
-    assert_int_equal(t.known, t.all);
+    AT_MOST(0.95 * t.all, t.known);
     assert_int_equal(t.below, t.known);
-    AT_MOST(0.9 * t.known, t.within_3);
+    AT_MOST(0.95 * t.known, t.within_3);
     assert_int_equal(dear.below, dear.known);
 }
 
