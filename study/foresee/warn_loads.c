@@ -133,7 +133,7 @@ struct walker {
     void *self;
 };
 
-enum { SEVERAL = 4 };
+enum { SEVERAL = 16 };
 
 /* The end of so many parts: as a march computes its levels, so that a jump lies on the same side.
  */
