@@ -222,6 +222,19 @@ static double value_at(const struct passage *p, double t)
     return br_function_at(p->f, p->box.x.low, t);
 }
 
+/* What of an impulse lies beyond those of the values at both ends. NaN stays NaN. */
+static double unseen_of(double impulse, const double end[2])
+{
+    const double above = impulse - fmax(end[0], end[1]), below = fmin(end[0], end[1]) - impulse;
+    return above <= 0 && below <= 0 ? 0 : above > below ? above : below;
+}
+
+static double missed_of(const struct passage *p, const double end[2], bool jumps)
+{
+    const bool one = br_time_scheme_stages(p->loss->planned->method->scheme) == 1;
+    return fabs(p->impulse - (jumps && one ? end[1] : (end[0] + end[1]) / 2));
+}
+
 static void pass_piece(void *self, size_t step, struct br_interval piece, bool ends)
 {
     struct passage *p = self;
@@ -235,16 +248,11 @@ static void pass_piece(void *self, size_t step, struct br_interval piece, bool e
         return;
     const double from = end_of(p->box.t.high, o->steps, step),
                  to = end_of(p->box.t.high, o->steps, step + 1);
-    const double before = p->k * value_at(p, from), after = p->k * value_at(p, to);
-    const double unseen =
-        fmax(fmax(p->impulse - fmax(before, after), 0), fmin(before, after) - p->impulse);
+    const double end[2] = {p->k * value_at(p, from), p->k * value_at(p, to)};
     const bool on_level[2] = {jumps_at(p, from), jumps_at(p, to)};
-    const double line = fabs(p->impulse - (before + after) / 2);
+    const double unseen = unseen_of(p->impulse, end);
     const double missed =
-        o->method->scheme->adaptive ? unseen
-        : (p->jumps || on_level[1]) && br_time_scheme_stages(o->method->scheme) == 1
-            ? fabs(p->impulse - after)
-            : line;
+        o->method->scheme->adaptive ? unseen : missed_of(p, end, p->jumps || on_level[1]);
     if ((on_level[0] || on_level[1]) && p->weight * missed >= s->worst)
         s->jump = on_level[1] ? to : from;
     s->at_levels += on_level[0] || on_level[1] ? p->weight * missed : 0;
