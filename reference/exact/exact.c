@@ -249,7 +249,8 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
             if (i == 0 || track->entry[i].phase != track->entry[i - 1].phase)
                 exact->event[exact->events++] = (struct br_exact_event){
                     .time = t,
-                    .error = safety * fabs(t - t2) + track->entry[i].error,
+                    .error = fmax(safety * fabs(t - t2) + track->entry[i].error,
+                                  1e-13 * exact->duration), /* what rounding does */
                     .field = which,
                     .phase = track->entry[i].phase,
                 };
@@ -515,7 +516,7 @@ static double unproved(const struct search *s, size_t which)
  * BLAS. */
 static void raise_to_rounding(struct br_exact_report *report)
 {
-    const double displacements = 1e-13, rates = 10 * displacements; /* relative */
+    const double displacements = 1e-13, rates = 100 * displacements; /* relative */
     const struct br_exact_size *largest = &report->largest;
     struct br_exact_size *error = &report->error;
     error->displacement = fmax(error->displacement, displacements * largest->displacement);
