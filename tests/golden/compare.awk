@@ -24,14 +24,15 @@ function unit(number,    parts, mantissa) {
 
 function is_count(number) { return number !~ /[.eE]/ }
 
-function close_enough(a, b,    ulp, larger, smaller) {
+# one: of which the numbers are parts, 0.01 where a percent sign follows.
+function close_enough(a, b, one,    ulp, larger, smaller) {
     if (a == b "")
         return 1
     if (is_count(a) && is_count(b))
         return 0
     larger = abs(a) > abs(b) ? abs(a) : abs(b)
     smaller = abs(a) > abs(b) ? abs(b) : abs(a)
-    if (smaller < 1e-11 && round_off)
+    if (smaller * one < 1e-11 && round_off)
         return larger <= 16 * smaller + 1e-15
     if (abs(a - b) <= tolerance * larger || (smaller >= 1e-11 && abs(a - b) <= last_bits))
         return 1
@@ -56,14 +57,15 @@ function plain(line) { gsub(/\\cdot10\^\{/, "e", line); return line }
 
 function squeezed(text) { gsub(/ +/, " ", text); sub(/ $/, "", text); return text }
 
-function same(a, b,    x, y, text_a, text_b, moved) {
+function same(a, b,    x, y, one, text_a, text_b, moved) {
     if (a == b)
         return 1
     a = plain(a); b = plain(b)
     for (; a != "" || b != "";) {
         x = next_number(a); text_a = before; a = rest
         y = next_number(b); text_b = before; b = rest
-        if (squeezed(text_a) != squeezed(text_b) || (x == "") != (y == "") || !close_enough(x, y))
+        one = rest ~ /^ ?%/ ? 0.01 : 1
+        if (squeezed(text_a) != squeezed(text_b) || (x == "") != (y == "") || !close_enough(x, y, one))
             return 0
         moved = moved || x != y ""
     }
