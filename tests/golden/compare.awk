@@ -8,7 +8,7 @@
 # differ.
 BEGIN {
     tolerance = tolerance ? tolerance : 1e-9
-    last_bits = tolerance > 1e-9 ? 1e-13 : 1e-14 # of differences of numbers near 1
+    last_bits = tolerance > 1e-9 || round_off ? 1e-13 : 1e-14 # of differences of numbers near 1
 }
 
 # Adding 0 makes a number of a text: texts are compared by letters.
@@ -52,8 +52,14 @@ function next_number(line) {
     return substr(line, RSTART, RLENGTH)
 }
 
-# LaTeX's powers of ten as all others write them: 1.5\cdot10^{-3} is 1.5e-3}.
-function plain(line) { gsub(/\\cdot10\^\{/, "e", line); return line }
+# LaTeX's powers of ten as all others write them: 1.5\cdot10^{-3} is 1.5e-3}. A bound of round-off is a
+# number of round-off: < 4.3e-17 may be 2.4e-17.
+function plain(line) {
+    gsub(/\\cdot10\^\{/, "e", line)
+    while (round_off && match(line, /< [0-9.]+e-1[2-9]/))
+        line = substr(line, 1, RSTART - 1) substr(line, RSTART + 2)
+    return line
+}
 
 function squeezed(text) { gsub(/ +/, " ", text); sub(/ $/, "", text); return text }
 

@@ -62,11 +62,13 @@ same=
 compare 1.50000000000 1.50000000100; compare 1.50000000000 1.50000001000
 compare 1.50000000000 1.50000001000 1e-6; compare 3e-14 4e-14; compare 3e-14 4e-14 '' yes; compare 3e-14 -3e-14
 compare 3e-14 3e-12 '' yes; compare 3e-14 nan '' yes; compare 3e-14 -nan; compare 3e-12 0.0 '' yes
-compare '7e-11 %' '1e-10 %' '' yes; compare 7e-11 1e-10 '' yes; compare 7 8; compare 0.0 1e-16; compare 0.0 1e-16 '' yes; compare 2.5000000001e-13 2.5000000002e-13
+compare '7e-11 %' '1e-10 %' '' yes; compare 7e-11 1e-10 '' yes; compare 7 8; compare 0.0 1e-16
+compare '< 4e-17 m' '2.4e-17 m' '' yes; compare '< 4e-17' 2.4e-17
+compare 0.0 1e-16 '' yes; compare 2.5000000001e-13 2.5000000002e-13
 
 number=1 failed=0
 echo "TAP version 13"
-if [ "$same" = ' 1.50000000000=1.50000000100 1.50000000000=1.50000001000 3e-14=4e-14 3e-14=4e-14 7e-11 %=1e-10 % 0.0=1e-16 0.0=1e-16 2.5000000001e-13=2.5000000002e-13' ]; then
+if [ "$same" = ' 1.50000000000=1.50000000100 1.50000000000=1.50000001000 3e-14=4e-14 3e-14=4e-14 7e-11 %=1e-10 % 0.0=1e-16 < 4e-17 m=2.4e-17 m 0.0=1e-16 2.5000000001e-13=2.5000000002e-13' ]; then
     echo "ok 1 - comparison"
 else
     failed=1
