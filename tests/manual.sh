@@ -41,7 +41,7 @@ installed=$(meson introspect --installed "$1" | tr , '\n')
 for list in "$BEAMRATE_DATA"/debian/*.install; do
     grep -q libbeamrate.a <<<"$installed" || break # this build installs no library
     while read -r path _; do
-        grep -q "/$(sed 's|^usr/||; s|\.|\\.|g; s|/\*/|/.*|; s|\*$||' <<<"$path")" <<<"$installed" && continue
+        grep -q "/$(sed 's|^usr/||; s|\.|\\.|g; s|lib/\*/|lib[^ ]*/|; s|\*$||' <<<"$path")" <<<"$installed" && continue
         echo "$list: $path: nothing that is installed"
         failures=$((failures + 1))
     done <"$list"
