@@ -350,7 +350,7 @@ static void print_orders(FILE *out)
     for (int i = 0; i < 16; i++) {
         const double n = 10 << i / 4, k = 0.1 / (1 << i % 4);
         snprintf(text + strlen(text), sizeof text - strlen(text), "%g,%.17g,%.17g,%.17g,%.17g\n", n,
-                 k, (1 / n / n + k) * (1 + 1e-3 * (i % 3)), 3e-4 * n * k, 5 - 2 / n / n - k);
+                 k, (1 / n / n + k) * (1 + 1e-3 * (i * i % 7)), 3e-4 * n * k, 5 - 2 / n / n - k);
     }
     struct br_orders_request q = br_orders_request_default();
     struct br_numbers numbers;
