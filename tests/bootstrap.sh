@@ -238,12 +238,14 @@ count=$(build=$work/log count_cases 1)
 cat >"$work/log/meson-logs/testlog.json" <<'END'
 {"name": "beamrate:cli / a", "stdout": "1..2\nok 1 - b\n# skipped: no \"x\"\nok 2 - c # SKIP no y\n", "result": "OK"}
 {"name": "d", "stdout": "skipped: no z\n", "result": "SKIP", "returncode": 77}
+{"name": "cli+f - beamrate:f", "stdout": "skipped: no f\n", "result": "SKIP", "returncode": 77}
 {"name": "e", "stdout": "is skipped: no\nok 1 - skipped: no\n", "result": "OK"}
 END
 skipped=$(build=$work/log list_skipped)
 [ "$skipped" = 'skipped: a: c # SKIP no y
 skipped: a: no x
-skipped: d: no z' ] || {
+skipped: d: no z
+skipped: f: no f' ] || {
     echo "skipped is listed as '$skipped'"
     failures=$((failures + 1))
 }

@@ -147,7 +147,7 @@ END
 }
 refused_in_python() {
     cat >refused.py <<'END'
-import copy, ctypes, os, pickle, signal, time
+import copy, ctypes, os, pickle, signal, time, warnings
 import numpy as np
 import beamrate as br
 
@@ -226,7 +226,9 @@ for run in (lambda: br.Study(scene, [200, 400], [2000, 4000], progress=interrupt
     else:
         raise AssertionError("Ctrl-C is lost")
 
-child = os.fork()  # after studies in threads
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore", DeprecationWarning)  # from 3.12 on: threads and a fork
+    child = os.fork()  # after studies in threads
 if child == 0:
     again = br.Study(scene, [2, 4, 8], [8], reference="exact", norm="tip", axial_degree=2, threads=2)
     os._exit(0 if again.cell[2][0].tip == cell.tip else 1)

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # docs/options.md and docs/beamrate.1 are what the program writes of itself; roff takes the page, where
-# it is installed. The files that name the version name the same. $BEAMRATE is the program, $BEAMRATE_DATA the project.
+# it is installed. The files that name the version name the same; Debian's lists name what is installed.
+# usage: manual.sh BUILD; $BEAMRATE is the program, $BEAMRATE_DATA the project.
 set -u
 command -v groff >/dev/null || echo "skipped: groff is not installed"
 
@@ -35,4 +36,14 @@ check debian/changelog "beamrate ($version-1) .*"
 check CHANGELOG.md "## $version - .*"
 check action.yml "#   - uses: OWNER/beamrate@v$version"
 check docs/ci/your-solver.yml "      BEAMRATE_ARCHIVE: https://example.org/beamrate-$version.tar.gz"
+# Each path that a package of Debian takes is one that is installed.
+installed=$(meson introspect --installed "$1" | tr , '\n')
+for list in "$BEAMRATE_DATA"/debian/*.install; do
+    grep -q libbeamrate.a <<<"$installed" || break # this build installs no library
+    while read -r path _; do
+        grep -q "/$(sed 's|^usr/||; s|\.|\\.|g; s|lib/\*/|lib[^ ]*/|; s|\*$||' <<<"$path")" <<<"$installed" && continue
+        echo "$list: $path: nothing that is installed"
+        failures=$((failures + 1))
+    done <"$list"
+done
 [ "$failures" -eq 0 ]

@@ -251,8 +251,8 @@ struct stop_at {
     size_t step, told;
 };
 
-static enum br_status stop(void *self, const struct br_march *march,
-                           const struct br_history_row *row, struct br_error *err)
+static enum br_status full_disk(void *self, const struct br_march *march,
+                                const struct br_history_row *row, struct br_error *err)
 {
     (void)march;
     struct stop_at *s = self;
@@ -268,7 +268,7 @@ TEST(test_failures)
     struct br_scene scene = br_test_bare();
     scene.axial.load = br_test_load("sqrt(0.705 - t)");
     struct stop_at s = {.step = 5};
-    struct br_history_observer observer = {.self = &s, .step = stop};
+    struct br_history_observer observer = {.self = &s, .step = full_disk};
     struct br_run_request request = {.scene = &scene,
                                      .method = br_method_default(),
                                      .n = 4,
@@ -339,7 +339,8 @@ TEST(test_model)
     MUST(br_run(&request, &p, &err));
     assert_true(find(&p, "axial")->modelled && find(&p, "bending")->modelled);
     assert_non_null(strstr(find(&p, "friction")->why, "no friction algebra"));
-    assert_non_null(strstr(find(&p, "axial_load")->why, "one evaluation of its history in each step"));
+    assert_non_null(
+        strstr(find(&p, "axial_load")->why, "one evaluation of its history in each step"));
     assert_non_null(strstr(find(&p, "initial_data")->why, "not interpolated"));
     br_scene_clear(&scene);
 }

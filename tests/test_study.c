@@ -523,7 +523,7 @@ static void progress(void *self, double fraction)
         atomic_store(&w->last, fraction);
 }
 
-static bool stop(void *self)
+static bool stops(void *self)
 {
     struct watcher *w = self;
     return atomic_fetch_add(&w->stops, 1) >= atomic_load(&w->stop_after);
@@ -539,7 +539,7 @@ TEST(test_observer)
             struct br_error err = {0};
             const bool ends = after >= 399;
             struct watcher w = {.stop_after = ends ? 1000000 : after};
-            const struct br_observer observer = {.progress = progress, .stop = stop, .self = &w};
+            const struct br_observer observer = {.progress = progress, .stop = stops, .self = &w};
             struct br_study s = study_of(&scene, (struct br_resolution){8, 500}, 1, &n, 1, &steps);
             const enum br_status status = br_study_run(&s, 1, threads, &observer, &err);
             if (!ends) {

@@ -249,7 +249,8 @@ static enum br_status list_events(struct br_exact *exact, const struct br_exact_
             if (i == 0 || track->entry[i].phase != track->entry[i - 1].phase)
                 exact->event[exact->events++] = (struct br_exact_event){
                     .time = t,
-                    .error = safety * fabs(t - t2) + track->entry[i].error,
+                    .error = fmax(safety * fabs(t - t2) + track->entry[i].error,
+                                  1e-13 * exact->duration), /* what rounding does */
                     .field = which,
                     .phase = track->entry[i].phase,
                 };
@@ -511,6 +512,19 @@ static double unproved(const struct search *s, size_t which)
     return s->missed + s->outline[which].proved + blurred;
 }
 
+/* No error is stated below what rounding does to a solution: distances below it are those of one
+ * BLAS. */
+static void raise_to_rounding(struct br_exact_report *report)
+{
+    const double displacements = 1e-13, rates = 100 * displacements; /* relative */
+    const struct br_exact_size *largest = &report->largest;
+    struct br_exact_size *error = &report->error;
+    error->displacement = fmax(error->displacement, displacements * largest->displacement);
+    error->velocity = fmax(error->velocity, rates * largest->velocity);
+    error->force = fmax(error->force, rates * largest->force);
+    error->strain_rate = fmax(error->strain_rate, rates * largest->strain_rate);
+}
+
 /* The largest relative error that the report states, that of velocities over ten. The noise counts
  * only where a force at the tip cancels the motion. */
 static double stated_error(const struct br_exact *exact)
@@ -548,8 +562,10 @@ static enum br_status refine(struct search *s, struct br_error *err)
         return br_fail(err, status, "%s", s->cause.message);
     if (!(s->worst <= enough) && !is_acceptable(s))
         return refuse(s->exact, s->worst, &s->cause, err);
-    for (size_t i = 0; i < BR_FIELDS; i++)
+    for (size_t i = 0; i < BR_FIELDS; i++) {
         add_to_size(&s->exact->report[i].error, 1, unproved(s, i), &s->exact->report[i].largest);
+        raise_to_rounding(&s->exact->report[i]);
+    }
     if (!(stated_error(s->exact) <= fmax(s->o->acceptable, NEAR * s->o->tolerance)))
         return br_fail(err, BR_NOT_FINITE,
                        "no exact solution: its own relative error would be %.2g, expected at most "

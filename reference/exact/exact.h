@@ -87,9 +87,10 @@ struct br_exact_size {
 /* What is known about a field, 0 everywhere if it is not modelled. */
 struct br_exact_report {
     struct br_exact_size largest; /* over time */
-    /* Estimate, over time. Velocity, strain rate and force have layers after an event, force like
-     * (t - t*)^(1/4): their errors leave out times within 1e-6 T of an event, of a jump of the
-     * data, or of a load pulse shorter than that. */
+    /* Estimate, over time; at least 1e-13 of the largest displacement, a hundred times that
+     * of the others: what rounding does. Velocity, strain rate and force have layers after an
+     * event, force like (t - t*)^(1/4): their errors leave out times within 1e-6 T of an event, of
+     * a jump of the data, or of a load pulse shorter than that. */
     struct br_exact_size error;
     size_t modes, steps;
 };
@@ -121,8 +122,8 @@ struct br_exact_state {
             double friction_force; /* lambda = -sigma_V(L), N */
         };
     };
-    double friction_bound;            /* b, N */
-    double *mode[BR_FIELDS][2];       /* private: displacement and velocity */
+    double friction_bound;      /* b, N */
+    double *mode[BR_FIELDS][2]; /* private: displacement and velocity */
     double memory[];
 };
 

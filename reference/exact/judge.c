@@ -161,6 +161,13 @@ static struct br_judge_report exact_report(const void *self)
     return report;
 }
 
+/* Digits of an event's time that are not below its error. */
+static int sure_digits(const struct br_exact_event *event)
+{
+    const double digits = floor(log10(event->time / event->error)) + 1;
+    return (int)fmin(fmax(digits, 1), 12);
+}
+
 /* One line per event; the first ones of very many. */
 static void exact_print_notes(const void *self, FILE *out)
 {
@@ -174,8 +181,9 @@ static void exact_print_notes(const void *self, FILE *out)
             fprintf(out, "At t = 0: %s%s.\n", subjects[event[i].field],
                     event[i].phase == BR_OPEN ? "contact is open" : br_phase_text(event[i].phase));
         else
-            fprintf(out, "At t = %.12g s (+- %.0e s): %s%s.\n", event[i].time, event[i].error,
-                    subjects[event[i].field], br_phase_text(event[i].phase));
+            fprintf(out, "At t = %.*g s (+- %.0e s): %s%s.\n", sure_digits(&event[i]),
+                    event[i].time, event[i].error, subjects[event[i].field],
+                    br_phase_text(event[i].phase));
     }
     if (count > MOST)
         fprintf(out, "%zu more events follow.\n", count - MOST);

@@ -115,12 +115,13 @@ static enum br_status mms_advance(void *self, enum br_field_kind kind, size_t i,
 }
 
 /* Writes the modes on n elements, and the rest up to degree 10, to the view; returns the sum of
- * squares of the last ones. */
+ * squares of the last ones, or of what rounding does to all. */
 static double project(struct mms_judge *j, const struct br_sample_at *at, struct br_view *view)
 {
     const size_t n = j->mesh[at->mesh], kept = view->modes;
+    const double rounding = 1e-13; /* relative */
     const double h = j->scene->length / (double)n;
-    double *x = j->x[at->kind], *value = j->value[at->kind], tail = 0;
+    double *x = j->x[at->kind], *value = j->value[at->kind], tail = 0, all = 0;
     for (size_t e = 0; e < n; e++)
         for (size_t q = 0; q < POINTS; q++)
             x[e * POINTS + q] = h * ((double)e + j->xi[q]);
@@ -132,12 +133,14 @@ static double project(struct mms_judge *j, const struct br_sample_at *at, struct
             for (size_t m = 0; m < MODES; m++)
                 mode[m] += sqrt(h) * value[e * POINTS + q] * j->weight[q][m];
         memcpy(view->values + e * kept, mode, kept * sizeof *mode);
+        for (size_t m = 0; m < MODES; m++)
+            all += mode[m] * mode[m];
         for (size_t m = kept; m < MODES; m++)
             view->rest += mode[m] * mode[m];
         for (size_t m = MODES - TAIL; m < MODES; m++)
             tail += mode[m] * mode[m];
     }
-    return tail;
+    return fmax(tail, rounding * rounding * all);
 }
 
 static void mms_sample(void *self, const struct br_sample_at *at, struct br_view *view)

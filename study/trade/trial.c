@@ -151,6 +151,13 @@ static enum br_status make_steps(struct clocked *c, struct br_error *err)
     return status;
 }
 
+/* A difference of two readings in the clock's own digits: which of two equal times is less may not
+ * follow the last bit. */
+static double between(double begin, double end)
+{
+    return round(1e9 * (end - begin)) / 1e9;
+}
+
 enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request *r,
                               struct br_trial_cost *cost, struct br_error *err)
 {
@@ -167,11 +174,11 @@ enum br_status br_trial_march(struct br_trial *t, const struct br_trial_request 
     if (status)
         return status;
     const double begin = br_thread_seconds();
-    cost->set_up = c.set_up = begin - c.start;
+    cost->set_up = c.set_up = between(c.start, begin);
     c.start = begin;
     br_march_stop_when(c.march, stops, &c);
     status = make_steps(&c, err);
-    cost->march = br_thread_seconds() - begin;
+    cost->march = between(begin, br_thread_seconds());
     cost->counts = br_march_counts(c.march);
     cost->levels = br_march_steps_done(c.march);
     if (!status && cost->levels < t->at.steps) {

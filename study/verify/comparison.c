@@ -362,7 +362,7 @@ enum br_status br_compare(const struct br_check *checks, size_t count, bool whol
         most += old->check[i].count;
     for (size_t i = 0; i < count; i++) {
         const struct br_check *before = find_check(old->check, old->count, checks[i].name);
-        most += 4 * checks[i].count + 3 + BR_VERIFY_KINDS * BR_METHOD_FIELDS;
+        most += 4 * checks[i].count + 3 + (size_t)BR_VERIFY_KINDS * BR_METHOD_FIELDS;
         most += lines_of(checks[i].data) + (before ? lines_of(before->data) : 0);
     }
     out->difference = br_allocate(most, sizeof *out->difference);

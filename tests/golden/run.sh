@@ -16,11 +16,13 @@ update=
 [ "${1:-}" = --update ] && update=yes && shift
 wanted=" $* "
 
-# Without what no two runs have in common, and seconds on the wall; of JSON a row of a table is a line.
+# Without what no two runs have in common, seconds on the wall, and an axis that begins at round-off; of
+# JSON a row of a table is a line.
 mask() {
     sed -E -e "s|$BEAMRATE_DATA/||g" -e 's/[0-9a-f]{64}/HASH/g' \
         -e 's/"(version|commit)": ("[^"]*"|[0-9]+)/"\1": MASKED/' \
         -e 's/"(wall_seconds|seconds)": [0-9.]+e-[6-9]/"\1": MASKED/' \
+        -e 's/^(set yrange) \[[0-9.]+e-1[2-9]:.*/\1 ROUND-OFF/' \
         -e 's/^([0-9]+) [0-9]+ [0-9]{19} /\1 SIZE TIME /' -e '/^  (avx[0-9a-z]*|portable) /d' |
         awk -f "$here/join.awk"
 }
@@ -53,18 +55,21 @@ run() {
 # The comparison itself: which of these numbers are the same?
 compare() {
     echo "$1" >"$folder/old"; echo "$2" >"$folder/new"
-    awk -v tolerance="${3:-}" -v round_off="${4:-}" -f "$here/compare.awk" "$folder/old" "$folder/new" \
+    awk -v tolerance="${3:-}" -v round_off="${4:-}" -v counts="${5:-}" -f "$here/compare.awk" "$folder/old" "$folder/new" \
         >/dev/null && same="$same $1=$2"
 }
 same=
 compare 1.50000000000 1.50000000100; compare 1.50000000000 1.50000001000
 compare 1.50000000000 1.50000001000 1e-6; compare 3e-14 4e-14; compare 3e-14 4e-14 '' yes; compare 3e-14 -3e-14
 compare 3e-14 3e-12 '' yes; compare 3e-14 nan '' yes; compare 3e-14 -nan; compare 3e-12 0.0 '' yes
-compare 7 8; compare 0.0 1e-16; compare 0.0 1e-16 '' yes; compare 2.5000000001e-13 2.5000000002e-13
+compare '7e-11 %' '1e-10 %' '' yes; compare 7e-11 1e-10 '' yes; compare 7 8; compare 0.0 1e-16
+compare '< 4e-17 m' '2.4e-17 m' '' yes; compare '< 4e-17' 2.4e-17
+compare 40 43 '' '' yes; compare 40 45 '' '' yes; compare 10 11 '' '' yes; compare 101 99 '' '' yes; compare 40 43
+compare 0.0 1e-16 '' yes; compare 2.5000000001e-13 2.5000000002e-13
 
 number=1 failed=0
 echo "TAP version 13"
-if [ "$same" = ' 1.50000000000=1.50000000100 1.50000000000=1.50000001000 3e-14=4e-14 3e-14=4e-14 0.0=1e-16 0.0=1e-16 2.5000000001e-13=2.5000000002e-13' ]; then
+if [ "$same" = ' 1.50000000000=1.50000000100 1.50000000000=1.50000001000 3e-14=4e-14 3e-14=4e-14 7e-11 %=1e-10 % 0.0=1e-16 < 4e-17 m=2.4e-17 m 40=43 101=99 0.0=1e-16 2.5000000001e-13=2.5000000002e-13' ]; then
     echo "ok 1 - comparison"
 else
     failed=1
@@ -73,9 +78,9 @@ else
 fi
 while IFS='|' read -r name command files; do
     set -- $name
-    name=${1:-} tolerance= round_off=
+    name=${1:-} tolerance= round_off= counts=
     for mark in ${2:-} ${3:-}; do
-        case $mark in round-off) round_off=yes ;; *) tolerance=$mark ;; esac
+        case $mark in round-off) round_off=yes ;; counts) counts=yes ;; *) tolerance=$mark ;; esac
     done
     case $name in '' | '#'*) continue ;; esac
     case $wanted in '  ' | *" $name "*) ;; *) continue ;; esac
@@ -84,8 +89,8 @@ while IFS='|' read -r name command files; do
     touch "$folder/empty"
     stored=$here/$name.txt
     [ -e "$stored" ] || stored=$folder/empty
-    if awk -v tolerance="$tolerance" -v round_off=$round_off -f "$here/compare.awk" "$stored" \
-        "$folder/new" >"$folder/merged"; then
+    if awk -v tolerance="$tolerance" -v round_off=$round_off -v counts=$counts -f "$here/compare.awk" \
+        "$stored" "$folder/new" >"$folder/merged"; then
         echo "ok $number - $name"
     elif [ "$update" ]; then
         cp "$folder/new" "$here/$name.txt"
