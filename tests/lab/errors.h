@@ -16,6 +16,8 @@ struct br_error_line {
     double deviation[BR_MOST_ERRORS]; /* of errors that are means; 0: they are not */
     bool values;              /* their limit is not known */
     double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
+    double other; /* the order may as well be this one: an interval holds both; NaN: it may not */
+    double limit; /* of the values; NaN: none */
 };
 
 enum br_error_group {
@@ -23,6 +25,8 @@ enum br_error_group {
     BR_NOISY_ERRORS,
     BR_HARD_ERRORS,
     BR_NO_ORDER,
+    BR_TWO_ORDERS, /* of the finest rows, and of the coarse ones */
+    BR_GROWTH,     /* at the fine end: a verdict is FAIL */
 };
 
 /* Classes of lines; const records, the last one without a name. */
@@ -32,5 +36,6 @@ struct br_error_class {
     void (*draw)(struct br_random *random, struct br_error_line *line);
 };
 extern const struct br_error_class br_error_classes[];
+extern const struct br_error_class br_limit_classes[]; /* of values, for their limits */
 
 #endif
