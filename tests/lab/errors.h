@@ -27,6 +27,7 @@ enum br_error_group {
     BR_NO_ORDER,
     BR_TWO_ORDERS, /* of the finest rows, and of the coarse ones */
     BR_GROWTH,     /* at the fine end: a verdict is FAIL */
+    BR_GROUPS,
 };
 
 /* Classes of lines; const records, the last one without a name. */

@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "study/orders/orders.h"
 #include "tests/lab/grids.h"
@@ -315,27 +316,94 @@ static void print(const char *name, struct tally *t)
     printf("\n");
 }
 
-/* Tries so many lines, or grids, of a class; only: the class, NULL: all.
- * Returns whether their orders are good. */
-static bool try_class(size_t number, const char *name, enum br_error_group group, size_t class,
-                      void (*try)(size_t, uint64_t, size_t, struct tally *), uint64_t seed,
-                      size_t lines, const char *only, double *width)
+/* A run of the program. */
+struct run {
+    uint64_t seed;
+    const char *only;              /* the class; NULL: all */
+    double *width;                 /* of the lines of a class */
+    size_t number, bad;            /* tests so far, and those that failed */
+    struct tally group[BR_GROUPS]; /* all lines of a part of the program */
+    double seconds;
+};
+
+typedef void try_one(size_t class, uint64_t seed, size_t index, struct tally *t);
+
+static void add(struct tally *sum, const struct tally *t)
 {
-    struct tally t = {.width = width};
-    if (only && strcmp(name, only) != 0)
-        return true;
-    for (size_t i = 0; i < lines; i++)
-        try(class, seed, i, &t);
-    const bool good = is_good(group, &t);
-    printf("# ");
-    print(name, &t);
-    printf("%sok %zu - %s\n", good ? "" : "not ", number, name);
-    return good;
+    sum->lines += t->lines;
+    sum->claims += t->claims;
+    sum->covers += t->covers;
+    sum->silent += t->silent;
+    sum->pass += t->pass;
+    sum->fail += t->fail;
+    sum->wrong_pass += t->wrong_pass;
+    sum->narrow += t->narrow;
 }
 
-/* All published columns; number: of the test. Returns whether at most one order is worse than
- * docs/observed-orders.md says. */
-static bool try_all_published(size_t number)
+/* Tries so many lines, or grids, of a class. */
+static void try_class(struct run *run, const char *name, enum br_error_group group, size_t class,
+                      try_one *try, size_t lines)
+{
+    struct tally t = {.width = run->width};
+    run->number++;
+    if (run->only && strcmp(name, run->only) != 0)
+        return;
+    const clock_t start = clock();
+    for (size_t i = 0; i < lines; i++)
+        try(class, run->seed, i, &t);
+    run->seconds += (double)(clock() - start) / CLOCKS_PER_SEC;
+    const bool good = is_good(group, &t);
+    run->bad += !good;
+    printf("# ");
+    print(name, &t);
+    printf("%sok %zu - %s\n", good ? "" : "not ", run->number, name);
+    add(&run->group[group], &t);
+}
+
+/* Begins a part of the program. */
+static void begin(struct run *run, size_t lines, const char *of)
+{
+    printf("# %zu %s a class\n", lines, of);
+    memset(run->group, 0, sizeof run->group);
+    run->seconds = 0;
+}
+
+/* The sums of a part, and how long one line of it took. */
+static void end(struct run *run)
+{
+    static const char *const name[BR_GROUPS] = {"smooth",   "noisy",      "hard",
+                                                "no order", "two orders", "growth"};
+    size_t lines = 0;
+    for (size_t i = 0; i < BR_GROUPS && !run->only; i++)
+        if (run->group[i].lines > 0) {
+            printf("# all %zu: ", run->group[i].lines);
+            print(name[i], &run->group[i]);
+            lines += run->group[i].lines;
+        }
+    if (lines > 0)
+        printf("# %.2g ms each\n", 1000 * run->seconds / (double)lines);
+}
+
+/* Classes of lines, up to the one without a name. */
+static void try_classes(struct run *run, const struct br_error_class *class, try_one *try,
+                        size_t lines, const char *of)
+{
+    begin(run, lines, of);
+    for (size_t i = 0; class[i].name; i++)
+        try_class(run, class[i].name, class[i].group, i, try, lines);
+    end(run);
+}
+
+static size_t count_classes(const struct br_error_class *class)
+{
+    size_t n = 0;
+    while (class[n].name)
+        n++;
+    return n;
+}
+
+/* All published columns. At most one order is worse than docs/observed-orders.md says. */
+static void try_all_published(struct run *run)
 {
     size_t all[4] = {0}, later[4] = {0};
     for (size_t i = 0; i < BR_PUBLISHED; i++) {
@@ -347,8 +415,8 @@ static bool try_all_published(size_t number)
         printf("# %-14s %3zu of %d columns, %2zu of the later %d\n", found_texts[i], all[i],
                BR_PUBLISHED, later[i], BR_PUBLISHED - BR_PUBLISHED_FIRST);
     const bool ok = all[0] >= 129 && all[2] <= 10 && all[3] <= 19;
-    printf("%sok %zu - published columns\n", ok ? "" : "not ", number);
-    return ok;
+    printf("%sok %zu - published columns\n", ok ? "" : "not ", ++run->number);
+    run->bad += !ok;
 }
 
 /* ---- beside others ---- */
@@ -418,52 +486,42 @@ static void compare(uint64_t seed, size_t lines, double *width)
 
 int main(int arguments, char **argument)
 {
-    const uint64_t seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1;
     const size_t lines = arguments >= 3   ? strtoul(argument[2], NULL, 10)
                          : br_test_long() ? MANY
                                           : SAMPLE;
-    const char *only = arguments == 4 ? argument[3] : NULL;
     const size_t grids = (lines + 3) / 4; /* of two orders and some ten lines each */
-    size_t classes = 0, limits = 0, bad = 0;
-    double *width = br_allocate(lines + 1, sizeof *width);
-    while (br_error_classes[classes].name)
-        classes++;
-    while (br_limit_classes[limits].name)
-        limits++;
-    if (!width || !(lines > 0 && lines <= MOST_LINES) ||
+    struct run run = {
+        .seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1,
+        .only = arguments == 4 ? argument[3] : NULL,
+        .width = br_allocate(lines + 1, sizeof *run.width),
+    };
+    if (!run.width || !(lines > 0 && lines <= MOST_LINES) ||
         (arguments != 1 && arguments != 3 && arguments != 4)) {
         fputs("usage: orders [SEED LINES [CLASS | published | compare]]\n", stderr);
         return 2;
     }
-    if (only && strcmp(only, "compare") == 0) {
-        compare(seed, lines, width);
-        free(width);
+    if (run.only && strcmp(run.only, "compare") == 0) {
+        compare(run.seed, lines, run.width);
+        free(run.width);
         return 0;
     }
-    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + limits + 1);
-    printf("# %% of %zu lines, seed %llu\n# %-29s %6s %6s %6s %6s %6s %6s %6s %8s\n", lines,
-           (unsigned long long)seed, "class", "claims", "covers", "silent", "PASS", "FAIL", "false",
-           "narrow", "width");
-    for (size_t i = 0; i < classes; i++)
-        bad += !try_class(i + 1, br_error_classes[i].name, br_error_classes[i].group, i, try_line,
-                          seed, lines, only, width);
-    printf("# %zu grids, of two orders each\n", grids);
+    printf("TAP version 13\n1..%zu\n", count_classes(br_error_classes) + BR_GRID_CLASSES +
+                                           BR_VALUE_CLASSES + count_classes(br_limit_classes) + 1);
+    printf("# %%, seed %llu\n# %-29s %6s %6s %6s %6s %6s %6s %6s %8s\n",
+           (unsigned long long)run.seed, "class", "claims", "covers", "silent", "PASS", "FAIL",
+           "false", "narrow", "width");
+    try_classes(&run, br_error_classes, try_line, lines, "lines");
+    begin(&run, grids, "grids, of two orders each,");
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
-        bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
-                          try_grid, seed, grids, only, width);
-    printf("# %zu limits of values\n", grids);
+        try_class(&run, br_grid_classes[i].name, br_grid_classes[i].group, i, try_grid, grids);
+    end(&run);
+    begin(&run, grids, "limits of values");
     for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
-        bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
-                          BR_NOISY_ERRORS, i, try_limit, seed, grids, only, width);
-    const size_t before = classes + BR_GRID_CLASSES + BR_VALUE_CLASSES;
-    printf("# %zu limits of lines\n", lines);
-    for (size_t i = 0; i < limits; i++)
-        bad += !try_class(before + i + 1, br_limit_classes[i].name,
-                          br_limit_classes[i].group == BR_NO_ORDER ? BR_NO_ORDER : BR_NOISY_ERRORS,
-                          i, try_line_limit, seed, lines, only, width);
-    const size_t last = before + limits + 1;
-    if (!only || strcmp(only, "published") == 0)
-        bad += !try_all_published(last);
-    free(width);
-    return bad > 0;
+        try_class(&run, br_value_classes[i].name, BR_NOISY_ERRORS, i, try_limit, grids);
+    end(&run);
+    try_classes(&run, br_limit_classes, try_line_limit, lines, "limits of lines");
+    if (!run.only || strcmp(run.only, "published") == 0)
+        try_all_published(&run);
+    free(run.width);
+    return run.bad > 0;
 }
