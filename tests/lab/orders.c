@@ -316,6 +316,9 @@ static void print(const char *name, struct tally *t)
     printf("\n");
 }
 
+static const char *const group_names[BR_GROUPS] = {"smooth",   "noisy",      "hard",
+                                                   "no order", "two orders", "growth"};
+
 /* A run of the program. */
 struct run {
     uint64_t seed;
@@ -371,13 +374,11 @@ static void begin(struct run *run, size_t lines, const char *of)
 /* The sums of a part, and how long one line of it took. */
 static void end(struct run *run)
 {
-    static const char *const name[BR_GROUPS] = {"smooth",   "noisy",      "hard",
-                                                "no order", "two orders", "growth"};
     size_t lines = 0;
     for (size_t i = 0; i < BR_GROUPS && !run->only; i++)
         if (run->group[i].lines > 0) {
             printf("# all %zu: ", run->group[i].lines);
-            print(name[i], &run->group[i]);
+            print(group_names[i], &run->group[i]);
             lines += run->group[i].lines;
         }
     if (lines > 0)
@@ -448,40 +449,59 @@ static void count_interval(struct tally *t, struct br_interval found,
     }
 }
 
+enum { METHODS = BR_OTHERS + 1 }; /* ours is the first */
+
+/* What a method states of a line. */
+static struct br_interval state(size_t method, const struct br_error_line *line)
+{
+    const enum br_other other = (enum br_other)(method - 1);
+    const struct br_estimate ours = method == 0 ? stated(line) : (struct br_estimate){0};
+    return method == 0    ? (struct br_interval){ours.low, ours.high}
+           : line->values ? br_other_limit(other, line)
+                          : br_other_order(other, line);
+}
+
 /* A row of a table: ours and the methods of others on the same lines of a class. */
 static void compare_class(const struct br_error_class *class, uint64_t seed, size_t lines,
-                          double *width)
+                          double *width, struct tally sum[METHODS])
 {
     printf("| %s |", class->name);
-    for (int other = -1; other < BR_OTHERS; other++) {
+    for (size_t method = 0; method < METHODS; method++) {
         struct tally t = {.width = width};
         for (size_t i = 0; i < lines; i++) {
             const struct br_error_line line = line_of(class, seed, i);
-            const struct br_estimate ours = other < 0 ? stated(&line) : (struct br_estimate){0};
-            count_interval(&t,
-                           other < 0     ? (struct br_interval){ours.low, ours.high}
-                           : line.values ? br_other_limit((enum br_other)other, &line)
-                                         : br_other_order((enum br_other)other, &line),
-                           &line);
+            count_interval(&t, state(method, &line), &line);
         }
         print_cell(&t);
+        add(&sum[method], &t);
     }
     printf("\n");
 }
 
-/* Both tables: orders of errors, then limits of values. */
-static void compare(uint64_t seed, size_t lines, double *width)
+/* A table of the classes of errors, or of values; seed: of the first class. The last rows are the
+ * sums of the groups. */
+static void compare(const struct br_error_class *class, uint64_t seed, bool values, size_t lines,
+                    double *width)
 {
-    for (int values = 0; values < 2; values++) {
-        const struct br_error_class *class = values ? br_limit_classes : br_error_classes;
-        printf("%s| %s | beamrate |", values ? "\n" : "", values ? "limits" : "orders");
-        for (int other = 0; other < BR_OTHERS; other++)
-            printf(" %s |", br_other_names[other]);
-        printf("\n|---|---|---|---|---|---|\n");
-        for (size_t i = 0; class[i].name; i++)
-            if (values || !line_of(&class[i], 1, 0).values)
-                compare_class(&class[i], seed * 1000 + (values ? 600 : 0) + i, lines, width);
+    struct tally sum[BR_GROUPS][METHODS] = {0};
+    printf("| %s | beamrate |", values ? "limits" : "orders");
+    for (size_t other = 0; other < BR_OTHERS; other++)
+        printf(" %s |", br_other_names[other]);
+    printf("\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; class[i].name; i++)
+        if (line_of(&class[i], 1, 0).values == values)
+            compare_class(&class[i], seed + i, lines, width, sum[class[i].group]);
+    for (size_t group = 0; group < BR_GROUPS; group++) {
+        size_t stated_by_any = 0;
+        for (size_t method = 0; method < METHODS; method++)
+            stated_by_any += sum[group][method].claims;
+        if (stated_by_any > 0)
+            printf("| all, %s |", group_names[group]);
+        for (size_t method = 0; method < METHODS && stated_by_any > 0; method++)
+            print_cell(&sum[group][method]);
+        printf("%s", stated_by_any > 0 ? "\n" : "");
     }
+    printf("\n");
 }
 
 int main(int arguments, char **argument)
@@ -501,7 +521,8 @@ int main(int arguments, char **argument)
         return 2;
     }
     if (run.only && strcmp(run.only, "compare") == 0) {
-        compare(run.seed, lines, run.width);
+        compare(br_error_classes, run.seed * 1000, false, lines, run.width);
+        compare(br_limit_classes, run.seed * 1000 + 600, true, lines, run.width);
         free(run.width);
         return 0;
     }
