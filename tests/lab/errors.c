@@ -493,7 +493,7 @@ static void kinkedvalues(struct br_random *r, struct br_error_line *s)
     ladder(r, s, 6, 9, 2);
     s->values = true;
     const double p = PICK(r, 2, 3), q = p - PICK(r, .5, 1);
-    kinked(r, s, p, q, 2);
+    kinked(r, s, p, q, 3); /* rows - 1 differences, so two rates of q */
     double value = uniform(r, -3, 3);
     const double unit = uniform(r, -.1, .1) / s->e[0];
     EACH_ROW

@@ -290,7 +290,7 @@ static bool is_good(enum br_error_group group, const struct tally *t)
            (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
            (group != BR_GROWTH || at_most(t->lines - t->fail, 0.1, t->lines)) &&
            at_most(t->wrong_pass, 0.002, t->lines) &&
-           (hard || at_most(t->claims - t->covers, 0.05, t->claims));
+           ((hard && group != BR_TWO_ORDERS) || at_most(t->claims - t->covers, 0.05, t->claims));
 }
 
 /* A column of the table; NaN: there is nothing to say. */
