@@ -4,7 +4,13 @@
 #include <gsl/gsl_cdf.h>
 #include <stdlib.h>
 
-enum { BOOTSTRAPS = 200, ROBUST_BOOTSTRAPS = 25, WEIGHTS = 3, NORMS = 2, MOST_FITS = 20000 };
+enum {
+    BOOTSTRAPS = 200,
+    ROBUST_BOOTSTRAPS = 25,
+    WEIGHTS = 3,
+    NORMS = 2,
+    MOST_FITS = BR_MOST_ERRORS * WEIGHTS * NORMS * ROBUST_BOOTSTRAPS,
+};
 
 const char *const br_other_names[BR_OTHERS] = {"finest rows", "least squares", "bootstrap",
                                                "robust fits"};
