@@ -11,11 +11,11 @@ enum { BR_MOST_ERRORS = 16 };
 
 struct br_error_line {
     size_t rows;
-    double h[BR_MOST_ERRORS]; /* from coarse to fine */
-    double e[BR_MOST_ERRORS]; /* errors, or values */
+    double h[BR_MOST_ERRORS];         /* from coarse to fine */
+    double e[BR_MOST_ERRORS];         /* errors, or values */
     double deviation[BR_MOST_ERRORS]; /* of errors that are means; 0: they are not */
-    bool values;              /* their limit is not known */
-    double truth;             /* the order as h -> 0, floors and round-off aside; NaN: none */
+    bool values;                      /* their limit is not known */
+    double truth; /* the order as h -> 0, floors and round-off aside; NaN: none */
     double other; /* the order may as well be this one: an interval holds both; NaN: it may not */
     double limit; /* of the values; NaN: none */
 };
@@ -37,6 +37,7 @@ struct br_error_class {
     void (*draw)(struct br_random *random, struct br_error_line *line);
 };
 extern const struct br_error_class br_error_classes[];
-extern const struct br_error_class br_limit_classes[]; /* of values, for their limits */
+extern const struct br_error_class br_limit_classes[];  /* of values, for their limits */
+extern const struct br_error_class br_unseen_classes[]; /* chosen after the laws (unseen.c) */
 
 #endif

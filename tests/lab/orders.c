@@ -112,9 +112,9 @@ static struct br_error_line line_of(const struct br_error_class *class, uint64_t
     return line;
 }
 
-static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
+static void try_line_of(const struct br_error_line *drawn, size_t index, struct tally *t)
 {
-    const struct br_error_line line = line_of(&br_error_classes[class], seed * 1000 + class, index);
+    const struct br_error_line line = *drawn;
     struct br_point point[BR_MOST_ERRORS];
     struct br_case c;
     const double expected = isnan(line.truth) ? 2 : line.truth;
@@ -126,6 +126,23 @@ static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
     count(t, &c, &c.order, (const double[]){line.truth, line.other}, c.note[0]);
     if (br_order_determined(&c.order) && !line.values)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
+}
+
+static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = line_of(&br_error_classes[class], seed * 1000 + class, index);
+    try_line_of(&line, index, t);
+}
+
+static struct br_error_line unseen_line_of(size_t class, uint64_t seed, size_t index)
+{
+    return line_of(&br_unseen_classes[class], seed * 1000 + 300 + class, index);
+}
+
+static void try_unseen(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = unseen_line_of(class, seed, index);
+    try_line_of(&line, index, t);
 }
 
 /* One column of numbers, with its orders. k: NULL, they are a line in h. */
@@ -263,6 +280,14 @@ static struct br_error_line limit_line_of(size_t class, uint64_t seed, size_t in
 static void try_line_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     const struct br_error_line line = limit_line_of(class, seed, index);
+    const struct br_estimate limit = stated(&line);
+    count_limit(t, limit.low, limit.high, line.limit, line.e[line.rows - 1]);
+}
+
+/* The same of a class that nobody had seen. */
+static void try_unseen_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = unseen_line_of(class, seed, index);
     const struct br_estimate limit = stated(&line);
     count_limit(t, limit.low, limit.high, line.limit, line.e[line.rows - 1]);
 }
@@ -541,6 +566,12 @@ int main(int arguments, char **argument)
         try_class(&run, br_value_classes[i].name, BR_NOISY_ERRORS, i, try_limit, grids);
     end(&run);
     try_classes(&run, br_limit_classes, try_line_limit, lines, "limits of lines");
+    try_classes(&run, br_unseen_classes, try_unseen, lines, "lines nobody had seen");
+    begin(&run, lines, "limits nobody had seen");
+    for (size_t i = 0; br_unseen_classes[i].name; i++)
+        if (line_of(&br_unseen_classes[i], 1, 0).values)
+            try_class(&run, br_unseen_classes[i].name, BR_NOISY_ERRORS, i, try_unseen_limit, lines);
+    end(&run);
     if (!run.only || strcmp(run.only, "published") == 0)
         try_all_published(&run);
     free(run.width);
