@@ -5,10 +5,10 @@
 
 #include "solver/laws.h"
 #include "solver/method.h"
+#include "tests/lab/energy.h"
 #include "study/base/each.h"
 #include "study/extremes/extremes.h"
 #include "study/scene/file.h"
-#include "tests/lab/energy.h"
 
 /* ---- the scenes ---- */
 

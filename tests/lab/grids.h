@@ -72,8 +72,8 @@ static inline void br_grid_balance(struct br_random *r, const struct br_grid *g,
 }
 
 /* An error of both at sizes x, y relative to the coarsest. */
-static inline double br_grid_error(const struct br_grid *g, const double c[2], const double next[2],
-                                   double r, double x, double y)
+static inline double br_grid_error(const struct br_grid *g, const double c[2],
+                                   const double next[2], double r, double x, double y)
 {
     const double a = c[0] * pow(x, g->order[0]) * (1 + next[0] * x);
     const double b = c[1] * pow(y, g->order[1]) * (1 + next[1] * y);
@@ -95,9 +95,9 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
     const double h0 = 1 / floor(br_random_uniform(r, 4, 20)), k0 = br_random_decades(r, -3, 0);
     double c[2];
     br_grid_balance(r, g, law->balance, ratio, c);
-    const double finest =
-        br_grid_error(g, c, next, fmax(0, correlation), pow(ratio, 1 - (double)g->meshes),
-                      pow(ratio, 1 - (double)g->steps));
+    const double finest = br_grid_error(g, c, next, fmax(0, correlation),
+                                        pow(ratio, 1 - (double)g->meshes),
+                                        pow(ratio, 1 - (double)g->steps));
     const double level = fabs(law->floor) * br_random_uniform(r, 0.3, 1) * finest;
     const double growth = br_random_uniform(r, 0.5, 3);
     for (size_t i = 0; i < g->meshes; i++)
@@ -130,58 +130,30 @@ static const struct br_grid_class {
     {"errors subtract", BR_SMOOTH_ERRORS, {.least_r = -1, .most_r = -1, .least = 4, .most = 6}},
     {"norms", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 4, .most = 6}},
     {"norms, 3 x 3", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 3, .most = 3}},
-    {"1 % noise",
-     BR_NOISY_ERRORS,
-     {.least_r = -.9, .most_r = .9, .noise = .01, .least = 4, .most = 6}},
-    {"3 % noise",
-     BR_NOISY_ERRORS,
-     {.least_r = -.9, .most_r = .9, .noise = .03, .least = 4, .most = 6}},
-    {"5 % noise",
-     BR_NOISY_ERRORS,
-     {.least_r = -.9, .most_r = .9, .noise = .05, .least = 4, .most = 6}},
-    {"10 % noise",
-     BR_NOISY_ERRORS,
-     {.least_r = -.9, .most_r = .9, .noise = .1, .least = 4, .most = 6}},
-    {"5 % noise, 3 x 3",
-     BR_NOISY_ERRORS,
-     {.least_r = -.9, .most_r = .9, .noise = .05, .least = 3, .most = 3}},
-    {"floor, added",
-     BR_HARD_ERRORS,
-     {.least_r = -.9, .most_r = .9, .floor = 1, .least = 4, .most = 6}},
-    {"floor, by squares",
-     BR_HARD_ERRORS,
-     {.least_r = -.9, .most_r = .9, .floor = -1, .least = 4, .most = 6}},
-    {"floor, 3 % noise",
-     BR_HARD_ERRORS,
+    {"1 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .01, .least = 4, .most = 6}},
+    {"3 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .03, .least = 4, .most = 6}},
+    {"5 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .05, .least = 4, .most = 6}},
+    {"10 % noise", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .1, .least = 4, .most = 6}},
+    {"5 % noise, 3 x 3", BR_NOISY_ERRORS, {.least_r = -.9, .most_r = .9, .noise = .05, .least = 3, .most = 3}},
+    {"floor, added", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .floor = 1, .least = 4, .most = 6}},
+    {"floor, by squares", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .floor = -1, .least = 4, .most = 6}},
+    {"floor, 3 % noise", BR_HARD_ERRORS,
      {.least_r = -.9, .most_r = .9, .floor = 1, .noise = .03, .least = 4, .most = 6}},
     {"time dominates", BR_SMOOTH_ERRORS, {.most_r = .5, .balance = 4, .least = 4, .most = 6}},
-    {"time dominates, 1 % noise",
-     BR_NOISY_ERRORS,
+    {"time dominates, 1 % noise", BR_NOISY_ERRORS,
      {.most_r = .5, .balance = 4, .noise = .01, .least = 4, .most = 6}},
-    {"space dominates, 1 % noise",
-     BR_NOISY_ERRORS,
+    {"space dominates, 1 % noise", BR_NOISY_ERRORS,
      {.most_r = .5, .balance = -4, .noise = .01, .least = 4, .most = 6}},
-    {"next terms of 5 %",
-     BR_SMOOTH_ERRORS,
-     {.least_r = -.9, .most_r = .9, .next = .05, .least = 4, .most = 6}},
-    {"next terms of 30 %",
-     BR_HARD_ERRORS,
-     {.least_r = -.9, .most_r = .9, .next = .3, .least = 4, .most = 6}},
-    {"next terms, 2 % noise",
-     BR_HARD_ERRORS,
+    {"next terms of 5 %", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .next = .05, .least = 4, .most = 6}},
+    {"next terms of 30 %", BR_HARD_ERRORS, {.least_r = -.9, .most_r = .9, .next = .3, .least = 4, .most = 6}},
+    {"next terms, 2 % noise", BR_HARD_ERRORS,
      {.least_r = -.9, .most_r = .9, .next = .3, .noise = .02, .least = 4, .most = 6}},
-    {"missing cells, 1 % noise",
-     BR_NOISY_ERRORS,
+    {"missing cells, 1 % noise", BR_NOISY_ERRORS,
      {.least_r = -.9, .most_r = .9, .noise = .01, .least = 4, .most = 6, .cells = BR_GRID_MISSING}},
-    {"tied in part",
-     BR_SMOOTH_ERRORS,
-     {.least_r = -.9, .most_r = .9, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
-    {"tied in part, 2 % noise",
-     BR_NOISY_ERRORS,
+    {"tied in part", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
+    {"tied in part, 2 % noise", BR_NOISY_ERRORS,
      {.least_r = -.9, .most_r = .9, .noise = .02, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
-    {"constant, 2 % noise",
-     BR_NO_ORDER,
-     {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
+    {"constant, 2 % noise", BR_NO_ORDER, {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
     {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
 };
@@ -198,14 +170,14 @@ static inline struct br_grid br_grid_of(size_t class, uint64_t seed, size_t inde
 
 /* ---- values ---- */
 
-/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes; of
- * lines, L + A h^p (1 + c h). */
+/* A value L + A h^p (1 + c h) + B k^q (1 + d k) + products, of grids of four to six sizes; of lines,
+ * L + A h^p (1 + c h). */
 static const struct br_value_class {
     const char *name;
     double next, product, noise; /* relative: at the coarsest, to both errors, to the finest step */
     bool one;                    /* all but one direction is far smaller */
     bool line;                   /* h alone */
-    double mixed; /* c and d: at the coarsest at least a fifth of it, at most so much */
+    double mixed;                /* c and d: at the coarsest at least a fifth of it, at most so much */
 } br_value_classes[] = {
     {"limits, two powers", .next = 0},
     {"limits, next terms", .next = 0.3},
