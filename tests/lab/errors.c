@@ -1,59 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "tests/lab/errors.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-
-static double uniform(struct br_random *r, double a, double b)
-{
-    return br_random_uniform(r, a, b);
-}
-
-static double normal(struct br_random *r)
-{
-    return sqrt(-2 * log(1 - uniform(r, 0, 1))) * cos(2 * 3.14159265358979 * uniform(r, 0, 1));
-}
-
-static size_t whole(struct br_random *r, size_t a, size_t b)
-{
-    return a + br_random_index(r, b - a + 1);
-}
-
-static double pick(struct br_random *r, const double *v, size_t n)
-{
-    return v[br_random_index(r, n)];
-}
-
-#define PICK(r, ...) \
-    pick(r, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double))
-
-static void ladder(struct br_random *r, struct br_error_line *s, size_t least, size_t most,
-                   double ratio)
-{
-    s->rows = whole(r, least, most);
-    const double n0 = floor(uniform(r, 4, 20));
-    for (size_t i = 0; i < s->rows; i++)
-        s->h[i] = 1 / (n0 * pow(ratio, (double)i));
-}
-
-static double digits(double v, int d)
-{
-    char t[40];
-    snprintf(t, sizeof t, "%.*e", d - 1, v);
-    return strtod(t, NULL);
-}
-
-static double order(struct br_random *r)
-{
-    return PICK(r, 0.5, 1, 1.5, 2, 3, 4);
-}
-
-#define EACH_ROW for (size_t i = 0; i < s->rows; i++)
-
-static double constant_of(struct br_random *r)
-{
-    return br_random_decades(r, -3, 3);
-}
+#include "tests/lab/draw.h"
 
 static void clean(struct br_random *r, struct br_error_line *s)
 {
@@ -195,7 +141,7 @@ static void values(struct br_random *r, struct br_error_line *s)
     ladder(r, s, 4, 8, 2);
     s->values = true;
     s->truth = PICK(r, 1, 1.5, 2, 3, 4);
-    const double limit = uniform(r, -3, 3);
+    const double limit = s->limit = uniform(r, -3, 3);
     double c = constant_of(r) * .01 / pow(s->h[0], s->truth), a = uniform(r, -.3, .3) / s->h[0];
     EACH_ROW s->e[i] = limit + c * pow(s->h[i], s->truth) * (1 + a * s->h[i]);
 }
@@ -205,7 +151,7 @@ static void oscillate(struct br_random *r, struct br_error_line *s)
     ladder(r, s, 5, 8, 2);
     s->values = true;
     s->truth = PICK(r, 1, 2, 3);
-    const double limit = uniform(r, -3, 3);
+    const double limit = s->limit = uniform(r, -3, 3);
     double c = .1 / pow(s->h[0], s->truth);
     EACH_ROW s->e[i] = limit + c * pow(s->h[i], s->truth) * (i % 2 ? -1 : 1);
 }
@@ -227,7 +173,7 @@ static void lowervalue(struct br_random *r, struct br_error_line *s)
     ladder(r, s, 4, 8, 2);
     s->values = true;
     s->truth = 1;
-    const double limit = uniform(r, .5, 3);
+    const double limit = s->limit = uniform(r, .5, 3);
     double a = uniform(r, .5, 2), c = uniform(r, -.3, .3);
     EACH_ROW
     {
@@ -488,6 +434,362 @@ static void dipped(struct br_random *r, struct br_error_line *s)
     EACH_ROW s->e[i] = c * fabs(pow(s->h[i], 2) - at * at);
 }
 
+/* ---- of two minds: the order may be that of the coarse rows or that of the finest ones ---- */
+
+/* Errors whose order from row to row is p, and q between the last ones. */
+static void kinked(struct br_random *r, struct br_error_line *s, double p, double q, size_t last)
+{
+    s->other = p;
+    s->truth = q;
+    s->e[0] = constant_of(r);
+    for (size_t i = 1; i < s->rows; i++)
+        s->e[i] = s->e[i - 1] * pow(s->h[i] / s->h[i - 1], i + last < s->rows ? p : q);
+}
+
+static void drops(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 7, 9, 2);
+    kinked(r, s, PICK(r, 3, 4), PICK(r, 1, 2), 3);
+    const double deep = br_random_decades(r, -8, -7) / s->e[s->rows - 1];
+    EACH_ROW s->e[i] = digits(deep * s->e[i], 6);
+}
+
+static void rises(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 9, 2);
+    const double p = PICK(r, 1, 1.5, 2, 2.5);
+    kinked(r, s, p, p + uniform(r, .4, 1), 2);
+    EACH_ROW s->e[i] = digits(s->e[i], 5);
+}
+
+static void kink(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 10, PICK(r, 2, 2, 1.5));
+    const double p = PICK(r, 1.5, 2, 3, 4);
+    kinked(r, s, p, p - uniform(r, .4, 1), 2);
+}
+
+static void kink3(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 10, 2);
+    const double p = PICK(r, 1.5, 2, 3, 4);
+    kinked(r, s, p, p - uniform(r, .4, 1), 3);
+}
+
+/* The largest of two errors at two places. */
+static void maximum(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 5, 9, 2);
+    s->other = PICK(r, 2, 2.5, 3);
+    s->truth = s->other - PICK(r, .5, 1);
+    const double meet = s->h[s->rows - 1] * pow(2, uniform(r, 1, 2.9));
+    const double c = constant_of(r), d = c * pow(meet, s->other - s->truth);
+    EACH_ROW s->e[i] = fmax(c * pow(s->h[i], s->other), d * pow(s->h[i], s->truth));
+}
+
+/* Values whose differences fall as errors of a kink do. Their limit is that of the finest rows. */
+static void kinkedvalues(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 9, 2);
+    s->values = true;
+    const double p = PICK(r, 2, 3), q = p - PICK(r, .5, 1);
+    kinked(r, s, p, q, 3); /* rows - 1 differences, so two rates of q */
+    double value = uniform(r, -3, 3);
+    const double unit = uniform(r, -.1, .1) / s->e[0];
+    EACH_ROW
+    {
+        const double change = unit * s->e[i];
+        s->e[i] = value;
+        value += change;
+        s->limit = value + change / (pow(2, q) - 1);
+    }
+}
+
+/* ---- laws beside the common ones ---- */
+
+static void powerlogs(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 9, 2);
+    s->truth = PICK(r, 1, 2);
+    const double c = constant_of(r), g = PICK(r, 1.5, 2, -1);
+    EACH_ROW s->e[i] = c * pow(s->h[i], s->truth) * pow(fabs(log(s->h[i])), g);
+}
+
+static void halves(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 5, 9, 2);
+    s->truth = PICK(r, 1, 1.5, 2);
+    const double c = constant_of(r), a = uniform(r, -.6, 1.5), b = uniform(r, -.3, 1);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = c * pow(x, s->truth) * (1 + a * sqrt(x) + b * x);
+    }
+}
+
+static void reference(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 8, 2);
+    s->truth = PICK(r, 1, 2, 3);
+    const double c = constant_of(r), a = uniform(r, -.4, .6) / s->h[0];
+    const double h = s->h[s->rows - 1] / PICK(r, 1.5, 2, 4);
+    EACH_ROW s->e[i] =
+        c * (pow(s->h[i], s->truth) * (1 + a * s->h[i]) - pow(h, s->truth) * (1 + a * h));
+}
+
+static void plateau(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 9, 2);
+    s->truth = PICK(r, 1, 2, 3, 4);
+    const double c = constant_of(r), by = uniform(r, .1, .5);
+    const size_t good = s->rows - whole(r, 1, 3);
+    const double level = c * pow(s->h[good], s->truth) * br_random_decades(r, 0, .5);
+    EACH_ROW s->e[i] =
+        digits(c * pow(s->h[i], s->truth) + level * exp(by * normal(r)) * (i >= good), 5);
+}
+
+static void growingroundoff(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 8, 14, 2);
+    s->truth = PICK(r, 2, 3, 4);
+    const double c = constant_of(r), g = PICK(r, 1, 2);
+    const size_t good = whole(r, 4, s->rows - 3);
+    const double level = c * pow(s->h[good], s->truth) * br_random_decades(r, -1, 0);
+    EACH_ROW s->e[i] = digits(
+        fabs(c * pow(s->h[i], s->truth) + level * normal(r) * pow(s->h[good] / s->h[i], g)), 4);
+}
+
+static void highorder(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 3, 2);
+    s->truth = (double)whole(r, 6, 12);
+    const double c = constant_of(r), a = uniform(r, -.2, .2) / s->h[0];
+    EACH_ROW s->e[i] = digits(c * pow(s->h[i], s->truth) * (1 + a * s->h[i]), 5);
+}
+
+static void roundofffloor(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 10, 2);
+    s->truth = PICK(r, 1, 2, 3, 4);
+    const double c = constant_of(r);
+    const size_t good = s->rows - whole(r, 2, 4);
+    const double level = c * pow(s->h[good], s->truth);
+    EACH_ROW s->e[i] = fabs(c * pow(s->h[i], s->truth) + level * normal(r));
+}
+
+static void floorvalues(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 9, 2);
+    s->values = true;
+    s->limit = uniform(r, -3, 3);
+    s->truth = PICK(r, 1, 2, 3);
+    const double c = uniform(r, .01, .3) / pow(s->h[0], s->truth);
+    const double level = c * pow(s->h[s->rows - whole(r, 2, 3)], s->truth);
+    EACH_ROW s->e[i] = s->limit + c * pow(s->h[i], s->truth) + .5 * level * normal(r);
+}
+
+static void zeroorder(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 10, 2);
+    const double c = constant_of(r), by = br_random_decades(r, -3, -.5);
+    const int d = (int)whole(r, 2, 6);
+    EACH_ROW s->e[i] = digits(c * exp(by * normal(r)), d);
+}
+
+static void turns(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 6, 10, 2);
+    const double c = constant_of(r), p = PICK(r, 1, 2), g = uniform(r, .7, 3);
+    const double at = s->h[s->rows - whole(r, 3, 4)];
+    EACH_ROW s->e[i] = c * (pow(s->h[i] / at, p) + pow(at / s->h[i], g)) * exp(.02 * normal(r));
+}
+
+/* ---- limits ---- */
+
+/* Values L + d x^p (1 + a x), x relative to the coarsest size. */
+static void powervalues(struct br_random *r, struct br_error_line *s, double next)
+{
+    s->values = true;
+    s->limit = uniform(r, -3, 3);
+    s->truth = PICK(r, 1, 1.5, 2, 3, 4);
+    const double d = br_random_decades(r, -3, 0) * PICK(r, -1, 1), a = uniform(r, -next, next);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = s->limit + d * pow(x, s->truth) * (1 + a * x);
+    }
+}
+
+static void cleanlimit(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 8, PICK(r, 2, 2, 1.5));
+    powervalues(r, s, 0);
+}
+
+static void cleanlimit3(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 3, PICK(r, 2, 2, 1.5));
+    powervalues(r, s, 0);
+}
+
+static void nextlimit3(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 3, PICK(r, 2, 2, 1.5));
+    powervalues(r, s, .5);
+}
+
+static void badlimit(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 5, 8, 2);
+    powervalues(r, s, 0);
+    s->e[0] += (s->e[0] - s->limit) * PICK(r, -1, 1) * br_random_decades(r, -.3, 1);
+}
+
+/* A lower power that comes up within the rows, after p - q of 1 or 2. */
+static void lowerlimit(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 8, 2);
+    powervalues(r, s, 0);
+    s->truth = PICK(r, 1, 2);
+    const double p = s->truth + PICK(r, 1, 2), d = uniform(r, -.3, .3);
+    const double meet = s->h[s->rows - whole(r, 1, 3)] / s->h[0];
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = s->limit + d * (pow(x, p) + pow(meet, p - s->truth) * pow(x, s->truth));
+    }
+}
+
+/* Values with so many decimals that the finest of them differ by 0.3, 1 or 3 units. */
+static void rounded(struct br_random *r, struct br_error_line *s)
+{
+    powervalues(r, s, .2);
+    const double last = fabs(s->e[s->rows - 1] - s->e[s->rows - 2]);
+    const double decimals = fmax(0, round(log10(PICK(r, .3, 1, 3) / last)));
+    EACH_ROW
+    {
+        char text[64];
+        snprintf(text, sizeof text, "%.*f", (int)decimals, s->e[i]);
+        s->e[i] = strtod(text, NULL);
+    }
+}
+
+static void rounded3(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 3, 2);
+    rounded(r, s);
+}
+
+static void rounded7(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 7, 2);
+    rounded(r, s);
+}
+
+/* Noise of so much of the finest difference. */
+static void noisevalues(struct br_random *r, struct br_error_line *s, double noise)
+{
+    ladder(r, s, 4, 8, 2);
+    powervalues(r, s, .2);
+    noise *= s->e[s->rows - 1] - s->e[s->rows - 2];
+    EACH_ROW s->e[i] += noise * normal(r);
+}
+
+static void noiselimit1(struct br_random *r, struct br_error_line *s)
+{
+    noisevalues(r, s, .01);
+}
+
+static void noiselimit20(struct br_random *r, struct br_error_line *s)
+{
+    noisevalues(r, s, .2);
+}
+
+static void cubics(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 8, 2);
+    s->values = true;
+    s->truth = 1;
+    s->limit = uniform(r, -3, 3);
+    const double a = uniform(r, .2, 1), b = uniform(r, -1, 1), c = uniform(r, -1, 1);
+    EACH_ROW
+    {
+        const double x = s->h[i] / s->h[0];
+        s->e[i] = s->limit + x * (a + x * (b + x * c));
+    }
+}
+
+/* The integral of exp(a x) sin(b x + 1) from 0 to 1 by midpoints, trapezoids or Simpson's rule. */
+static void quadrature(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 8, 2);
+    s->values = true;
+    const double a = uniform(r, -2, 2), b = uniform(r, .5, 6);
+    const size_t rule = br_random_index(r, 3);
+    s->truth = rule == 2 ? 4 : 2;
+    s->limit =
+        (exp(a) * (a * sin(b + 1) - b * cos(b + 1)) - a * sin(1) + b * cos(1)) / (a * a + b * b);
+    EACH_ROW
+    {
+        const size_t n = (size_t)round(1 / s->h[i]);
+        double sum = 0;
+        for (size_t j = 0; j < n; j++) {
+            const double x = (double)j / (double)n, m = x + .5 / (double)n, y = x + 1 / (double)n;
+            const double middle = exp(a * m) * sin(b * m + 1);
+            const double ends = (exp(a * x) * sin(b * x + 1) + exp(a * y) * sin(b * y + 1)) / 2;
+            sum += rule == 0 ? middle : rule == 1 ? ends : (2 * middle + ends) / 3;
+        }
+        s->e[i] = sum / (double)n;
+    }
+}
+
+/* y' = -a y + sin(b t), y = 1 at t = 0, at t = 1, by Euler's, the midpoint and the classical
+ * method. */
+static void ode(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 8, 2);
+    s->values = true;
+    const double a = uniform(r, .5, 3), b = uniform(r, .5, 5), d = a * a + b * b;
+    const size_t method = br_random_index(r, 3);
+    s->truth = method == 0 ? 1 : method == 1 ? 2 : 4;
+    s->limit = (a * sin(b) - b * cos(b)) / d + (1 + b / d) * exp(-a);
+    EACH_ROW
+    {
+        const size_t n = (size_t)round(1 / s->h[i]);
+        const double h = 1 / (double)n;
+        double y = 1;
+        for (size_t j = 0; j < n; j++) {
+            const double t = (double)j * h, middle = sin(b * (t + h / 2));
+            const double k1 = -a * y + sin(b * t), k2 = -a * (y + h / 2 * k1) + middle;
+            const double k3 = -a * (y + h / 2 * k2) + middle;
+            const double k4 = -a * (y + h * k3) + sin(b * (t + h));
+            y += h * (method == 0 ? k1 : method == 1 ? k2 : (k1 + 2 * (k2 + k3) + k4) / 6);
+        }
+        s->e[i] = y;
+    }
+}
+
+static void diverging(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 3, 9, 2);
+    s->values = true;
+    const double start = uniform(r, -3, 3), c = uniform(r, -1, 1), g = uniform(r, .05, 1.5);
+    EACH_ROW s->e[i] = start + c * pow(s->h[0] / s->h[i], g);
+}
+
+static void logvalues(struct br_random *r, struct br_error_line *s)
+{
+    ladder(r, s, 4, 10, 2);
+    s->values = true;
+    const double start = uniform(r, -3, 3), c = uniform(r, .1, 1) * PICK(r, -1, 1);
+    const bool twice = br_random_once_in(r, 4);
+    EACH_ROW
+    {
+        const double l = -log(s->h[i]);
+        s->e[i] = start + c * (twice ? log(l) : l);
+    }
+}
+
 const struct br_error_class br_error_classes[] = {
     {"one power, 4 to 16 digits", BR_SMOOTH_ERRORS, clean},
     {"next term h", BR_SMOOTH_ERRORS, next1},
@@ -533,5 +835,43 @@ const struct br_error_class br_error_classes[] = {
     {"grows", BR_NO_ORDER, grows},
     {"scatter", BR_NO_ORDER, scatter},
     {"passes zero to a level", BR_NO_ORDER, dipped},
+    {"power drops at the end", BR_TWO_ORDERS, drops},
+    {"rate rises at the end", BR_TWO_ORDERS, rises},
+    {"kink, three finest", BR_TWO_ORDERS, kink},
+    {"kink, four finest", BR_TWO_ORDERS, kink3},
+    {"maximum of two places", BR_TWO_ORDERS, maximum},
+    {"kink of values", BR_TWO_ORDERS, kinkedvalues},
+    {"powers of the logarithm", BR_HARD_ERRORS, powerlogs},
+    {"p, p + 1/2, p + 1", BR_HARD_ERRORS, halves},
+    {"near reference, next term", BR_HARD_ERRORS, reference},
+    {"plateau of iteration", BR_HARD_ERRORS, plateau},
+    {"growing round-off, 8 to 14", BR_HARD_ERRORS, growingroundoff},
+    {"order 6 to 12, three rows", BR_HARD_ERRORS, highorder},
+    {"floor of round-off", BR_HARD_ERRORS, roundofffloor},
+    {"values with a floor", BR_HARD_ERRORS, floorvalues},
+    {"order zero", BR_NO_ORDER, zeroorder},
+    {"values like log n", BR_NO_ORDER, logvalues},
+    {"falls, then grows", BR_GROWTH, turns},
+    {NULL, BR_NO_ORDER, NULL},
+};
+
+const struct br_error_class br_limit_classes[] = {
+    {"limits: clean", BR_NOISY_ERRORS, cleanlimit},
+    {"limits: clean, three rows", BR_NOISY_ERRORS, cleanlimit3},
+    {"limits: next, three rows", BR_NOISY_ERRORS, nextlimit3},
+    {"limits: bad coarse row", BR_NOISY_ERRORS, badlimit},
+    {"limits: lower power", BR_NOISY_ERRORS, lowerlimit},
+    {"limits: rounded, three", BR_NOISY_ERRORS, rounded3},
+    {"limits: rounded, 4 to 7", BR_NOISY_ERRORS, rounded7},
+    {"limits: 1 % noise", BR_NOISY_ERRORS, noiselimit1},
+    {"limits: 20 % noise", BR_NOISY_ERRORS, noiselimit20},
+    {"limits: floor", BR_NOISY_ERRORS, floorvalues},
+    {"limits: cubics", BR_NOISY_ERRORS, cubics},
+    {"limits: quadrature", BR_NOISY_ERRORS, quadrature},
+    {"limits: ODE", BR_NOISY_ERRORS, ode},
+    {"limits: oscillating", BR_NOISY_ERRORS, oscillate},
+    {"limits: kink", BR_NOISY_ERRORS, kinkedvalues},
+    {"limits: diverging", BR_NO_ORDER, diverging},
+    {"limits: log n", BR_NO_ORDER, logvalues},
     {NULL, BR_NO_ORDER, NULL},
 };

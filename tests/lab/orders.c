@@ -1,29 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How often is an observed order right? Random lines of errors of each class (errors.c), and grids
- * of them (grids.h), their orders and verdicts. As a test, 12 lines a class of seed 1 (--long:
- * 300), and a quarter of that of grids, with bounds; it prints claims   an interval above 0 and at
- * most 1 wide covers   of the claims: the interval holds the truth silent   of all: claims, misses
+ * of them (grids.h), their orders and verdicts, and limits of values. As a test, 12 lines a class
+ * of seed 1 (--long: 300), and a quarter of that of grids, with bounds; it prints claims   an
+ * interval above 0 and at most 1 wide; of limits: one is stated covers   of the claims: the
+ * interval holds the truth, or both where two orders are as likely silent   of all: claims, misses
  * the truth by more than 0.005, and says nothing of the rows PASS, FAIL   verdicts on the true
- * order +- 0.1; else INCONCLUSIVE false    PASS on an order that is 0.4 too low or 0.5 too high
- *   width    the interval's over that of a regression of all rows, the median
- * usage: orders [SEED LINES [CLASS]] */
+ * order +- 0.1; else INCONCLUSIVE false    PASS on an order that is 0.4 too low or 0.5 too high, or
+ * on that of the coarse rows narrow   of all: claims, does not cover, and is narrower than 0.01
+ *   width    of the interval over that of a regression of all rows, the median; of limits: half of
+ *            it over the distance of the finest value
+ * compare: beside the methods of others (others.c), as tables of docs/observed-orders.md.
+ * usage: orders [SEED LINES [CLASS | published | compare]] */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "study/orders/orders.h"
 #include "tests/lab/grids.h"
+#include "tests/lab/others.h"
 #include "tests/lab/published.h"
 #include "tests/support.h"
 
 enum { SAMPLE = 12, MANY = 300, MOST_LINES = 100000 };
 
-static const double near = 0.005, tolerance = 0.1;
+static const double near = 0.005, tolerance = 0.1, narrow = 0.01;
 
 struct tally {
-    size_t lines, claims, covers, silent, pass, fail, wrong_pass;
+    size_t lines, claims, covers, silent, pass, fail, wrong_pass, narrow;
     size_t contradicts; /* FAIL beside no order, or another order in the verdict */
     double *width;
     size_t widths;
@@ -76,34 +82,67 @@ static double regression(const struct br_error_line *line)
     return gsl_cdf_tdist_Pinv(0.975, (double)line->rows - 2) * sqrt(c11);
 }
 
-/* Counts a verdict on the true order, and the order. said: whether a remark names what is wrong. */
+static bool holds(const struct br_estimate *order, double truth)
+{
+    return order->low <= truth + near && order->high >= truth - near;
+}
+
+/* Counts a verdict on the true order, and the order. other: another one as likely, or NaN.
+ * said: whether a remark names what is wrong. */
 static void count(struct tally *t, const struct br_case *c, const struct br_estimate *order,
-                  double truth, bool said)
+                  const double truth[2], bool said)
 {
     const bool claims = br_order_determined(order);
-    const bool covers = order->low <= truth + near && order->high >= truth - near;
+    const bool covers = holds(order, truth[0]) && (isnan(truth[1]) || holds(order, truth[1]));
     t->lines++;
     t->claims += claims;
     t->covers += claims && covers;
     t->silent += claims && !covers && !said;
+    t->narrow += claims && !covers && !(order->high - order->low >= narrow);
     t->pass += c->verdict == BR_PASS;
     t->fail += c->verdict == BR_FAIL;
 }
 
-static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
+/* Draws line `index` of a class. */
+static struct br_error_line line_of(const struct br_error_class *class, uint64_t seed, size_t index)
 {
-    struct br_error_line line = {.truth = NAN};
-    struct br_random random = br_random_of(seed * 1000 + class, index);
+    struct br_error_line line = {.truth = NAN, .other = NAN, .limit = NAN};
+    struct br_random random = br_random_of(seed, index);
+    class->draw(&random, &line);
+    return line;
+}
+
+static void try_line_of(const struct br_error_line *drawn, size_t index, struct tally *t)
+{
+    const struct br_error_line line = *drawn;
     struct br_point point[BR_MOST_ERRORS];
     struct br_case c;
-    br_error_classes[class].draw(&random, &line);
     const double expected = isnan(line.truth) ? 2 : line.truth;
     observe(&line, point, &c);
-    t->wrong_pass += judge(&c, index % 2 == 0 ? expected + 0.5 : expected - 0.4) == BR_PASS;
+    bool wrong = judge(&c, index % 2 == 0 ? expected + 0.5 : expected - 0.4) == BR_PASS;
+    wrong = isnan(line.other) ? wrong : judge(&c, line.other) == BR_PASS;
+    t->wrong_pass += wrong;
     judge(&c, expected);
-    count(t, &c, &c.order, line.truth, c.note[0]);
+    count(t, &c, &c.order, (const double[]){line.truth, line.other}, c.note[0]);
     if (br_order_determined(&c.order) && !line.values)
         t->width[t->widths++] = (c.order.high - c.order.low) / 2 / regression(&line);
+}
+
+static void try_line(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = line_of(&br_error_classes[class], seed * 1000 + class, index);
+    try_line_of(&line, index, t);
+}
+
+static struct br_error_line unseen_line_of(size_t class, uint64_t seed, size_t index)
+{
+    return line_of(&br_unseen_classes[class], seed * 1000 + 300 + class, index);
+}
+
+static void try_unseen(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = unseen_line_of(class, seed, index);
+    try_line_of(&line, index, t);
 }
 
 /* One column of numbers, with its orders. k: NULL, they are a line in h. */
@@ -186,14 +225,26 @@ static void try_grid(size_t class, uint64_t seed, size_t index, struct tally *t)
         t->contradicts += verdict_of(&o, axis, expected, &c) == BR_FAIL && !isfinite(order->value);
         t->contradicts += c.points >= BR_VERIFY_LEAST_POINTS && isfinite(order->value) &&
                           fabs(order->value - c.order.value) > 0;
-        count(t, &c, order, truth, c.note[0]);
+        count(t, &c, order, (const double[]){truth, NAN}, c.note[0]);
     }
     br_orders_clear(&o);
     br_numbers_clear(&n);
 }
 
-/* The limit of the values of a grid, or of a line; width: half of its interval, over the distance
- * from it. */
+/* Counts the interval of a limit. */
+static void count_limit(struct tally *t, double low, double high, double truth, double finest)
+{
+    const bool claims = isfinite(high - low), covers = low <= truth && truth <= high;
+    t->lines++;
+    t->claims += claims;
+    t->covers += claims && covers;
+    t->silent += claims && !covers;
+    t->narrow += claims && !covers && high - low < narrow * fabs(finest - truth);
+    if (claims && !isnan(truth))
+        t->width[t->widths++] = (high - low) / 2 / fabs(finest - truth);
+}
+
+/* The limit of the values of a grid, or of a line. */
 static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
 {
     double truth;
@@ -202,16 +253,43 @@ static void try_limit(size_t class, uint64_t seed, size_t index, struct tally *t
     struct br_orders o;
     find(g.rows, g.h, g.steps > 1 ? g.k : NULL, g.e, true, &n, &o);
     const struct br_estimate *limit = &o.of[0].limit.value;
-    const bool claims = isfinite(limit->high - limit->low);
-    const bool covers = limit->low <= truth && truth <= limit->high;
-    t->lines++;
-    t->claims += claims;
-    t->covers += claims && covers;
-    t->silent += claims && !covers;
-    if (claims)
-        t->width[t->widths++] = (limit->high - limit->low) / 2 / fabs(g.e[g.rows - 1] - truth);
+    count_limit(t, limit->low, limit->high, truth, g.e[g.rows - 1]);
     br_orders_clear(&o);
     br_numbers_clear(&n);
+}
+
+/* What `orders` states of a line: its order or, of values, its limit. */
+static struct br_estimate stated(const struct br_error_line *line)
+{
+    struct br_numbers n;
+    struct br_orders o;
+    find(line->rows, line->h, NULL, line->e, line->values, &n, &o);
+    const struct br_estimate found =
+        line->values ? o.of[0].limit.value : o.of[0].answer[BR_AXIS_SPACE].order;
+    br_orders_clear(&o);
+    br_numbers_clear(&n);
+    return found;
+}
+
+static struct br_error_line limit_line_of(size_t class, uint64_t seed, size_t index)
+{
+    return line_of(&br_limit_classes[class], seed * 1000 + 600 + class, index);
+}
+
+/* The limit of the values of a line. */
+static void try_line_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = limit_line_of(class, seed, index);
+    const struct br_estimate limit = stated(&line);
+    count_limit(t, limit.low, limit.high, line.limit, line.e[line.rows - 1]);
+}
+
+/* The same of a class that nobody had seen. */
+static void try_unseen_limit(size_t class, uint64_t seed, size_t index, struct tally *t)
+{
+    const struct br_error_line line = unseen_line_of(class, seed, index);
+    const struct br_estimate limit = stated(&line);
+    count_limit(t, limit.low, limit.high, line.limit, line.e[line.rows - 1]);
 }
 
 static int by_size(const void *a, const void *b)
@@ -229,95 +307,275 @@ static bool at_most(size_t found, double share, size_t n)
 
 static bool is_good(enum br_error_group group, const struct tally *t)
 {
-    const bool hard = group > BR_NOISY_ERRORS, none = group == BR_NO_ORDER;
+    const bool hard = group > BR_NOISY_ERRORS;
+    const bool none = group == BR_NO_ORDER || group == BR_GROWTH;
     const double silent = hard ? 0.03 : 0.02;
     return t->contradicts == 0 && at_most(t->silent, silent, t->lines) &&
+           at_most(t->narrow, 0.005, t->lines) &&
            (none || at_most(t->fail, hard ? 0.03 : 0.01, t->lines)) &&
+           (group != BR_GROWTH || at_most(t->lines - t->fail, 0.1, t->lines)) &&
            at_most(t->wrong_pass, 0.002, t->lines) &&
-           (hard || at_most(t->claims - t->covers, 0.05, t->claims));
+           ((hard && group != BR_TWO_ORDERS) || at_most(t->claims - t->covers, 0.05, t->claims));
+}
+
+/* A column of the table; NaN: there is nothing to say. */
+static void print_column(int width, const char *format, double value)
+{
+    char text[32] = "-";
+    if (!isnan(value))
+        snprintf(text, sizeof text, format, value);
+    printf(" %*s", width, text);
 }
 
 static void print(const char *name, struct tally *t)
 {
+    const size_t counted[] = {t->silent, t->pass, t->fail, t->wrong_pass, t->narrow};
     const double all = (double)t->lines / 100;
     qsort(t->width, t->widths, sizeof *t->width, by_size);
-    printf("%-26s %6.1f %6.1f %6.1f %6.1f %6.1f %6.1f %8.2f\n", name, (double)t->claims / all,
-           100 * (double)t->covers / (double)t->claims, (double)t->silent / all,
-           (double)t->pass / all, (double)t->fail / all, (double)t->wrong_pass / all,
-           t->widths ? t->width[t->widths / 2] : (double)NAN);
+    printf("%-29s", name);
+    print_column(6, "%.1f", (double)t->claims / all);
+    print_column(6, "%.1f", t->claims ? 100 * (double)t->covers / (double)t->claims : NAN);
+    for (size_t i = 0; i < sizeof counted / sizeof *counted; i++)
+        print_column(6, "%.1f", (double)counted[i] / all);
+    print_column(8, "%.2g", t->widths ? t->width[t->widths / 2] : NAN);
+    printf("\n");
 }
 
-/* Tries so many lines, or grids, of a class; only: the class, NULL: all.
- * Returns whether their orders are good. */
-static bool try_class(size_t number, const char *name, enum br_error_group group, size_t class,
-                      void (*try)(size_t, uint64_t, size_t, struct tally *), uint64_t seed,
-                      size_t lines, const char *only, double *width)
+static const char *const group_names[BR_GROUPS] = {"smooth",   "noisy",      "hard",
+                                                   "no order", "two orders", "growth"};
+
+/* A run of the program. */
+struct run {
+    uint64_t seed;
+    const char *only;              /* the class; NULL: all */
+    double *width;                 /* of the lines of a class */
+    size_t number, bad;            /* tests so far, and those that failed */
+    struct tally group[BR_GROUPS]; /* all lines of a part of the program */
+    double seconds;
+};
+
+typedef void try_one(size_t class, uint64_t seed, size_t index, struct tally *t);
+
+static void add(struct tally *sum, const struct tally *t)
 {
-    struct tally t = {.width = width};
-    if (only && strcmp(name, only) != 0)
-        return true;
+    sum->lines += t->lines;
+    sum->claims += t->claims;
+    sum->covers += t->covers;
+    sum->silent += t->silent;
+    sum->pass += t->pass;
+    sum->fail += t->fail;
+    sum->wrong_pass += t->wrong_pass;
+    sum->narrow += t->narrow;
+}
+
+/* Tries so many lines, or grids, of a class. */
+static void try_class(struct run *run, const char *name, enum br_error_group group, size_t class,
+                      try_one *try, size_t lines)
+{
+    struct tally t = {.width = run->width};
+    run->number++;
+    if (run->only && strcmp(name, run->only) != 0)
+        return;
+    const clock_t start = clock();
     for (size_t i = 0; i < lines; i++)
-        try(class, seed, i, &t);
+        try(class, run->seed, i, &t);
+    run->seconds += (double)(clock() - start) / CLOCKS_PER_SEC;
     const bool good = is_good(group, &t);
+    run->bad += !good;
     printf("# ");
     print(name, &t);
-    printf("%sok %zu - %s\n", good ? "" : "not ", number, name);
-    return good;
+    printf("%sok %zu - %s\n", good ? "" : "not ", run->number, name);
+    add(&run->group[group], &t);
 }
 
-/* All published columns; number: of the test. Returns whether at most one order is worse than
- * docs/observed-orders.md says. */
-static bool try_all_published(size_t number)
+/* Begins a part of the program. */
+static void begin(struct run *run, size_t lines, const char *of)
 {
-    size_t all[4] = {0}, later[4] = {0};
+    printf("# %zu %s a class\n", lines, of);
+    memset(run->group, 0, sizeof run->group);
+    run->seconds = 0;
+}
+
+/* The sums of a part, and how long one line of it took. */
+static void end(struct run *run)
+{
+    size_t lines = 0;
+    for (size_t i = 0; i < BR_GROUPS && !run->only; i++)
+        if (run->group[i].lines > 0) {
+            printf("# all %zu: ", run->group[i].lines);
+            print(group_names[i], &run->group[i]);
+            lines += run->group[i].lines;
+        }
+    if (lines > 0)
+        printf("# %.2g ms each\n", 1000 * run->seconds / (double)lines);
+}
+
+/* Classes of lines, up to the one without a name. */
+static void try_classes(struct run *run, const struct br_error_class *class, try_one *try,
+                        size_t lines, const char *of)
+{
+    begin(run, lines, of);
+    for (size_t i = 0; class[i].name; i++)
+        try_class(run, class[i].name, class[i].group, i, try, lines);
+    end(run);
+}
+
+static size_t count_classes(const struct br_error_class *class)
+{
+    size_t n = 0;
+    while (class[n].name)
+        n++;
+    return n;
+}
+
+/* All published columns. At most one order is worse than docs/observed-orders.md says. */
+static void try_all_published(struct run *run)
+{
+    size_t all[4] = {0}, later[4] = {0}, last[4] = {0};
     for (size_t i = 0; i < BR_PUBLISHED; i++) {
         const size_t found = try_published(i);
-        all[found]++;
-        later[found] += i >= BR_PUBLISHED_FIRST;
+        all[found] += i < BR_PUBLISHED_LAST;
+        later[found] += i >= BR_PUBLISHED_FIRST && i < BR_PUBLISHED_LAST;
+        last[found] += i >= BR_PUBLISHED_LAST;
     }
     for (size_t i = 0; i < 4; i++)
-        printf("# %-14s %3zu of %d columns, %2zu of the later %d\n", found_texts[i], all[i],
-               BR_PUBLISHED, later[i], BR_PUBLISHED - BR_PUBLISHED_FIRST);
-    const bool ok = all[0] >= 129 && all[2] <= 10 && all[3] <= 19;
-    printf("%sok %zu - published columns\n", ok ? "" : "not ", number);
-    return ok;
+        printf("# %-14s %3zu of %d columns, %2zu of the later %d, %2zu of the last %d\n",
+               found_texts[i], all[i], BR_PUBLISHED_LAST, later[i],
+               BR_PUBLISHED_LAST - BR_PUBLISHED_FIRST, last[i], BR_PUBLISHED - BR_PUBLISHED_LAST);
+    const bool ok = all[0] >= 129 && all[2] <= 10 && all[3] <= 19 && last[0] >= 34 && last[2] <= 1;
+    printf("%sok %zu - published columns\n", ok ? "" : "not ", ++run->number);
+    run->bad += !ok;
+}
+
+/* ---- beside others ---- */
+
+/* A cell of a table: held of stated, and the median width. */
+static void print_cell(struct tally *t)
+{
+    qsort(t->width, t->widths, sizeof *t->width, by_size);
+    if (t->claims == 0)
+        printf(" - |");
+    else if (t->widths == 0)
+        printf(" %zu of %zu |", t->covers, t->claims);
+    else
+        printf(" %zu of %zu, %.2g |", t->covers, t->claims, t->width[t->widths / 2]);
+}
+
+/* Counts an interval of one method: of an order, whose width is itself, or of a limit. */
+static void count_interval(struct tally *t, struct br_interval found,
+                           const struct br_error_line *line)
+{
+    const struct br_estimate order = {NAN, found.low, found.high};
+    const bool two = isnan(line->other) || holds(&order, line->other);
+    if (line->values) {
+        count_limit(t, found.low, found.high, line->limit, line->e[line->rows - 1]);
+    } else if (isfinite(found.high - found.low) && found.low > 0 && found.high - found.low <= 1) {
+        t->claims++;
+        t->covers += holds(&order, line->truth) && two;
+        t->width[t->widths++] = (found.high - found.low) / 2;
+    }
+}
+
+enum { METHODS = BR_OTHERS + 1 }; /* ours is the first */
+
+/* What a method states of a line. */
+static struct br_interval state(size_t method, const struct br_error_line *line)
+{
+    const enum br_other other = (enum br_other)(method - 1);
+    const struct br_estimate ours = method == 0 ? stated(line) : (struct br_estimate){0};
+    return method == 0    ? (struct br_interval){ours.low, ours.high}
+           : line->values ? br_other_limit(other, line)
+                          : br_other_order(other, line);
+}
+
+/* A row of a table: ours and the methods of others on the same lines of a class. */
+static void compare_class(const struct br_error_class *class, uint64_t seed, size_t lines,
+                          double *width, struct tally sum[METHODS])
+{
+    printf("| %s |", class->name);
+    for (size_t method = 0; method < METHODS; method++) {
+        struct tally t = {.width = width};
+        for (size_t i = 0; i < lines; i++) {
+            const struct br_error_line line = line_of(class, seed, i);
+            count_interval(&t, state(method, &line), &line);
+        }
+        print_cell(&t);
+        add(&sum[method], &t);
+    }
+    printf("\n");
+}
+
+/* A table of the classes of errors, or of values; seed: of the first class. The last rows are the
+ * sums of the groups. */
+static void compare(const struct br_error_class *class, uint64_t seed, bool values, size_t lines,
+                    double *width)
+{
+    struct tally sum[BR_GROUPS][METHODS] = {0};
+    printf("| %s | beamrate |", values ? "limits" : "orders");
+    for (size_t other = 0; other < BR_OTHERS; other++)
+        printf(" %s |", br_other_names[other]);
+    printf("\n|---|---|---|---|---|---|\n");
+    for (size_t i = 0; class[i].name; i++)
+        if (line_of(&class[i], 1, 0).values == values)
+            compare_class(&class[i], seed + i, lines, width, sum[class[i].group]);
+    for (size_t group = 0; group < BR_GROUPS; group++) {
+        size_t stated_by_any = 0;
+        for (size_t method = 0; method < METHODS; method++)
+            stated_by_any += sum[group][method].claims;
+        if (stated_by_any > 0)
+            printf("| all, %s |", group_names[group]);
+        for (size_t method = 0; method < METHODS && stated_by_any > 0; method++)
+            print_cell(&sum[group][method]);
+        printf("%s", stated_by_any > 0 ? "\n" : "");
+    }
+    printf("\n");
 }
 
 int main(int arguments, char **argument)
 {
-    const uint64_t seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1;
     const size_t lines = arguments >= 3   ? strtoul(argument[2], NULL, 10)
                          : br_test_long() ? MANY
                                           : SAMPLE;
-    const char *only = arguments == 4 ? argument[3] : NULL;
     const size_t grids = (lines + 3) / 4; /* of two orders and some ten lines each */
-    size_t classes = 0, bad = 0;
-    double *width = br_allocate(lines + 1, sizeof *width);
-    while (br_error_classes[classes].name)
-        classes++;
-    if (!width || !(lines > 0 && lines <= MOST_LINES) ||
+    struct run run = {
+        .seed = arguments >= 3 ? strtoull(argument[1], NULL, 10) : 1,
+        .only = arguments == 4 ? argument[3] : NULL,
+        .width = br_allocate(lines + 1, sizeof *run.width),
+    };
+    if (!run.width || !(lines > 0 && lines <= MOST_LINES) ||
         (arguments != 1 && arguments != 3 && arguments != 4)) {
-        fputs("usage: orders [SEED LINES [CLASS]]\n", stderr);
+        fputs("usage: orders [SEED LINES [CLASS | published | compare]]\n", stderr);
         return 2;
     }
-    printf("TAP version 13\n1..%zu\n", classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + 1);
-    printf("# %% of %zu lines, seed %llu\n# %-24s %6s %6s %6s %6s %6s %6s %8s\n", lines,
-           (unsigned long long)seed, "class", "claims", "covers", "silent", "PASS", "FAIL", "false",
-           "width");
-    for (size_t i = 0; i < classes; i++)
-        bad += !try_class(i + 1, br_error_classes[i].name, br_error_classes[i].group, i, try_line,
-                          seed, lines, only, width);
-    printf("# %zu grids, of two orders each\n", grids);
+    if (run.only && strcmp(run.only, "compare") == 0) {
+        compare(br_error_classes, run.seed * 1000, false, lines, run.width);
+        compare(br_limit_classes, run.seed * 1000 + 600, true, lines, run.width);
+        free(run.width);
+        return 0;
+    }
+    printf("TAP version 13\n1..%zu\n", count_classes(br_error_classes) + BR_GRID_CLASSES +
+                                           BR_VALUE_CLASSES + count_classes(br_limit_classes) + 1);
+    printf("# %%, seed %llu\n# %-29s %6s %6s %6s %6s %6s %6s %6s %8s\n",
+           (unsigned long long)run.seed, "class", "claims", "covers", "silent", "PASS", "FAIL",
+           "false", "narrow", "width");
+    try_classes(&run, br_error_classes, try_line, lines, "lines");
+    begin(&run, grids, "grids, of two orders each,");
     for (size_t i = 0; i < BR_GRID_CLASSES; i++)
-        bad += !try_class(classes + i + 1, br_grid_classes[i].name, br_grid_classes[i].group, i,
-                          try_grid, seed, grids, only, width);
-    printf("# %zu limits of values\n", grids);
+        try_class(&run, br_grid_classes[i].name, br_grid_classes[i].group, i, try_grid, grids);
+    end(&run);
+    begin(&run, grids, "limits of values");
     for (size_t i = 0; i < BR_VALUE_CLASSES; i++)
-        bad += !try_class(classes + BR_GRID_CLASSES + i + 1, br_value_classes[i].name,
-                          BR_NOISY_ERRORS, i, try_limit, seed, grids, only, width);
-    const size_t last = classes + BR_GRID_CLASSES + BR_VALUE_CLASSES + 1;
-    if (!only || strcmp(only, "published") == 0)
-        bad += !try_all_published(last);
-    free(width);
-    return bad > 0;
+        try_class(&run, br_value_classes[i].name, BR_NOISY_ERRORS, i, try_limit, grids);
+    end(&run);
+    try_classes(&run, br_limit_classes, try_line_limit, lines, "limits of lines");
+    try_classes(&run, br_unseen_classes, try_unseen, lines, "lines nobody had seen");
+    begin(&run, lines, "limits nobody had seen");
+    for (size_t i = 0; br_unseen_classes[i].name; i++)
+        if (line_of(&br_unseen_classes[i], 1, 0).values)
+            try_class(&run, br_unseen_classes[i].name, BR_NOISY_ERRORS, i, try_unseen_limit, lines);
+    end(&run);
+    if (!run.only || strcmp(run.only, "published") == 0)
+        try_all_published(&run);
+    free(run.width);
+    return run.bad > 0;
 }
