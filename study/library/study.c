@@ -356,6 +356,8 @@ static enum br_status read_orders(struct beamrate_orders *o, const struct beamra
     q.table = (char *)table->text;
     q.errors = (char *)table->errors;
     q.values = (char *)table->values;
+    q.columns = (char *)table->columns;
+    q.where = (char *)table->where;
     q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
     q.assumed_dimension = !(table->dimension > 0);
     q.formal = table->formal > 0 ? table->formal : q.formal;
