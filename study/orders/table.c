@@ -76,24 +76,6 @@ static size_t find_cells(struct source *s)
 
 /* ---- numbers ---- */
 
-/* Refuses a field of words in a column that counts. */
-static enum br_status check_words(const struct source *s, size_t column, struct br_error *err)
-{
-    const struct br_fields *f = &s->fields;
-    const struct br_role_column *c = &s->roles.column[column];
-    struct br_field_number n;
-    char name[24];
-    for (size_t i = 0; i < f->rows && c->words; i++) {
-        const char *text = f->field[i * f->columns + column];
-        if (!s->roles.dropped[i] && !br_field_is_missing(text) &&
-            (f->is_words[column] || !br_field_read(text, f->mark, &n)))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
-                           br_orders_path(s->request), f->line[i], name_of(c, column, name), text);
-    }
-    return BR_OK;
-}
-
 static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_error *err)
 {
     const struct br_roles *r = &s->roles;
@@ -159,7 +141,7 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
 {
     const struct br_roles *r = &s->roles;
     struct br_numbers *n = s->numbers;
-    if (check_words(s, column, err))
+    if (br_roles_check_words(r, column, err))
         return err->status;
     for (size_t i = 0; i < n->rows && r->groups > 1; i++)
         n->row[i].absent[quantity] = true;
@@ -308,7 +290,7 @@ static void list_left(struct source *s)
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
-        say(s, "line %zu, %s", f->left[i].line, f->left[i].text);
+        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
         leave(s, f->left[i].why);
     }
 }

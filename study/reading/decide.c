@@ -150,17 +150,26 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
     return best;
 }
 
-/* Of the ways in which a column states these sizes the simplest: cells of one dimension are n. */
-static const struct br_candidate *simplest(const struct contest *t, const struct br_candidate *best)
+/* How plainly a candidate states its sizes. */
+static double plainness(const struct contest *t, const struct br_candidate *c)
 {
-    for (size_t i = 0; i < t->candidates && best->size.states->is_volume; i++) {
+    const struct br_role_column *column = &t->roles->column[c->size.column];
+    return column->by_hand ? 99
+                           : br_name_odds(column->name, c->size.states) -
+                                 (c->size.states->is_volume ? 2 : 0);
+}
+
+/* Of the ways in which these sizes are stated the plainest. */
+static const struct br_candidate *plainest(const struct contest *t, const struct br_candidate *best)
+{
+    const struct br_candidate *found = best;
+    for (size_t i = 0; i < t->candidates; i++) {
         const struct br_candidate *c = &t->candidate[i];
-        if (c->size.column == best->size.column && !c->size.states->is_volume &&
-            has_usual_name(&t->roles->column[c->size.column], c->size.states) &&
-            br_evidence_same(t->roles, best->log_z, c->log_z, 1e-9))
-            return c;
+        if (plainness(t, c) > plainness(t, found) &&
+            br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
+            found = c;
     }
-    return best;
+    return found;
 }
 
 /* ---- words ---- */
@@ -381,7 +390,7 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     if (check_direction(t, best, err))
         return err->status;
     const double lead = second ? best->odds - second->odds : INFINITY;
-    best = simplest(t, best);
+    best = plainest(t, best);
     if (lead < sure_lead || (best->contradicts_rates && !by_hand))
         assume(t, best, lead < 9 ? second : NULL);
     r->size[t->axis] = best->size;

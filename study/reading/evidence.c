@@ -176,12 +176,22 @@ static bool grows_in(const struct view *v, double dimension)
            (dimension > 1 && grows_by(v, 0, pow(3, dimension), dofs));
 }
 
+/* Whether the heading is a usual name of any size. */
+static bool has_usual_name(const struct view *v)
+{
+    bool usual = own(v)->by_hand;
+    for (const struct br_resolution_column *s = br_resolution_columns; s->name && !usual; s++)
+        usual = br_name_odds(own(v)->name, s) > 0.5;
+    return usual;
+}
+
 static double grows(const struct view *v)
 {
     const struct br_resolution_column *c = v->candidate->size.states;
+    const double odds = has_usual_name(v) ? 1 : 0.25; /* anything may grow so */
     if (c->is_volume)
-        return grows_in(v, v->candidate->size.dimension);
-    return c->more && grows_by(v, c->more, 2, false);
+        return odds * grows_in(v, v->candidate->size.dimension);
+    return odds * (c->more && grows_by(v, c->more, 2, false));
 }
 
 static double is_two_dimensional(const struct view *v)
@@ -255,11 +265,12 @@ static bool dips(const struct view *v, size_t column)
 static bool climbs(const struct view *v, size_t column)
 {
     const double *e = v->roles->column[column].number;
+    size_t pairs = 0;
     struct pair p;
-    for (size_t at = 0; next_pair(v, &at, &p);)
+    for (size_t at = 0; next_pair(v, &at, &p); pairs++)
         if (fabs(e[p.fine]) < 0.999 * fabs(e[p.coarse]))
             return false;
-    return fall_of(v, column) < -0.05;
+    return pairs > 1 && fall_of(v, column) < -0.05;
 }
 
 /* Whether no error falls with these sizes, and one grows from each to the next. */
@@ -472,7 +483,7 @@ static bool stays(const struct error_view *e)
 
 static bool has_a_sign(const struct error_view *e)
 {
-    return tried(e)->least < 0;
+    return tried(e)->least < 0 && !is_error_by_name(e);
 }
 
 static bool has_words(const struct error_view *e)

@@ -155,9 +155,12 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     c->by_hand = true;
     c->stated = br_resolution_column_find(name);
     c->kind = BR_KIND_UNKNOWN;
-    if (c->stated) {
-        if (!c->name)
-            c->name = name;
+    if (c->stated) { /* it keeps its name and its unit, or is called by its position */
+        char *position = br_store_take(&r->store, size + 1, 1);
+        if (!position)
+            return br_no_memory(err, "the table");
+        memcpy(position, item, size);
+        c->name = c->name ? c->name : position;
     } else if (strcmp(name, "aside") == 0)
         c->why = "--column says so";
     else if (strcmp(name, "degree") == 0)
@@ -302,6 +305,33 @@ static void drop_zeros(struct br_roles *r)
     r->dropped[0] = "a first row of zeros";
     for (size_t i = 0; i < r->columns; i++)
         read_numbers(r, i);
+}
+
+enum br_status br_roles_check_words(const struct br_roles *r, size_t column, struct br_error *err)
+{
+    const struct br_role_column *c = &r->column[column];
+    struct br_field_number n;
+    for (size_t i = 0; i < r->rows && c->words; i++) {
+        const char *text = field_at(r, i, column);
+        if (!r->dropped[i] && !br_field_is_missing(text) &&
+            (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)))
+            return br_fail(err, BR_BAD_INPUT,
+                           "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
+                           r->wishes->path, r->fields->line[i], c->name ? c->name : "a number", text);
+    }
+    return BR_OK;
+}
+
+/* Refuses words among the numbers of a column that is called a size. */
+static enum br_status check_sizes(const struct br_roles *r, struct br_error *err)
+{
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        const bool size = c->stated || (c->name && !c->by_hand && is_size_by_name(c->name));
+        if (size && (c->stated || c->numbers > c->words) && br_roles_check_words(r, i, err))
+            return err->status;
+    }
+    return BR_OK;
 }
 
 /* ---- cases ---- */
@@ -741,12 +771,25 @@ static enum br_status take_repeats(struct br_roles *r, struct br_error *err)
         struct run *of = &run[count++];
         *of = (struct run){r->group[i], i, {0, 0}, r->column[error].number[i]};
         for (int axis = 0; axis < BR_AXES; axis++)
-            of->z[axis] = r->log_z[axis] && isfinite(r->log_z[axis][i]) ? r->log_z[axis][i] : 0;
+            of->z[axis] = !r->log_z[axis]                  ? 0
+                          : isfinite(r->log_z[axis][i]) ? r->log_z[axis][i]
+                                                        : 1e6 + (double)i; /* of none, which is refused */
     }
     return settle_repeats(r, run, count, err);
 }
 
 /* ---- all ---- */
+
+/* Whether a column may count unknowns or cells, or there is none of the mesh. */
+static bool counts_volume(const struct br_roles *r)
+{
+    const struct br_resolution_column *chosen = r->size[BR_AXIS_SPACE].states;
+    bool counts = !chosen || chosen->is_volume;
+    for (size_t i = 0; i < r->columns && !counts; i++)
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            counts |= s->is_volume && (r->column[i].stated == s || br_name_odds(r->column[i].name, s) > 1);
+    return counts;
+}
 
 static enum br_status find_roles(struct br_roles *r, struct br_error *err)
 {
@@ -754,8 +797,10 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
         return err->status;
     drop_zeros(r);
     find_rates_without_a_name(r);
-    if (take_where(r, err) || find_cases(r, err) || br_decide_sizes(r, err))
+    if (take_where(r, err) || check_sizes(r, err) || find_cases(r, err) || br_decide_sizes(r, err))
         return err->status;
+    if (r->wishes->dimension > 0 && !counts_volume(r))
+        return br_roles_refuse(r, "--dimension: found no numbers of unknowns or cells", NULL, err);
     const bool sizes = r->size[BR_AXIS_SPACE].states || r->size[BR_AXIS_TIME].states;
     if (!sizes && halve_by_row(r, err))
         return err->status;

@@ -99,6 +99,10 @@ void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
                                struct br_error *err);
 
+/* Refuses a field of words in a column of numbers. */
+enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
+                                    struct br_error *err);
+
 /* ---- within the reading ---- */
 
 /* A column that may state a resolution. */
