@@ -306,8 +306,6 @@ static enum br_status check_one_table(const struct layout *l)
     return BR_OK;
 }
 
-/* ---- the heading ---- */
-
 /* Whether a name says that its column is an order from row to row. */
 static bool is_rate(const char *name)
 {
@@ -323,6 +321,56 @@ static bool is_rate(const char *name)
     }
     return false;
 }
+
+static size_t count_rows(const struct layout *l)
+{
+    size_t rows = 0;
+    for (size_t i = l->first; i <= l->last; i++)
+        rows += l->seen[i].is_row;
+    return rows;
+}
+
+/* The text of a piece of a line. */
+static const char *text_at(const struct layout *l, size_t line, size_t column, char text[64])
+{
+    look_at(l, line);
+    const struct br_piece *piece = &l->piece[column];
+    snprintf(text, 64, "%.*s", (int)(piece->length < 63 ? piece->length : 63), piece->text);
+    return text;
+}
+
+/* Whether a row has the size of the first one again: a number that the second row does not have,
+ * beside the same words. */
+static bool begins_again(const struct layout *l, size_t line, size_t rows)
+{
+    char first[64], second[64], here[64];
+    bool again = false;
+    const size_t next = next_text(l, l->first, 1);
+    for (size_t i = 0; i < l->width; i++) {
+        const bool is_same = strcmp(text_at(l, l->first, i, first), text_at(l, line, i, here)) == 0;
+        if (2 * l->has_number[i] <= rows && !is_same)
+            return false;
+        again |= is_same && *first && !br_field_is_missing(first) &&
+                 !is_rate(l->fields->heading[i]) && strcmp(first, text_at(l, next, i, second)) != 0;
+    }
+    return again;
+}
+
+/* Refuses rows that begin again behind a gap or a rule: a table of its own. */
+static enum br_status check_blocks(const struct layout *l)
+{
+    const size_t rows = count_rows(l);
+    if (l->seen[l->first].count < l->width)
+        return BR_OK;
+    for (size_t i = l->first + 1; i <= l->last; i++)
+        if (l->seen[i].is_row && l->line[i - 1].kind != BR_LINE_TEXT && begins_again(l, i, rows))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found rows that begin again as on line %zu, expected one table",
+                           l->path, l->line[i].number, l->line[l->first].number);
+    return BR_OK;
+}
+
+/* ---- the heading ---- */
 
 /* Whether the first column counts the rows or has words, as an index in front of them. */
 static bool has_index(const struct layout *l)
@@ -405,14 +453,6 @@ static bool take_heading(struct layout *l, size_t line)
             return false;
     take_names(l, line, by, NULL);
     return true;
-}
-
-static size_t count_rows(const struct layout *l)
-{
-    size_t rows = 0;
-    for (size_t i = l->first; i <= l->last; i++)
-        rows += l->seen[i].is_row;
-    return rows;
 }
 
 /* Whether the line names all columns but an index or rates; then takes it. */
@@ -789,7 +829,7 @@ static enum br_status lay_out(struct layout *l)
     if (settle_width(l, first) || find_rows(l))
         return l->err->status;
     find_ends(l);
-    if (find_heading(l) || check_one_table(l) || take_fields(l))
+    if (find_heading(l) || check_one_table(l) || check_blocks(l) || take_fields(l))
         return l->err->status;
     leave_lines(l);
     return BR_OK;

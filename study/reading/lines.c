@@ -276,12 +276,40 @@ static char *begin_of_name(char *at, const char *end)
     return begin;
 }
 
-/* Pieces "name = value"; a value is one word, or one in quotes. */
+/* The last word from `at` to `end` that is a number, as a piece with what is before it as its name;
+ * length 0: there is none. */
+static struct br_piece last_number(char *at, const char *end)
+{
+    struct br_piece last = {at, at, 0, 0};
+    struct br_field_number number;
+    char text[64];
+    for (char *word = at; word < end;) {
+        word += strspn(word, " \t,;:");
+        size_t length = strcspn(word, " \t,;:");
+        length = word + length <= end ? length : word < end ? (size_t)(end - word) : 0;
+        snprintf(text, sizeof text, "%.*s", (int)(length < 63 ? length : 0), word);
+        if (length && br_field_read(text, '.', &number))
+            last = (struct br_piece){word, at, length, (size_t)(word - at)};
+        word += length;
+    }
+    while (last.name_length && is_blank(last.name[last.name_length - 1]))
+        last.name_length--;
+    return last;
+}
+
+/* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
+ * numbers between or behind them are no pairs. */
 static size_t split_pairs(char *at, char sign, struct br_piece *piece)
 {
     size_t count = 0;
+    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
     for (char *equals; (equals = strchr(at, sign)) && count <= BR_MOST_COLUMNS;) {
         char *name = begin_of_name(at, equals), *end = equals;
+        const struct br_piece label = last_number(at, name);
+        if (label.length && (count > 0 || label.name_length + label.length > 60))
+            return 0;
+        if (label.length)
+            piece[count++] = label;
         while (end > name && is_blank(end[-1]))
             end--;
         char *value = equals + 1 + strspn(equals + 1, " \t");
@@ -295,7 +323,7 @@ static size_t split_pairs(char *at, char sign, struct br_piece *piece)
         if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
             return 0; /* a time, as 12:30 */
     }
-    return count;
+    return last_number(at, at + strlen(at)).length ? 0 : count;
 }
 
 size_t br_line_split(char *line, enum br_separator by, struct br_piece *piece)
