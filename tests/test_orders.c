@@ -132,8 +132,9 @@ TEST(test_lists)
     assert_string_equal(n.quantity[0].name, "l2 rate");
     br_numbers_clear(&n);
     n = read_with(text, &plain);
-    assert_string_equal(n.taken, "h from column h; errors: l2; left aside: l2 rate (a rate); drag "
-                                 "(both signs: --value, if it is studied); cpu (a cost or an index)");
+    assert_string_equal(n.taken,
+                        "h from column h; errors: l2; left aside: l2 rate (a rate); drag "
+                        "(both signs: --value, if it is studied); cpu (a cost or an index)");
     assert_int_equal(n.lefts, 3);
     assert_string_equal(n.left[1].what, "drag");
     br_numbers_clear(&n);
@@ -171,16 +172,20 @@ static const struct {
     {"gnuplot.dat", "H1", 1, "h = 1/n from column N; errors: L2, H1", NULL},
     {"latex.tex", "$\\|u-u_h\\|$", 2,
      "h = 1/n from column $N$; errors: $\\|u-u_h\\|$; left aside: rate (a rate)", NULL},
-    {"markdown.md", "L2 error", 2, "h from column Mesh Size; errors: L2 error; left aside: eoc (a rate)",
-     NULL},
+    {"markdown.md", "L2 error", 2,
+     "h from column Mesh Size; errors: L2 error; left aside: eoc (a rate)", NULL},
     {"mfem.txt", "H1 error", 1,
      "h = 2^-level from column level; errors: L2 error, H1 error; left aside: time (a cost or "
-     "an index)", NULL},
+     "an index)",
+     NULL},
     {"moose.csv", "l2_error", 2,
      "h from column h; errors: l2_error; left aside: time (a cost or an index); average (one "
-     "number only); number_of_elements (another size)", NULL},
-    {"pandas.csv", "L2", 2, "h = 1/n from column N; errors: L2; left aside: column 1 (a count)", NULL},
-    {"pandas.txt", "L2", 2, "h = 1/n from column N; errors: L2; left aside: column 1 (a count)", NULL},
+     "number only); number_of_elements (another size)",
+     NULL},
+    {"pandas.csv", "L2", 2, "h = 1/n from column N; errors: L2; left aside: column 1 (a count)",
+     NULL},
+    {"pandas.txt", "L2", 2, "h = 1/n from column N; errors: L2; left aside: column 1 (a count)",
+     NULL},
     {"steps.csv", "L2", 1, "k from column Dt; errors: L2; left aside: Steps (another size)", NULL},
     {"trixi.txt", "rho_e error", 4,
      "no column of the mesh, and the rates tell that h halves from row to row; errors: rho "
@@ -200,15 +205,18 @@ static const struct {
     /* titles: another number of fields */
     {"-----\n Errors: 1\n-----\n ref.level     h      || u_h - u ||    rate\n 0  5.0e-01  4e-2  0\n"
      " 1  2.5e-01  1e-2  2.00\n 2  1.25e-01  2.5e-3  2.00\n",
-     "|| u_h - u ||", 2, "h from column h; errors: || u_h - u ||; left aside: ref.level (another size); rate (a "
-     "rate); line 2 'Errors: 1' (title)", NULL},
-    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n.25,1\n", "e", 2, "h from column h; errors: e; left aside: line 1 'Convergence study, 2026' (title)",
+     "|| u_h - u ||", 2,
+     "h from column h; errors: || u_h - u ||; left aside: ref.level (another size); rate (a "
+     "rate); line 2 'Errors: 1' (title)",
      NULL},
+    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n.25,1\n", "e", 2,
+     "h from column h; errors: e; left aside: line 1 'Convergence study, 2026' (title)", NULL},
     {"Solving on 3 meshes\nn= 1 e= 16\nn= 2 e= 4\nn= 4 e= 1\n", "e", 2,
      "h = 1/n from column n; errors: e; left aside: line 1 'Solving on 3 meshes' (title)", NULL},
     {"time,dofs,h,e\n0,0,0,0\n1,8,.5,16\n1,16,.25,4\n1,32,.125,1\n", "e", 2,
      "h from column h; errors: e; left aside: time (a cost or an index); dofs (another size); "
-     "line 2 (a first row of zeros)", NULL},
+     "line 2 (a first row of zeros)",
+     NULL},
     {"# 1:h  2:e\n1 16\n.5 4\n.25 1\n", "e", 2, "h from column h; errors: e", NULL},
     {"N | e | rate\n--|---|---\n8 | 16 | -\n16 | 4 | 2\n32 | 1 | 2\n", "e", 2,
      "h = 1/n from column N; errors: e; left aside: rate (a rate)", NULL},
@@ -237,11 +245,14 @@ static const struct {
      "h1", 1, "h from column h; errors: l2, h1; left aside: line 1 'shape: (3, 3)' (title)", NULL},
     {"# A tibble: 3 x 2\n     h    l2\n <dbl> <dbl>\n1 1 1.6\n2 .5 .4\n3 .25 .1\n", "l2", 2,
      "h from column h; errors: l2; left aside: column 1 (a count); line 1 'A tibble: 3 x 2' "
-     "(comment)", NULL},
+     "(comment)",
+     NULL},
     /* a title above a heading that is a comment; sizes of three digits beside a level */
     {"Table: Error\n  #Level  h  ||u-u_h||\n\n 0 3.12e-2 1.6\n 1 1.56e-2 .4\n 2 7.81e-3 .1\n",
-     "||u-u_h||", 2, "h from column h; errors: ||u-u_h||; left aside: Level (another size); line 1 'Table: "
-     "Error' (title)", NULL},
+     "||u-u_h||", 2,
+     "h from column h; errors: ||u-u_h||; left aside: Level (another size); line 1 'Table: "
+     "Error' (title)",
+     NULL},
     /* brackets that are no units */
     {"h [m],L2(u) [m],L2(v),L2(p)\n1,4,1.6,1\n.5,2,.4,1\n.25,1,.1,1\n", "L2(v)", 2,
      "h from column h; errors: L2(u), L2(v), L2(p)", NULL},
@@ -251,12 +262,14 @@ static const struct {
     {"8 1.6\n16 .4\n32 .1\n", "l2", 2, "h = 1/n from column 1; errors: l2", "1=n, 2=l2"},
     {"# name: A\n# rows: 3\n# columns: 2\n 1 16\n .5 4\n .25 1\n", "2", 2,
      "h from column 1; errors: 2; left aside: line 1 'name: A', line 2 'rows: 3', line 3 "
-     "'columns: 2' (comment)", "1=h"},
+     "'columns: 2' (comment)",
+     "1=h"},
     {"mesh,e\n8x8,1.6\n16x16,.4\n32\xc3\x97"
      "32,.1\n",
      "e", 2, "h = 1/n from column mesh; errors: e", "mesh=n"},
     {"h,cells,order,e\n1,8,1.6,3\n1,32,.4,3\n1,128,.1,3\n", "order", 1,
-     "h = 1/n from column cells; errors: order, e; left aside: h (one number only)", "cells=n,order=order"},
+     "h = 1/n from column cells; errors: order, e; left aside: h (one number only)",
+     "cells=n,order=order"},
     {"h,L2=u-u_h\n1,1.6\n.5,.4\n.25,.1\n", "e", 2, "h from column h; errors: e", "L2=u-u_h=e"},
 };
 

@@ -18,7 +18,7 @@ struct source {
     struct br_roles roles;
     size_t *cell; /* rows of the table: the row of the numbers; owned */
     struct br_numbers *numbers;
-    char *text;   /* what is said; owned */
+    char *text; /* what is said; owned */
     bool no_memory;
 };
 
@@ -65,8 +65,8 @@ static size_t find_cells(struct source *s)
     if (key && shared)
         qsort(key, count, sizeof *key, by_z);
     for (size_t i = 0; i < count; i++) {
-        const bool same = shared && i > 0 && key[i].z[0] == key[i - 1].z[0] &&
-                          key[i].z[1] == key[i - 1].z[1];
+        const bool same =
+            shared && i > 0 && key[i].z[0] == key[i - 1].z[0] && key[i].z[1] == key[i - 1].z[1];
         cells += !same;
         s->cell[key[i].row] = cells - 1;
     }
@@ -92,8 +92,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
         if (r->dropped[i])
             continue;
         struct br_numbers_row *row = &n->row[s->cell[i]];
-        row->given[axis] = r->halves ? round(-r->log_z[axis][i] / log(2))
-                                     : r->column[size->column].number[i];
+        row->given[axis] =
+            r->halves ? round(-r->log_z[axis][i] / log(2)) : r->column[size->column].number[i];
         row->z[axis] = br_numbers_z(size->states, row->given[axis], size->dimension);
     }
     const char *unit = r->halves ? NULL : r->column[size->column].unit;
@@ -303,7 +303,10 @@ static void say_left(struct source *s)
     for (size_t i = 0; i < n->lefts; i++) {
         const bool first = i == 0 || n->left[i].why != n->left[i - 1].why;
         const bool last = i + 1 == n->lefts || n->left[i].why != n->left[i + 1].why;
-        say(s, "%s%s", i == 0 ? "; left aside: " : first ? "; " : ", ",
+        say(s, "%s%s",
+            i == 0  ? "; left aside: "
+            : first ? "; "
+                    : ", ",
             quoted(n->left[i].what, text));
         if (last)
             say(s, " (%s)", n->left[i].why);
@@ -393,8 +396,9 @@ static enum br_status take_all(struct source *s, struct br_error *err)
         return err->status;
     return s->numbers->quantities
                ? BR_OK
-               : br_roles_refuse(&s->roles, "found no column of errors (--value, if its limit is not "
-                                            "known)",
+               : br_roles_refuse(&s->roles,
+                                 "found no column of errors (--value, if its limit is not "
+                                 "known)",
                                  NULL, err);
 }
 

@@ -38,7 +38,8 @@ static bool next_pair(const struct view *v, size_t *at, struct pair *pair)
 static const struct br_role_column *own(const struct view *v)
 {
     static const struct br_role_column none = {.is_whole = true}; /* h halves from row to row */
-    return v->candidate->size.column == BR_NO_ROW ? &none : &v->roles->column[v->candidate->size.column];
+    return v->candidate->size.column == BR_NO_ROW ? &none
+                                                  : &v->roles->column[v->candidate->size.column];
 }
 
 static bool has_name(const struct view *v, const char *name)
@@ -64,8 +65,8 @@ static double of_digit(const struct br_role_column *c, size_t row)
 
 struct residual {
     size_t compared;
-    double worst;  /* that is beyond the digits */
-    double whole;  /* largest */
+    double worst; /* that is beyond the digits */
+    double whole; /* largest */
     double sum;
 };
 
@@ -92,9 +93,8 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);
-        found.worst =
-            fmax(found.worst,
-                 off - fmin(most, fmax(least, of_digit(rate, row))) - fmin(0.15, digits / p.ratio));
+        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
+                                            fmin(0.15, digits / p.ratio));
     }
     return found;
 }
@@ -108,8 +108,7 @@ static struct residual best_of_rates(const struct view *v, const struct br_role_
         for (int finer = 0; finer < 2 && (only == i || only == BR_NO_ROW); finer++) {
             if (!may_have_errors(v, i))
                 continue;
-            const struct residual found =
-                compare_rates(v, rate, &v->roles->column[i], finer == 1);
+            const struct residual found = compare_rates(v, rate, &v->roles->column[i], finer == 1);
             if (found.compared && found.compared >= best.compared && found.whole <= best.whole)
                 best = found;
         }
@@ -321,8 +320,8 @@ static bool agrees(const struct view *v, size_t column, const struct br_resoluti
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; v->sorted[i] != BR_NO_ROW; i++) {
         const size_t row = v->sorted[i];
-        const double by = log(br_numbers_z(states, c->number[row], dimension)) -
-                          v->candidate->log_z[row];
+        const double by =
+            log(br_numbers_z(states, c->number[row], dimension)) - v->candidate->log_z[row];
         if (!isfinite(by))
             return false;
         low = fmin(low, by);
@@ -399,7 +398,8 @@ static double by_hand(const struct view *v)
 
 static double is_no_count(const struct view *v)
 {
-    return !v->candidate->size.states->is_size && !own(v)->is_whole && !strpbrk(own(v)->name ? own(v)->name : "", "/");
+    return !v->candidate->size.states->is_size && !own(v)->is_whole &&
+           !strpbrk(own(v)->name ? own(v)->name : "", "/");
 }
 
 /* ---- the tables ---- */
