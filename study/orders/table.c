@@ -295,21 +295,24 @@ static void list_left(struct source *s)
     }
 }
 
-/* What is left aside, in groups of one reason. */
+/* What is left aside, in groups of one reason. Of many rows and lines the first are named; the list
+ * has all. */
 static void say_left(struct source *s)
 {
+    enum { MOST = 4 };
     const struct br_numbers *n = s->numbers;
     char text[200];
-    for (size_t i = 0; i < n->lefts; i++) {
-        const bool first = i == 0 || n->left[i].why != n->left[i - 1].why;
-        const bool last = i + 1 == n->lefts || n->left[i].why != n->left[i + 1].why;
-        say(s, "%s%s",
-            i == 0  ? "; left aside: "
-            : first ? "; "
-                    : ", ",
-            quoted(n->left[i].what, text));
-        if (last)
-            say(s, " (%s)", n->left[i].why);
+    for (size_t first = 0, end; first < n->lefts; first = end) {
+        for (end = first + 1; end < n->lefts && n->left[end].why == n->left[first].why;)
+            end++;
+        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
+        const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
+        for (size_t i = first; i < named; i++)
+            say(s, "%s%s", i == 0 ? "; left aside: " : i == first ? "; " : ", ",
+                quoted(n->left[i].what, text));
+        if (named < end)
+            say(s, ", and %zu more", end - named);
+        say(s, " (%s)", n->left[first].why);
     }
 }
 
