@@ -222,6 +222,8 @@ static enum br_status take_maps(struct source *s, json_t *maps)
             continue;
         }
         row = 0;
+        if (!have_same_keys(json_object_iter_value(json_object_iter(maps)), map))
+            return refuse(s, "found columns with other rows");
         json_object_foreach (map, inner, value) {
             json_t *index = json_string(inner);
             if (!counts(map))
