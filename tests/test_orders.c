@@ -363,6 +363,52 @@ TEST(test_refused_tables)
     br_test_rows("tables of numbers", refuse_table);
 }
 
+/* The orders of the quantities, "l2 2.00, h1 1.00", and what is read. */
+static void describe(const struct br_numbers *n, char text[2000])
+{
+    struct br_orders o;
+    size_t used = 0;
+    MUST(br_orders_find(n, 2, &o, &err));
+    for (size_t i = 0; i < o.count; i++)
+        used += (size_t)snprintf(text + used, 2000 - used, "%s%s %.2f", i ? ", " : "",
+                                 n->quantity[i].name, o.of[i].line->observed.order.value);
+    snprintf(text + used, 2000 - used, "; %s", n->taken);
+    br_orders_clear(&o);
+}
+
+/* Three tables of each kind that was read wrongly once: a text, what is said by hand, and what is
+ * read, or why it is not. */
+static void read_kind(char *row)
+{
+    static const char refused[] = "refused: ", where[] = "where ";
+    char *by_hand = br_test_part(row);
+    const char *expected = br_test_part(by_hand);
+    const bool chooses = strncmp(by_hand, where, strlen(where)) == 0;
+    struct br_orders_request q = br_orders_request_default();
+    q.path = (char *)"t.csv";
+    q.table = br_test_unescape(row);
+    if (chooses)
+        q.where = by_hand + strlen(where);
+    else if (strcmp(by_hand, "-") != 0)
+        q.columns = by_hand;
+    struct br_numbers n;
+    if (strncmp(expected, refused, strlen(refused)) == 0)
+        REFUSED(br_orders_read(&q, &n, &err), BR_BAD_INPUT, expected + strlen(refused));
+    else {
+        char found[2000];
+        MUST(br_orders_read(&q, &n, &err));
+        describe(&n, found);
+        if (strncmp(found, expected, strlen(expected)) != 0)
+            fail_msg("found '%s', expected '%s'", found, expected);
+    }
+    br_numbers_clear(&n);
+}
+
+TEST(test_kinds_of_tables)
+{
+    br_test_rows("kinds of tables", read_kind);
+}
+
 /* A heading of columns n, a, a0, a1, ... and rows 1, 2, ... that are refused or taken. */
 static const char *wide_table(int columns, int rows)
 {

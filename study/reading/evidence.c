@@ -99,19 +99,28 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
     return found;
 }
 
-/* The best that a column of errors makes of a column of rates. */
-static struct residual best_of_rates(const struct view *v, const struct br_role_column *rate,
-                                     size_t only)
+/* What a column of errors makes of a column of rates. They stand at the finer of two sizes, unless
+ * more of them stand at the coarser one. */
+static struct residual compare_column(const struct view *v, const struct br_role_column *rate,
+                                      size_t column)
+{
+    const struct br_role_column *e = &v->roles->column[column];
+    const struct residual at_finer = compare_rates(v, rate, e, true);
+    const struct residual at_coarser = compare_rates(v, rate, e, false);
+    return at_coarser.compared > at_finer.compared ? at_coarser : at_finer;
+}
+
+/* The best that any column of errors makes of a column of rates. */
+static struct residual best_of_rates(const struct view *v, const struct br_role_column *rate)
 {
     struct residual best = {0, INFINITY, INFINITY, INFINITY};
-    for (size_t i = 0; i < v->roles->columns; i++)
-        for (int finer = 0; finer < 2 && (only == i || only == BR_NO_ROW); finer++) {
-            if (!may_have_errors(v, i))
-                continue;
-            const struct residual found = compare_rates(v, rate, &v->roles->column[i], finer == 1);
-            if (found.compared && found.compared >= best.compared && found.whole <= best.whole)
-                best = found;
-        }
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        if (!may_have_errors(v, i))
+            continue;
+        const struct residual found = compare_column(v, rate, i);
+        if (found.compared && found.whole <= best.whole)
+            best = found;
+    }
     return best;
 }
 
@@ -123,7 +132,7 @@ static void find_rates(struct view *v)
         if (c->kind != BR_KIND_RATE || i == v->candidate->size.column || c->numbers == 0 ||
             c->role == BR_ROLE_CASE)
             continue;
-        const struct residual best = best_of_rates(v, c, BR_NO_ROW);
+        const struct residual best = best_of_rates(v, c);
         if (!best.compared || (!c->name && best.worst > 0)) /* without a name it may be a factor */
             continue;
         v->rates.columns++;
@@ -496,7 +505,7 @@ static bool gives_rates(const struct error_view *e)
     for (size_t i = 0; i < e->v.roles->columns; i++) {
         const struct br_role_column *c = &e->v.roles->column[i];
         if (c->kind == BR_KIND_RATE && may_have_errors(&e->v, e->column)) {
-            const struct residual found = best_of_rates(&e->v, c, e->column);
+            const struct residual found = compare_column(&e->v, c, e->column);
             if (found.compared > 1 && found.worst <= 0)
                 return true;
         }

@@ -57,7 +57,7 @@ static const struct {
     {BR_KIND_DEVIATION, " std sigma sd stderr sem stdev stddev deviation uncertainty unc pm "},
     {BR_KIND_RATE,
      " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
-     "poc ordre ordnung ordem orden alpha "},
+     "poc ordre ordnung ordem orden "},
     {BR_KIND_FACTOR, " ratio ratios reduction factor factors quotient "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "

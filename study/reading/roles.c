@@ -442,14 +442,17 @@ static bool is_consecutive(const struct br_roles *r, const struct br_role_column
     return c->least < c->most;
 }
 
-/* Small whole numbers that are called a degree, an order or k. */
+/* Small whole numbers that are called a degree; an order, p or k only if they count by one. */
 static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
 {
-    const bool called = c->kind == BR_KIND_DEGREE || (c->name && strcmp(c->name, "k") == 0) ||
-                        (c->kind == BR_KIND_RATE && c->numbers == r->rows);
-    return called && !c->stated &&
-           (c->by_hand ? c->kind == BR_KIND_DEGREE : is_consecutive(r, c)) && c->most <= 20 &&
-           c->role == BR_ROLE_ASIDE;
+    const bool word = c->kind == BR_KIND_DEGREE;
+    const bool letter = c->name && !c->name[1];
+    const bool other = (letter && *c->name == 'k') ||
+                       (c->kind == BR_KIND_RATE && c->numbers == r->rows);
+    if (c->stated || c->role != BR_ROLE_ASIDE || c->by_hand)
+        return c->by_hand && word;
+    return word && !letter ? c->is_whole && !c->words && c->most <= 64
+                           : (word || other) && is_consecutive(r, c) && c->most <= 20;
 }
 
 static bool tells_cases(const struct br_roles *r, size_t i)
