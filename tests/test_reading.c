@@ -50,6 +50,7 @@ static const struct {
      "n|error|order|\n10|1e-2|-|\n20|2e-3|2.0|\n"},
     {"step 1: n=10 L2 e=0,1\nstep 2: n=20 L2 e=0,02\n", "step|n|L2 e|\n1|10|0,1|\n2|20|0,02|\n"},
     {"h=0.1 m  e=0.2 m\nh=.05 m  e=.05 m\n", "h|e|\n0.1|0.2|\n.05|.05|\n"},
+    {"step 3 n=10 e=1\nstep 4 n=20 e=.2\n", "step|n|e|\n3|10|1|\n4|20|.2|\n"},
     {"10: e=0.1 r=2\n20: e=0.02 r=2\n", "|e|r|\n10|0.1|2|\n20|0.02|2|\n"},
     {"[5 May 10:30] n=10 e=1\n[5 May 10:31] n=20 e=.2\n", "n|e|\n10|1|\n20|.2|\n"},
     {"N: 8, error: 1e-2\nN: 16, error: 2e-3\n", "N|error|\n8|1e-2|\n16|2e-3|\n"},

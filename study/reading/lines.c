@@ -238,9 +238,8 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
 
 static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece)
 {
-    const bool bar = by == BR_BY_BARS && (*at == '|' || *at == BR_BOX_BAR);
     size_t count = 0, bytes = 0;
-    at += bar || (by >= BR_BY_WIDE_BLANKS && *at == BR_BOX_BAR);
+    at += (by == BR_BY_BARS && *at == '|') || (by >= BR_BY_BARS && *at == BR_BOX_BAR);
     for (bool more = true; more && count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
@@ -254,7 +253,7 @@ static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece
         piece[count++] = (struct br_piece){begin, NULL, (size_t)(end - begin), 0};
         more = *at && (by < BR_BY_WIDE_BLANKS || at[bytes]);
     }
-    return count - (count > 1 && !piece[count - 1].length && bar);
+    return count;
 }
 
 /* The begin of the last name in a text from `at` to `end`: behind gaps, signs and numbers. */
