@@ -75,6 +75,7 @@ static const struct {
     {"N,e,EOC\n8,1\n16,.2,2\n32,.05,2\n", "N|e|EOC|\n8|1||\n16|.2|2|\n32|.05|2|\n"},
     {"p,n,e\nP1,8,1\nP1,16,.2\n\nP2,8,2\n", "p|n|e|\nP1|8|1|\nP1|16|.2|\nP2|8|2|\n"},
     {"2 8 1\n2 16 .2\n\n2 32 .05\n", "~|~|~|\n2|8|1|\n2|16|.2|\n2|32|.05|\n"},
+    {"n,e\nnan,nan\n10,1\n,\n20,.2\n,,\n", "n|e|\nnan|nan|\n10|1|\n20|.2|\n"},
     /* lines that are left */
     {"Results, run of today\nN error\n10 1e-2\n20 2e-3\n",
      "N|error|\n10|1e-2|\n20|2e-3|\n1 title\n"},

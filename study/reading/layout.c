@@ -177,7 +177,7 @@ static enum br_status find_rows(struct layout *l)
             continue;
         look_at(l, i);
         const size_t there = in_columns_of_numbers(l, rows, &all);
-        l->seen[i].is_row = 2 * there >= all && l->seen[i].numbers && l->seen[i].count;
+        l->seen[i].is_row = 2 * there >= all && (l->seen[i].numbers || !l->seen[i].words);
         if (!l->seen[i].is_row)
             continue;
         l->first = l->first < i ? l->first : i;

@@ -86,7 +86,7 @@ static char *skip_command(char *line)
 /* Finds the kind of a line without the blanks around it. */
 static void find_kind(struct br_line *line)
 {
-    static const char rules[] = "-+=|:_*~. \t&\x01";
+    static const char rules[] = "-+=|:_*~.,; \t&\x01";
     for (char *rest; (rest = skip_command(line->text));)
         line->text = rest;
     const size_t sign = strncmp(line->text, "//", 2) == 0 ? 2 : strspn(line->text, "#%!");
