@@ -227,6 +227,8 @@ static bool is_short(const struct layout *l, size_t line)
 
 static void leave(struct layout *l, size_t line, const char *why)
 {
+    for (char *c = l->line[line].text; (c = strchr(c, BR_BOX_BAR));)
+        *c = '|';
     l->fields->left[l->fields->lefts++] =
         (struct br_left_line){l->line[line].number, l->line[line].text, why};
     l->seen[line].is_used = true;
@@ -392,7 +394,7 @@ static size_t find_gaps(const struct layout *l, bool *gap)
     for (size_t i = 0; i < l->width; i++) {
         const enum content content =
             i < s.count ? content_of(&l->piece[i], l->fields->mark) : NOTHING;
-        gap[i] = content == MISSING || content == NOTHING;
+        gap[i] = content == NOTHING || (content == MISSING && *l->piece[i].text == '-');
         gaps += gap[i];
     }
     return gaps;
@@ -415,6 +417,16 @@ static size_t split_names(const struct layout *l, size_t line, size_t wanted, en
     return br_line_split(l->line[line].text, l->by, l->piece);
 }
 
+/* A name without the stars and quotes of Markdown around it, in place; NULL: it is empty. */
+static const char *without_emphasis(char *name)
+{
+    name += name ? strspn(name, "*`") : 0;
+    size_t length = name ? strlen(name) : 0;
+    while (length && strchr("*`", name[length - 1]))
+        name[--length] = '\0';
+    return length ? name : NULL;
+}
+
 /* Takes the pieces of a line as names of the columns that are not skipped. */
 static void take_names(struct layout *l, size_t line, enum br_separator by, const bool *skipped)
 {
@@ -424,12 +436,12 @@ static void take_names(struct layout *l, size_t line, enum br_separator by, cons
     for (size_t i = 0; i < l->width; i++) {
         if (skipped && skipped[i])
             continue;
-        const char *name = br_piece_close(&l->piece[used++], by);
+        char *name = br_piece_close(&l->piece[used++], by);
         char counted[24]; /* gnuplot: "1:n" */
         snprintf(counted, sizeof counted, "%zu:", i + 1);
         if (name && strncmp(name, counted, strlen(counted)) == 0 && name[strlen(counted)])
             name += strlen(counted);
-        l->fields->heading[i] = name && *name ? name : NULL;
+        l->fields->heading[i] = without_emphasis(name);
     }
 }
 

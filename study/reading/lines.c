@@ -52,7 +52,7 @@ static bool has_types(const char *line)
     static const char types[] = " Int64 Int32 Float64 Float32 String Bool Date DateTime i8 i16 i32 "
                                 "i64 u8 u16 u32 u64 f32 f64 str bool date <dbl> <int> <chr> <lgl> "
                                 "<fct> <date> <dttm> ";
-    static const char between[] = " |\t\x01";
+    static const char between[] = " |?\t\x01";
     for (line += strspn(line, between); *line; line += strspn(line, between)) {
         char word[16];
         const size_t length = strcspn(line, between);
@@ -194,15 +194,15 @@ static bool is_blank(char c)
 /* Whether a piece ends here; *bytes (out): of what separates it from the next one. */
 static bool ends_piece(const char *begin, const char *at, enum br_separator by, size_t *bytes)
 {
-    static const char signs[] = {[BR_BY_TABS] = '\t',
-                                 [BR_BY_BARS] = '|',
-                                 [BR_BY_AMPERSANDS] = '&',
-                                 [BR_BY_SEMICOLONS] = ';',
-                                 [BR_BY_COMMAS] = ','};
+    static const char signs[] = {
+        [BR_BY_TABS] = '\t',      [BR_BY_LONE_BARS] = '|',  [BR_BY_BARS] = '|',
+        [BR_BY_AMPERSANDS] = '&', [BR_BY_SEMICOLONS] = ';', [BR_BY_COMMAS] = ','};
     *bytes = 1;
+    if (by == BR_BY_LONE_BARS && *at == '|')
+        return (at == begin || is_blank(at[-1])) && (!at[1] || is_blank(at[1]));
     if (by < BR_BY_WIDE_BLANKS)
         return (*at == signs[by] && (at == begin || at[-1] != '\\')) ||
-               (by == BR_BY_BARS && *at == BR_BOX_BAR);
+               ((by == BR_BY_BARS || by == BR_BY_LONE_BARS) && *at == BR_BOX_BAR);
     *bytes = strspn(at, " \t\x01");
     return at > begin && (*bytes >= (by == BR_BY_BLANKS ? 1 : 2) || (*bytes && *at != ' '));
 }
@@ -239,7 +239,8 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
 static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece)
 {
     size_t count = 0, bytes = 0;
-    at += (by == BR_BY_BARS && *at == '|') || (by >= BR_BY_BARS && *at == BR_BOX_BAR);
+    const bool bars = by == BR_BY_BARS || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
+    at += (bars && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
     for (bool more = true; more && count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
