@@ -40,6 +40,11 @@ static const struct {
     {" & \\multicolumn{2}{c}{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & e & EOC \\\\\n"
      "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
      "$N$|P1 e|P1 EOC|P2 e|P2 EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n"},
+    {"ref | ||e|| | rate\n0 | 4 | -\n1 | 1 | 2\n", "ref|||e|||rate|\n0|4|-|\n1|1|2|\n"},
+    {"|**N**|`e`|\n|8|**1**|\n|16||\n", "N|e|\n8|**1**|\n16||\n"},
+    {"  n    e rate\n1  8  .1   NA\n2 16 .02  2.3\n", "~|n|e|rate|\n1|8|.1|NA|\n2|16|.02|2.3|\n"},
+    {" Row │ n      e\n     │ Int64  Float64?\n─────┼──\n   1 │ 16  1.6\n   2 │ 32  0.4\n",
+     "Row|n|e|\n1|16|1.6|\n2|32|0.4|\n"},
     /* names */
     {"# N L2\n8 .04\n16 .01\n", "N|L2|\n8|.04|\n16|.01|\n"},
     {"# 1:h  2:e\n1 16\n.5 4\n", "h|e|\n1|16|\n.5|4|\n"},
@@ -50,6 +55,7 @@ static const struct {
      "n|error|order|\n10|1e-2|-|\n20|2e-3|2.0|\n"},
     {"step 1: n=10 L2 e=0,1\nstep 2: n=20 L2 e=0,02\n", "step|n|L2 e|\n1|10|0,1|\n2|20|0,02|\n"},
     {"h=0.1 m  e=0.2 m\nh=.05 m  e=.05 m\n", "h|e|\n0.1|0.2|\n.05|.05|\n"},
+    {"step 3 n=10 e=1\nstep 4 n=20 e=.2\n", "step|n|e|\n3|10|1|\n4|20|.2|\n"},
     {"10: e=0.1 r=2\n20: e=0.02 r=2\n", "|e|r|\n10|0.1|2|\n20|0.02|2|\n"},
     {"[5 May 10:30] n=10 e=1\n[5 May 10:31] n=20 e=.2\n", "n|e|\n10|1|\n20|.2|\n"},
     {"N: 8, error: 1e-2\nN: 16, error: 2e-3\n", "N|error|\n8|1e-2|\n16|2e-3|\n"},
@@ -74,6 +80,7 @@ static const struct {
     {"N,e,EOC\n8,1\n16,.2,2\n32,.05,2\n", "N|e|EOC|\n8|1||\n16|.2|2|\n32|.05|2|\n"},
     {"p,n,e\nP1,8,1\nP1,16,.2\n\nP2,8,2\n", "p|n|e|\nP1|8|1|\nP1|16|.2|\nP2|8|2|\n"},
     {"2 8 1\n2 16 .2\n\n2 32 .05\n", "~|~|~|\n2|8|1|\n2|16|.2|\n2|32|.05|\n"},
+    {"n,e\nnan,nan\n10,1\n,\n20,.2\n,,\n", "n|e|\nnan|nan|\n10|1|\n20|.2|\n"},
     /* lines that are left */
     {"Results, run of today\nN error\n10 1e-2\n20 2e-3\n",
      "N|error|\n10|1e-2|\n20|2e-3|\n1 title\n"},

@@ -77,12 +77,11 @@ static struct seen look_at(const struct layout *l, size_t line)
 
 enum { SAMPLE = 100 /* lines at each end of the text */ };
 
-/* How well this way explains the lines; l->width (out): the commonest. A number counts three, a
- * word costs one, and a wider row costs two numbers. */
-static long measure(struct layout *l, long *gain, size_t *rows)
+/* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
+ * word costs one. Each line counts with and without its empty pieces at the end. */
+static long measure(struct layout *l, long *gain)
 {
     memset(gain, 0, (BR_MOST_COLUMNS + 2) * sizeof *gain);
-    memset(rows, 0, (BR_MOST_COLUMNS + 2) * sizeof *rows);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -94,40 +93,33 @@ static long measure(struct layout *l, long *gain, size_t *rows)
         size_t filled = s.count;
         while (filled > 1 && !l->piece[filled - 1].length)
             filled--;
-        rows[filled] += s.numbers > s.words;
         gain[s.count] += more;
         gain[filled] += filled < s.count ? more : 0;
     }
-    size_t best = 1, wider = 0;
+    size_t best = 1;
     for (size_t i = 1; i <= BR_MOST_COLUMNS + 1; i++)
         best = gain[i] > gain[best] ? i : best;
-    for (size_t i = best + 1; i <= BR_MOST_COLUMNS + 1; i++)
-        wider += rows[i];
     l->width = best;
-    return gain[best] - 6 * (long)wider;
+    return gain[best];
 }
 
-static void choose(struct layout *l, long *gain, size_t *rows)
+static void choose(struct layout *l, long *gain)
 {
-    long most = 0;
-    enum br_separator by = BR_BY_BLANKS;
+    struct layout best = *l;
     char mark = '.';
-    size_t width = 0;
-    for (int i = 0; i < BR_SEPARATORS; i++)
-        for (int comma = 0; comma < 2; comma++) {
-            l->by = (enum br_separator)i;
-            l->fields->mark = comma ? ',' : '.';
-            const long score = measure(l, gain, rows);
-            if (score <= most || (comma && l->width == 1))
-                continue;
-            most = score;
-            by = l->by;
-            mark = l->fields->mark;
-            width = l->width;
-        }
-    l->by = by;
+    long most = 0;
+    for (int i = 0; i < 2 * BR_SEPARATORS; i++) {
+        l->by = (enum br_separator)(i / 2);
+        l->fields->mark = ".,"[i % 2];
+        const long score = measure(l, gain);
+        if (score <= most || (i % 2 && l->width == 1))
+            continue;
+        most = score;
+        mark = l->fields->mark;
+        best = *l;
+    }
+    *l = best;
     l->fields->mark = mark;
-    l->width = width;
 }
 
 /* Refuses lines that are too wide, before anything takes time. Without numbers, the first line
@@ -185,7 +177,7 @@ static enum br_status find_rows(struct layout *l)
             continue;
         look_at(l, i);
         const size_t there = in_columns_of_numbers(l, rows, &all);
-        l->seen[i].is_row = 2 * there >= all && l->seen[i].numbers && l->seen[i].count;
+        l->seen[i].is_row = 2 * there >= all && (l->seen[i].numbers || !l->seen[i].words);
         if (!l->seen[i].is_row)
             continue;
         l->first = l->first < i ? l->first : i;
@@ -235,6 +227,8 @@ static bool is_short(const struct layout *l, size_t line)
 
 static void leave(struct layout *l, size_t line, const char *why)
 {
+    for (char *c = l->line[line].text; (c = strchr(c, BR_BOX_BAR));)
+        *c = '|';
     l->fields->left[l->fields->lefts++] =
         (struct br_left_line){l->line[line].number, l->line[line].text, why};
     l->seen[line].is_used = true;
@@ -400,7 +394,7 @@ static size_t find_gaps(const struct layout *l, bool *gap)
     for (size_t i = 0; i < l->width; i++) {
         const enum content content =
             i < s.count ? content_of(&l->piece[i], l->fields->mark) : NOTHING;
-        gap[i] = content == MISSING || content == NOTHING;
+        gap[i] = content == NOTHING || (content == MISSING && *l->piece[i].text == '-');
         gaps += gap[i];
     }
     return gaps;
@@ -423,6 +417,16 @@ static size_t split_names(const struct layout *l, size_t line, size_t wanted, en
     return br_line_split(l->line[line].text, l->by, l->piece);
 }
 
+/* A name without the stars and quotes of Markdown around it, in place; NULL: it is empty. */
+static const char *without_emphasis(char *name)
+{
+    name += name ? strspn(name, "*`") : 0;
+    size_t length = name ? strlen(name) : 0;
+    while (length && strchr("*`", name[length - 1]))
+        name[--length] = '\0';
+    return length ? name : NULL;
+}
+
 /* Takes the pieces of a line as names of the columns that are not skipped. */
 static void take_names(struct layout *l, size_t line, enum br_separator by, const bool *skipped)
 {
@@ -432,12 +436,12 @@ static void take_names(struct layout *l, size_t line, enum br_separator by, cons
     for (size_t i = 0; i < l->width; i++) {
         if (skipped && skipped[i])
             continue;
-        const char *name = br_piece_close(&l->piece[used++], by);
+        char *name = br_piece_close(&l->piece[used++], by);
         char counted[24]; /* gnuplot: "1:n" */
         snprintf(counted, sizeof counted, "%zu:", i + 1);
         if (name && strncmp(name, counted, strlen(counted)) == 0 && name[strlen(counted)])
             name += strlen(counted);
-        l->fields->heading[i] = name && *name ? name : NULL;
+        l->fields->heading[i] = without_emphasis(name);
     }
 }
 
@@ -823,8 +827,7 @@ static enum br_status lay_out(struct layout *l)
     long *gain = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *gain);
     if (store->failed)
         return br_no_memory(l->err, "the table");
-    choose(l, gain, l->has_number);
-    memset(l->has_number, 0, (BR_MOST_COLUMNS + 2) * sizeof *l->has_number);
+    choose(l, gain);
     l->fields->columns = l->width;
     if (settle_width(l, first) || find_rows(l))
         return l->err->status;
