@@ -30,7 +30,7 @@ struct run {
     struct br_provenance provenance;
     struct br_whole_file summary; /* of --json */
     FILE *file[FILES];            /* this and the next one: of --out */
-    struct br_fields fields;
+    struct br_fields_file fields;
     size_t picture_stride; /* steps between rows of the picture of the tip; 0: none is drawn */
     struct br_history_record record;
     struct br_history_observer recorder; /* writes into the record */
@@ -46,7 +46,7 @@ static enum br_status open_results(struct run *r, struct br_error *err)
     if (status)
         return status;
     br_history_csv_head(r->file[HISTORY]);
-    r->fields = (struct br_fields){
+    r->fields = (struct br_fields_file){
         .csv = r->file[FIELDS_CSV],
         .xdmf = r->file[FIELDS_XDMF],
         .scene = &r->plan.marched,

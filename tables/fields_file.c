@@ -86,7 +86,7 @@ void br_history_csv_stopped(FILE *out, const char *message)
 
 /* ---- the fields as CSV: one line for each node and time, in SI units ---- */
 
-static void csv_head(const struct br_fields *f)
+static void csv_head(const struct br_fields_file *f)
 {
     fprintf(f->csv, "t,x");
     for (size_t v = 0; v < f->variables; v++)
@@ -94,7 +94,7 @@ static void csv_head(const struct br_fields *f)
     fputc('\n', f->csv);
 }
 
-static void csv_time(const struct br_fields *f, double time)
+static void csv_time(const struct br_fields_file *f, double time)
 {
     for (size_t i = 0; i < f->nodes; i++) {
         fprintf(f->csv, "%.17g,%.17g", time, f->h * (double)i);
@@ -122,7 +122,7 @@ static void xdmf_information(FILE *out, const char *name, const char *text)
 }
 
 /* The last node of the piece that begins at a node. */
-static size_t last_node(const struct br_fields *f, size_t first)
+static size_t last_node(const struct br_fields_file *f, size_t first)
 {
     return f->nodes - 1 - first < PIECE ? f->nodes - 1 : first + PIECE;
 }
@@ -136,7 +136,7 @@ static void xdmf_array(FILE *out, const char *type, size_t rows, int columns)
     fprintf(out, "\" NumberType=\"%s\" Precision=\"8\" Format=\"XML\">\n", type);
 }
 
-static void xdmf_mesh(const struct br_fields *f, size_t first)
+static void xdmf_mesh(const struct br_fields_file *f, size_t first)
 {
     FILE *out = f->xdmf;
     const size_t last = last_node(f, first), count = last - first;
@@ -154,7 +154,7 @@ static void xdmf_mesh(const struct br_fields *f, size_t first)
     fputs("</DataItem></Geometry>\n</Grid>\n", out);
 }
 
-static void xdmf_head(const struct br_fields *f, const struct br_provenance *from)
+static void xdmf_head(const struct br_fields_file *f, const struct br_provenance *from)
 {
     fputs("<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\" "
           "xmlns:xi=\"http://www.w3.org/2001/XInclude\">\n<Domain>\n",
@@ -167,7 +167,7 @@ static void xdmf_head(const struct br_fields *f, const struct br_provenance *fro
     fputs("<Grid Name=\"times\" GridType=\"Collection\" CollectionType=\"Temporal\">\n", f->xdmf);
 }
 
-static void xdmf_attribute(const struct br_fields *f, size_t variable, size_t first)
+static void xdmf_attribute(const struct br_fields_file *f, size_t variable, size_t first)
 {
     const bool in_middle = br_field_variables[variable].in_middle;
     const size_t last = last_node(f, first);
@@ -179,7 +179,7 @@ static void xdmf_attribute(const struct br_fields *f, size_t variable, size_t fi
     fputs("</DataItem></Attribute>\n", f->xdmf);
 }
 
-static void xdmf_piece(const struct br_fields *f, double time, size_t first)
+static void xdmf_piece(const struct br_fields_file *f, double time, size_t first)
 {
     const double *u = f->values, *w = f->values + 2 * f->nodes;
     const size_t last = last_node(f, first);
@@ -200,7 +200,7 @@ static void xdmf_piece(const struct br_fields *f, double time, size_t first)
     fputs("</Grid>\n", f->xdmf);
 }
 
-static void xdmf_time(const struct br_fields *f, double time)
+static void xdmf_time(const struct br_fields_file *f, double time)
 {
     const bool several = f->nodes - 1 > PIECE;
     if (several)
@@ -215,7 +215,7 @@ static void xdmf_time(const struct br_fields *f, double time)
 
 /* ---- both ---- */
 
-enum br_status br_fields_begin(struct br_fields *f, const struct br_provenance *from,
+enum br_status br_fields_begin(struct br_fields_file *f, const struct br_provenance *from,
                                struct br_error *err)
 {
     f->nodes = f->n + 1;
@@ -229,7 +229,7 @@ enum br_status br_fields_begin(struct br_fields *f, const struct br_provenance *
     return BR_OK;
 }
 
-void br_fields_add(struct br_fields *f, const struct br_march *march,
+void br_fields_add(struct br_fields_file *f, const struct br_march *march,
                    const struct br_history_row *row)
 {
     br_field_values(march, f->values, f->values + BR_FIELD_VARIABLES * f->nodes);
@@ -237,7 +237,7 @@ void br_fields_add(struct br_fields *f, const struct br_march *march,
     xdmf_time(f, row->time);
 }
 
-void br_fields_end(struct br_fields *f, const char *stopped)
+void br_fields_end(struct br_fields_file *f, const char *stopped)
 {
     if (f->values) {
         if (stopped)
@@ -248,5 +248,5 @@ void br_fields_end(struct br_fields *f, const char *stopped)
         fputs("</Domain>\n</Xdmf>\n", f->xdmf);
     }
     free(f->values);
-    *f = (struct br_fields){0};
+    *f = (struct br_fields_file){0};
 }

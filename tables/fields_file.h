@@ -9,7 +9,7 @@
 #include "tables/document.h"
 
 /* What is written, and where. Borrowed. The rest begins as zeros. */
-struct br_fields {
+struct br_fields_file {
     FILE *csv, *xdmf;
     const struct br_scene *scene; /* as it is marched */
     size_t n;                     /* elements */
@@ -21,16 +21,16 @@ struct br_fields {
 };
 
 /* Writes the heads. Fails with BR_NO_MEMORY. */
-enum br_status br_fields_begin(struct br_fields *fields, const struct br_provenance *provenance,
-                               struct br_error *err);
+enum br_status br_fields_begin(struct br_fields_file *fields,
+                               const struct br_provenance *provenance, struct br_error *err);
 
 /* Adds the fields of a march as it is now; write errors stay in the files. */
-void br_fields_add(struct br_fields *fields, const struct br_march *march,
+void br_fields_add(struct br_fields_file *fields, const struct br_march *march,
                    const struct br_history_row *row);
 
 /* Writes the ends, unless nothing was begun. stopped: why the march stopped before all output
  * times; NULL: it did not. Releases what is owned. */
-void br_fields_end(struct br_fields *fields, const char *stopped);
+void br_fields_end(struct br_fields_file *fields, const char *stopped);
 
 /* The variables, in the order of the CSV; without t and x. Only quadratic elements of the rod have
  * the last two. */

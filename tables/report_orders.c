@@ -30,14 +30,19 @@ static const char *separator(bool *first)
 static void say_dimension(struct br_document *d, const struct br_orders *o, double order)
 {
     const int assumed = (int)o->numbers->dimension;
+    const char *name = o->numbers->column[BR_AXIS_SPACE]->name;
+    const bool cells = strcmp(name, "cells") == 0;
+    bool first = true;
+    br_put_more(d, " (%d-D assumed", assumed);
     if (assumed == 1)
-        br_put_more(d,
-                    " (1-D assumed, or %s along one side; --dimension 2 gives %.2f, 3 gives %.2f)",
-                    o->numbers->column[BR_AXIS_SPACE]->name, br_orders_in_dimension(o, order, 2),
-                    br_orders_in_dimension(o, order, 3));
-    else
-        br_put_more(d, " (%d-D assumed; --dimension %d gives %.2f)", assumed, 5 - assumed,
-                    br_orders_in_dimension(o, order, 5 - assumed));
+        br_put_more(d, ", or %s along one side", name);
+    for (int other = cells ? 1 : 2; other <= 3; other++)
+        if (other != assumed) {
+            br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
+                        br_orders_in_dimension(o, order, other));
+            first = false;
+        }
+    br_put_more(d, ")");
 }
 
 /* The last rates between neighbours that count. */
@@ -371,6 +376,17 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
     }
 }
 
+/* What has no part in the numbers. */
+static void put_left_aside(struct br_document *d, const struct br_numbers *numbers)
+{
+    br_put_table(d, "left_aside", "What was left aside", BR_FILES_ONLY);
+    for (size_t i = 0; i < numbers->lefts; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(numbers->left[i].what), .key = "what");
+        BR_PUT(d, br_text(numbers->left[i].why), .key = "why");
+    }
+}
+
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
                       const char *caption, struct br_document *d)
 {
@@ -394,7 +410,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (line)
             say_formal(d, o, of);
     }
-    if (o->numbers->taken[0])
+    if (o->numbers->taken)
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
@@ -515,4 +531,6 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     }
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, &o->of[i]);
+    if (o->numbers->lefts)
+        put_left_aside(d, o->numbers);
 }

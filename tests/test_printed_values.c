@@ -29,7 +29,7 @@ struct watched {
     char folder[32];
     struct br_scene scene;
     struct br_history_record record;
-    struct br_fields fields;
+    struct br_fields_file fields;
     struct br_run_report report;
 };
 
@@ -99,7 +99,7 @@ static void march_and_write(struct watched *w)
     path_of(w, "fields.csv", path);
     FILE *csv = fopen(path, "w"), *xdmf = tmpfile();
     assert_true(csv && xdmf);
-    w->fields = (struct br_fields){csv, xdmf, &w->scene, ELEMENTS, .axial_degree = 1};
+    w->fields = (struct br_fields_file){csv, xdmf, &w->scene, ELEMENTS, .axial_degree = 1};
     MUST(br_fields_begin(&w->fields, &provenance, &err));
     MUST(br_run(&request, &w->report, &err));
     br_fields_end(&w->fields, NULL);

@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fields of tables as programs, spreadsheets and people write them, the lines that are left, and
+ * numbers: each by hand. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/base/words.h"
+#include "study/reading/reading.h"
+#include "support.h"
+
+/* A table and what it must give: the heading and each row in a line, with a bar behind each field;
+ * then the lines that are left, "2 title". Or with a colon first, the refusal. */
+static const struct {
+    const char *text, *fields;
+} tables[] = {
+    /* separators, marks of decimals, quotes */
+    {"h,l2\n1,3\n.5,2", "h|l2|\n1|3|\n.5|2|\n"},
+    {"\ufeffh,l2\r\n1,3\r\n.5,2\r\n", "h|l2|\n1|3|\n.5|2|\n"},
+    {"n\te\trate\n10\t1\t\n20\t.2\t2\n40\t.05\t2\n", "n|e|rate|\n10|1||\n20|.2|2|\n40|.05|2|\n"},
+    {"h;e\n0,5;0,04\n0,25;0,01;\n", "h|e|\n0,5|0,04|\n0,25|0,01|\n"},
+    {"sep=;\nh;e\n0,5;0,04\n0,25;0,01\n", "h|e|\n0,5|0,04|\n0,25|0,01|\n"},
+    {"0,5 2,5\n0,25 1,5\n", "~|~|\n0,5|2,5|\n0,25|1,5|\n"},
+    {"\"n\",\"e\"\n\"8\",\"1,6\"\n\"16\",\"0,4\"\n", "n|e|\n8|1,6|\n16|0,4|\n"},
+    {"h [mm],\"a\n\"\"b\"\", c\"\n1,4\n.5,2\n", "h [mm]|a\n\"b\", c|\n1|4|\n.5|2|\n"},
+    {"N\u00a0 err\n1,000  1.5e-2\n2,000\u2009 3e-3\n", "N|err|\n1,000|1.5e-2|\n2,000|3e-3|\n"},
+    {"N err\n10 1.0 x 10^-2\n20 2.5 x 10^-3\n", "N|err|\n10|1.0 x 10^-2|\n20|2.5 x 10^-3|\n"},
+    {"N err\n10 1e-2 +- 1e-3\n20 2e-3 +- 1e-4\n", "N|err|\n10|1e-2 +- 1e-3|\n20|2e-3 +- 1e-4|\n"},
+    {"mesh err\n8 x 8 0.1\n16 x 16 0.02\n", "mesh|err|\n8 x 8|0.1|\n16 x 16|0.02|\n"},
+    {"h,e\n.1,1 %\n.05,2 %\n", "h|e|\n.1|1 %|\n.05|2 %|\n"},
+    /* bars, boxes, LaTeX */
+    {"| h | L2 e |\n|:--|--:|\n| 1 | 4 |\n| .5 | 1 |\n", "h|L2 e|\n1|4|\n.5|1|\n"},
+    {"N | e | rate\n--|---|---\n8 | 16 | -\n16 | 4 | 2\n", "N|e|rate|\n8|16|-|\n16|4|2|\n"},
+    {"┌───┬────┐\n│ h │ e  │\n├───┼────┤\n│ 1 │ 16 │\n│.5 │ 4  │\n└───┴────┘\n",
+     "h|e|\n1|16|\n.5|4|\n"},
+    {"Row │ N      L2\n    │ Int64  Float64\n────┼──\n  1 │   8  1.6\n  2 │  16  0.4\n",
+     "Row|N|L2|\n1|8|1.6|\n2|16|0.4|\n"},
+    {"\\hline\n$N$ & $e$ \\\\ \\hline\n10 & \\num{1e-2} \\\\ 20 & 2e-3 \\\\[2pt]\n\\end{tabular}\n",
+     "$N$|$e$|\n10|\\num{1e-2}|\n20|2e-3|\n"},
+    {" & \\multicolumn{2}{c}{P1} & \\multicolumn{2}{c}{P2} \\\\\n$N$ & e & EOC & e & EOC \\\\\n"
+     "10 & 1 & -- & 2 & -- \\\\\n20 & .25 & 2 & .5 & 2 \\\\\n",
+     "$N$|P1 e|P1 EOC|P2 e|P2 EOC|\n10|1|--|2|--|\n20|.25|2|.5|2|\n"},
+    {"ref | ||e|| | rate\n0 | 4 | -\n1 | 1 | 2\n", "ref|||e|||rate|\n0|4|-|\n1|1|2|\n"},
+    {"|**N**|`e`|\n|8|**1**|\n|16||\n", "N|e|\n8|**1**|\n16||\n"},
+    {"  n    e rate\n1  8  .1   NA\n2 16 .02  2.3\n", "~|n|e|rate|\n1|8|.1|NA|\n2|16|.02|2.3|\n"},
+    {" Row │ n      e\n     │ Int64  Float64?\n─────┼──\n   1 │ 16  1.6\n   2 │ 32  0.4\n",
+     "Row|n|e|\n1|16|1.6|\n2|32|0.4|\n"},
+    /* names */
+    {"# N L2\n8 .04\n16 .01\n", "N|L2|\n8|.04|\n16|.01|\n"},
+    {"# 1:h  2:e\n1 16\n.5 4\n", "h|e|\n1|16|\n.5|4|\n"},
+    {"h=2.5E-01 E=1.3E-01 r=0.00\nh=1.2E-01 E=3.3E-02 r=1.98\n",
+     "h|E|r|\n2.5E-01|1.3E-01|0.00|\n1.2E-01|3.3E-02|1.98|\n"},
+    {" N=    7 err=  1e-2\n N= 1024 err= 4.7e-7\n", "N|err|\n7|1e-2|\n1024|4.7e-7|\n"},
+    {"n = 10: error = 1e-2, order = -\nn = 20: error = 2e-3, order = 2.0\n",
+     "n|error|order|\n10|1e-2|-|\n20|2e-3|2.0|\n"},
+    {"step 1: n=10 L2 e=0,1\nstep 2: n=20 L2 e=0,02\n", "step|n|L2 e|\n1|10|0,1|\n2|20|0,02|\n"},
+    {"h=0.1 m  e=0.2 m\nh=.05 m  e=.05 m\n", "h|e|\n0.1|0.2|\n.05|.05|\n"},
+    {"step 3 n=10 e=1\nstep 4 n=20 e=.2\n", "step|n|e|\n3|10|1|\n4|20|.2|\n"},
+    {"10: e=0.1 r=2\n20: e=0.02 r=2\n", "|e|r|\n10|0.1|2|\n20|0.02|2|\n"},
+    {"[5 May 10:30] n=10 e=1\n[5 May 10:31] n=20 e=.2\n", "n|e|\n10|1|\n20|.2|\n"},
+    {"N: 8, error: 1e-2\nN: 16, error: 2e-3\n", "N|error|\n8|1e-2|\n16|2e-3|\n"},
+    {"8 1.6\n16 .4\n", "~|~|\n8|1.6|\n16|.4|\n"},
+    {"p,1,2\n8,.1,.01\n16,.05,.0025\n32,.02,6e-4\n",
+     "p|1|2|\n8|.1|.01|\n16|.05|.0025|\n32|.02|6e-4|\n"},
+    {"   N   L2\n0  8  .04\n1  16 .01\n", "~|N|L2|\n0|8|.04|\n1|16|.01|\n"},
+    {"     L2\nN\n8   .04\n16  .01\n", "N|L2|\n8|.04|\n16|.01|\n"},
+    {"\"n\" \"e\"\n\"1\" 10 .1\n\"2\" 20 .02\n", "~|n|e|\n1|10|.1|\n2|20|.02|\n"},
+    {"N L2 H1\n8 4 - 2 -\n16 1 2.0 1 1.0\n", "N|L2|~|H1|~|\n8|4|-|2|-|\n16|1|2.0|1|1.0|\n"},
+    {"h,e\n[m],[-]\n.1,1\n.05,.2\n", "h [m]|e [-]|\n.1|1|\n.05|.2|\n"},
+    {"rho    v\ne  EOC  e  EOC\n4  -  8  -\n1  2.0  2  2.0\n\nmean  2.0  mean  2.0\n",
+     "rho e|rho EOC|v e|v EOC|\n4|-|8|-|\n1|2.0|2|2.0|\n6 summary\n"},
+    {",P1,,P2,\nN,e,rate,e,rate\n8,.1,,.01,\n16,.05,1,.002,2\n",
+     "N|P1 e|P1 rate|P2 e|P2 rate|\n8|.1||.01||\n16|.05|1|.002|2|\n"},
+    /* gaps */
+    {"N error rate\n10 1e-2\n20 2e-3 2.0\n40 6e-4 2.0\n",
+     "N|error|rate|\n10|1e-2||\n20|2e-3|2.0|\n40|6e-4|2.0|\n"},
+    {"N a rate b rate\n10 1 2\n20 .2 2.0 1 1.0\n40 .1 1.0 .5 1.0\n",
+     "N|a|rate|b|rate|\n10|1||2||\n20|.2|2.0|1|1.0|\n40|.1|1.0|.5|1.0|\n"},
+    {"N e\n10 1\n20 .2 2.0\n40 .05 2.0\n", "N|e|~|\n10|1||\n20|.2|2.0|\n40|.05|2.0|\n"},
+    {"N,e,EOC\n8,1\n16,.2,2\n32,.05,2\n", "N|e|EOC|\n8|1||\n16|.2|2|\n32|.05|2|\n"},
+    {"p,n,e\nP1,8,1\nP1,16,.2\n\nP2,8,2\n", "p|n|e|\nP1|8|1|\nP1|16|.2|\nP2|8|2|\n"},
+    {"2 8 1\n2 16 .2\n\n2 32 .05\n", "~|~|~|\n2|8|1|\n2|16|.2|\n2|32|.05|\n"},
+    {"n,e\nnan,nan\n10,1\n,\n20,.2\n,,\n", "n|e|\nnan|nan|\n10|1|\n20|.2|\n"},
+    /* lines that are left */
+    {"Results, run of today\nN error\n10 1e-2\n20 2e-3\n",
+     "N|error|\n10|1e-2|\n20|2e-3|\n1 title\n"},
+    {"Convergence study, 2026\nh,e\n1,16\n.5,4\n", "h|e|\n1|16|\n.5|4|\n1 title\n"},
+    {"l2\nscalar\nN e EOC\n8 1 -\n16 .2 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n1 title\n2 title\n"},
+    {"# run 7\nh,e\n# fine\n1,16\n.5,4\n#\n", "h|e|\n1|16|\n.5|4|\n1 comment\n3 comment\n"},
+    {"# name: A\n# columns: 2\n1 16\n.5 4\n", "~|~|\n1|16|\n.5|4|\n1 comment\n2 comment\n"},
+    {"|N|e|EOC|\n|8|1|-|\n|16|.2|2.0|\n|Overall|---|2.0|\n",
+     "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 summary\n"},
+    {"N e EOC\n8 1 -\n16 .2 2.0\nOverall EOC is 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 footer\n"},
+    {"n,e\n10,1\n20,.2\nmean,3e-3\nstd,1\n", "n|e|\n10|1|\n20|.2|\n4 summary\n5 summary\n"},
+    {"n,e\n10,1\nmean,.2\n20,3e-3\n", "n|e|\n10|1|\nmean|.2|\n20|3e-3|\n"}, /* not the last */
+    {"A = [\n8 1.6\n16 .4\n];\n", "~|~|\n8|1.6|\n16|.4|\n1 title\n4 footer\n"},
+    /* JSON */
+    {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|0.01|\n0.05||\n"},
+    {"{\"h\":0.1,\"e\":{\"l2\":1}}\n{\"h\":0.05,\"e\":{\"l2\":\"x\"}}\n",
+     "h|e l2|\n0.1|1|\n0.05|x|\n"},
+    {"{\"h\":[0.1,0.05],\"e\":[1,2],\"p\":3}", "h|e|\n0.1|1|\n0.05|2|\n0 beside the table\n"},
+    {"{\"h\":{\"0\":0.1,\"1\":0.05},\"e\":{\"0\":1,\"1\":2}}", "h|e|\n0.1|1|\n0.05|2|\n"},
+    {"{\"l2\":{\"8\":0.1,\"16\":0.05},\"h1\":{\"8\":1,\"16\":2}}",
+     "~|l2|h1|\n8|0.1|1|\n16|0.05|2|\n"},
+    {"{\"8\":{\"l2\":0.1},\"16\":{\"l2\":0.05}}", "~|l2|\n8|0.1|\n16|0.05|\n"},
+    {"{\"columns\":[\"h\",\"e\"],\"index\":[0,1],\"data\":[[0.1,1],[0.05,null]]}",
+     "h|e|\n0.1|1|\n0.05||\n"},
+    {"{\"schema\":{\"fields\":[{\"name\":\"h\",\"type\":\"number\"},"
+     "{\"name\":\"t\",\"type\":\"datetime\"}]},\"data\":[{\"h\":0.1,\"t\":\"2026\"}]}",
+     "h|t: words|\n0.1|2026|\n"},
+    {"{\"runs\":[{\"n\":10,\"e\":1,\"ok\":true}],\"title\":\"a\"}",
+     "n|e|ok|\n10|1|true|\n0 beside the table\n"},
+    {"{\"set\":{\"a\":1},\"runs\":{\"h\":[0.1,0.05],\"e\":[1,2]}}",
+     "h|e|\n0.1|1|\n0.05|2|\n0 beside the table\n"},
+    {"[[\"h\",\"e\"],[0.1,1],[0.05,2]]", "h|e|\n0.1|1|\n0.05|2|\n"},
+    /* refusals */
+    {"", ":t:1: the table is empty"},
+    {"# nothing\n\n", ":t:1: the table is empty"},
+    {"n,e\n10,1\n20,0.25\n40,0.0625\n80,\"", ":t:5: a quote is open to the end"},
+    {"h,l2\n1,\"3\"1\n.5,2\n", ":t:2: found text behind a quote in its field"},
+    {"h l2\n1 3\n.5 2 7\n", ":t:3: found more than 2 fields, as the heading has"},
+    {"h l2\n1 3\n.5 2 7\n.2 1\n", ":t:3: found more than 2 fields, as the heading has"},
+    {"h,l2\n1,3,4\n", ":t:2: found more than 2 fields, as the heading has"},
+    {"h,l2\n1,3\n\n2\n", ":t:4: found fewer than 2 fields, as the heading has"},
+    {"h,a,b\n1,3,4\n.5,2\n.2,1,1\n", ":t:3: found fewer than 3 fields, as the heading has"},
+    {"n e\n10 1 # a\n20 .2\n40 .1\n", ":t:2: found more than 2 fields, as the first row has"},
+    {"h=1 l2=3\nh=.5 l1=2\n", ":t:2: found 'l1=2', expected 'l2 = ...'"},
+    {"h;l2\n0,5;1.000,5\n0,25;2\n", ":t:2: found '1.000,5' beside numbers with ','"},
+    {"h;l2\n1.000;0,4\n2.000;0,1\n", ":t:2: found '0,4' beside numbers with '.'"},
+    {"h;l2\n1,024;1\n2,048;2\n", ":t:2: found a comma before three digits only"},
+    {"n e\n8 1\n16 .2\n\nn e\n8 2\n16 1\n",
+     ":t:5: found 'n e' between or beside the rows of lines 2 to 3"},
+    {"n e\n8 1\nfailed\n16 .2\n",
+     ":t:3: found 'failed' between or beside the rows of lines 2 to 2"},
+    {"8 1\n16 .2\n\n\n8 2\n16 1\n", ":t:5: found rows that begin again as on line 1"},
+    {"n,e\n8,1\n16,.2\n# P2\n8,2\n", ":t:5: found rows that begin again as on line 2"},
+    {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", ":t:1: found no row of numbers"},
+    {"n,e,,n,e\n8,1,,8,2\n16,.2,,16,1\n", ":t:1: found an empty column 3 between others"},
+    {"{\"a\":[{\"h\":1}],\"b\":[{\"h\":2}]}", ":t: found several tables"},
+    {"{\"a\":{\"0\":1,\"1\":2},\"b\":{\"1\":1,\"0\":2}}", ":t: found columns with other rows"},
+    {"{\"a\":[1,2],\"b\":[1]}", ":t: found columns of several lengths"},
+    {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
+};
+
+static void add_rows(char *text, size_t size, const struct br_fields *f)
+{
+    for (size_t i = 0; i < f->columns; i++)
+        br_append(text, size, "%s%s|", f->heading[i] ? f->heading[i] : "~",
+                  f->is_words[i] ? ": words" : "");
+    br_append(text, size, "\n");
+    for (size_t i = 0; i < f->rows * f->columns; i++)
+        br_append(text, size, "%s|%s", f->field[i] ? f->field[i] : "",
+                  (i + 1) % f->columns ? "" : "\n");
+    for (size_t i = 0; i < f->lefts; i++)
+        br_append(text, size, "%zu %s\n", f->left[i].line, f->left[i].why);
+}
+
+TEST(test_tables)
+{
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        const char *wanted = tables[i].fields;
+        char found[1100] = "";
+        struct br_fields fields;
+        struct br_error why = {0};
+        char *text = strdup(tables[i].text); /* its end is the end of the memory */
+        assert_non_null(text);
+        if (br_fields_read(text, "t", NULL, &fields, &why))
+            snprintf(found, sizeof found, ":%s", why.message);
+        else
+            add_rows(found, sizeof found, &fields);
+        if (*wanted == ':' ? strncmp(found, wanted, strlen(wanted)) : strcmp(found, wanted))
+            fail_msg("of:\n%s\nfound:\n%s\nexpected:\n%s", tables[i].text, found, wanted);
+        br_fields_clear(&fields);
+        free(text);
+    }
+}
+
+/* NaN: it is no number. */
+static const struct {
+    const char *text;
+    char mark;
+    double value, deviation;
+} numbers[] = {
+    {"-1.5D-3", '.', -1.5e-3, NAN},
+    {"0.25-103", '.', 0.25e-103, NAN},
+    {"1.5-003", '.', 1.5e-3, NAN},
+    {"2.q+2", '.', 200, NAN},
+    {"1,5e-3", ',', 1.5e-3, NAN},
+    {"\u22121.5", '.', -1.5, NAN},
+    {"1.0\u00b710\u207b\u00b3", '.', 1e-3, NAN},
+    {"1.0 x 10^-2", '.', 1e-2, NAN},
+    {"$-1.5 \\times 10^{-3}$", '.', -1.5e-3, NAN},
+    {"\\num{1.2e-2}", '.', 1.2e-2, NAN},
+    {"\\textbf{7}", '.', 7, NAN},
+    {"**7**", '.', 7, NAN},
+    {"`7`", '.', 7, NAN},
+    {"1,000", '.', 1000, NAN},
+    {"12,345,678", '.', 12345678, NAN},
+    {"3/8", '.', 0.375, NAN},
+    {"2^-4", '.', 0.0625, NAN},
+    {"10^-3", '.', 1e-3, NAN},
+    {"8x8x8", '.', 8, NAN},
+    {"32\u00d732", '.', 32, NAN},
+    {"5 %", '.', 0.05, NAN},
+    {"5\\%", '.', 0.05, NAN},
+    {"1.2e-2 +- 1e-3", '.', 1.2e-2, 1e-3},
+    {"1.5 \u00b1 0.25", '.', 1.5, 0.25},
+    {"1.5(2)", '.', 1.5, 0.2},
+    {"1.5(0.25)", '.', 1.5, 0.25},
+    {"6.25(12)e-4", '.', 6.25e-4, 12e-6},
+    {"$6.25(12)\\times 10^{-4}$", '.', 6.25e-4, 12e-6},
+    {"1,00", '.', NAN, NAN},
+    {"1.0000000000000000000000000000000000000000000000000000000000000000000000000005e-3", '.', 1e-3,
+     NAN},
+    {"8x16", '.', NAN, NAN},
+    {"8x8x", '.', NAN, NAN},
+    {"8x8x9", '.', NAN, NAN},
+    {"48x8", '.', NAN, NAN},
+    {"1/0", '.', NAN, NAN},
+    {"1/2/3", '.', NAN, NAN},
+    {"5 % x", '.', NAN, NAN},
+    {"1-2-3", '.', NAN, NAN},
+    {"2026-05", '.', NAN, NAN},
+    {"2026-05-01", '.', NAN, NAN},
+    {"12:30", '.', NAN, NAN},
+    {"1.2.3", '.', NAN, NAN},
+    {"1.5-03", '.', NAN, NAN},
+    {"15-003", '.', NAN, NAN},
+    {"2^-3000", '.', NAN, NAN},
+    {"1e999", '.', NAN, NAN},
+    {"1e-400", '.', NAN, NAN},
+    {"1 2", '.', NAN, NAN},
+    {"0,125", '.', NAN, NAN},
+    {"1,0000", '.', NAN, NAN},
+    {"1.000", ',', NAN, NAN},
+    {"d5", '.', NAN, NAN},
+    {"0x10", '.', NAN, NAN},
+    {".", '.', NAN, NAN},
+    {"e5", '.', NAN, NAN},
+    {"+-1", '.', NAN, NAN},
+    {"1.5D", '.', NAN, NAN},
+    {"", '.', NAN, NAN},
+};
+
+static bool same(double found, double wanted)
+{
+    return isnan(wanted) ? isnan(found) : fabs(found - wanted) <= 4e-16 * fabs(wanted);
+}
+
+TEST(test_numbers)
+{
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        struct br_field_number found;
+        const bool is_number = br_field_read(numbers[i].text, numbers[i].mark, &found);
+        if (is_number == isnan(numbers[i].value) ||
+            (is_number &&
+             !(same(found.value, numbers[i].value) && same(found.deviation, numbers[i].deviation))))
+            fail_msg("'%s': found %d: %.17g +- %g, expected %.17g +- %g", numbers[i].text,
+                     is_number, found.value, found.deviation, numbers[i].value,
+                     numbers[i].deviation);
+    }
+}
+
+TEST(test_missing)
+{
+    static const char *const missing[] = {NULL,   "",    "-",   "--",   "---", "\u2013", "NaN",
+                                          "-nan", "N/A", "inf", "-Inf", "***", "null",   "$-$"};
+    static const char *const present[] = {"0", "x", "-1", "nano", "* 1", "na na"};
+    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
+        assert_true(br_field_is_missing(missing[i]));
+    for (size_t i = 0; i < sizeof present / sizeof *present; i++)
+        assert_false(br_field_is_missing(present[i]));
+}
+
+/* Too large a table is refused, and 10,000 rows are read. */
+static const char *table_of(int rows, int columns)
+{
+    static char text[1 << 20];
+    size_t used = 0;
+    for (int i = 0; i <= rows; i++)
+        for (int j = 0; j < columns; j++)
+            used += (size_t)snprintf(text + used, sizeof text - used, i ? "%d%s" : "a%d%s", i + j,
+                                     j + 1 < columns ? "," : "\n");
+    return text;
+}
+
+static void refuse(const char *text, const char *why)
+{
+    struct br_fields fields;
+    struct br_error err = {0};
+    REFUSED(br_fields_read(text, "t", NULL, &fields, &err), BR_BAD_INPUT, why);
+    br_fields_clear(&fields);
+}
+
+TEST(test_large_tables)
+{
+    struct br_fields fields;
+    struct br_error err = {0};
+    MUST(br_fields_read(table_of(10000, 4), "t", NULL, &fields, &err));
+    assert_int_equal(fields.rows, 10000);
+    assert_string_equal(fields.field[39999], "10003");
+    br_fields_clear(&fields);
+    refuse(table_of(10001, 2), "t:10002: found row 10001, expected at most 10000");
+    refuse(table_of(41, 1000), "t:42: found row 41 of 1000 fields, expected at most 40000 fields");
+    refuse(table_of(0, 1001), "t:1: found more than 1000 columns");
+    refuse(table_of(2, 40000), "t:1: found more than 1000 columns");
+}
+
+static bool stop(__attribute__((unused)) void *self)
+{
+    return true;
+}
+
+TEST(test_interrupted)
+{
+    struct br_fields fields;
+    struct br_error err = {0};
+    const struct br_observer observer = {.stop = stop};
+    assert_int_equal(br_fields_read("h,e\n1,2\n", "t", &observer, &fields, &err), BR_INTERRUPTED);
+    br_fields_clear(&fields);
+}
+
+static enum br_status whole(const void *text, struct br_error *why)
+{
+    struct br_fields fields;
+    const enum br_status status = br_fields_read(text, "t", NULL, &fields, why);
+    br_fields_clear(&fields);
+    return status;
+}
+
+TEST(test_without_memory)
+{
+    br_test_without_memory(whole, "a b\nn e rate e rate\n8 1 - 1 -\n16 .2 2.0 .2 2.0\n", 8);
+    br_test_without_memory(whole, "[{\"h\":0.1,\"e\":1},{\"h\":0.05,\"e\":2}]", 8);
+}
