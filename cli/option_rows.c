@@ -61,9 +61,10 @@ static const struct br_option rows[] = {
     {BR_OPT_READ, "read", 0, "NAME=WHAT",
      "a number of its output: a regular expression with one group, json:POINTER or csv:COLUMN",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
-     .more = "May be given several times. last:REGEX takes the last match of many. stderr: before "
-             "it reads standard error, file:PATH: a file that the run writes, as out_{n}.txt. The "
-             "NAME h, n, dofs, cells, level, k, dt or steps is that of a resolution, which the run itself states.",
+     .more =
+         "May be given several times. last:REGEX takes the last match of many. stderr: before "
+         "it reads standard error, file:PATH: a file that the run writes, as out_{n}.txt. The "
+         "NAME h, n, dofs, cells, level, k, dt or steps is that of a resolution, which the run itself states.",
      .repeats = true},
     {BR_OPT_REPEAT, "repeat", 0, "COUNT", "number of runs of each resolution; their mean is used",
      "1", BR_TAKES_NUMBER, WHOLE(1, 1000), .commands = BR_FOR_ORDERS,
@@ -134,8 +135,9 @@ static const struct br_option rows[] = {
          "parts over them."},
 
     /* what is wanted of numbers, what a march may take */
-    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all that fall as errors do)",
-     NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
+    {BR_OPT_ERROR, "error", 0, "LIST",
+     "columns that are errors (default: all that fall as errors do)", NULL, BR_TAKES_TEXT,
+     .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
      OWN({BR_FOR_PLAN, .argument = "E", .help = "largest relative error that is wanted",
           .more = "The norm of the error, divided by the norm of the solution.",
           .kind = BR_TAKES_NUMBER, .range = BETWEEN(0, 1)})},
@@ -154,9 +156,10 @@ static const struct br_option rows[] = {
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,
-     .more = "If it is not given, the growth of the numbers and the rates of a table tell it, or 2 "
-             "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
-             "option."},
+     .more =
+         "If it is not given, the growth of the numbers and the rates of a table tell it, or 2 "
+         "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
+         "option."},
     {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
      .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "

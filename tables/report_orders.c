@@ -30,14 +30,19 @@ static const char *separator(bool *first)
 static void say_dimension(struct br_document *d, const struct br_orders *o, double order)
 {
     const int assumed = (int)o->numbers->dimension;
+    const char *name = o->numbers->column[BR_AXIS_SPACE]->name;
+    const bool cells = strcmp(name, "cells") == 0;
+    bool first = true;
+    br_put_more(d, " (%d-D assumed", assumed);
     if (assumed == 1)
-        br_put_more(d,
-                    " (1-D assumed, or %s along one side; --dimension 2 gives %.2f, 3 gives %.2f)",
-                    o->numbers->column[BR_AXIS_SPACE]->name, br_orders_in_dimension(o, order, 2),
-                    br_orders_in_dimension(o, order, 3));
-    else
-        br_put_more(d, " (%d-D assumed; --dimension %d gives %.2f)", assumed, 5 - assumed,
-                    br_orders_in_dimension(o, order, 5 - assumed));
+        br_put_more(d, ", or %s along one side", name);
+    for (int other = cells ? 1 : 2; other <= 3; other++)
+        if (other != assumed) {
+            br_put_more(d, first ? "; --dimension %d gives %.2f" : ", %d gives %.2f", other,
+                        br_orders_in_dimension(o, order, other));
+            first = false;
+        }
+    br_put_more(d, ")");
 }
 
 /* The last rates between neighbours that count. */

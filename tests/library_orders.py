@@ -109,7 +109,31 @@ def check_arrays():
         file.flush()
         close(br.orders(file.name)["e"].order.value, 1.5)
         refused(f"{file.name}: --error: there is no column 'q'", lambda: br.orders(file.name, errors="q"))
-        refused("none beside a file", lambda: br.orders(file.name, n=N))
+        refused("names of columns beside a file", lambda: br.orders(file.name, n=N))
+        close(br.orders(file.name, h="n")["e"].order.value, -1.5)
+        refused("no column 'dx'", lambda: br.orders(file.name, h="dx"))
+
+
+def check_meaning():
+    """Two sizes, cases, and types of columns: what a frame knows and a text does not."""
+    both = {"h": 1 / N, "edge": 1 / N ** 1.5, "e": 1 / N}
+    close(br.orders(both, h="h")["e"].order.value, 1, 1e-4)
+    found = br.orders(both, h="edge")
+    close(found["e"].order.value, 2 / 3, 1e-4)
+    assert "left aside: h (another size)" in repr(found), found
+    tidy = {"method": ["P1"] * 5 + ["P2"] * 5, "n": [*N, *N], "e": [*(1 / N ** 2), *(1 / N ** 3)]}
+    found = br.orders(tidy)
+    assert [q.name for q in found.quantities] == ["e [method = P1]", "e [method = P2]"], found
+    close(found["e [method = P2]"].order.value, 3)
+    close(br.orders(tidy, where={"method": "P1"})["e"].order.value, 2)
+    refused("no row has method = 'P3'", lambda: br.orders(tidy, where={"method": "P3"}))
+    refused("names without a comma", lambda: br.orders(tidy, where={"method": "P1,P2"}))
+    days = np.datetime64("2026-05") + np.arange(5)
+    found = br.orders({"n": N, "e": 1 / N ** 2, "day": days, "t": days - days[0], "ok": N > 0, "seed": N % 3})
+    assert [q.name for q in found.quantities] == ["e"], found
+    assert "day, t, ok (words)" in repr(found), found
+    close(br.orders({"n": N, "e": 1 / N ** 2, "x": 1 / N}, columns={"x": "aside"})["e"].order.value, 2)
+    refused("columns of", lambda: br.orders(both, columns={"x": "aside"}))
 
 
 def check_grid():
@@ -177,7 +201,7 @@ def check_plot(make):
 
 def check_refusals():
     refused("found no column of a resolution among", lambda: br.orders([3, 2, 1]))
-    refused("table:3: e: found -2", lambda: br.orders({"n": [1, 2, 3], "e": [1, -2, 3]}))
+    refused("--value", lambda: br.orders({"n": [1, 2, 3], "e": [1, -2, 3]}))
     refused("found columns of [2, 3]", lambda: br.orders([1, 2, 3], n=[1, 2]))
     refused("sizes: found ['m']", lambda: br.orders([1, 2, 3], m=[1, 2, 3]))
     refused("n: found 'it twice'", lambda: br.orders({"n": N, "e": N}, n=N))
@@ -190,7 +214,7 @@ def check_refusals():
     if small[0] != 0:  # where it has more exponents than a double
         refused("number: found array", lambda: br.Orders(small, h=[4, 2, 1]))
         refused("number: found array", lambda: br.Orders(1 / small, h=[4, 2, 1]))
-        refused("found no column of numbers", lambda: br.orders({"h": [4, 2, 1], "e": small}))
+        refused("found no column of errors", lambda: br.orders({"h": [4, 2, 1], "e": small}))
     refused("values: found True", lambda: br.orders({"n": N, "e": N}, values=True))
     for wrong in (-1, math.nan, math.inf, "2"):
         refused("dimension, formal: found", lambda: br.orders({"n": N, "e": N}, dimension=wrong))
@@ -210,6 +234,7 @@ elif "matplotlib" in sys.argv:
 else:
     check_frame(Frame(COLUMNS))
     check_arrays()
+    check_meaning()
     check_grid()
     check_values()
     check_left_out()

@@ -381,17 +381,17 @@ struct beamrate_expectation {
     double down_to;          /* the errors are expected to stop falling there; 0: nowhere */
 };
 
-/* A table, as `beamrate orders FILE` reads it: it finds out the separator, knows the usual
- * headings, and takes each column of numbers for errors, but columns like rate or time. */
+/* A table, as `beamrate orders FILE` reads it: text or JSON, with any separator. Evidence says which
+ * column is what; where it is not enough, the call fails and names the member that decides. */
 struct beamrate_table {
-    const char *name;   /* of the file, for messages; NULL: "table" */
-    const char *text;   /* UTF-8 */
-    const char *errors; /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
-    const char *values; /* columns of values whose limit is not known; NULL: none */
-    double dimension; /* of the mesh whose unknowns a column counts; 0: 2, and the report says so */
-    double formal;    /* theoretical order of values; 0: 2 */
-    const char *columns; /* what columns are, as --column has it: "dx=h,3=l2"; NULL: none */
-    const char *where;   /* the rows of one study: "method=P1"; NULL: all */
+    const char *name;    /* of the file, for messages; NULL: "table" */
+    const char *text;    /* UTF-8 */
+    const char *errors;  /* columns of errors, "l2,h1"; NULL: all where values is NULL, too */
+    const char *values;  /* columns of values whose limit is not known; NULL: none */
+    double dimension;    /* of the mesh whose unknowns or cells a column counts; 0: not stated */
+    double formal;       /* theoretical order of values; 0: 2 */
+    const char *columns; /* what columns are, as of --column: "dx=h, 3=l2"; NULL: not stated */
+    const char *where;   /* the rows of one case, as of --where: "method=P1"; NULL: each case */
 };
 
 /* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by

@@ -12,9 +12,7 @@ scheme="bdf2", axial_degree=2. An error raises Error, or BadInput, with the libr
 
 $BEAMRATE_LIBRARY names the shared library where it is not installed with this file.
 """
-import csv
 import ctypes
-import io
 import json
 import math
 import operator
@@ -497,16 +495,23 @@ class Orders(_Handle):
 # ---- orders of a table ----
 
 def _column(name, values):
-    """The fields of a column, as texts; a number keeps all its digits."""
+    """The type of a column in a Table Schema (specs.frictionlessdata.io), and its fields: a number keeps
+    all its digits, a missing one is None. Dates, times and categories are words."""
     if isinstance(values, np.ma.MaskedArray):
         _refuse(TypeError, name, values, "an array without a mask; NaN is a missing number")
+    words = getattr(getattr(values, "dtype", None), "name", "") == "category"
     values = np.asarray(values)
     if values.ndim != 1 or values.dtype.kind == "c":
         _refuse(TypeError, name, values, "a list of real numbers")
-    if values.dtype.kind in "mM":  # dates and times are words
-        return [str(v) for v in values]
-    return [repr(float(v)) if isinstance(v, float) else " ".join(str(v).split())
-            for v in values.tolist()]
+    words = words or values.dtype.kind in "mMb"
+    fields = values.astype(str) if values.dtype.kind in "mM" else values
+    return "any" if words else "number", [_field(v, words) for v in fields.tolist()]
+
+
+def _field(value, is_word):
+    if isinstance(value, float) and not is_word:
+        return None if math.isnan(value) else repr(value)
+    return " ".join(str(value).split())
 
 
 def _names(name, value):
@@ -514,39 +519,51 @@ def _names(name, value):
     return None if value is None else _text(name, ",".join(map(str, value)))
 
 
-def orders(data, *, values=None, errors=None, dimension=0, formal=0, where=None, **sizes):
+_SIZES = ("h", "n", "level", "dofs", "cells", "points", "interior", "degree", "k", "dt", "steps")
+
+
+def orders(data, *, values=None, errors=None, dimension=0, formal=0, columns=None, where=None, **sizes):
     """The orders of convergence of a table: Orders, whose repr is the answer.
 
     data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
-    of numbers. The headings tell the mesh and the time step, as those of a file do; else name them:
-    h=, n=, points=, interior=, level=, dofs= or cells= with dimension=, k=, dt=, steps=: a list of numbers, or the
-    name of a column, which then wins over all others. where: the rows of one study, "method=P1".
+    of numbers. The headings and the numbers tell the mesh and the time step, as those of a file do;
+    else name them: h=, n=, level=, points=, interior=, dofs= or cells= with dimension=, k=, dt=, steps=:
+    a list of numbers, or the name of a column, which then counts: h="h" decides between two sizes.
     values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
     numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
-    values (2). NaN is a missing number. A report says what was taken for what.
+    values (2). columns={"time": "aside"}: what other columns are, as --column has it.
+    where={"method": "P1"}: one case of several; else each is answered. NaN is a missing number. The
+    answer says what was taken for what, and what was left aside.
     """
+    if wrong := sorted(set(sizes) - set(_SIZES)):
+        _refuse(TypeError, "sizes", wrong, f"some of {', '.join(_SIZES)}")
+    roles = dict(columns or {}) | {size: key for key, size in sizes.items() if isinstance(size, str)}
     if isinstance(data, (str, os.PathLike)):
         name, text = _text("data", data), Path(data).read_bytes()
-        if sizes:
-            _refuse(TypeError, "sizes", sorted(sizes), "none beside a file, whose headings tell them")
+        if lists := sorted(key for key in sizes if sizes[key] is not None and key not in roles.values()):
+            _refuse(TypeError, "sizes", lists, "names of columns beside a file")
         if b"\0" in text:
             raise BadInput(f"{data}: found a zero byte, expected text")
     else:
-        name, text, values = b"table", *_as_text(data, values, sizes)
-    columns = ",".join(f"{key}={key}" for key, size in sizes.items() if size is not None)
+        name, text, values = b"table", *_as_json(data, values, sizes, roles)
     watch = (dimension, formal)
     if not all(isinstance(v, (int, float, np.number)) and math.isfinite(v) and v >= 0 for v in watch):
         _refuse(BadInput, "dimension, formal", watch, "numbers above 0")
     return Orders(None, _table=_Table(name, text, _names("errors", errors), _names("values", values),
-                                      dimension, formal, _text("columns", columns) if columns else None,
-                                      _names("where", where)))
+                                      dimension, formal, _pairs("columns", roles),
+                                      _pairs("where", dict(where or {}))))
 
 
-def _as_text(data, values, sizes):
-    """The table of what Python has, as CSV; and `values`."""
-    known = ("h", "n", "points", "interior", "level", "dofs", "cells", "k", "dt", "steps")
-    if wrong := sorted(set(sizes) - set(known)):
-        _refuse(TypeError, "sizes", wrong, f"some of {', '.join(known)}")
+def _pairs(name, pairs):
+    """Options' "a=b, c=d"."""
+    for pair in pairs.items():
+        if any("," in str(word) for word in pair):
+            _refuse(BadInput, name, pair, "names without a comma")
+    return _text(name, ", ".join(f"{key}={value}" for key, value in pairs.items())) if pairs else None
+
+
+def _as_json(data, values, sizes, roles):
+    """The table of what Python has, as pandas' to_json(orient="table") writes it; and `values`."""
     if hasattr(data, "to_frame") and not hasattr(data, "columns"):  # a Series of pandas
         data = data.to_frame()
     if any(name is not None for name in getattr(getattr(data, "index", None), "names", [])):
@@ -556,23 +573,20 @@ def _as_text(data, values, sizes):
         values = "value" if values else None
     elif isinstance(values, bool):
         _refuse(TypeError, "values", values, "names of columns")
-    named = {size for size in sizes.values() if isinstance(size, str)}
-    if missing := sorted(named - set(data.keys())):
-        _refuse(BadInput, "sizes", missing, f"columns of {[str(key) for key in data.keys()]}")
-    columns = {key: _column(key, data[size] if isinstance(size, str) else size)
-               for key, size in sizes.items() if size is not None}
-    for key in data.keys():
-        if key in named:
-            continue
-        if str(key) in columns:
-            _refuse(BadInput, str(key), "it twice", "a column or an argument of that name")
-        columns[str(key)] = _column(str(key), data[key])
-    if len(lengths := {len(column) for column in columns.values()}) != 1:
+    names = [str(key) for key in data.keys()]
+    if missing := sorted(set(map(str, roles)) - set(names)):
+        _refuse(BadInput, "sizes, columns", missing, f"columns of {names}")
+    made = {key: _column(key, size) for key, size in sizes.items()
+            if size is not None and not isinstance(size, str)}
+    if twice := sorted({name for name in [*made, *names] if [*made, *names].count(name) > 1}):
+        _refuse(BadInput, twice[0], "it twice", "a column or an argument of that name")
+    roles |= {key: key for key in made}
+    made |= {str(key): _column(str(key), data[key]) for key in data.keys()}
+    if len(lengths := {len(fields) for _, fields in made.values()}) != 1:
         raise BadInput(f"found columns of {sorted(lengths)} numbers, expected as many in each")
-    for key in columns:
-        _text("column", key)
-    out = io.StringIO()
-    table = csv.writer(out, quoting=csv.QUOTE_ALL)
-    table.writerow(columns)
-    table.writerows(zip(*columns.values()))
-    return _text("table", out.getvalue()), values
+    for name in made:
+        _text("column", name)
+    rows = zip(*(fields for _, fields in made.values()))
+    table = {"schema": {"fields": [{"name": name, "type": kind} for name, (kind, _) in made.items()]},
+             "data": [dict(zip(made, row)) for row in rows]}
+    return _text("table", json.dumps(table)), values

@@ -28,7 +28,7 @@ enum {
 struct job {
     const struct br_orders_request *program;
     struct br_numbers *numbers; /* a row for each run; those of one cell are neighbours */
-    char **environment; /* owned; its texts are not */
+    char **environment;         /* owned; its texts are not */
     struct br_kept *kept;
 };
 
@@ -409,12 +409,12 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
         numbers->dimension = br_orders_dimension(p, mesh);
         numbers->assumed = mesh->is_volume && p->assumed_dimension;
         if (numbers->assumed)
-            numbers->unsettled = "h follows from numbers of unknowns or cells: state the dimension of "
-                                 "the mesh (--dimension, or 'dimension:')";
+            numbers->unsettled =
+                "h follows from numbers of unknowns or cells: state the dimension of "
+                "the mesh (--dimension, or 'dimension:')";
     }
     if (!status && !numbers->quantities)
-        status =
-            br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
+        status = br_fail(err, BR_BAD_INPUT, "all readings are resolutions, expected a number, too");
     if (!status)
         status = br_orders_check_lists(p, numbers, name, numbers->quantities, err);
     free(name);

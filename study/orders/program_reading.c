@@ -230,11 +230,12 @@ static enum br_status search_regex(struct search *s)
     if (status || m.count == 1 || (m.count && s->reading->last))
         return status;
     if (m.count == 0)
-        return refuse(
-            s, "'%s' matches nothing in %s%s%s", shown(buffer, s->reading->what),
-            place_of(s->reading),
-            s->reading->file || s->reading->complaints ? "" : " (stderr:REGEX reads standard error)",
-            prefix(s->reading, suggestion));
+        return refuse(s, "'%s' matches nothing in %s%s%s", shown(buffer, s->reading->what),
+                      place_of(s->reading),
+                      s->reading->file || s->reading->complaints
+                          ? ""
+                          : " (stderr:REGEX reads standard error)",
+                      prefix(s->reading, suggestion));
     return refuse(s, "'%s' matches %zu times, expected once; lines %s (last:REGEX takes the last)",
                   shown(buffer, s->reading->what), m.count, m.lines);
 }
@@ -377,8 +378,7 @@ static enum br_status search_csv(struct search *s)
     size_t columns = 0;
     const char *field = NULL;
     shorten(s->output);
-    enum br_status status =
-        br_fields_read(s->output, "the output", s->request->observer, &f, &why);
+    enum br_status status = br_fields_read(s->output, "the output", s->request->observer, &f, &why);
     for (size_t i = 0; i < f.columns && f.heading && !status; i++)
         if (f.heading[i] && strcmp(f.heading[i], s->reading->what) == 0) {
             columns++;
@@ -394,7 +394,7 @@ static enum br_status search_csv(struct search *s)
         status = refuse(s, "the table has no row below its heading");
     else {
         const bool reads = field && br_field_read(field, f.mark, &found);
-        const char *text = reads ? br_shortest(found.value, number, sizeof number)
+        const char *text = reads   ? br_shortest(found.value, number, sizeof number)
                            : field ? field
                                    : "";
         status = take_text(s, text, strlen(text));

@@ -147,7 +147,8 @@ static char *plain_list(const char *list)
         struct br_field_number found;
         rest = br_list_next(rest, &item, &length);
         snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), item);
-        const bool reads = length < 63 && br_field_read(word, '.', &found) && isnan(found.deviation);
+        const bool reads =
+            length < 63 && br_field_read(word, '.', &found) && isnan(found.deviation);
         const char *shown = reads ? br_shortest(found.value, number, sizeof number) : item;
         const size_t size = reads ? strlen(shown) : length;
         memcpy(to, shown, size);

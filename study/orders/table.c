@@ -18,7 +18,7 @@ struct source {
     struct br_roles roles;
     size_t *cell; /* rows of the table: the row of the numbers; owned */
     struct br_numbers *numbers;
-    char *text;   /* what is said; owned */
+    char *text; /* what is said; owned */
     bool no_memory;
 };
 
@@ -65,8 +65,8 @@ static size_t find_cells(struct source *s)
     if (key && shared)
         qsort(key, count, sizeof *key, by_z);
     for (size_t i = 0; i < count; i++) {
-        const bool same = shared && i > 0 && key[i].z[0] == key[i - 1].z[0] &&
-                          key[i].z[1] == key[i - 1].z[1];
+        const bool same =
+            shared && i > 0 && key[i].z[0] == key[i - 1].z[0] && key[i].z[1] == key[i - 1].z[1];
         cells += !same;
         s->cell[key[i].row] = cells - 1;
     }
@@ -75,24 +75,6 @@ static size_t find_cells(struct source *s)
 }
 
 /* ---- numbers ---- */
-
-/* Refuses a field of words in a column that counts. */
-static enum br_status check_words(const struct source *s, size_t column, struct br_error *err)
-{
-    const struct br_fields *f = &s->fields;
-    const struct br_role_column *c = &s->roles.column[column];
-    struct br_field_number n;
-    char name[24];
-    for (size_t i = 0; i < f->rows && c->words; i++) {
-        const char *text = f->field[i * f->columns + column];
-        if (!s->roles.dropped[i] && !br_field_is_missing(text) &&
-            (f->is_words[column] || !br_field_read(text, f->mark, &n)))
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
-                           br_orders_path(s->request), f->line[i], name_of(c, column, name), text);
-    }
-    return BR_OK;
-}
 
 static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_error *err)
 {
@@ -110,8 +92,8 @@ static enum br_status take_sizes(struct source *s, enum br_axis axis, struct br_
         if (r->dropped[i])
             continue;
         struct br_numbers_row *row = &n->row[s->cell[i]];
-        row->given[axis] = r->halves ? round(-r->log_z[axis][i] / log(2))
-                                     : r->column[size->column].number[i];
+        row->given[axis] =
+            r->halves ? round(-r->log_z[axis][i] / log(2)) : r->column[size->column].number[i];
         row->z[axis] = br_numbers_z(size->states, row->given[axis], size->dimension);
     }
     const char *unit = r->halves ? NULL : r->column[size->column].unit;
@@ -159,7 +141,7 @@ static enum br_status take_numbers(struct source *s, size_t group, size_t column
 {
     const struct br_roles *r = &s->roles;
     struct br_numbers *n = s->numbers;
-    if (check_words(s, column, err))
+    if (br_roles_check_words(r, column, err))
         return err->status;
     for (size_t i = 0; i < n->rows && r->groups > 1; i++)
         n->row[i].absent[quantity] = true;
@@ -308,23 +290,29 @@ static void list_left(struct source *s)
             leave(s, r->dropped[i]);
         }
     for (size_t i = 0; i < f->lefts; i++) {
-        say(s, "line %zu, %s", f->left[i].line, f->left[i].text);
+        say(s, "line %zu '%s'", f->left[i].line, f->left[i].text);
         leave(s, f->left[i].why);
     }
 }
 
-/* What is left aside, in groups of one reason. */
+/* What is left aside, in groups of one reason. Of many rows and lines the first are named; the list
+ * has all. */
 static void say_left(struct source *s)
 {
+    enum { MOST = 4 };
     const struct br_numbers *n = s->numbers;
     char text[200];
-    for (size_t i = 0; i < n->lefts; i++) {
-        const bool first = i == 0 || n->left[i].why != n->left[i - 1].why;
-        const bool last = i + 1 == n->lefts || n->left[i].why != n->left[i + 1].why;
-        say(s, "%s%s", i == 0 ? "; left aside: " : first ? "; " : ", ",
-            quoted(n->left[i].what, text));
-        if (last)
-            say(s, " (%s)", n->left[i].why);
+    for (size_t first = 0, end; first < n->lefts; first = end) {
+        for (end = first + 1; end < n->lefts && n->left[end].why == n->left[first].why;)
+            end++;
+        const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
+        const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
+        for (size_t i = first; i < named; i++)
+            say(s, "%s%s", i == 0 ? "; left aside: " : i == first ? "; " : ", ",
+                quoted(n->left[i].what, text));
+        if (named < end)
+            say(s, ", and %zu more", end - named);
+        say(s, " (%s)", n->left[first].why);
     }
 }
 
@@ -411,8 +399,9 @@ static enum br_status take_all(struct source *s, struct br_error *err)
         return err->status;
     return s->numbers->quantities
                ? BR_OK
-               : br_roles_refuse(&s->roles, "found no column of errors (--value, if its limit is not "
-                                            "known)",
+               : br_roles_refuse(&s->roles,
+                                 "found no column of errors (--value, if its limit is not "
+                                 "known)",
                                  NULL, err);
 }
 

@@ -10,7 +10,7 @@
 /* Const records. z is the number itself for a size; one over it for a number of elements or steps;
  * number^(-1/dimension) for unknowns. */
 struct br_resolution_column {
-    const char *name;   /* "n", "h", "dofs", "cells", "points", "interior", "level", "k", "dt" ... */
+    const char *name; /* "n", "h", "dofs", "cells", "points", "interior", "level", "k", "dt" ... */
     const char *states; /* "h = 1/n" */
     enum br_axis axis;
     bool is_size;   /* z is the number itself */

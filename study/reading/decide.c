@@ -79,11 +79,10 @@ static bool may_state(const struct contest *t, const struct br_role_column *c,
     if (named)
         return s->axis == BR_AXIS_SPACE || br_name_odds(c->name, s) >= 4;
     /* without a usual name */
-    if (s->axis == BR_AXIS_TIME || strcmp(s->name, "dofs") == 0 ||
-        t->roles->columns > MOST_TRIED)
+    if (s->axis == BR_AXIS_TIME || strcmp(s->name, "dofs") == 0 || t->roles->columns > MOST_TRIED)
         return false;
-    return s->is_size || (c->is_whole && c->least >= (s->is_power ? 0 : 1) &&
-                          (!s->is_power || c->most < 40));
+    return s->is_size ||
+           (c->is_whole && c->least >= (s->is_power ? 0 : 1) && (!s->is_power || c->most < 40));
 }
 
 static bool take_log_sizes(const struct br_roles *r, struct br_candidate *c)
@@ -150,17 +149,26 @@ static const struct br_candidate *best_of(const struct contest *t, const struct 
     return best;
 }
 
-/* Of the ways in which a column states these sizes the simplest: cells of one dimension are n. */
-static const struct br_candidate *simplest(const struct contest *t, const struct br_candidate *best)
+/* How plainly a candidate states its sizes. */
+static double plainness(const struct contest *t, const struct br_candidate *c)
 {
-    for (size_t i = 0; i < t->candidates && best->size.states->is_volume; i++) {
+    const struct br_role_column *column = &t->roles->column[c->size.column];
+    return column->by_hand
+               ? 99
+               : br_name_odds(column->name, c->size.states) - (c->size.states->is_volume ? 2 : 0);
+}
+
+/* Of the ways in which these sizes are stated the plainest. */
+static const struct br_candidate *plainest(const struct contest *t, const struct br_candidate *best)
+{
+    const struct br_candidate *found = best;
+    for (size_t i = 0; i < t->candidates; i++) {
         const struct br_candidate *c = &t->candidate[i];
-        if (c->size.column == best->size.column && !c->size.states->is_volume &&
-            has_usual_name(&t->roles->column[c->size.column], c->size.states) &&
-            br_evidence_same(t->roles, best->log_z, c->log_z, 1e-9))
-            return c;
+        if (plainness(t, c) > plainness(t, found) &&
+            br_evidence_same(t->roles, best->log_z, c->log_z, one_size))
+            found = c;
     }
-    return best;
+    return found;
 }
 
 /* ---- words ---- */
@@ -289,8 +297,8 @@ static enum br_status check_direction(const struct contest *t, const struct br_c
         const struct br_role_column *c = &r->column[i];
         bool count = false;
         for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
-            count |= !s->is_size && s->axis == t->axis && !c->by_hand &&
-                     br_name_odds(c->name, s) >= 4;
+            count |=
+                !s->is_size && s->axis == t->axis && !c->by_hand && br_name_odds(c->name, s) >= 4;
         if (!count || i == best->size.column || !c->is_whole || c->words || !(c->least < c->most) ||
             br_evidence_order(r, best, t->sorted, i) < 0.05)
             continue;
@@ -317,7 +325,8 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
             (r->column[i].kind == BR_KIND_ERROR || r->column[i].kind == BR_KIND_UNKNOWN))
             error = i;
     for (size_t i = 1; error != BR_NO_ROW && t->sorted[i - 1] != BR_NO_ROW &&
-                       t->sorted[i] != BR_NO_ROW && said < 4; i++) {
+                       t->sorted[i] != BR_NO_ROW && said < 4;
+         i++) {
         const double *e = r->column[error].number;
         const size_t a = t->sorted[i - 1], b = t->sorted[i];
         const double rate = log(e[a] / e[b]) / (best->log_z[a] - best->log_z[b]);
@@ -325,12 +334,12 @@ static enum br_status refuse_growth(const struct contest *t, const struct br_can
             br_append(rates, sizeof rates, " %.2f", rate);
     }
     shown_name(r, best->size.column, name);
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
-                   r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, reading), rates,
-                   name,
-                   best->size.states->is_size ? "n" : "h", name,
-                   best->size.states->is_size ? "a count" : "a size");
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s: the errors grow where %s (%s) gets finer: rates%s; --column '%s=%s', if %s is %s",
+        r->wishes->path, br_axis_letters[t->axis], say_reading(r, best, reading), rates, name,
+        best->size.states->is_size ? "n" : "h", name,
+        best->size.states->is_size ? "a count" : "a size");
 }
 
 /* ---- the decision ---- */
@@ -381,7 +390,7 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     if (check_direction(t, best, err))
         return err->status;
     const double lead = second ? best->odds - second->odds : INFINITY;
-    best = simplest(t, best);
+    best = plainest(t, best);
     if (lead < sure_lead || (best->contradicts_rates && !by_hand))
         assume(t, best, lead < 9 ? second : NULL);
     r->size[t->axis] = best->size;

@@ -38,7 +38,8 @@ static bool next_pair(const struct view *v, size_t *at, struct pair *pair)
 static const struct br_role_column *own(const struct view *v)
 {
     static const struct br_role_column none = {.is_whole = true}; /* h halves from row to row */
-    return v->candidate->size.column == BR_NO_ROW ? &none : &v->roles->column[v->candidate->size.column];
+    return v->candidate->size.column == BR_NO_ROW ? &none
+                                                  : &v->roles->column[v->candidate->size.column];
 }
 
 static bool has_name(const struct view *v, const char *name)
@@ -64,8 +65,8 @@ static double of_digit(const struct br_role_column *c, size_t row)
 
 struct residual {
     size_t compared;
-    double worst;  /* that is beyond the digits */
-    double whole;  /* largest */
+    double worst; /* that is beyond the digits */
+    double whole; /* largest */
     double sum;
 };
 
@@ -92,27 +93,34 @@ static struct residual compare_rates(const struct view *v, const struct br_role_
         found.compared++;
         found.sum += off;
         found.whole = fmax(found.whole, off);
-        found.worst =
-            fmax(found.worst,
-                 off - fmin(most, fmax(least, of_digit(rate, row))) - fmin(0.15, digits / p.ratio));
+        found.worst = fmax(found.worst, off - fmin(most, fmax(least, of_digit(rate, row))) -
+                                            fmin(0.15, digits / p.ratio));
     }
     return found;
 }
 
-/* The best that a column of errors makes of a column of rates. */
-static struct residual best_of_rates(const struct view *v, const struct br_role_column *rate,
-                                     size_t only)
+/* What a column of errors makes of a column of rates. They stand at the finer of two sizes, unless
+ * more of them stand at the coarser one. */
+static struct residual compare_column(const struct view *v, const struct br_role_column *rate,
+                                      size_t column)
+{
+    const struct br_role_column *e = &v->roles->column[column];
+    const struct residual at_finer = compare_rates(v, rate, e, true);
+    const struct residual at_coarser = compare_rates(v, rate, e, false);
+    return at_coarser.compared > at_finer.compared ? at_coarser : at_finer;
+}
+
+/* The best that any column of errors makes of a column of rates. */
+static struct residual best_of_rates(const struct view *v, const struct br_role_column *rate)
 {
     struct residual best = {0, INFINITY, INFINITY, INFINITY};
-    for (size_t i = 0; i < v->roles->columns; i++)
-        for (int finer = 0; finer < 2 && (only == i || only == BR_NO_ROW); finer++) {
-            if (!may_have_errors(v, i))
-                continue;
-            const struct residual found =
-                compare_rates(v, rate, &v->roles->column[i], finer == 1);
-            if (found.compared && found.compared >= best.compared && found.whole <= best.whole)
-                best = found;
-        }
+    for (size_t i = 0; i < v->roles->columns; i++) {
+        if (!may_have_errors(v, i))
+            continue;
+        const struct residual found = compare_column(v, rate, i);
+        if (found.compared && found.whole <= best.whole)
+            best = found;
+    }
     return best;
 }
 
@@ -124,7 +132,7 @@ static void find_rates(struct view *v)
         if (c->kind != BR_KIND_RATE || i == v->candidate->size.column || c->numbers == 0 ||
             c->role == BR_ROLE_CASE)
             continue;
-        const struct residual best = best_of_rates(v, c, BR_NO_ROW);
+        const struct residual best = best_of_rates(v, c);
         if (!best.compared || (!c->name && best.worst > 0)) /* without a name it may be a factor */
             continue;
         v->rates.columns++;
@@ -176,12 +184,22 @@ static bool grows_in(const struct view *v, double dimension)
            (dimension > 1 && grows_by(v, 0, pow(3, dimension), dofs));
 }
 
+/* Whether the heading is a usual name of any size. */
+static bool has_usual_name(const struct view *v)
+{
+    bool usual = own(v)->by_hand;
+    for (const struct br_resolution_column *s = br_resolution_columns; s->name && !usual; s++)
+        usual = br_name_odds(own(v)->name, s) > 0.5;
+    return usual;
+}
+
 static double grows(const struct view *v)
 {
     const struct br_resolution_column *c = v->candidate->size.states;
+    const double odds = has_usual_name(v) ? 1 : 0.25; /* anything may grow so */
     if (c->is_volume)
-        return grows_in(v, v->candidate->size.dimension);
-    return c->more && grows_by(v, c->more, 2, false);
+        return odds * grows_in(v, v->candidate->size.dimension);
+    return odds * (c->more && grows_by(v, c->more, 2, false));
 }
 
 static double is_two_dimensional(const struct view *v)
@@ -255,11 +273,12 @@ static bool dips(const struct view *v, size_t column)
 static bool climbs(const struct view *v, size_t column)
 {
     const double *e = v->roles->column[column].number;
+    size_t pairs = 0;
     struct pair p;
-    for (size_t at = 0; next_pair(v, &at, &p);)
+    for (size_t at = 0; next_pair(v, &at, &p); pairs++)
         if (fabs(e[p.fine]) < 0.999 * fabs(e[p.coarse]))
             return false;
-    return fall_of(v, column) < -0.05;
+    return pairs > 1 && fall_of(v, column) < -0.05;
 }
 
 /* Whether no error falls with these sizes, and one grows from each to the next. */
@@ -310,8 +329,8 @@ static bool agrees(const struct view *v, size_t column, const struct br_resoluti
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; v->sorted[i] != BR_NO_ROW; i++) {
         const size_t row = v->sorted[i];
-        const double by = log(br_numbers_z(states, c->number[row], dimension)) -
-                          v->candidate->log_z[row];
+        const double by =
+            log(br_numbers_z(states, c->number[row], dimension)) - v->candidate->log_z[row];
         if (!isfinite(by))
             return false;
         low = fmin(low, by);
@@ -388,7 +407,8 @@ static double by_hand(const struct view *v)
 
 static double is_no_count(const struct view *v)
 {
-    return !v->candidate->size.states->is_size && !own(v)->is_whole && !strpbrk(own(v)->name ? own(v)->name : "", "/");
+    return !v->candidate->size.states->is_size && !own(v)->is_whole &&
+           !strpbrk(own(v)->name ? own(v)->name : "", "/");
 }
 
 /* ---- the tables ---- */
@@ -472,7 +492,7 @@ static bool stays(const struct error_view *e)
 
 static bool has_a_sign(const struct error_view *e)
 {
-    return tried(e)->least < 0;
+    return tried(e)->least < 0 && !is_error_by_name(e);
 }
 
 static bool has_words(const struct error_view *e)
@@ -485,7 +505,7 @@ static bool gives_rates(const struct error_view *e)
     for (size_t i = 0; i < e->v.roles->columns; i++) {
         const struct br_role_column *c = &e->v.roles->column[i];
         if (c->kind == BR_KIND_RATE && may_have_errors(&e->v, e->column)) {
-            const struct residual found = best_of_rates(&e->v, c, e->column);
+            const struct residual found = compare_column(&e->v, c, e->column);
             if (found.compared > 1 && found.worst <= 0)
                 return true;
         }

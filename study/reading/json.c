@@ -194,6 +194,16 @@ static bool has_numbers_as_keys(json_t *object)
     return numbers;
 }
 
+static bool have_same_keys(json_t *a, json_t *b)
+{
+    void *of_a = json_object_iter(a), *of_b = json_object_iter(b);
+    while (of_a && of_b && strcmp(json_object_iter_key(of_a), json_object_iter_key(of_b)) == 0) {
+        of_a = json_object_iter_next(a, of_a);
+        of_b = json_object_iter_next(b, of_b);
+    }
+    return !of_a && !of_b;
+}
+
 /* {"h": {"0": 0.1, ...}, ...}, or with numbers outside {"0": {"h": 0.1, ...}, ...}. An index that
  * does not count from 0 is a column without a name. */
 static enum br_status take_maps(struct source *s, json_t *maps)
@@ -212,15 +222,13 @@ static enum br_status take_maps(struct source *s, json_t *maps)
             continue;
         }
         row = 0;
+        if (!have_same_keys(json_object_iter_value(json_object_iter(maps)), map))
+            return refuse(s, "found columns with other rows");
         json_object_foreach (map, inner, value) {
             json_t *index = json_string(inner);
             if (!counts(map))
                 set(s, row, "", index);
-            json_t *before = json_object_get(json_array_get(s->records, row), "");
-            const bool same = !before || strcmp(json_string_value(before), inner) == 0;
             json_decref(index);
-            if (!same)
-                return refuse(s, "found columns with other rows");
             set(s, row++, outer, value);
         }
     }
@@ -282,7 +290,10 @@ static enum br_status take_value(struct source *s, json_t *value)
         lists += json_is_array(member) && kind_in(member) == PLAIN;
     if (lists > 1 || (lists && kind == ARRAYS))
         return take_columns(s, value);
-    if (kind == OBJECTS && json_object_size(value) > 1)
+    size_t maps = 0;
+    json_object_foreach (value, key, member)
+        maps += json_is_object(member) && kind_in(member) == PLAIN;
+    if (maps > 1 && maps == json_object_size(value))
         return take_maps(s, value);
     return take_member(s, value);
 }

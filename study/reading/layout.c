@@ -77,12 +77,11 @@ static struct seen look_at(const struct layout *l, size_t line)
 
 enum { SAMPLE = 100 /* lines at each end of the text */ };
 
-/* How well this way explains the lines; l->width (out): the commonest. A number counts three, a
- * word costs one, and a wider row costs two numbers. */
-static long measure(struct layout *l, long *gain, size_t *rows)
+/* How well this way explains the lines; l->width (out): the commonest. A number counts three, and a
+ * word costs one. Each line counts with and without its empty pieces at the end. */
+static long measure(struct layout *l, long *gain)
 {
     memset(gain, 0, (BR_MOST_COLUMNS + 2) * sizeof *gain);
-    memset(rows, 0, (BR_MOST_COLUMNS + 2) * sizeof *rows);
     l->width = 0;
     for (size_t i = 0; i < l->lines; i++) {
         if (i == SAMPLE && l->lines > 2 * SAMPLE)
@@ -94,40 +93,33 @@ static long measure(struct layout *l, long *gain, size_t *rows)
         size_t filled = s.count;
         while (filled > 1 && !l->piece[filled - 1].length)
             filled--;
-        rows[filled] += s.numbers > s.words;
         gain[s.count] += more;
         gain[filled] += filled < s.count ? more : 0;
     }
-    size_t best = 1, wider = 0;
+    size_t best = 1;
     for (size_t i = 1; i <= BR_MOST_COLUMNS + 1; i++)
         best = gain[i] > gain[best] ? i : best;
-    for (size_t i = best + 1; i <= BR_MOST_COLUMNS + 1; i++)
-        wider += rows[i];
     l->width = best;
-    return gain[best] - 6 * (long)wider;
+    return gain[best];
 }
 
-static void choose(struct layout *l, long *gain, size_t *rows)
+static void choose(struct layout *l, long *gain)
 {
-    long most = 0;
-    enum br_separator by = BR_BY_BLANKS;
+    struct layout best = *l;
     char mark = '.';
-    size_t width = 0;
-    for (int i = 0; i < BR_SEPARATORS; i++)
-        for (int comma = 0; comma < 2; comma++) {
-            l->by = (enum br_separator)i;
-            l->fields->mark = comma ? ',' : '.';
-            const long score = measure(l, gain, rows);
-            if (score <= most || (comma && l->width == 1))
-                continue;
-            most = score;
-            by = l->by;
-            mark = l->fields->mark;
-            width = l->width;
-        }
-    l->by = by;
+    long most = 0;
+    for (int i = 0; i < 2 * BR_SEPARATORS; i++) {
+        l->by = (enum br_separator)(i / 2);
+        l->fields->mark = ".,"[i % 2];
+        const long score = measure(l, gain);
+        if (score <= most || (i % 2 && l->width == 1))
+            continue;
+        most = score;
+        mark = l->fields->mark;
+        best = *l;
+    }
+    *l = best;
     l->fields->mark = mark;
-    l->width = width;
 }
 
 /* Refuses lines that are too wide, before anything takes time. Without numbers, the first line
@@ -185,7 +177,7 @@ static enum br_status find_rows(struct layout *l)
             continue;
         look_at(l, i);
         const size_t there = in_columns_of_numbers(l, rows, &all);
-        l->seen[i].is_row = 2 * there >= all && l->seen[i].numbers && l->seen[i].count;
+        l->seen[i].is_row = 2 * there >= all && (l->seen[i].numbers || !l->seen[i].words);
         if (!l->seen[i].is_row)
             continue;
         l->first = l->first < i ? l->first : i;
@@ -235,6 +227,8 @@ static bool is_short(const struct layout *l, size_t line)
 
 static void leave(struct layout *l, size_t line, const char *why)
 {
+    for (char *c = l->line[line].text; (c = strchr(c, BR_BOX_BAR));)
+        *c = '|';
     l->fields->left[l->fields->lefts++] =
         (struct br_left_line){l->line[line].number, l->line[line].text, why};
     l->seen[line].is_used = true;
@@ -306,8 +300,6 @@ static enum br_status check_one_table(const struct layout *l)
     return BR_OK;
 }
 
-/* ---- the heading ---- */
-
 /* Whether a name says that its column is an order from row to row. */
 static bool is_rate(const char *name)
 {
@@ -323,6 +315,56 @@ static bool is_rate(const char *name)
     }
     return false;
 }
+
+static size_t count_rows(const struct layout *l)
+{
+    size_t rows = 0;
+    for (size_t i = l->first; i <= l->last; i++)
+        rows += l->seen[i].is_row;
+    return rows;
+}
+
+/* The text of a piece of a line. */
+static const char *text_at(const struct layout *l, size_t line, size_t column, char text[64])
+{
+    look_at(l, line);
+    const struct br_piece *piece = &l->piece[column];
+    snprintf(text, 64, "%.*s", (int)(piece->length < 63 ? piece->length : 63), piece->text);
+    return text;
+}
+
+/* Whether a row has the size of the first one again: a number that the second row does not have,
+ * beside the same words. */
+static bool begins_again(const struct layout *l, size_t line, size_t rows)
+{
+    char first[64], second[64], here[64];
+    bool again = false;
+    const size_t next = next_text(l, l->first, 1);
+    for (size_t i = 0; i < l->width; i++) {
+        const bool is_same = strcmp(text_at(l, l->first, i, first), text_at(l, line, i, here)) == 0;
+        if (2 * l->has_number[i] <= rows && !is_same)
+            return false;
+        again |= is_same && *first && !br_field_is_missing(first) &&
+                 !is_rate(l->fields->heading[i]) && strcmp(first, text_at(l, next, i, second)) != 0;
+    }
+    return again;
+}
+
+/* Refuses rows that begin again behind a gap or a rule: a table of its own. */
+static enum br_status check_blocks(const struct layout *l)
+{
+    const size_t rows = count_rows(l);
+    if (l->seen[l->first].count < l->width)
+        return BR_OK;
+    for (size_t i = l->first + 1; i <= l->last; i++)
+        if (l->seen[i].is_row && l->line[i - 1].kind != BR_LINE_TEXT && begins_again(l, i, rows))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found rows that begin again as on line %zu, expected one table",
+                           l->path, l->line[i].number, l->line[l->first].number);
+    return BR_OK;
+}
+
+/* ---- the heading ---- */
 
 /* Whether the first column counts the rows or has words, as an index in front of them. */
 static bool has_index(const struct layout *l)
@@ -352,7 +394,7 @@ static size_t find_gaps(const struct layout *l, bool *gap)
     for (size_t i = 0; i < l->width; i++) {
         const enum content content =
             i < s.count ? content_of(&l->piece[i], l->fields->mark) : NOTHING;
-        gap[i] = content == MISSING || content == NOTHING;
+        gap[i] = content == NOTHING || (content == MISSING && *l->piece[i].text == '-');
         gaps += gap[i];
     }
     return gaps;
@@ -375,6 +417,16 @@ static size_t split_names(const struct layout *l, size_t line, size_t wanted, en
     return br_line_split(l->line[line].text, l->by, l->piece);
 }
 
+/* A name without the stars and quotes of Markdown around it, in place; NULL: it is empty. */
+static const char *without_emphasis(char *name)
+{
+    name += name ? strspn(name, "*`") : 0;
+    size_t length = name ? strlen(name) : 0;
+    while (length && strchr("*`", name[length - 1]))
+        name[--length] = '\0';
+    return length ? name : NULL;
+}
+
 /* Takes the pieces of a line as names of the columns that are not skipped. */
 static void take_names(struct layout *l, size_t line, enum br_separator by, const bool *skipped)
 {
@@ -384,12 +436,12 @@ static void take_names(struct layout *l, size_t line, enum br_separator by, cons
     for (size_t i = 0; i < l->width; i++) {
         if (skipped && skipped[i])
             continue;
-        const char *name = br_piece_close(&l->piece[used++], by);
+        char *name = br_piece_close(&l->piece[used++], by);
         char counted[24]; /* gnuplot: "1:n" */
         snprintf(counted, sizeof counted, "%zu:", i + 1);
         if (name && strncmp(name, counted, strlen(counted)) == 0 && name[strlen(counted)])
             name += strlen(counted);
-        l->fields->heading[i] = name && *name ? name : NULL;
+        l->fields->heading[i] = without_emphasis(name);
     }
 }
 
@@ -405,14 +457,6 @@ static bool take_heading(struct layout *l, size_t line)
             return false;
     take_names(l, line, by, NULL);
     return true;
-}
-
-static size_t count_rows(const struct layout *l)
-{
-    size_t rows = 0;
-    for (size_t i = l->first; i <= l->last; i++)
-        rows += l->seen[i].is_row;
-    return rows;
 }
 
 /* Whether the line names all columns but an index or rates; then takes it. */
@@ -783,13 +827,12 @@ static enum br_status lay_out(struct layout *l)
     long *gain = br_store_take(store, BR_MOST_COLUMNS + 2, sizeof *gain);
     if (store->failed)
         return br_no_memory(l->err, "the table");
-    choose(l, gain, l->has_number);
-    memset(l->has_number, 0, (BR_MOST_COLUMNS + 2) * sizeof *l->has_number);
+    choose(l, gain);
     l->fields->columns = l->width;
     if (settle_width(l, first) || find_rows(l))
         return l->err->status;
     find_ends(l);
-    if (find_heading(l) || check_one_table(l) || take_fields(l))
+    if (find_heading(l) || check_one_table(l) || check_blocks(l) || take_fields(l))
         return l->err->status;
     leave_lines(l);
     return BR_OK;

@@ -52,7 +52,7 @@ static bool has_types(const char *line)
     static const char types[] = " Int64 Int32 Float64 Float32 String Bool Date DateTime i8 i16 i32 "
                                 "i64 u8 u16 u32 u64 f32 f64 str bool date <dbl> <int> <chr> <lgl> "
                                 "<fct> <date> <dttm> ";
-    static const char between[] = " |\t\x01";
+    static const char between[] = " |?\t\x01";
     for (line += strspn(line, between); *line; line += strspn(line, between)) {
         char word[16];
         const size_t length = strcspn(line, between);
@@ -86,7 +86,7 @@ static char *skip_command(char *line)
 /* Finds the kind of a line without the blanks around it. */
 static void find_kind(struct br_line *line)
 {
-    static const char rules[] = "-+=|:_*~. \t&\x01";
+    static const char rules[] = "-+=|:_*~.,; \t&\x01";
     for (char *rest; (rest = skip_command(line->text));)
         line->text = rest;
     const size_t sign = strncmp(line->text, "//", 2) == 0 ? 2 : strspn(line->text, "#%!");
@@ -194,15 +194,15 @@ static bool is_blank(char c)
 /* Whether a piece ends here; *bytes (out): of what separates it from the next one. */
 static bool ends_piece(const char *begin, const char *at, enum br_separator by, size_t *bytes)
 {
-    static const char signs[] = {[BR_BY_TABS] = '\t',
-                                 [BR_BY_BARS] = '|',
-                                 [BR_BY_AMPERSANDS] = '&',
-                                 [BR_BY_SEMICOLONS] = ';',
-                                 [BR_BY_COMMAS] = ','};
+    static const char signs[] = {
+        [BR_BY_TABS] = '\t',      [BR_BY_LONE_BARS] = '|',  [BR_BY_BARS] = '|',
+        [BR_BY_AMPERSANDS] = '&', [BR_BY_SEMICOLONS] = ';', [BR_BY_COMMAS] = ','};
     *bytes = 1;
+    if (by == BR_BY_LONE_BARS && *at == '|')
+        return (at == begin || is_blank(at[-1])) && (!at[1] || is_blank(at[1]));
     if (by < BR_BY_WIDE_BLANKS)
         return (*at == signs[by] && (at == begin || at[-1] != '\\')) ||
-               (by == BR_BY_BARS && *at == BR_BOX_BAR);
+               ((by == BR_BY_BARS || by == BR_BY_LONE_BARS) && *at == BR_BOX_BAR);
     *bytes = strspn(at, " \t\x01");
     return at > begin && (*bytes >= (by == BR_BY_BLANKS ? 1 : 2) || (*bytes && *at != ' '));
 }
@@ -238,9 +238,9 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
 
 static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece)
 {
-    const bool bar = by == BR_BY_BARS && (*at == '|' || *at == BR_BOX_BAR);
     size_t count = 0, bytes = 0;
-    at += bar || (by >= BR_BY_WIDE_BLANKS && *at == BR_BOX_BAR);
+    const bool bars = by == BR_BY_BARS || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
+    at += (bars && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
     for (bool more = true; more && count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
@@ -254,7 +254,7 @@ static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece
         piece[count++] = (struct br_piece){begin, NULL, (size_t)(end - begin), 0};
         more = *at && (by < BR_BY_WIDE_BLANKS || at[bytes]);
     }
-    return count - (count > 1 && !piece[count - 1].length && bar);
+    return count;
 }
 
 /* The begin of the last name in a text from `at` to `end`: behind gaps, signs and numbers. */
@@ -276,12 +276,40 @@ static char *begin_of_name(char *at, const char *end)
     return begin;
 }
 
-/* Pieces "name = value"; a value is one word, or one in quotes. */
+/* The last word from `at` to `end` that is a number, as a piece with what is before it as its name;
+ * length 0: there is none. */
+static struct br_piece last_number(char *at, const char *end)
+{
+    struct br_piece last = {at, at, 0, 0};
+    struct br_field_number number;
+    char text[64];
+    for (char *word = at; word < end;) {
+        word += strspn(word, " \t,;:");
+        size_t length = strcspn(word, " \t,;:");
+        length = word + length <= end ? length : word < end ? (size_t)(end - word) : 0;
+        snprintf(text, sizeof text, "%.*s", (int)(length < 63 ? length : 0), word);
+        if (length && br_field_read(text, '.', &number))
+            last = (struct br_piece){word, at, length, (size_t)(word - at)};
+        word += length;
+    }
+    while (last.name_length && is_blank(last.name[last.name_length - 1]))
+        last.name_length--;
+    return last;
+}
+
+/* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
+ * numbers between or behind them are no pairs. */
 static size_t split_pairs(char *at, char sign, struct br_piece *piece)
 {
     size_t count = 0;
+    at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
     for (char *equals; (equals = strchr(at, sign)) && count <= BR_MOST_COLUMNS;) {
         char *name = begin_of_name(at, equals), *end = equals;
+        const struct br_piece label = last_number(at, name);
+        if (label.length && (count > 0 || label.name_length + label.length > 60))
+            return 0;
+        if (label.length)
+            piece[count++] = label;
         while (end > name && is_blank(end[-1]))
             end--;
         char *value = equals + 1 + strspn(equals + 1, " \t");
@@ -295,7 +323,7 @@ static size_t split_pairs(char *at, char sign, struct br_piece *piece)
         if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
             return 0; /* a time, as 12:30 */
     }
-    return count;
+    return last_number(at, at + strlen(at)).length ? 0 : count;
 }
 
 size_t br_line_split(char *line, enum br_separator by, struct br_piece *piece)

@@ -32,6 +32,7 @@ enum br_separator {
     BR_BY_EQUALS,
     BR_BY_COLONS,
     BR_BY_TABS,
+    BR_BY_LONE_BARS, /* with a blank on each side: others stand in names, ||u|| */
     BR_BY_BARS,
     BR_BY_AMPERSANDS,
     BR_BY_SEMICOLONS,

@@ -35,7 +35,8 @@ static const struct {
      " level lvl reflevel levels refinement refinements refinementlevel refine nref reflvl "
      "numrefinements meshlevel "},
     {"level", 1.75, " ref refs cycle mesh grid l "},
-    {"dofs", 4, " dofs dof ndofs ndof numdofs unknowns degreesoffreedom nunknowns dofcount ndoftotal "},
+    {"dofs", 4,
+     " dofs dof ndofs ndof numdofs unknowns degreesoffreedom nunknowns dofcount ndoftotal "},
     {"dofs", 1.75,
      " nodes nnodes numnodes vertices nvertices numvertices points gridpoints numpts npts npoints "
      "numpoints nv "},
@@ -54,8 +55,9 @@ static const struct {
     const char *words; /* one of them is in the name */
 } of_kinds[] = {
     {BR_KIND_DEVIATION, " std sigma sd stderr sem stdev stddev deviation uncertainty unc pm "},
-    {BR_KIND_RATE, " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
-                   "poc ordre ordnung ordem orden alpha "},
+    {BR_KIND_RATE,
+     " rate rates eoc ooc roc order orders slope conv convergence eocs convrate p_obs "
+     "poc ordre ordnung ordem orden "},
     {BR_KIND_FACTOR, " ratio ratios reduction factor factors quotient "},
     {BR_KIND_COST,
      " time times cpu wall walltime seconds sec secs runtime iter iters its iteration iterations "
@@ -108,7 +110,7 @@ static bool next_word(const char **at, char word[LONGEST])
 static void without_fill(const char *name, char text[LONGEST])
 {
     static const char fill[] = " num number no of max min avg mean average total count the in nb "
-                               "nr global mesh grid "; 
+                               "nr global mesh grid ";
     char word[LONGEST];
     size_t length = 0;
     while (next_word(&name, word))
@@ -173,6 +175,6 @@ enum br_kind br_kind_of(const char *name)
             if (lists(of_kinds[i].words, word))
                 return of_kinds[i].kind;
     return strstr(name, "\xc2\xb1") || strstr(name, "+-") ? BR_KIND_DEVIATION
-           : strchr(name, '|') || strstr(name, "\\|")    ? BR_KIND_ERROR
-                                                         : BR_KIND_UNKNOWN;
+           : strchr(name, '|') || strstr(name, "\\|")     ? BR_KIND_ERROR
+                                                          : BR_KIND_UNKNOWN;
 }

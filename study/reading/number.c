@@ -201,8 +201,9 @@ static const char *take_brackets(struct reader *r, const char *at, struct br_fie
     if (!inside.decimals)
         number->deviation *= pow(10, r->exponent - decimals);
     at++;
-    if (*at && strchr("eEdD", *at)) {
-        at = take_number(&inside, at + 1, &power);
+    const bool times = *skip(at) == 'x' && strncmp(skip(skip(at) + 1), "10^", 3) == 0;
+    if (times || (*at && strchr("eEdD", *at))) {
+        at = take_number(&inside, times ? skip(skip(at) + 1) + 3 : at + 1, &power);
         number->value *= pow(10, power);
         number->deviation *= pow(10, power);
     }

@@ -45,13 +45,14 @@ enum br_status br_roles_refuse(const struct br_roles *r, const char *why, const 
     if (word)
         br_suggestion(word, headings, count, suggestion);
     const size_t line = r->fields->heading_line ? r->fields->heading_line : 1;
-    return count ? br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
-                           "cells, points, interior, level, k, dt, steps, degree, std or aside)%s",
-                           r->wishes->path, line, why, names, first, suggestion)
-                 : br_fail(err, BR_BAD_INPUT,
-                           "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s",
-                           r->wishes->path, line, why, suggestion);
+    return count
+               ? br_fail(err, BR_BAD_INPUT,
+                         "%s:%zu: %s among %s; --column '%s=h' says what a column is (h, n, dofs, "
+                         "cells, points, interior, level, k, dt, steps, degree, std or aside)%s",
+                         r->wishes->path, line, why, names, first, suggestion)
+               : br_fail(err, BR_BAD_INPUT,
+                         "%s:%zu: %s: there is no heading; --column 1=h,2=error names columns%s",
+                         r->wishes->path, line, why, suggestion);
 }
 
 /* ---- names ---- */
@@ -155,9 +156,12 @@ static enum br_status take_item(struct br_roles *r, const char *item, size_t len
     c->by_hand = true;
     c->stated = br_resolution_column_find(name);
     c->kind = BR_KIND_UNKNOWN;
-    if (c->stated) {
-        if (!c->name)
-            c->name = name;
+    if (c->stated) { /* it keeps its name and its unit, or is called by its position */
+        char *position = br_store_take(&r->store, size + 1, 1);
+        if (!position)
+            return br_no_memory(err, "the table");
+        memcpy(position, item, size);
+        c->name = c->name ? c->name : position;
     } else if (strcmp(name, "aside") == 0)
         c->why = "--column says so";
     else if (strcmp(name, "degree") == 0)
@@ -186,7 +190,8 @@ static enum br_status take_names(struct br_roles *r, struct br_error *err)
     }
     for (size_t i = 0; i < r->columns; i++) {
         struct br_role_column *c = &r->column[i];
-        if (c->name && (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
+        if (c->name &&
+            (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name)) &&
             !c->stated && !is_size_by_name(c->name))
             c->role = BR_ROLE_ERROR;
         c->is_value = c->name && br_lists(r->wishes->values, c->name);
@@ -215,8 +220,8 @@ static int digits_of(const char *text, int *decimals)
     return digits;
 }
 
-/* Half a unit of the last digit that a column is printed to: as many decimals everywhere, or as many
- * digits, of which zeros at the end may be lost. */
+/* Half a unit of the last digit that a column is printed to: as many decimals everywhere, or as
+ * many digits, of which zeros at the end may be lost. */
 static void find_rounding(struct br_roles *r, size_t column)
 {
     struct br_role_column *c = &r->column[column];
@@ -231,8 +236,8 @@ static void find_rounding(struct br_roles *r, size_t column)
     }
     for (size_t i = 0; i < r->rows; i++) {
         const double number = fabs(c->number[i]);
-        const double unit = decimals > 0 ? pow(10, -decimals)
-                                         : pow(10, floor(log10(number)) + 1 - most);
+        const double unit =
+            decimals > 0 ? pow(10, -decimals) : pow(10, floor(log10(number)) + 1 - most);
         c->rounding[i] = number > 0 ? 0.5 * unit / number : 0;
     }
 }
@@ -286,7 +291,8 @@ static void find_rates_without_a_name(struct br_roles *r)
     for (size_t i = 0; i < r->columns && r->rows > 2; i++) {
         struct br_role_column *c = &r->column[i];
         const bool gap = isnan(c->number[0]) || isnan(c->number[r->rows - 1]);
-        if (r->fields->heading_line && !c->name && gap && c->numbers + 1 >= r->rows - 1 && !c->words)
+        if (r->fields->heading_line && !c->name && gap && c->numbers + 1 >= r->rows - 1 &&
+            !c->words)
             c->kind = BR_KIND_RATE;
     }
 }
@@ -302,6 +308,34 @@ static void drop_zeros(struct br_roles *r)
     r->dropped[0] = "a first row of zeros";
     for (size_t i = 0; i < r->columns; i++)
         read_numbers(r, i);
+}
+
+enum br_status br_roles_check_words(const struct br_roles *r, size_t column, struct br_error *err)
+{
+    const struct br_role_column *c = &r->column[column];
+    struct br_field_number n;
+    for (size_t i = 0; i < r->rows && c->words; i++) {
+        const char *text = field_at(r, i, column);
+        if (!r->dropped[i] && !br_field_is_missing(text) &&
+            (r->fields->is_words[column] || !br_field_read(text, r->fields->mark, &n)))
+            return br_fail(
+                err, BR_BAD_INPUT,
+                "%s:%zu: %s: found '%.40s', expected a number, or nan where it is missing",
+                r->wishes->path, r->fields->line[i], c->name ? c->name : "a number", text);
+    }
+    return BR_OK;
+}
+
+/* Refuses words among the numbers of a column that is called a size. */
+static enum br_status check_sizes(const struct br_roles *r, struct br_error *err)
+{
+    for (size_t i = 0; i < r->columns; i++) {
+        const struct br_role_column *c = &r->column[i];
+        const bool size = c->stated || (c->name && !c->by_hand && is_size_by_name(c->name));
+        if (size && (c->stated || c->numbers > c->words) && br_roles_check_words(r, i, err))
+            return err->status;
+    }
+    return BR_OK;
 }
 
 /* ---- cases ---- */
@@ -408,13 +442,17 @@ static bool is_consecutive(const struct br_roles *r, const struct br_role_column
     return c->least < c->most;
 }
 
-/* Small whole numbers that are called a degree, an order or k. */
+/* Small whole numbers that are called a degree; an order, p or k only if they count by one. */
 static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
 {
-    const bool called = c->kind == BR_KIND_DEGREE || (c->name && strcmp(c->name, "k") == 0) ||
-                        (c->kind == BR_KIND_RATE && c->numbers == r->rows);
-    return called && !c->stated && (c->by_hand ? c->kind == BR_KIND_DEGREE : is_consecutive(r, c)) &&
-           c->most <= 20 && c->role == BR_ROLE_ASIDE;
+    const bool word = c->kind == BR_KIND_DEGREE;
+    const bool letter = c->name && !c->name[1];
+    const bool other = (letter && *c->name == 'k') ||
+                       (c->kind == BR_KIND_RATE && c->numbers == r->rows);
+    if (c->stated || c->role != BR_ROLE_ASIDE || c->by_hand)
+        return c->by_hand && word;
+    return word && !letter ? c->is_whole && !c->words && c->most <= 64
+                           : (word || other) && is_consecutive(r, c) && c->most <= 20;
 }
 
 static bool tells_cases(const struct br_roles *r, size_t i)
@@ -507,16 +545,17 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
     size_t *sorted = br_store_take(&r->store, r->rows + 1, sizeof *sorted);
     if (!c.log_z || !sorted)
         return br_no_memory(err, "the table");
-    for (int up = 0; up < 2 && !c.agrees_with_rates; up++) { /* the last row is the finest, or the first */
+    for (int up = 0; up < 2 && !c.agrees_with_rates;
+         up++) { /* the last row is the finest, or the first */
         for (size_t i = 0; i < r->rows; i++)
-            c.log_z[i] = r->dropped[i] ? (double)NAN
-                                       : -log(2) * (double)(up ? r->rows - 1 - i : i);
+            c.log_z[i] = r->dropped[i] ? (double)NAN : -log(2) * (double)(up ? r->rows - 1 - i : i);
         br_decide_sort(r, &c, sorted);
         br_evidence_weigh(r, &c, sorted);
     }
     if (!c.agrees_with_rates)
-        return br_roles_refuse(r, "found no column of a resolution, and the rates of the table do "
-                                  "not tell that h halves from row to row",
+        return br_roles_refuse(r,
+                               "found no column of a resolution, and the rates of the table do "
+                               "not tell that h halves from row to row",
                                NULL, err);
     r->halves = true;
     r->size[BR_AXIS_SPACE] = c.size;
@@ -528,7 +567,8 @@ static enum br_status halve_by_row(struct br_roles *r, struct br_error *err)
 
 static bool is_asked(const struct br_roles *r, const struct br_role_column *c)
 {
-    return c->name && (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name));
+    return c->name &&
+           (br_lists(r->wishes->errors, c->name) || br_lists(r->wishes->values, c->name));
 }
 
 static const char *why_aside(const struct br_roles *r, size_t i)
@@ -557,8 +597,8 @@ static const char *why_aside(const struct br_roles *r, size_t i)
     return r->wishes->errors || r->wishes->values ? "not asked for"
            : c->least < 0                         ? "both signs: --value, if it is studied"
            : c->is_whole                          ? "a count"
-                                                  : "no error by its numbers: --error or --value, if "
-                                                    "it is studied";
+                         : "no error by its numbers: --error or --value, if "
+                           "it is studied";
 }
 
 /* The column whose deviations these are: it has the same words, or is the only one. */
@@ -587,11 +627,11 @@ static void take_errors(struct br_roles *r, const struct br_candidate *over, con
             continue;
         const bool by_hand = c->by_hand && c->kind == BR_KIND_UNKNOWN;
         const bool named_size = c->name && !c->by_hand && is_size_by_name(c->name);
-        const bool studied = asked ? is_asked(r, c) && !named_size
-                                   : by_hand || (!named_size && c->numbers &&
-                                                 c->role != BR_ROLE_DEGREE &&
-                                                 br_evidence_of_errors(r, over, sorted, i) >= 1);
-        c->role = !studied ? c->role == BR_ROLE_DEGREE ? BR_ROLE_DEGREE : BR_ROLE_ASIDE
+        const bool studied =
+            asked ? is_asked(r, c) && !named_size
+                  : by_hand || (!named_size && c->numbers && c->role != BR_ROLE_DEGREE &&
+                                br_evidence_of_errors(r, over, sorted, i) >= 1);
+        c->role = !studied      ? c->role == BR_ROLE_DEGREE ? BR_ROLE_DEGREE : BR_ROLE_ASIDE
                   : c->is_value ? BR_ROLE_VALUE
                                 : BR_ROLE_ERROR;
     }
@@ -618,8 +658,8 @@ static enum br_status check_swap(const struct br_roles *r, const struct br_candi
     size_t i = 0;
     c.log_z = log_z;
     for (; log_z && size && !size->by_hand && !r->halves && i < r->columns && !swapped; i++) {
-        if (r->column[i].role != BR_ROLE_ERROR || r->column[i].by_hand ||
-            over->agrees_with_rates || br_evidence_halves(r, over, sorted))
+        if (r->column[i].role != BR_ROLE_ERROR || r->column[i].by_hand || over->agrees_with_rates ||
+            br_evidence_halves(r, over, sorted))
             continue;
         for (size_t row = 0; row < r->rows; row++)
             log_z[row] = r->dropped[row] ? (double)NAN : log(r->column[i].number[row]);
@@ -661,7 +701,8 @@ static int by_run(const void *a, const void *b)
 
 static bool is_one_size(const struct run *a, const struct run *b)
 {
-    return a->group == b->group && fabs(a->z[0] - b->z[0]) <= 1e-9 && fabs(a->z[1] - b->z[1]) <= 1e-9;
+    return a->group == b->group && fabs(a->z[0] - b->z[0]) <= 1e-9 &&
+           fabs(a->z[1] - b->z[1]) <= 1e-9;
 }
 
 /* The scatter of numbers from run[first] to before run[end], relative to their mean. */
@@ -679,11 +720,12 @@ static double scatter_of(const struct run *run, size_t first, size_t end)
 static enum br_status refuse_repeats(const struct br_roles *r, size_t row, size_t before,
                                      struct br_error *err)
 {
-    return br_fail(err, BR_BAD_INPUT,
-                   "%s:%zu: the resolution is that of line %zu, expected each once: --where chooses "
-                   "one of several studies, by a column that tells them apart; of repeated runs, "
-                   "give the mean, or each size at least twice",
-                   r->wishes->path, r->fields->line[row], r->fields->line[before]);
+    return br_fail(
+        err, BR_BAD_INPUT,
+        "%s:%zu: the resolution is that of line %zu, expected each once: --where chooses "
+        "one of several studies, by a column that tells them apart; of repeated runs, "
+        "give the mean, or each size at least twice",
+        r->wishes->path, r->fields->line[row], r->fields->line[before]);
 }
 
 /* Runs of one size: of repeated runs the mean counts, of adaptive meshes the last. */
@@ -712,10 +754,11 @@ static enum br_status settle_repeats(struct br_roles *r, struct run *run, size_t
     if (least >= 2 && (numbered || scatter < 0.3)) {
         r->means = true;
         if (!numbered && least < 3)
-            br_append(r->assumed, sizeof r->assumed,
-                      "%srows of one size are assumed to be repeated runs: a column that numbers them "
-                      "(run, seed) settles it",
-                      *r->assumed ? "; " : "");
+            br_append(
+                r->assumed, sizeof r->assumed,
+                "%srows of one size are assumed to be repeated runs: a column that numbers them "
+                "(run, seed) settles it",
+                *r->assumed ? "; " : "");
         return BR_OK;
     }
     if (least >= 2 || !s || !s->is_volume || r->size[BR_AXIS_TIME].states || 2 * repeats > count)
@@ -741,12 +784,27 @@ static enum br_status take_repeats(struct br_roles *r, struct br_error *err)
         struct run *of = &run[count++];
         *of = (struct run){r->group[i], i, {0, 0}, r->column[error].number[i]};
         for (int axis = 0; axis < BR_AXES; axis++)
-            of->z[axis] = r->log_z[axis] && isfinite(r->log_z[axis][i]) ? r->log_z[axis][i] : 0;
+            of->z[axis] = !r->log_z[axis] ? 0
+                          : isfinite(r->log_z[axis][i])
+                              ? r->log_z[axis][i]
+                              : 1e6 + (double)i; /* of none, which is refused */
     }
     return settle_repeats(r, run, count, err);
 }
 
 /* ---- all ---- */
+
+/* Whether a column may count unknowns or cells, or there is none of the mesh. */
+static bool counts_volume(const struct br_roles *r)
+{
+    const struct br_resolution_column *chosen = r->size[BR_AXIS_SPACE].states;
+    bool counts = !chosen || chosen->is_volume;
+    for (size_t i = 0; i < r->columns && !counts; i++)
+        for (const struct br_resolution_column *s = br_resolution_columns; s->name; s++)
+            counts |= s->is_volume &&
+                      (r->column[i].stated == s || br_name_odds(r->column[i].name, s) > 1);
+    return counts;
+}
 
 static enum br_status find_roles(struct br_roles *r, struct br_error *err)
 {
@@ -754,8 +812,10 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
         return err->status;
     drop_zeros(r);
     find_rates_without_a_name(r);
-    if (take_where(r, err) || find_cases(r, err) || br_decide_sizes(r, err))
+    if (take_where(r, err) || check_sizes(r, err) || find_cases(r, err) || br_decide_sizes(r, err))
         return err->status;
+    if (r->wishes->dimension > 0 && !counts_volume(r))
+        return br_roles_refuse(r, "--dimension: found no numbers of unknowns or cells", NULL, err);
     const bool sizes = r->size[BR_AXIS_SPACE].states || r->size[BR_AXIS_TIME].states;
     if (!sizes && halve_by_row(r, err))
         return err->status;
@@ -774,10 +834,8 @@ static enum br_status find_roles(struct br_roles *r, struct br_error *err)
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
                              struct br_roles *r, struct br_error *err)
 {
-    *r = (struct br_roles){.fields = fields,
-                           .wishes = wishes,
-                           .columns = fields->columns,
-                           .rows = fields->rows};
+    *r = (struct br_roles){
+        .fields = fields, .wishes = wishes, .columns = fields->columns, .rows = fields->rows};
     err->status = BR_OK;
     r->column = br_store_take(&r->store, r->columns + 1, sizeof *r->column);
     r->dropped = br_store_take(&r->store, r->rows + 1, sizeof *r->dropped);

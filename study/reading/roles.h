@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the columns of a table are. Headings (names.c) and numbers (evidence.c) speak for and against
- * each; the roles follow from all of it (roles.c, decide.c), or a question that an option answers. */
+/* What the columns of a table are. Headings (names.c) and numbers (evidence.c) speak for and
+ * against each; the roles follow from all of it (roles.c, decide.c), or a question that an option
+ * answers. */
 #ifndef BR_STUDY_READING_ROLES_H
 #define BR_STUDY_READING_ROLES_H
 
@@ -11,7 +12,7 @@
 
 enum br_role {
     BR_ROLE_ASIDE,
-    BR_ROLE_SIZE,      /* states the resolution of an axis */
+    BR_ROLE_SIZE, /* states the resolution of an axis */
     BR_ROLE_ERROR,
     BR_ROLE_VALUE,     /* its limit is not known */
     BR_ROLE_DEVIATION, /* standard deviations of the numbers in column `of` */
@@ -36,16 +37,16 @@ enum br_kind br_kind_of(const char *name);
 double br_name_odds(const char *name, const struct br_resolution_column *column);
 
 struct br_role_column {
-    const char *shown; /* the heading in the source; NULL: there is none */
+    const char *shown;       /* the heading in the source; NULL: there is none */
     const char *name, *unit; /* without its unit, or as --column names it; NULL: none */
     enum br_kind kind;
     double *number, *deviation; /* rows; NaN: none */
     double *rounding;           /* half a unit of the last digit, relative */
     size_t numbers, words;      /* how many fields are one or the other */
-    bool is_whole, is_value; /* is_value: --value says that its limit is not known */
+    bool is_whole, is_value;    /* is_value: --value says that its limit is not known */
     double least, most;
 
-    bool by_hand; /* --column says what it is */
+    bool by_hand;                              /* --column says what it is */
     const struct br_resolution_column *stated; /* by hand */
     enum br_role role;
     const char *why; /* why it is aside; static */
@@ -76,28 +77,33 @@ struct br_roles {
     struct br_store store; /* all that is below */
     struct br_role_column *column;
     size_t columns, rows;
-    const char **dropped;   /* rows: why the row is left aside; NULL: it is not; static */
-    size_t *group;          /* rows: the case */
-    size_t *line;           /* rows: the line along which one size changes */
+    const char **dropped;    /* rows: why the row is left aside; NULL: it is not; static */
+    size_t *group;           /* rows: the case */
+    size_t *line;            /* rows: the line along which one size changes */
     const char **group_name; /* groups: "method = P1"; a single one: "" */
     size_t groups;
     struct br_size size[BR_AXES];
     double *log_z[BR_AXES]; /* rows; NaN: none */
-    bool halves;   /* no column: h halves from row to row, as rates say */
-    bool means;    /* of rows of one size their mean counts */
-    char assumed[400]; /* what is assumed, and what settles it; "": nothing */
+    bool halves;            /* no column: h halves from row to row, as rates say */
+    bool means;             /* of rows of one size their mean counts */
+    char assumed[400];      /* what is assumed, and what settles it; "": nothing */
     bool assumed_dimension;
 };
 
-/* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column has no
- * clear role, with the option that settles it; or with BR_NO_MEMORY. */
+/* Finds the roles (out; clear them even after a failure). Fails with BR_BAD_INPUT where a column
+ * has no clear role, with the option that settles it; or with BR_NO_MEMORY. */
 enum br_status br_roles_find(const struct br_fields *fields, const struct br_table_wishes *wishes,
                              struct br_roles *roles, struct br_error *err);
 void br_roles_clear(struct br_roles *roles); /* accepts zeros */
 
-/* Refuses the table: why, its headings, and how to name columns. word: an unknown heading, or NULL. */
+/* Refuses the table: why, its headings, and how to name columns. word: an unknown heading, or NULL.
+ */
 enum br_status br_roles_refuse(const struct br_roles *roles, const char *why, const char *word,
                                struct br_error *err);
+
+/* Refuses a field of words in a column of numbers. */
+enum br_status br_roles_check_words(const struct br_roles *roles, size_t column,
+                                    struct br_error *err);
 
 /* ---- within the reading ---- */
 
