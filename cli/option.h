@@ -51,6 +51,7 @@ enum br_option_id {
     BR_OPT_UPDATE_BASELINE,
     BR_OPT_VALUE,
     BR_OPT_COLUMN,
+    BR_OPT_WHERE,
     BR_OPT_DIMENSION,
     BR_OPT_FORMAL,
     BR_OPT_RUN,

@@ -134,7 +134,7 @@ static const struct br_option rows[] = {
          "parts over them."},
 
     /* what is wanted of numbers, what a march may take */
-    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all columns of numbers)",
+    {BR_OPT_ERROR, "error", 0, "LIST", "columns that are errors (default: all that fall as errors do)",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS | BR_FOR_PLAN,
      OWN({BR_FOR_PLAN, .argument = "E", .help = "largest relative error that is wanted",
           .more = "The norm of the error, divided by the norm of the solution.",
@@ -144,13 +144,19 @@ static const struct br_option rows[] = {
     {BR_OPT_COLUMN, "column", 0, "LIST", "what columns are, by heading or position: dx=h,3=l2",
      NULL, BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
      .more =
-         "h, n, dofs, cells, level, k, dt and steps state the resolution; any other name is that "
-         "of an error, or with --value of a value. A table without a heading needs it."},
+         "h, n, points (h = 1/(points - 1)), interior (nodes, h = 1/(interior + 1)), dofs, cells, "
+         "level, k, dt and steps state the resolution; std has standard deviations, degree that of "
+         "polynomials, aside has no part; any other name is that of an error, or with --value of a "
+         "value. A column named here wins over all others of its axis."},
+    {BR_OPT_WHERE, "where", 0, "COLUMN=WORD", "reads the rows of one study: method=P1", NULL,
+     BR_TAKES_TEXT, .commands = BR_FOR_ORDERS,
+     .more = "Without it, each study that a column of words or degrees tells apart is answered."},
     {BR_OPT_DIMENSION, "dimension", 0, "D",
      "dimension of the mesh, for numbers of unknowns or cells", NULL, BR_TAKES_NUMBER, WHOLE(1, 16),
      .commands = BR_FOR_ORDERS,
-     .more = "If it is not given, 2 is assumed for unknowns, and cells are assumed to be counted "
-             "along one side. The answer states what is assumed; a verdict needs this option."},
+     .more = "If it is not given, the growth of the numbers and the rates of a table tell it, or 2 "
+             "is assumed for unknowns. The answer states what is assumed; a verdict then needs this "
+             "option."},
     {BR_OPT_FORMAL, "formal-order", 0, "P", "order of the values in theory", NULL, BR_TAKES_NUMBER,
      BETWEEN(0, 11), .commands = BR_FOR_ORDERS,
      .more = "For the uncertainty of limits, 1 to 10. If it is not given, 2 is assumed; the answer "

@@ -89,6 +89,8 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
         return br_fail(err, BR_BAD_INPUT, "--%s is given without --run", unused);
     if (q->command && br_option_given(o, BR_OPT_COLUMN))
         return br_fail(err, BR_BAD_INPUT, "--column is given beside --run, expected a table");
+    if (q->command && br_option_given(o, BR_OPT_WHERE))
+        return br_fail(err, BR_BAD_INPUT, "--where is given beside --run, expected a table");
     if (br_option_given(o, BR_OPT_TRUST))
         return br_fail(err, BR_BAD_INPUT, "--trust is given without a study file");
     if (br_option_given(o, BR_OPT_READ) != !!q->command)
@@ -98,6 +100,7 @@ static enum br_status read_options(const struct br_options *o, struct br_orders_
         return err->status;
     const bool failed = read_readings(br_option_text(o, BR_OPT_READ), q, err) ||
                         copy_text(br_option_text(o, BR_OPT_COLUMN), &q->columns, err) ||
+                        copy_text(br_option_text(o, BR_OPT_WHERE), &q->where, err) ||
                         copy_text(br_option_text(o, BR_OPT_ERROR), &q->errors, err) ||
                         copy_text(br_option_text(o, BR_OPT_VALUE), &q->values, err);
     return failed ? err->status : BR_OK;
@@ -127,7 +130,7 @@ static enum br_status read_study(const char *path, const struct br_options *o,
     static const enum br_option_id refused[] = {BR_OPT_N,      BR_OPT_K,     BR_OPT_COLUMN,
                                                 BR_OPT_ERROR,  BR_OPT_VALUE, BR_OPT_DIMENSION,
                                                 BR_OPT_FORMAL, BR_OPT_READ,  BR_OPT_TIME_LIMIT,
-                                                BR_OPT_REPEAT, BR_OPTIONS};
+                                                BR_OPT_REPEAT, BR_OPT_WHERE, BR_OPTIONS};
     char *text = NULL;
     if (br_first_given(o, refused))
         return br_fail(err, BR_BAD_INPUT,

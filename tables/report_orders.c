@@ -371,6 +371,17 @@ static void put_needed(struct br_document *d, const struct br_orders *o)
     }
 }
 
+/* What has no part in the numbers. */
+static void put_left_aside(struct br_document *d, const struct br_numbers *numbers)
+{
+    br_put_table(d, "left_aside", "What was left aside", BR_FILES_ONLY);
+    for (size_t i = 0; i < numbers->lefts; i++) {
+        br_put_row(d);
+        BR_PUT(d, br_text(numbers->left[i].what), .key = "what");
+        BR_PUT(d, br_text(numbers->left[i].why), .key = "why");
+    }
+}
+
 void br_report_orders(const struct br_orders *o, const struct br_estimate *growth,
                       const char *caption, struct br_document *d)
 {
@@ -394,7 +405,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         if (line)
             say_formal(d, o, of);
     }
-    if (o->numbers->taken[0])
+    if (o->numbers->taken)
         br_put_answer(d, "Read: %s.", o->numbers->taken);
     if (o->count > MOST_NAMED)
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
@@ -515,4 +526,6 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
     }
     for (size_t i = 0; i < o->count; i++)
         put_rows(d, o, &o->of[i]);
+    if (o->numbers->lefts)
+        put_left_aside(d, o->numbers);
 }

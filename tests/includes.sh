@@ -26,13 +26,14 @@ reading: base
 known: base
 scene: base known
 grid: base scene
+reading: base grid
 fit: base grid
 kept: base grid
 ranks: base grid
 run: base
 foresee: base grid run
 verify: base fit grid scene
-orders: base fit kept scene verify
+orders: base fit kept reading scene verify
 trade: base fit foresee grid kept scene
 extremes: base run scene
 paper: base grid run scene

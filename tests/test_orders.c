@@ -323,32 +323,6 @@ TEST(test_assumed_dimension)
     br_numbers_clear(&n);
 }
 
-/* Numbers as Fortran and Europe write them; and what is none. */
-TEST(test_numbers)
-{
-    double value;
-    assert_true(br_table_number("-1.5D-3", &value));
-    CLOSE(value, -1.5e-3, 0);
-    assert_true(br_table_number("0.25-103", &value));
-    CLOSE(value, 0.25e-103, 0);
-    assert_true(br_table_number("2.q+2", &value));
-    CLOSE(value, 200, 0);
-    assert_true(br_table_number("$-1.5 \\times 10^{-3}$", &value));
-    CLOSE(value, -1.5e-3, 0);
-    assert_true(br_table_number("3/8", &value) && value == 0.375);
-    assert_true(br_table_number("10^-3", &value));
-    CLOSE(value, 1e-3, 1e-15);
-    assert_true(br_table_number("8x8x8", &value) && value == 8);
-    assert_false(br_table_number("8x16", &value) || br_table_number("8x8x", &value) ||
-                 br_table_number("8x8x9", &value) || br_table_number("1/0", &value) ||
-                 br_table_number("1/2/3", &value) || br_table_number("5 % x", &value));
-    assert_false(br_table_number("1-2-3", &value));
-    assert_false(br_table_number("d5", &value));
-    assert_false(br_table_number("", &value));
-    assert_true(br_is_missing("-") && br_is_missing("NaN") && br_is_missing("****"));
-    assert_false(br_is_missing("0") || br_is_missing("-1") || br_is_missing("name"));
-}
-
 static void refuse_table(char *row)
 {
     const char *message = br_test_part(row);

@@ -238,3 +238,27 @@ enum br_status br_read_counts(const char *option, const char *text, size_t **val
     free(numbers);
     return status;
 }
+
+/* ---- lists of names ---- */
+
+const char *br_list_next(const char *list, const char **name, size_t *length)
+{
+    *name = list + strspn(list, " ");
+    const char *end = *name + strcspn(*name, ",");
+    *length = (size_t)(end - *name);
+    while (*length && (*name)[*length - 1] == ' ')
+        --*length;
+    return *end ? end + 1 : NULL;
+}
+
+bool br_lists(const char *list, const char *name)
+{
+    const char *listed;
+    size_t length;
+    while (list) {
+        list = br_list_next(list, &listed, &length);
+        if (length && length == strlen(name) && memcmp(listed, name, length) == 0)
+            return true;
+    }
+    return false;
+}

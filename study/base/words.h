@@ -56,6 +56,15 @@ char *br_suggestion(const char *word, const char *const *names, size_t count,
 enum { BR_EXPECTED = 800 };
 char *br_expected(const char *word, const char *const *names, size_t count, char text[BR_EXPECTED]);
 
+/* ---- lists of names ---- */
+
+/* The first name of a list "a, b" (out; without the blanks around it, and without a zero at its
+ * end); returns the rest of the list, or NULL. */
+const char *br_list_next(const char *list, const char **name, size_t *length);
+
+/* Whether a name is in a list (NULL: an empty one). */
+bool br_lists(const char *list, const char *name);
+
 /* ---- numbers ---- */
 
 /* Lists of numbers on the command line and in scenes: "100,200,400", with or without blanks after

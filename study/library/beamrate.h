@@ -390,6 +390,8 @@ struct beamrate_table {
     const char *values; /* columns of values whose limit is not known; NULL: none */
     double dimension; /* of the mesh whose unknowns a column counts; 0: 2, and the report says so */
     double formal;    /* theoretical order of values; 0: 2 */
+    const char *columns; /* what columns are, as --column has it: "dx=h,3=l2"; NULL: none */
+    const char *where;   /* the rows of one study: "method=P1"; NULL: all */
 };
 
 /* Reads the table and finds the orders of each of its columns of numbers. *orders (out): owned by

@@ -70,7 +70,7 @@ _Case = _struct("s:study s:measure s:part d:expected d:tolerance e:order d:const
                 "z:used i:verdict s:reason s:note", e=_Estimate)
 _Numbers = _struct("p:h p:k p:number z:count i:values d:formal")
 _Order = _struct("e:order d:constant z:points z:used e:limit", e=_Estimate)
-_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal")
+_Table = _struct("s:name s:text s:errors s:values d:dimension d:formal s:columns s:where")
 _Answer = _struct("s:quantity i:values i:refined e:order s:open", e=_Estimate)
 _OrderPoint = _struct("d:size d:error d:rate e:fit s:left_out", e=_Estimate)
 _Expectation = _struct("i:axis d:order d:tolerance d:down_to")
@@ -503,6 +503,8 @@ def _column(name, values):
     values = np.asarray(values)
     if values.ndim != 1 or values.dtype.kind == "c":
         _refuse(TypeError, name, values, "a list of real numbers")
+    if values.dtype.kind in "mM":  # dates and times are words
+        return [str(v) for v in values]
     return [repr(float(v)) if isinstance(v, float) else " ".join(str(v).split())
             for v in values.tolist()]
 
@@ -512,12 +514,13 @@ def _names(name, value):
     return None if value is None else _text(name, ",".join(map(str, value)))
 
 
-def orders(data, *, values=None, errors=None, dimension=0, formal=0, **sizes):
+def orders(data, *, values=None, errors=None, dimension=0, formal=0, where=None, **sizes):
     """The orders of convergence of a table: Orders, whose repr is the answer.
 
     data: a pandas DataFrame, a mapping of names to lists of numbers, the path of a file, or one list
     of numbers. The headings tell the mesh and the time step, as those of a file do; else name them:
-    h=, n=, level=, dofs= or cells= with dimension=, k=, dt=, steps=: a list of numbers, or the name of a column.
+    h=, n=, points=, interior=, level=, dofs= or cells= with dimension=, k=, dt=, steps=: a list of numbers, or the
+    name of a column, which then wins over all others. where: the rows of one study, "method=P1".
     values, errors: names of columns, "cd" or ["cd", "cl"]: values have no known limit; default: all
     numbers are errors. Of one list, values=True makes it values. formal: the order of theory for
     values (2). NaN is a missing number. A report says what was taken for what.
@@ -530,16 +533,18 @@ def orders(data, *, values=None, errors=None, dimension=0, formal=0, **sizes):
             raise BadInput(f"{data}: found a zero byte, expected text")
     else:
         name, text, values = b"table", *_as_text(data, values, sizes)
+    columns = ",".join(f"{key}={key}" for key, size in sizes.items() if size is not None)
     watch = (dimension, formal)
     if not all(isinstance(v, (int, float, np.number)) and math.isfinite(v) and v >= 0 for v in watch):
         _refuse(BadInput, "dimension, formal", watch, "numbers above 0")
     return Orders(None, _table=_Table(name, text, _names("errors", errors), _names("values", values),
-                                      dimension, formal))
+                                      dimension, formal, _text("columns", columns) if columns else None,
+                                      _names("where", where)))
 
 
 def _as_text(data, values, sizes):
     """The table of what Python has, as CSV; and `values`."""
-    known = ("h", "n", "level", "dofs", "cells", "k", "dt", "steps")
+    known = ("h", "n", "points", "interior", "level", "dofs", "cells", "k", "dt", "steps")
     if wrong := sorted(set(sizes) - set(known)):
         _refuse(TypeError, "sizes", wrong, f"some of {', '.join(known)}")
     if hasattr(data, "to_frame") and not hasattr(data, "columns"):  # a Series of pandas
@@ -557,10 +562,11 @@ def _as_text(data, values, sizes):
     columns = {key: _column(key, data[size] if isinstance(size, str) else size)
                for key, size in sizes.items() if size is not None}
     for key in data.keys():
+        if key in named:
+            continue
         if str(key) in columns:
             _refuse(BadInput, str(key), "it twice", "a column or an argument of that name")
-        if key not in named:
-            columns[str(key)] = _column(str(key), data[key])
+        columns[str(key)] = _column(str(key), data[key])
     if len(lengths := {len(column) for column in columns.values()}) != 1:
         raise BadInput(f"found columns of {sorted(lengths)} numbers, expected as many in each")
     for key in columns:

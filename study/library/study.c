@@ -356,6 +356,8 @@ static enum br_status read_orders(struct beamrate_orders *o, const struct beamra
     q.table = (char *)table->text;
     q.errors = (char *)table->errors;
     q.values = (char *)table->values;
+    q.columns = (char *)table->columns;
+    q.where = (char *)table->where;
     q.dimension = table->dimension > 0 ? table->dimension : q.dimension;
     q.assumed_dimension = !(table->dimension > 0);
     q.formal = table->formal > 0 ? table->formal : q.formal;
@@ -520,11 +522,9 @@ static enum br_status check_orders(struct beamrate_check *made,
         snprintf(e[i].quantity, sizeof e->quantity, "%s", numbers.quantity->name);
     enum br_status status = made->measure ? BR_OK : br_no_memory(err, "the verdicts");
     for (size_t i = 0; i < count && !status; i++)
-        if (numbers.assumed && e[i].axis == BR_AXIS_SPACE)
-            status = br_fail(err, BR_BAD_INPUT,
-                             "an order of %.200s in h is expected, and h follows from numbers of %s: "
-                             "state the dimension of the mesh",
-                             made->measure, numbers.column[BR_AXIS_SPACE]->name);
+        if (numbers.unsettled)
+            status = br_fail(err, BR_BAD_INPUT, "an order of %.200s in %s is expected, and %s",
+                             made->measure, br_axis_letters[e[i].axis], numbers.unsettled);
     if (!status)
         status = br_orders_check(&alone, e, count, check, err);
     for (size_t i = 0; i < check->count && !status; i++)

@@ -185,15 +185,17 @@ enum br_status br_orders_add_lines(const struct br_orders *o, struct br_quantity
     enum br_status status = BR_OK;
     if (!sorted || !of->point[axis])
         status = br_no_memory(err, "the orders");
+    size_t rows = 0;
     for (size_t i = 0; i < numbers->rows && !status; i++)
-        sorted[i] =
-            (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)), z_of(numbers, i, axis), i};
+        if (!(numbers->row[i].absent && numbers->row[i].absent[of->quantity]))
+            sorted[rows++] = (struct line_row){alone ? 0 : z_of(numbers, i, other(axis)),
+                                               z_of(numbers, i, axis), i};
     if (!status)
-        qsort(sorted, numbers->rows, sizeof *sorted, by_line);
-    for (size_t first = 0, end; first < numbers->rows && !status; first = end) {
+        qsort(sorted, rows, sizeof *sorted, by_line);
+    for (size_t first = 0, end; first < rows && !status; first = end) {
         if (br_observer_stops(numbers->observer))
             status = br_fail(err, BR_INTERRUPTED, "interrupted");
-        for (end = first + 1; end < numbers->rows && sorted[end].other == sorted[first].other;)
+        for (end = first + 1; end < rows && sorted[end].other == sorted[first].other;)
             end++;
         if (!status && end - first >= BR_ORDERS_LEAST)
             status = add_line(o, of, axis, &sorted[first], end - first, err);

@@ -6,47 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct br_resolution_column br_resolution_columns[] = {
-    {"h", "h", BR_AXIS_SPACE, .is_size = true},
-    {"n", "h = 1/n", BR_AXIS_SPACE, .is_size = false},
-    {"dofs", "h = dofs^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
-    {"cells", "h = cells^(-1/d)", BR_AXIS_SPACE, .is_volume = true},
-    {"level", "h = 2^-level", BR_AXIS_SPACE, .is_power = true},
-    {"k", "k", BR_AXIS_TIME, .is_size = true},
-    {"dt", "k", BR_AXIS_TIME, .is_size = true},
-    {"steps", "k = 1/steps", BR_AXIS_TIME, .is_size = false},
-    {0},
-};
-
-const struct br_resolution_column *br_resolution_column_find(const char *name)
-{
-    for (const struct br_resolution_column *c = br_resolution_columns; c->name; c++)
-        if (strcmp(c->name, name) == 0)
-            return c;
-    return NULL;
-}
-
-double br_numbers_z(const struct br_resolution_column *column, double given, double dimension)
-{
-    if (column->is_size)
-        return given;
-    if (column->is_power)
-        return exp2(-given);
-    return column->is_volume ? pow(given, -1 / dimension) : 1 / given;
-}
-
-double br_numbers_given(const struct br_resolution_column *column, double z, double dimension)
-{
-    const double given = column->is_size     ? z
-                         : column->is_power  ? -log2(z)
-                         : column->is_volume ? pow(z, -dimension)
-                                             : 1 / z;
-    const double whole = round(given);
-    if (column->is_size)
-        return given;
-    return fabs(given - whole) <= fmin(1e-9 * given, 0.1) ? whole : ceil(given);
-}
-
 void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      enum br_axis axis, char text[64])
 {
@@ -54,28 +13,6 @@ void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_r
     snprintf(text, 64, "%s%s = %.6g", by_list ? "the run of " : "",
              (by_list ? numbers->listed : numbers->column)[axis]->name,
              (by_list ? row->listed : row->given)[axis]);
-}
-
-const char *br_list_next(const char *list, const char **name, size_t *length)
-{
-    *name = list + strspn(list, " ");
-    const char *end = *name + strcspn(*name, ",");
-    *length = (size_t)(end - *name);
-    while (*length && (*name)[*length - 1] == ' ')
-        --*length;
-    return *end ? end + 1 : NULL;
-}
-
-bool br_lists(const char *list, const char *name)
-{
-    const char *listed;
-    size_t length;
-    while (list) {
-        list = br_list_next(list, &listed, &length);
-        if (length && length == strlen(name) && memcmp(listed, name, length) == 0)
-            return true;
-    }
-    return false;
 }
 
 enum br_status br_numbers_make_room(struct br_numbers *numbers, size_t rows, size_t quantities,
@@ -165,11 +102,13 @@ void br_numbers_clear(struct br_numbers *numbers)
     for (size_t i = 0; i < numbers->rows; i++) {
         free(numbers->row[i].number);
         free(numbers->row[i].failure);
+        free(numbers->row[i].absent);
     }
     for (int axis = 0; axis < BR_AXES; axis++)
         free(numbers->unit[axis]);
     free(numbers->quantity);
     free(numbers->row);
+    br_store_clear(&numbers->store);
     *numbers = (struct br_numbers){0};
 }
 

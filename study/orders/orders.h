@@ -8,23 +8,12 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "study/base/words.h"
 #include "study/fit/limits.h"
+#include "study/reading/columns.h"
 #include "study/verify/check.h"
 
 /* ---- numbers: they come from a source (request.h) ---- */
-
-/* How a column states a resolution; const records. z is the number itself for a size; one over it
- * for a number of elements or steps; number^(-1/dimension) for unknowns. */
-struct br_resolution_column {
-    const char *name;   /* "n", "h", "dofs", "cells", "level", "k", "dt", "steps" */
-    const char *states; /* "h = 1/n" */
-    enum br_axis axis;
-    bool is_size;   /* z is the number itself */
-    bool is_volume; /* z is the number^(-1/dimension) */
-    bool is_power;  /* z is 2^-number; where all are false, one over the number */
-};
-extern const struct br_resolution_column br_resolution_columns[]; /* ends with a NULL name */
-const struct br_resolution_column *br_resolution_column_find(const char *name);
 
 /* A column of numbers that is studied. */
 struct br_quantity {
@@ -47,12 +36,19 @@ struct br_numbers_row {
     double *number;        /* by quantity; NaN: missing; owned */
     double *deviation;     /* the standard deviation of each, where it is a mean; NaN, or no array:
                               it is none; within `number` */
+    bool *absent;          /* by quantity: its study has no such row; NULL: none lacks; owned */
     size_t repeat;         /* of a run: which of its cell; of a mean: how many; 0: one run */
     size_t line;           /* in the source file; 0: there is none */
     double seconds, wall, bytes; /* processor time, time by the clock, peak memory; NaN: not
                                     measured */
     bool kept;             /* whether its numbers were kept from an earlier run */
     char *failure;         /* why it has no numbers; NULL: it has; owned */
+};
+
+/* A column, a row or a line of a table. */
+struct br_left_aside {
+    const char *what; /* "column time", "line 9: Overall 2.0" */
+    const char *why;
 };
 
 /* Of numbers: some seconds are enough for the fits of a grid, and one for those of a line. */
@@ -68,7 +64,13 @@ struct br_numbers {
     size_t rows;
     double dimension; /* of the mesh, where unknowns or cells are counted */
     bool assumed;     /* nobody stated it */
-    char taken[800]; /* what was taken for what: "h = 1/n from column N; errors: L2"; "": a program's */
+    const char *unsettled; /* what is assumed, and the option that settles it: there is no verdict on
+                              it; NULL: nothing is */
+    const char *taken; /* what was taken for what: "h = 1/n from column N; errors: L2"; NULL: a
+                          program's */
+    struct br_left_aside *left; /* of a table, what has no part in the numbers */
+    size_t lefts;
+    struct br_store store; /* of these texts */
     const struct br_observer *observer; /* stops fits; may be NULL; borrowed */
 };
 
@@ -87,19 +89,6 @@ void br_numbers_sort(struct br_numbers *numbers);
 /* "n = 40", with the number as given; "the run of n = 40" where a run did not state its size. */
 void br_numbers_name(const struct br_numbers *numbers, const struct br_numbers_row *row,
                      enum br_axis axis, char text[64]);
-
-/* z of a number of the column. */
-double br_numbers_z(const struct br_resolution_column *column, double given, double dimension);
-
-/* The number that states a size z, or the next finer whole one. */
-double br_numbers_given(const struct br_resolution_column *column, double z, double dimension);
-
-/* The first name of a list "a, b" (out; without the blanks around it, and without a zero at its
- * end); returns the rest of the list, or NULL. */
-const char *br_list_next(const char *list, const char **name, size_t *length);
-
-/* Whether a name is in a list (NULL: an empty one). */
-bool br_lists(const char *list, const char *name);
 
 /* Sorts the rows, and makes sizes one that differ by round-off. Refuses (BR_BAD_INPUT, with `path`
  * and the line first) resolutions that are not above 0 or are there twice, fewer than three

@@ -408,6 +408,9 @@ static enum br_status make_quantities(const struct br_orders_request *p, struct 
     if (mesh) {
         numbers->dimension = br_orders_dimension(p, mesh);
         numbers->assumed = mesh->is_volume && p->assumed_dimension;
+        if (numbers->assumed)
+            numbers->unsettled = "h follows from numbers of unknowns or cells: state the dimension of "
+                                 "the mesh (--dimension, or 'dimension:')";
     }
     if (!status && !numbers->quantities)
         status =

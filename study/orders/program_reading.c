@@ -352,36 +352,54 @@ static enum br_status search_json(struct search *s)
 
 /* ---- CSV ---- */
 
+/* Takes the middle out of long tables: a log may have more rows than a study. */
+static void shorten(char *text)
+{
+    enum { HEAD = 20, TAIL = 20, LINES = 1000 };
+    size_t lines = 0;
+    for (const char *at = text; (at = strchr(at, '\n')); at++)
+        lines++;
+    char *head = text, *tail = text;
+    for (size_t i = 0; lines > LINES && i < lines - TAIL; i++) {
+        tail = strchr(tail, '\n') + 1;
+        head = i < HEAD ? tail : head;
+    }
+    memmove(head, tail, strlen(tail) + 1);
+}
+
 /* The number is in the last row. */
 static enum br_status search_csv(struct search *s)
 {
-    char buffer[SHOWN];
-    json_t *table = json_array();
+    char buffer[SHOWN], number[40];
+    struct br_fields f = {0};
     struct br_error why = {0};
-    enum br_status status =
-        br_table_split(s->output, "the output", true, s->request->observer, table, &why);
-    const size_t rows = json_array_size(table);
-    const json_t *heading = json_array_get(table, 0), *field = NULL;
+    struct br_field_number found;
     size_t columns = 0;
-    for (size_t i = 1; i < json_array_size(heading) && !status; i++) {
-        const char *name = json_string_value(json_array_get(heading, i));
-        if (!name || strcmp(name, s->reading->what) != 0)
-            continue;
-        columns++;
-        field = json_array_get(json_array_get(table, rows - 1), i);
-    }
+    const char *field = NULL;
+    shorten(s->output);
+    enum br_status status =
+        br_fields_read(s->output, "the output", s->request->observer, &f, &why);
+    for (size_t i = 0; i < f.columns && f.heading && !status; i++)
+        if (f.heading[i] && strcmp(f.heading[i], s->reading->what) == 0) {
+            columns++;
+            field = f.rows ? f.field[(f.rows - 1) * f.columns + i] : NULL;
+        }
     if (status)
         status = status == BR_BAD_INPUT ? refuse(s, "%s", why.message)
                                         : br_fail(s->err, status, "%s", why.message);
     else if (columns != 1)
         status = refuse(s, "found %zu columns '%s' in the heading, expected one", columns,
                         shown(buffer, s->reading->what));
-    else if (rows == 1)
+    else if (!f.rows)
         status = refuse(s, "the table has no row below its heading");
-    else
-        status = take_text(s, json_is_null(field) ? "" : json_string_value(field),
-                           json_string_length(field));
-    json_decref(table);
+    else {
+        const bool reads = field && br_field_read(field, f.mark, &found);
+        const char *text = reads ? br_shortest(found.value, number, sizeof number)
+                           : field ? field
+                                   : "";
+        status = take_text(s, text, strlen(text));
+    }
+    br_fields_clear(&f);
     return status;
 }
 

@@ -30,6 +30,7 @@ void br_orders_request_clear(struct br_orders_request *r)
     free(r->folder);
     free(r->errors);
     free(r->columns);
+    free(r->where);
     free(r->values);
     free((struct br_reading *)r->reading);
     free(r->expectation);
@@ -122,16 +123,39 @@ enum br_status br_orders_check_lists(const struct br_orders_request *r,
                            "%s: an order of %s in %s is expected, and there is no resolution of %s",
                            br_orders_path(r), e->quantity, br_axis_letters[e->axis],
                            e->axis == BR_AXIS_SPACE ? "the mesh" : "the time steps");
-        if (numbers->assumed && e->axis == BR_AXIS_SPACE)
-            return br_fail(err, BR_BAD_INPUT,
-                           "%s: an order of %s in h is expected, and h follows from numbers of %s: "
-                           "state the dimension of the mesh (--dimension, or 'dimension:')",
-                           br_orders_path(r), e->quantity, numbers->column[e->axis]->name);
+        if (numbers->unsettled)
+            return br_fail(err, BR_BAD_INPUT, "%s: an order of %s in %s is expected, and %s",
+                           br_orders_path(r), e->quantity, br_axis_letters[e->axis],
+                           numbers->unsettled);
     }
     return BR_OK;
 }
 
 /* ---- items ---- */
+
+/* Writes the numbers of a list as digits, where it has them as tables do: 2^-4, 1/8. Items that are
+ * no numbers stay. Returns it, owned; NULL: no memory. */
+static char *plain_list(const char *list)
+{
+    enum { NUMBER = 32 };
+    size_t items = 1, length;
+    for (const char *at = list; (at = strchr(at, ',')); at++)
+        items++;
+    char *text = br_allocate(strlen(list) + items * NUMBER + 1, 1), *to = text;
+    for (const char *item, *rest = list; text && rest;) {
+        char word[64], number[NUMBER];
+        struct br_field_number found;
+        rest = br_list_next(rest, &item, &length);
+        snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), item);
+        const bool reads = length < 63 && br_field_read(word, '.', &found) && isnan(found.deviation);
+        const char *shown = reads ? br_shortest(found.value, number, sizeof number) : item;
+        const size_t size = reads ? strlen(shown) : length;
+        memcpy(to, shown, size);
+        to += size;
+        *to++ = rest ? ',' : '\0';
+    }
+    return text;
+}
 
 enum br_status br_orders_request_axis(struct br_orders_request *r, const char *column,
                                       const char *list, struct br_error *err)
@@ -142,8 +166,12 @@ enum br_status br_orders_request_axis(struct br_orders_request *r, const char *c
     if (r->axis[c->axis].column)
         return br_fail(err, BR_BAD_INPUT, "%s and %s are given, expected one of the two",
                        r->axis[c->axis].column->name, column);
-    const bool zero = c->is_power && strncmp(list, "0,", 2) == 0; /* the first level */
-    enum br_status status = br_read_numbers(column, list + (zero ? 2 : 0), &given, &count, err);
+    char *plain = plain_list(list);
+    if (!plain)
+        return br_no_memory(err, "a list");
+    const bool zero = c->is_power && strncmp(plain, "0,", 2) == 0; /* the first level */
+    enum br_status status = br_read_numbers(column, plain + (zero ? 2 : 0), &given, &count, err);
+    free(plain);
     if (!status && zero && count < BR_MOST_SIZES) {
         memmove(given + 1, given, count++ * sizeof *given);
         given[0] = 0;
@@ -229,6 +257,8 @@ void br_orders_problem(const struct br_orders_request *r, char problem[40])
     add_text(&sum, r->values);
     if (r->columns)
         add_text(&sum, r->columns);
+    if (r->where)
+        add_text(&sum, r->where);
     if (r->repeat > 1) {
         snprintf(text, sizeof text, "repeat %.17g", r->repeat);
         add_text(&sum, text);

@@ -11,6 +11,7 @@
 #include "study/base/sha256.h"
 #include "study/base/statement.h"
 #include "study/orders/orders.h"
+#include "study/reading/reading.h"
 
 /* How a number is found in what a run prints, or in a file that it writes. */
 enum br_reading_kind {
@@ -44,6 +45,7 @@ struct br_orders_request {
     char *errors, *values; /* columns or readings, "l2,h1", with errors, and with values without a
                               known limit; NULL: see the sources */
     char *columns;         /* of a table, "dx=h, 3=l2": heading or position, and name; NULL: none */
+    char *where;           /* of a table, "method=P1": the rows that are read; NULL: all */
     double dimension;      /* of the mesh, for unknowns (dofs) and cells: br_orders_dimension */
     bool assumed_dimension; /* nobody stated it */
     double formal;          /* the order of theory for values; 0: nobody stated it */
@@ -84,8 +86,8 @@ enum br_status br_orders_read(const struct br_orders_request *request, struct br
 const char *br_orders_path(const struct br_orders_request *request);
 
 /* For sources, before a program is run: refuses (BR_BAD_INPUT) errors, values and expectations that
- * name no quantity, names in both lists, and expectations for an axis that is not refined, or for a
- * mesh whose dimension is assumed. known[count]: all names that a list may have. */
+ * name no quantity, names in both lists, and expectations for an axis that is not refined, or of
+ * numbers that are not settled. known[count]: all names that a list may have. */
 enum br_status br_orders_check_lists(const struct br_orders_request *request,
                                      const struct br_numbers *numbers, const char *const *known,
                                      size_t count, struct br_error *err);
@@ -97,37 +99,10 @@ double br_orders_dimension(const struct br_orders_request *request,
 
 /* ---- tables ---- */
 
-/* In a table; a row without its heading. A report takes 20 microseconds for each field. */
-enum {
-    BR_LONGEST_TABLE = 64 << 20, /* bytes */
-    BR_MOST_COLUMNS = 1000,
-    BR_MOST_FIELDS = 40000
-};
-
-/* Splits a text into an array of rows, the heading first. A row is an array of its line and its
- * fields, texts; an empty field is null, and so is the heading of a column without a name. What
- * separates fields is found out: tabs, '|', '&' of LaTeX, ';', ',' or else blanks; with all but the
- * comma numbers may have decimal commas. Left out are empty lines, comments (#, %, !), rules, and a
- * last row of means. The heading may be the comment above the first row, two lines, or names in
- * the rows ("h = 0.1  e = 0.2"). only_last: of the rows only the last one stays. Fails with
- * BR_BAD_INPUT, naming path and line, also beyond the limits above and BR_MOST_ROWS; with
- * BR_INTERRUPTED by the observer, which may be NULL; or with BR_NO_MEMORY. */
-enum br_status br_table_split(const char *text, const char *path, bool only_last,
-                              const struct br_observer *observer, json_t *table,
-                              struct br_error *err);
-
-/* Whether a field is no number: empty, "-", "nan", "inf", stars. text: NULL, it is empty. */
-bool br_is_missing(const char *text);
-
-/* Reads a number of a table, also with an exponent of Fortran: 1.5D-3, 1.5-103. */
-bool br_table_number(const char *text, double *value);
-
-/* The source: a table. A heading is a name, and perhaps a unit in brackets: "dt [s]". Usual names
- * tell the columns of resolutions (table.c); where an axis has several, sizes, counts along a side
- * and levels must agree, and the first of h, n, dofs, cells is taken. Without errors and values in
- * the request, every other column of numbers is an error, but rates, times and iterations. A field
- * that is empty, "-", "nan" or "***" is a run without a number. numbers->taken (out) says what was
- * taken for what. */
+/* The source: a table (study/reading/roles.h says how it is read). Without errors and values in the
+ * request, every column that falls as errors do is an error. Where a column tells several studies
+ * apart, each of its errors is a quantity of its own, "L2 [method = P1]". A field that is empty, "-",
+ * "nan" or "***" is a run without a number. numbers->taken (out) says what was taken for what. */
 enum br_status br_table_read(const struct br_orders_request *request, struct br_numbers *numbers,
                              struct br_error *err);
 
