@@ -163,6 +163,50 @@ TEST(test_jumps)
     assert_int_equal(t.below, t.known);
 }
 
+/* Loads that begin late, end early or jump often, on the levels of 20 and 100 steps and between
+ * them. They are not too short for the marches that predict the error. */
+TEST(test_late_loads)
+{
+    static const char *const late[] = {
+        "30*step(t - 0.83)",
+        "30*step(t - 0.95)",
+        "x*(t > 0.57)",
+        "step(t - 0.825)",
+        "step(t - 0.97)",
+        "2*step(t - 0.2) - 2*step(t - 0.29)",
+        "step(t - 0.58)*(1 - step(t - 0.6))",
+        "step(t - 0.123) - 2*step(t - 0.4567) + 3*step(t - 0.83)",
+        "max(0, t - 0.83)",
+        "(t - 0.9)^2*step(t - 0.9)*x",
+        "step(sin(31*t))",
+    };
+    static const char *const methods[] = {"euler", "bdf2", "trbdf2", "esdirk4", "adaptive"};
+    static const size_t n = 16, some[] = {20, 100};
+    const struct br_study shape = {.n_count = 1, .k_count = 2, .n = &n, .steps = some};
+    struct tally t = {0}, dear = {0};
+    for (size_t i = 0; i < 2 * sizeof late / sizeof *late; i++)
+        for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
+            if (!br_test_long() && (i + m) % 5)
+                continue;
+            struct br_scene scene = br_test_bare();
+            struct br_load *load = i % 2 ? &scene.bending.load : &scene.axial.load;
+            scene.field[1 - i % 2].modelled = false;
+            scene.axial.stiffness = 100;
+            scene.bending.viscosity = 0.1;
+            *load = br_test_load(late[i / 2]);
+            measure(&t, &scene, methods[m], &shape, 0);
+            measure(&dear, &scene, methods[m], &shape, 2e5);
+            br_load_clear(load);
+        }
+    show("late loads", &t);
+    show("late loads, extrapolated", &dear);
+    assert_true(t.all >= 40 && dear.all == t.all);
+    AT_MOST(0.95 * t.all, t.known);
+    assert_int_equal(t.below, t.known);
+    AT_MOST(0.95 * t.known, t.within_3);
+    assert_int_equal(dear.below, dear.known);
+}
+
 /* ---- scenes drawn at random, against a march by a tolerance ---- */
 
 static const char *const loads[] = {"1", "t", "sin(3*t)", "exp(t) - 1", "x*cos(2*t)", "1 - x*t"};

@@ -263,8 +263,9 @@ TEST(test_numbers)
 
 TEST(test_missing)
 {
-    static const char *const missing[] = {NULL,   "",    "-",   "--",   "---", "\u2013", "NaN",
-                                          "-nan", "N/A", "inf", "-Inf", "***", "null",   "$-$"};
+    static const char *const missing[] = {NULL,     "",    "-",       "--",   "---",
+                                          "\u2013", "NaN", "-nan",    "N/A",  "inf",
+                                          "-Inf",   "***", "missing", "null", "$-$"};
     static const char *const present[] = {"0", "x", "-1", "nano", "* 1", "na na"};
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         assert_true(br_field_is_missing(missing[i]));

@@ -7,8 +7,11 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "solver/proof.h"
+#include "study/base/words.h"
+#include "study/scene/resolution.h"
 
 /* A load or initial data: exactly one of load, force and data is set. */
 struct input {
@@ -25,6 +28,8 @@ struct loss {
     const struct input *input;
     double missed, size;    /* impulses, forces, or squares of data */
     double worst, position; /* the step that misses most, and its middle, s; or the node's, m */
+    double unseen;          /* of the missed impulses, what no value at a level shows */
+    double at_levels, jump; /* of them, what jumps on levels leave; the last large one, s */
     bool unknown;           /* not all of it could be resolved */
 };
 
@@ -128,7 +133,14 @@ struct walker {
     void *self;
 };
 
-enum { SEVERAL = 4 };
+enum { SEVERAL = 16 };
+
+/* The end of so many parts: as a march computes its levels, so that a jump lies on the same side.
+ */
+static double end_of(double length, size_t parts, size_t part)
+{
+    return length * (double)part / (double)parts;
+}
 
 static void walk(const struct br_mesh *mesh, double length, size_t parts, const struct walker *w)
 {
@@ -136,17 +148,17 @@ static void walk(const struct br_mesh *mesh, double length, size_t parts, const 
     size_t part = 0;
     for (size_t i = 0; i < mesh->count; i++)
         for (double from = mesh->at[i], cell = mesh->at[i + 1]; from < cell;) {
-            const double begin = (double)part * h;
-            if (w->take_several && from <= begin && cell - begin >= SEVERAL * h) {
-                const size_t whole = (size_t)((cell - begin) / h);
-                const size_t count = whole < parts - part ? whole : parts - part;
+            const double begin = end_of(length, parts, part), left = (cell - begin) / h;
+            /* The first and the last part may touch a jump at an end of the cell. */
+            if (w->take_several && from <= begin && begin - mesh->at[i] > h / 2 &&
+                left >= SEVERAL) {
+                const size_t count = (size_t)(left - 0.5);
                 w->take_several(w->self, part, count);
                 part += count;
-                from = part < parts ? (double)part * h : length;
+                from = end_of(length, parts, part);
                 continue;
             }
-            const double end = part + 1 < parts ? (double)(part + 1) * h : length;
-            const double to = fmin(end, cell);
+            const double end = end_of(length, parts, part + 1), to = fmin(end, cell);
             if (to > from)
                 w->take(w->self, part, (struct br_interval){from, to}, to >= end);
             part += to >= end && part + 1 < parts;
@@ -165,16 +177,19 @@ static bool is_given(const struct br_function *f)
 /* Over each step the impulse of a function of time is compared with that of the straight line
  * between its values at the levels, which is close to what a scheme with few stages uses. For
  * smooth functions they differ by O(k^2), for a blow shorter than the step by the whole impulse.
- * The exact impulse is integrated on a mesh that is proved to resolve the function; where one of
- * its cells spans several steps, the difference is bounded by the second derivative: |c_2| k^3 / 6
- * a step. */
+ * Where it jumps, a scheme with one stage uses the value at the end alone. A scheme that chooses
+ * its steps finds what the levels show: only what lies beyond their two values may escape it, and
+ * that is `unseen`. The exact impulse is integrated on a mesh that is proved to resolve the
+ * function; where one of its cells spans several steps, the difference is bounded by the second
+ * derivative: |c_2| k^3 / 6 a step. */
 
 /* The state of the comparison for one function of t. */
 struct passage {
     const struct br_function *f;
     struct br_box box; /* one position, and all times */
-    double k, weight;
+    double k, weight, most;
     double impulse; /* in this step, so far */
+    bool jumps;     /* in it, or at its start */
     struct loss *loss;
 };
 
@@ -187,28 +202,71 @@ static void miss(struct loss *s, double missed, double position)
     }
 }
 
+/* Whether f jumps within round-off of a time. A front that passes there at that time passes a
+ * neighbour at another one. */
+static bool jumps_at(const struct passage *p, double t)
+{
+    static const double round_off = 2e-15, aside = 1e-6, small = 0.01;
+    const struct br_interval all = p->box.t;
+    const struct br_scene *scene = p->loss->planned->scene;
+    const double close = round_off * all.high, here = p->box.x.low, away = aside * scene->length;
+    const double x[2] = {here, here + (here > away ? -away : away)};
+    double before[2], after[2];
+    br_function_evaluate(p->f, 2, x, fmax(t - close, all.low), before);
+    br_function_evaluate(p->f, 2, x, fmin(t + close, all.high), after);
+    return fmin(fabs(after[0] - before[0]), fabs(after[1] - before[1])) > small * p->most;
+}
+
+static double value_at(const struct passage *p, double t)
+{
+    return br_function_at(p->f, p->box.x.low, t);
+}
+
+/* What of an impulse lies beyond those of the values at both ends. NaN stays NaN. */
+static double unseen_of(double impulse, const double end[2])
+{
+    const double above = impulse - fmax(end[0], end[1]), below = fmin(end[0], end[1]) - impulse;
+    return above <= 0 && below <= 0 ? 0 : above > below ? above : below;
+}
+
+static double missed_of(const struct passage *p, const double end[2], bool jumps)
+{
+    const bool one = br_time_scheme_stages(p->loss->planned->method->scheme) == 1;
+    return fabs(p->impulse - (jumps && one ? end[1] : (end[0] + end[1]) / 2));
+}
+
 static void pass_piece(void *self, size_t step, struct br_interval piece, bool ends)
 {
     struct passage *p = self;
+    struct loss *s = p->loss;
+    const struct br_planned_march *o = s->planned;
     const struct points points = points_of(p->f, BR_T, p->box, piece);
-    double before, after;
     for (int i = 0; i < POINTS; i++)
         p->impulse += points.weight[i] * points.value[i];
+    p->jumps |= jumps_at(p, piece.low);
     if (!ends)
         return;
-    br_function_evaluate(p->f, 1, &p->box.x.low, (double)step * p->k, &before);
-    br_function_evaluate(p->f, 1, &p->box.x.low, (double)(step + 1) * p->k, &after);
-    miss(p->loss, p->weight * fabs(p->impulse - p->k * (before + after) / 2),
-         ((double)step + 0.5) * p->k);
+    const double from = end_of(p->box.t.high, o->steps, step),
+                 to = end_of(p->box.t.high, o->steps, step + 1);
+    const double end[2] = {p->k * value_at(p, from), p->k * value_at(p, to)};
+    const bool on_level[2] = {jumps_at(p, from), jumps_at(p, to)};
+    const double unseen = unseen_of(p->impulse, end);
+    const double missed =
+        o->method->scheme->adaptive ? unseen : missed_of(p, end, p->jumps || on_level[1]);
+    if ((on_level[0] || on_level[1]) && p->weight * missed >= s->worst)
+        s->jump = on_level[1] ? to : from;
+    s->at_levels += on_level[0] || on_level[1] ? p->weight * missed : 0;
+    s->unseen += p->weight * unseen;
+    miss(s, p->weight * missed, ((double)step + 0.5) * p->k);
     p->impulse = 0;
+    p->jumps = false;
 }
 
 static void pass_steps(void *self, size_t step, size_t count)
 {
     struct passage *p = self;
     const double from = (double)step * p->k, to = (double)(step + count) * p->k;
-    /* Inside of the cell: it ends where the function jumps, at one point, which has no impulse. */
-    const struct br_box box = {p->box.x, {nextafter(from, to), nextafter(to, from)}};
+    const struct br_box box = {p->box.x, {from, to}};
     struct br_interval c[3], value = {0, 0};
     double most = INFINITY; /* a step */
     if (br_function_taylor(p->f, BR_T, box, 2, c))
@@ -217,6 +275,7 @@ static void pass_steps(void *self, size_t step, size_t count)
         most = fmin(most, (value.high - value.low) * p->k);
     miss(p->loss, p->weight * most, from + p->k / 2);
     p->loss->missed += p->weight * most * (double)(count - 1);
+    p->loss->unseen += p->weight * most * (double)count;
 }
 
 /* Adds the missed impulse of weight times a function of t. */
@@ -225,7 +284,6 @@ static enum br_status measure_times(const struct br_function *f, double weight, 
 {
     const struct br_planned_march *o = s->planned;
     const double duration = o->scene->duration;
-    struct passage p = {f, all_of(o->scene), duration / (double)o->steps, weight, 0, s};
     struct br_mesh mesh = {0};
     struct br_box peak;
     struct br_error failure;
@@ -233,7 +291,13 @@ static enum br_status measure_times(const struct br_function *f, double weight, 
     enum br_status status = BR_BAD_INPUT;
     if (is_given(f))
         return BR_OK;
-    const double most = largest(f, p.box, &peak);
+    const double most = largest(f, all_of(o->scene), &peak);
+    struct passage p = {.f = f,
+                        .box = all_of(o->scene),
+                        .k = duration / (double)o->steps,
+                        .weight = weight,
+                        .most = most,
+                        .loss = s};
     if (isfinite(most)) {
         p.box.x = peak.x;
         status = load_mesh(f, BR_T, p.box, usual_rough, &mesh, &size, &failure);
@@ -438,33 +502,75 @@ static const struct check {
      "its norm", "", "of the elements", "elements short enough to resolve it", false},
 };
 
+/* A jump on a level is warned of from this share on: it takes no shorter steps to mend it. */
+static const double large_jump = 0.01;
+
+/* The fewest steps, more than now, of which one has a time about in its middle. */
+static size_t steps_around(const struct br_planned_march *o, double t)
+{
+    for (size_t steps = o->steps + 1;; steps++) {
+        const double levels = t / o->scene->duration * (double)steps;
+        if (fabs(levels - floor(levels) - 0.5) <= 0.25 || steps > 4 * o->steps)
+            return steps;
+    }
+}
+
+/* of: the share of the impulse that is missed, and where. */
+static void report_jump(const struct loss *s, const char *of, struct br_warnings *w)
+{
+    const struct br_planned_march *o = s->planned;
+    char remedy[400] = "", at[40];
+    snprintf(at, sizeof at, "%.10g", s->jump);
+    if (br_time_scheme_stages(o->method->scheme) == 1 && strtod(at, NULL) >= s->jump)
+        br_append(remedy, sizeof remedy,
+                  "a load with its value of before at t = %s s: (t > %s), not step(t - %s)\n", at,
+                  at, at);
+    br_append(remedy, sizeof remedy, "--k T/%zu  # no time level on the jump",
+              steps_around(o, s->jump));
+    br_warn(
+        w, BR_WARN_LOAD_TIME, remedy,
+        "%s jumps at t = %s s, on a time level, and its value there (step(0) is 1) counts for a "
+        "whole step: with k = %.4g s the error is %s",
+        s->input->name, at, br_time_step(o->scene, o->steps), of);
+}
+
+static double share_of(const struct loss *s, double missed)
+{
+    const double share = missed / s->size;
+    return missed == 0 ? 0 : isnan(share) ? INFINITY : share;
+}
+
 static void report(const struct loss *s, const struct check *check, struct br_warnings *w)
 {
     const struct br_planned_march *o = s->planned;
-    const double ratio = s->missed / s->size;
-    const double share = s->missed == 0 ? 0 : isnan(ratio) ? INFINITY : ratio;
-    char all[16], with[40], near[60] = "";
-    w->unseen[check->kind] = fmax(w->unseen[check->kind], share);
-    if (share <= check->large)
+    const double share = share_of(s, s->missed);
+    char all[16], with[40], of[100];
+    const bool jumps = s->at_levels > large_jump * s->size && 2 * s->at_levels > s->missed;
+    w->unseen[check->kind] =
+        fmax(w->unseen[check->kind], check->in_time ? share_of(s, s->unseen) : share);
+    if (share <= check->large && !jumps)
         return;
     if (share <= 0.995)
         snprintf(all, sizeof all, "%.2g %%", 100 * share);
     else
         snprintf(all, sizeof all, "%s", share > 1.005 ? "more than all" : "all");
     if (check->in_time)
-        snprintf(with, sizeof with, "k = %.4g s", o->scene->duration / (double)o->steps);
+        snprintf(with, sizeof with, "k = %.4g s", br_time_step(o->scene, o->steps));
     else
         snprintf(with, sizeof with, "n = %zu", o->n);
+    snprintf(of, sizeof of, "%s of %s", all, check->part);
     if (check->kind != BR_WARN_INITIAL)
-        snprintf(near, sizeof near, ", most of it near %s = %.4g %s", check->in_time ? "t" : "x",
-                 s->position, check->in_time ? "s" : "m");
+        br_append(of, sizeof of, ", most of it near %s = %.4g %s", check->in_time ? "t" : "x",
+                  s->position, check->in_time ? "s" : "m");
     if (s->unknown)
         br_warn(w, check->kind, check->remedy,
                 "%s changes so often%s that the error %s, with %s, is not known", s->input->name,
                 check->changes, check->not_known, with);
+    else if (jumps)
+        report_jump(s, of, w);
     else
-        br_warn(w, check->kind, check->remedy, "%s %s: with %s the error is %s of %s%s",
-                s->input->name, check->not_seen, with, all, check->part, near);
+        br_warn(w, check->kind, check->remedy, "%s %s: with %s the error is %s", s->input->name,
+                check->not_seen, with, of);
 }
 
 enum br_status br_check_loads(const struct br_planned_march *o, struct br_warnings *w,

@@ -63,9 +63,9 @@ static bool make_plain(const char *text, char plain[LONGEST])
 bool br_field_is_missing(const char *text)
 {
     static const char *const words[] = {
-        "-",    "--",   "---",  "\u2013", "\u2014",   "\u2212",    "$-$",    "{-}",      "$--$",
-        "nan",  "-nan", "+nan", "na",     "n/a",      "n.a.",      "#n/a",   "none",     "null",
-        "<na>", "inf",  "-inf", "+inf",   "infinity", "-infinity", "\u221e", "$\\infty$"};
+        "-",    "--",   "---",  "\u2013", "\u2014", "\u2212",   "$-$",       "{-}",    "$--$",
+        "nan",  "-nan", "+nan", "na",     "n/a",    "n.a.",     "#n/a",      "none",   "missing",
+        "null", "<na>", "inf",  "-inf",   "+inf",   "infinity", "-infinity", "\u221e", "$\\infty$"};
     if (!text || strspn(text, "*") == strlen(text))
         return true;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
