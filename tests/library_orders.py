@@ -190,7 +190,7 @@ def check_refusals():
     if small[0] != 0:  # where it has more exponents than a double
         refused("number: found array", lambda: br.Orders(small, h=[4, 2, 1]))
         refused("number: found array", lambda: br.Orders(1 / small, h=[4, 2, 1]))
-        refused("found no column of numbers", lambda: br.orders({"h": [4, 2, 1], "e": small}))
+        refused("found no column of errors", lambda: br.orders({"h": [4, 2, 1], "e": small}))
     refused("values: found True", lambda: br.orders({"n": N, "e": N}, values=True))
     for wrong in (-1, math.nan, math.inf, "2"):
         refused("dimension, formal: found", lambda: br.orders({"n": N, "e": N}, dimension=wrong))

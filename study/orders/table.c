@@ -308,7 +308,10 @@ static void say_left(struct source *s)
         const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
         const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
         for (size_t i = first; i < named; i++)
-            say(s, "%s%s", i == 0 ? "; left aside: " : i == first ? "; " : ", ",
+            say(s, "%s%s",
+                i == 0       ? "; left aside: "
+                : i == first ? "; "
+                             : ", ",
                 quoted(n->left[i].what, text));
         if (named < end)
             say(s, ", and %zu more", end - named);
