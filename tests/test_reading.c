@@ -137,8 +137,9 @@ static const struct {
     {"Error for n=10 is 0.1\nError for n=20 is 0.02\n", ":t:1: found no row of numbers"},
     {"n,e,,n,e\n8,1,,8,2\n16,.2,,16,1\n", ":t:1: found an empty column 3 between others"},
     {"{\"a\":[{\"h\":1}],\"b\":[{\"h\":2}]}", ":t: found several tables"},
-    {"{\"a\":{\"0\":1,\"1\":2},\"b\":{\"1\":1,\"0\":2}}", ":t: found columns with other rows"},
-    {"{\"a\":[1,2],\"b\":[1]}", ":t: found columns of several lengths"},
+    {"{\"a\":{\"0\":1,\"1\":2},\"b\":{\"1\":1,\"0\":2}}", ":t: found 2 values, but 2 or others in b"},
+    {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 or others in b"},
+    {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every form of a table in JSON becomes records, an array of objects from names to values; these
- * become fields. A JSON number is written with the fewest digits that give it again. */
+/* A table in JSON is a container of containers: of rows, or of columns. Where an array's values
+ * have their positions for keys, all forms are objects of objects, and one walk takes them. */
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,10 +12,11 @@ struct source {
     const char *path;
     struct br_fields *fields;
     struct br_error *err;
-    json_t *records; /* owned */
-    json_t *words;   /* names of columns that a schema says to have no numbers; owned */
-    size_t room;     /* of fields->left */
-    bool failed;     /* no memory */
+    json_t *columns; /* names to arrays of values; owned */
+    json_t *types;   /* the fields of pandas' schema; borrowed; may be NULL */
+    size_t rows;
+    size_t room; /* of fields->left */
+    bool failed; /* no memory */
 };
 
 static const char *skip_blanks(const char *text)
@@ -32,106 +33,52 @@ bool br_json_is_table(const char *text)
            ((*text == '{' && strchr("\"}", *next)) || (*text == '[' && strchr("{[]", *next)));
 }
 
-/* ---- to records ---- */
+/* ---- values ---- */
 
-/* Adds the values of an object to a record; those of an object in it with the names of both. */
-static void flatten(struct source *s, json_t *record, const char *prefix, json_t *object)
+/* A copy of a value's text, with the fewest digits that give a number again; NULL: it is empty. */
+static const char *text_of(struct source *s, const json_t *value)
 {
-    const char *key;
-    json_t *value;
-    json_object_foreach (object, key, value) {
-        char name[200];
-        snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? " " : "", key);
-        if (json_is_object(value) && strlen(name) + 2 < sizeof name)
-            flatten(s, record, name, value);
-        else
-            s->failed |= json_object_set(record, name, value) != 0;
-    }
+    char text[40];
+    const char *from = json_is_string(value) ? json_string_value(value)
+                       : json_is_real(value)
+                           ? br_shortest(json_real_value(value), text, sizeof text)
+                       : json_is_true(value)           ? "true"
+                       : json_is_false(value)          ? "false"
+                       : json_is_null(value) || !value ? ""
+                                                       : "[...]";
+    if (!*from)
+        return NULL;
+    char *to = br_store_take(&s->fields->store, strlen(from) + 1, 1);
+    return to ? strcpy(to, from) : NULL;
 }
 
-static json_t *add_record(struct source *s)
-{
-    json_t *record = json_object();
-    s->failed |= json_array_append_new(s->records, record) != 0;
-    return record;
-}
-
-/* Sets a value of the record `row`, which may be the next one. */
+/* Sets a value of a row; those of an object in it with the names of both. */
 static void set(struct source *s, size_t row, const char *name, json_t *value)
 {
-    json_t *record =
-        row < json_array_size(s->records) ? json_array_get(s->records, row) : add_record(s);
-    s->failed |= json_object_set(record, name, value) != 0;
-}
-
-/* Whether all values of an array or object are of one kind: arrays, objects, or neither. */
-enum kind { PLAIN, ARRAYS, OBJECTS, MIXED };
-
-static enum kind kind_of_value(const json_t *value)
-{
-    return json_is_array(value) ? ARRAYS : json_is_object(value) ? OBJECTS : PLAIN;
-}
-
-static enum kind kind_in(json_t *values)
-{
-    enum kind kind = MIXED;
     const char *key;
-    json_t *value;
-    size_t i;
-    json_array_foreach(values, i, value) kind =
-        i && kind != kind_of_value(value) ? MIXED : kind_of_value(value);
-    bool first = true;
-    json_object_foreach (values, key, value) {
-        kind = !first && kind != kind_of_value(value) ? MIXED : kind_of_value(value);
-        first = false;
+    json_t *part, *column = json_object_get(s->columns, name);
+    if (json_is_object(value) && strlen(name) < 400) {
+        json_object_foreach (value, key, part) {
+            char both[600];
+            snprintf(both, sizeof both, "%s%s%.180s", name, *name ? " " : "", key);
+            set(s, row, both, part);
+        }
+        return;
     }
-    return kind;
+    if (!column)
+        s->failed |= json_object_set_new(s->columns, name, column = json_array()) != 0;
+    while (!s->failed && json_array_size(column) < row)
+        s->failed |= json_array_append_new(column, json_null()) != 0;
+    s->failed |= json_array_append(column, value) != 0;
+    s->rows = row < s->rows ? s->rows : row + 1;
 }
 
-static enum br_status take_value(struct source *s, json_t *value);
-
-static enum br_status refuse(const struct source *s, const char *why)
+static enum br_status refuse(const struct source *s, const char *why, const char *name)
 {
     return br_fail(s->err, BR_BAD_INPUT,
-                   "%s: %s, expected one table: records, or columns of as many "
-                   "values each",
-                   s->path, why);
-}
-
-/* Rows of values; names: NULL, the first row has them. */
-static enum br_status take_rows(struct source *s, json_t *rows, json_t *names)
-{
-    size_t i, j;
-    json_t *row, *value;
-    const bool named = names || json_is_string(json_array_get(json_array_get(rows, 0), 0));
-    json_t *const heading = names ? names : json_array_get(rows, 0);
-    json_array_foreach(rows, i, row)
-    {
-        if (i == 0 && !names && named)
-            continue;
-        if (json_array_size(row) != json_array_size(heading))
-            return refuse(s, "found rows of several lengths");
-        json_t *record = add_record(s);
-        json_array_foreach(row, j, value)
-        {
-            char position[24];
-            snprintf(position, sizeof position, "%zu", j + 1);
-            json_t *name = json_array_get(heading, j);
-            s->failed |=
-                json_object_set(record,
-                                json_is_string(name) && named ? json_string_value(name) : position,
-                                value) != 0;
-        }
-    }
-    return BR_OK;
-}
-
-static enum br_status take_records(struct source *s, json_t *records)
-{
-    size_t i;
-    json_t *record;
-    json_array_foreach(records, i, record) flatten(s, add_record(s), "", record);
-    return BR_OK;
+                   "%s: found %s%.40s, expected one table: records, or columns of as many values "
+                   "each",
+                   s->path, why, name);
 }
 
 /* Names a value that stands beside the table. */
@@ -150,201 +97,235 @@ static void leave(struct source *s, const char *name, const json_t *value)
     free(text);
 }
 
-/* {"h": [...], "l2": [...]}; what is no list stands beside the table. */
-static enum br_status take_columns(struct source *s, json_t *columns)
+/* ---- containers ---- */
+
+static size_t size_of(const json_t *value)
 {
-    const char *name;
-    json_t *column, *value;
-    size_t i, size = 0;
-    json_object_foreach (columns, name, column) {
-        if (!json_is_array(column)) {
-            leave(s, name, column);
-            continue;
-        }
-        if (size && size != json_array_size(column))
-            return refuse(s, "found columns of several lengths");
-        size = json_array_size(column);
-        json_array_foreach(column, i, value) set(s, i, name, value);
-    }
-    return BR_OK;
+    return json_is_array(value) ? json_array_size(value) : json_object_size(value);
 }
 
-static bool counts(json_t *object)
+/* What the values of a container are, if all are alike. */
+enum kind { MIXED, PLAIN, LISTS, MAPS };
+
+static enum kind kind_of(const json_t *value)
 {
+    return json_is_array(value) ? LISTS : json_is_object(value) ? MAPS : PLAIN;
+}
+
+static enum kind kind_in(json_t *container)
+{
+    size_t i;
     const char *key;
     json_t *value;
-    size_t i = 0;
-    char text[24];
-    bool counted = true;
-    json_object_foreach (object, key, value) {
-        snprintf(text, sizeof text, "%zu", i++);
-        counted &= strcmp(text, key) == 0;
-    }
-    return counted;
+    enum kind kind =
+        kind_of(json_is_array(container) ? json_array_get(container, 0)
+                                         : json_object_iter_value(json_object_iter(container)));
+    json_array_foreach(container, i, value) kind = kind_of(value) == kind ? kind : MIXED;
+    json_object_foreach (container, key, value)
+        kind = kind_of(value) == kind ? kind : MIXED;
+    return size_of(container) ? kind : MIXED;
 }
 
-static bool has_numbers_as_keys(json_t *object)
+/* A new object of the values of an array with these names, or else their positions; or the object
+ * itself. NULL: it is refused. */
+static json_t *with_keys(struct source *s, json_t *value, const json_t *names)
+{
+    size_t i;
+    json_t *element, *object = json_is_object(value) ? json_incref(value) : json_object();
+    const bool named = json_is_array(value) && json_is_array(names);
+    const char *why = named && size_of(names) != size_of(value) ? "rows of several lengths" : NULL;
+    json_array_foreach(value, i, element)
+    {
+        char position[24];
+        snprintf(position, sizeof position, "%zu", i + 1);
+        const char *name = named ? text_of(s, json_array_get(names, i)) : position;
+        why = json_object_get(object, name ? name : "") ? "two columns or rows of one name" : why;
+        s->failed |= json_object_set(object, name ? name : "", element) != 0;
+    }
+    if (!why)
+        return object;
+    refuse(s, why, "");
+    json_decref(object);
+    return NULL;
+}
+
+/* Whether the keys of an object are 0, 1, 2 ...; numbers (out): all are numbers. */
+static bool counts(json_t *object, bool *numbers)
 {
     const char *key;
     json_t *value;
     struct br_field_number number;
-    bool numbers = true;
-    json_object_foreach (object, key, value)
-        numbers &= br_field_read(key, '.', &number);
-    return numbers;
+    bool counts = *numbers = true;
+    double next = 0;
+    json_object_foreach (object, key, value) {
+        *numbers &= br_field_read(key, '.', &number);
+        counts &= *numbers && number.value == next++;
+    }
+    return counts;
 }
 
 static bool have_same_keys(json_t *a, json_t *b)
 {
-    void *of_a = json_object_iter(a), *of_b = json_object_iter(b);
-    while (of_a && of_b && strcmp(json_object_iter_key(of_a), json_object_iter_key(of_b)) == 0) {
-        of_a = json_object_iter_next(a, of_a);
-        of_b = json_object_iter_next(b, of_b);
+    const char *key;
+    json_t *value;
+    void *other = json_object_iter(b);
+    json_object_foreach (a, key, value) {
+        if (!other || strcmp(key, json_object_iter_key(other)) != 0)
+            return false;
+        other = json_object_iter_next(b, other);
     }
-    return !of_a && !of_b;
+    return !other;
 }
 
-/* {"h": {"0": 0.1, ...}, ...}, or with numbers outside {"0": {"h": 0.1, ...}, ...}. An index that
- * does not count from 0 is a column without a name. */
-static enum br_status take_maps(struct source *s, json_t *maps)
+static void set_index(struct source *s, size_t row, const char *key)
 {
-    const char *outer, *inner;
-    json_t *map, *value;
-    const bool by_row = has_numbers_as_keys(maps);
-    size_t row = 0;
-    json_object_foreach (maps, outer, map) {
-        if (by_row) {
-            json_t *record = add_record(s), *index = json_string(outer);
-            if (!counts(maps))
-                s->failed |= json_object_set(record, "", index) != 0;
-            json_decref(index);
-            flatten(s, record, "", map);
-            continue;
-        }
-        row = 0;
-        if (!have_same_keys(json_object_iter_value(json_object_iter(maps)), map))
-            return refuse(s, "found columns with other rows");
-        json_object_foreach (map, inner, value) {
-            json_t *index = json_string(inner);
-            if (!counts(map))
-                set(s, row, "", index);
-            json_decref(index);
-            set(s, row++, outer, value);
-        }
-    }
-    return BR_OK;
+    json_t *text = json_string(key);
+    set(s, row, "", text);
+    json_decref(text);
 }
 
-/* Keeps the columns that pandas' schema says to have no numbers. */
-static void take_schema(struct source *s, const json_t *schema)
+/* ---- tables ---- */
+
+/* Takes all rows, or columns. names: of the values in arrays that are rows; index: of rows; both
+ * may be NULL. Keys of rows that do not count them are a column without a name. */
+static enum br_status walk(struct source *s, json_t *table, const json_t *names,
+                           const json_t *index)
 {
-    static const char types[] = " datetime duration string boolean any ";
-    size_t i;
-    json_t *field;
-    json_array_foreach(json_object_get(schema, "fields"), i, field)
-    {
-        const char *type = json_string_value(json_object_get(field, "type"));
-        char word[24];
-        snprintf(word, sizeof word, " %.20s ", type ? type : "");
-        if (type && strstr(types, word) && json_object_get(field, "name"))
-            s->failed |= json_array_append(s->words, json_object_get(field, "name")) != 0;
+    const char *key, *name;
+    json_t *part, *value, *outer = with_keys(s, table, index), *first = NULL;
+    bool numbers, inner_numbers;
+    const bool no_index = counts(outer, &numbers) || (json_is_array(table) && !index);
+    const bool by_row = json_is_array(table) || numbers;
+    size_t row = 0, i;
+    s->err->status = outer ? BR_OK : s->err->status;
+    json_object_foreach (outer, key, part) {
+        json_t *inner = with_keys(s, part, by_row ? names : NULL);
+        if (inner && first && (!by_row || json_is_array(part)) && !have_same_keys(first, inner)) {
+            char why[80];
+            snprintf(why, sizeof why, "%zu values, but %zu or others in ", size_of(first),
+                     size_of(inner));
+            refuse(s, why, key);
+        }
+        if (by_row && !no_index)
+            set_index(s, row, key);
+        i = 0;
+        if (!by_row && !first && json_is_object(part) && !counts(part, &inner_numbers))
+            json_object_foreach (inner, name, value)
+                set_index(s, i++, name);
+        i = 0;
+        json_object_foreach (inner, name, value) {
+            set(s, by_row ? row : i, by_row ? name : key, value);
+            i++;
+        }
+        row++;
+        first = first ? first : json_incref(inner);
+        json_decref(inner);
+        if (s->err->status)
+            break;
     }
+    json_decref(first);
+    json_decref(outer);
+    return s->err->status;
 }
 
-/* An object around one table; the rest of it is named in fields->left. */
+static enum br_status take_value(struct source *s, json_t *value);
+
+/* Takes the one table in an object; the rest of it is named in fields->left. */
 static enum br_status take_member(struct source *s, json_t *object)
 {
     const char *key;
     json_t *value, *table = NULL;
     json_object_foreach (object, key, value) {
         const enum kind kind = kind_in(value);
-        if (kind != OBJECTS && kind != ARRAYS) {
+        if (kind != LISTS && kind != MAPS)
             leave(s, key, value);
-            continue;
-        }
-        if (table)
-            return refuse(s, "found several tables");
-        table = value;
+        else if (table)
+            return refuse(s, "several tables", "");
+        else
+            table = value;
     }
-    return table ? take_value(s, table) : refuse(s, "found no table");
+    return table                      ? take_value(s, table)
+           : kind_in(object) == PLAIN ? refuse(s, "a single record", "")
+                                      : refuse(s, "no table", "");
+}
+
+/* {"h": [...], "l2": [...]}; what is no list stands beside the table. */
+static enum br_status take_lists(struct source *s, json_t *object)
+{
+    const char *key;
+    json_t *value, *lists = json_object();
+    json_object_foreach (object, key, value)
+        if (!json_is_array(value))
+            leave(s, key, value);
+        else
+            s->failed |= json_object_set(lists, key, value) != 0;
+    const enum br_status status = walk(s, lists, NULL, NULL);
+    json_decref(lists);
+    return status;
 }
 
 static enum br_status take_value(struct source *s, json_t *value)
 {
     json_t *data = json_object_get(value, "data"), *names = json_object_get(value, "columns");
-    const enum kind kind = kind_in(value);
-    if (json_is_array(value))
-        return kind == OBJECTS  ? take_records(s, value)
-               : kind == ARRAYS ? take_rows(s, value, NULL)
-                                : refuse(s, "found a list of values");
-    if (json_is_array(data) && json_is_array(names) && kind_in(data) == ARRAYS)
-        return take_rows(s, data, names);
-    if (json_is_array(data) && json_object_get(value, "schema")) {
-        take_schema(s, json_object_get(value, "schema"));
-        return take_records(s, data);
-    }
-    size_t lists = 0;
     const char *key;
     json_t *member;
-    json_object_foreach (value, key, member)
+    const enum kind kind = kind_in(value);
+    if (json_is_array(data) && json_is_array(names) && kind_in(data) == LISTS)
+        return walk(s, data, names, json_object_get(value, "index"));
+    json_t *const types = json_object_get(json_object_get(value, "schema"), "fields");
+    if (json_is_array(data) && types) {
+        s->types = types;
+        return take_value(s, data);
+    }
+    if (json_is_array(value) && kind == LISTS &&
+        json_is_string(json_array_get(json_array_get(value, 0), 0))) {
+        names = json_incref(json_array_get(value, 0));
+        json_array_remove(value, 0);
+        const enum br_status status = walk(s, value, names, NULL);
+        json_decref(names);
+        return status;
+    }
+    if (json_is_array(value))
+        return kind == LISTS || kind == MAPS ? walk(s, value, NULL, NULL)
+                                             : refuse(s, "a list of values", "");
+    size_t lists = 0, maps = 0;
+    json_object_foreach (value, key, member) {
         lists += json_is_array(member) && kind_in(member) == PLAIN;
-    if (lists > 1 || (lists && kind == ARRAYS))
-        return take_columns(s, value);
-    size_t maps = 0;
-    json_object_foreach (value, key, member)
         maps += json_is_object(member) && kind_in(member) == PLAIN;
-    if (maps > 1 && maps == json_object_size(value))
-        return take_maps(s, value);
-    return take_member(s, value);
+    }
+    return lists > 1 || (lists && kind == LISTS)         ? take_lists(s, value)
+           : maps > 1 && maps == json_object_size(value) ? walk(s, value, NULL, NULL)
+                                                         : take_member(s, value);
 }
 
 /* ---- to fields ---- */
 
-static const char *text_of(struct source *s, const json_t *value)
+/* Whether a schema says that a column has no numbers. */
+static bool has_words(const struct source *s, const char *column)
 {
-    char text[40];
-    const char *from = json_is_string(value) ? json_string_value(value)
-                       : json_is_real(value)
-                           ? br_shortest(json_real_value(value), text, sizeof text)
-                       : json_is_true(value)           ? "true"
-                       : json_is_false(value)          ? "false"
-                       : json_is_null(value) || !value ? ""
-                                                       : "[...]";
-    if (!*from)
-        return NULL;
-    char *to = br_store_take(&s->fields->store, strlen(from) + 1, 1);
-    return to ? strcpy(to, from) : NULL;
-}
-
-static enum br_status name_columns(struct source *s, json_t *columns)
-{
-    struct br_fields *f = s->fields;
-    size_t i = 0, j;
-    const char *name;
-    json_t *place, *word;
-    json_object_foreach (columns, name, place) {
-        json_t *text = json_string(name);
-        f->heading[i] = text_of(s, text);
-        json_decref(text);
-        json_array_foreach(s->words, j, word) f->is_words[i] |=
-            json_is_string(word) && strcmp(json_string_value(word), name) == 0;
-        i++;
-    }
-    return s->failed || f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
-}
-
-static enum br_status take_fields(struct source *s, json_t *columns)
-{
-    struct br_fields *f = s->fields;
-    json_t *record, *value;
-    const char *name;
     size_t i;
-    json_array_foreach(s->records, i, record)
-        json_object_foreach (record, name, value) if (!json_object_get(columns, name)) s->failed |=
-        json_object_set_new(columns, name, json_integer((json_int_t)json_object_size(columns))) !=
-        0;
-    f->columns = json_object_size(columns);
-    f->rows = json_array_size(s->records);
+    json_t *field;
+    bool words = false;
+    json_array_foreach(s->types, i, field)
+    {
+        const char *type = NULL, *name = NULL;
+        char word[24];
+        json_unpack(field, "{s:s, s:s}", "name", &name, "type", &type);
+        snprintf(word, sizeof word, " %.20s ", type ? type : "?");
+        words |= name && strcmp(name, column) == 0 &&
+                 strstr(" datetime duration string boolean any ", word);
+    }
+    return words;
+}
+
+static enum br_status take_fields(struct source *s)
+{
+    struct br_fields *f = s->fields;
+    json_t *column, *value;
+    const char *name;
+    size_t i, j = 0;
+    f->columns = json_object_size(s->columns);
+    f->rows = s->rows;
     if (f->columns > BR_MOST_COLUMNS || f->rows > BR_MOST_TABLE_ROWS ||
         f->rows * f->columns > BR_MOST_FIELDS)
         return br_fail(
@@ -358,15 +339,17 @@ static enum br_status take_fields(struct source *s, json_t *columns)
     f->is_words = br_store_take(&f->store, f->columns, sizeof *f->is_words);
     f->field = br_store_take(&f->store, f->rows * f->columns, sizeof *f->field);
     f->line = br_store_take(&f->store, f->rows, sizeof *f->line);
-    if (f->store.failed || name_columns(s, columns))
-        return br_no_memory(s->err, "the table");
     f->heading_line = 1;
-    json_array_foreach(s->records, i, record) json_object_foreach (record, name, value)
-    {
-        const size_t column = (size_t)json_integer_value(json_object_get(columns, name));
-        f->field[i * f->columns + column] = text_of(s, value);
+    if (f->store.failed)
+        return br_no_memory(s->err, "the table");
+    json_object_foreach (s->columns, name, column) {
+        char *text = br_store_take(&f->store, strlen(name) + 1, 1);
+        f->heading[j] = text && *name ? strcpy(text, name) : NULL;
+        f->is_words[j] = has_words(s, name);
+        json_array_foreach(column, i, value) f->field[i * f->columns + j] = text_of(s, value);
+        j++;
     }
-    return f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
+    return s->failed || f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
 }
 
 /* ---- the text ---- */
@@ -420,21 +403,18 @@ static json_t *load(const struct source *s, const char *text)
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err)
 {
-    struct source s = {path, fields, err, json_array(), json_array(), 0, false};
+    struct source s = {path, fields, err, json_object(), NULL, 0, 0, false};
     char *copy = without_nan(text);
-    json_t *columns = json_object(), *all = NULL;
-    enum br_status status = !copy || !columns || !s.records || !s.words
-                                ? br_no_memory(err, "the table")
+    json_t *all = NULL;
+    enum br_status status = !copy || !s.columns      ? br_no_memory(err, "the table")
                             : (all = load(&s, copy)) ? BR_OK
                                                      : err->status;
     if (!status)
         status = take_value(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all);
     if (!status)
-        status = s.failed ? br_no_memory(err, "the table") : take_fields(&s, columns);
+        status = s.failed ? br_no_memory(err, "the table") : take_fields(&s);
     free(copy);
     json_decref(all);
-    json_decref(columns);
-    json_decref(s.records);
-    json_decref(s.words);
+    json_decref(s.columns);
     return status;
 }
