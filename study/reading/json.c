@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A table in JSON is a container of containers: of rows, or of columns. Where an array's values
- * have their positions for keys, all forms are objects of objects, and one walk takes them. */
+/* A table in JSON by one walk: each value has a path of keys and positions. The first position
+ * tells its row, or else the first key that is a number; the keys behind it, or the one before it,
+ * its column; those before that, its table. What has no row stands beside the table. */
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,15 +9,22 @@
 #include "study/base/words.h"
 #include "study/reading/json.h"
 
+enum { DEEPEST = 12, LONGEST = 400 };
+
 struct source {
     const char *path;
     struct br_fields *fields;
     struct br_error *err;
-    json_t *columns; /* names to arrays of values; owned */
-    json_t *types;   /* the fields of pandas' schema; borrowed; may be NULL */
-    size_t rows;
-    size_t room; /* of fields->left */
-    bool failed; /* no memory */
+    struct step {
+        const char *key;
+        size_t at;
+        bool is_list;
+    } step[DEEPEST];               /* to a value */
+    json_t *tables;                /* names to objects, of names to arrays of values; owned */
+    json_t *names, *index, *types; /* of columns, rows, and columns, as pandas has them; borrowed */
+    bool has_records;              /* they may lack columns */
+    size_t room;                   /* of fields->left */
+    bool failed;                   /* no memory */
 };
 
 static const char *skip_blanks(const char *text)
@@ -52,27 +60,6 @@ static const char *text_of(struct source *s, const json_t *value)
     return to ? strcpy(to, from) : NULL;
 }
 
-/* Sets a value of a row; those of an object in it with the names of both. */
-static void set(struct source *s, size_t row, const char *name, json_t *value)
-{
-    const char *key;
-    json_t *part, *column = json_object_get(s->columns, name);
-    if (json_is_object(value) && strlen(name) < 400) {
-        json_object_foreach (value, key, part) {
-            char both[600];
-            snprintf(both, sizeof both, "%s%s%.180s", name, *name ? " " : "", key);
-            set(s, row, both, part);
-        }
-        return;
-    }
-    if (!column)
-        s->failed |= json_object_set_new(s->columns, name, column = json_array()) != 0;
-    while (!s->failed && json_array_size(column) < row)
-        s->failed |= json_array_append_new(column, json_null()) != 0;
-    s->failed |= json_array_append(column, value) != 0;
-    s->rows = row < s->rows ? s->rows : row + 1;
-}
-
 static enum br_status refuse(const struct source *s, const char *why, const char *name)
 {
     return br_fail(s->err, BR_BAD_INPUT,
@@ -97,208 +84,158 @@ static void leave(struct source *s, const char *name, const json_t *value)
     free(text);
 }
 
-/* ---- containers ---- */
-
-static size_t size_of(const json_t *value)
+/* The keys of some steps, as a name. */
+static void join(const struct source *s, size_t from, size_t to, char text[LONGEST])
 {
-    return json_is_array(value) ? json_array_size(value) : json_object_size(value);
+    *text = '\0';
+    for (size_t i = from; i < to; i++)
+        br_append(text, LONGEST, "%s%s", *text ? " " : "", s->step[i].key);
 }
 
-/* What the values of a container are, if all are alike. */
-enum kind { MIXED, PLAIN, LISTS, MAPS };
-
-static enum kind kind_of(const json_t *value)
+/* An array or object with this name in an object. */
+static json_t *member(struct source *s, json_t *object, const char *name, json_t *(*new_one)(void))
 {
-    return json_is_array(value) ? LISTS : json_is_object(value) ? MAPS : PLAIN;
+    if (!json_object_get(object, name))
+        s->failed |= json_object_set_new(object, name, new_one()) != 0;
+    return json_object_get(object, name);
 }
 
-static enum kind kind_in(json_t *container)
+/* Sets a value of a row, which may be set to the same. */
+static void set(struct source *s, json_t *table, size_t row, const char *name, json_t *value)
+{
+    json_t *column = member(s, table, name, json_array);
+    if (json_array_size(column) < row && !s->has_records)
+        refuse(s, "rows of several lengths at ", name);
+    while (!s->failed && json_array_size(column) < row)
+        s->failed |= json_array_append_new(column, json_null()) != 0;
+    if (json_array_size(column) == row)
+        s->failed |= json_array_append(column, value) != 0;
+    else if (!s->failed && !json_equal(json_array_get(column, row), value))
+        refuse(s, *name ? "two values of a row of " : "columns with other rows", name);
+}
+
+static void take_value(struct source *s, json_t *value, size_t depth)
+{
+    char table_name[LONGEST], name[LONGEST];
+    struct br_field_number number;
+    size_t row = 0;
+    while (row < depth && !s->step[row].is_list)
+        row++;
+    for (row = row < depth ? row : 0; row < depth && !s->step[row].is_list; row++)
+        if (br_field_read(s->step[row].key, '.', &number))
+            break;
+    const bool is_column = row + 1 == depth;
+    if (row == depth || depth < 2) {
+        join(s, 0, depth, name);
+        leave(s, name, value);
+        return;
+    }
+    s->has_records |= !is_column && !s->step[row + 1].is_list;
+    join(s, 0, row - is_column, table_name);
+    join(s, is_column ? row - 1 : row + 1, is_column ? row : depth, name);
+    json_t *const table = member(s, s->tables, table_name, json_object);
+    json_t *const key = json_string(s->step[row].key);
+    if (!s->step[row].is_list || s->index)
+        set(s, table, s->step[row].at, "", key);
+    json_decref(key);
+    set(s, table, s->step[row].at, name, value);
+}
+
+/* Whether an array begins with an array of names. */
+static bool has_names(const json_t *value)
 {
     size_t i;
+    json_t *name, *first = json_array_get(value, 0);
+    bool names = json_array_size(first) > 0;
+    json_array_foreach(first, i, name) names &= json_is_string(name);
+    return names;
+}
+
+static void visit(struct source *s, json_t *value, size_t depth)
+{
+    json_t *data = json_object_get(value, "data"), *names = json_object_get(value, "columns"),
+           *types = json_object_get(json_object_get(value, "schema"), "fields"), *part;
     const char *key;
-    json_t *value;
-    enum kind kind =
-        kind_of(json_is_array(container) ? json_array_get(container, 0)
-                                         : json_object_iter_value(json_object_iter(container)));
-    json_array_foreach(container, i, value) kind = kind_of(value) == kind ? kind : MIXED;
-    json_object_foreach (container, key, value)
-        kind = kind_of(value) == kind ? kind : MIXED;
-    return size_of(container) ? kind : MIXED;
-}
-
-/* A new object of the values of an array with these names, or else their positions; or the object
- * itself. NULL: it is refused. */
-static json_t *with_keys(struct source *s, json_t *value, const json_t *names)
-{
     size_t i;
-    json_t *element, *object = json_is_object(value) ? json_incref(value) : json_object();
-    const bool named = json_is_array(value) && json_is_array(names);
-    const char *why = named && size_of(names) != size_of(value) ? "rows of several lengths" : NULL;
-    json_array_foreach(value, i, element)
+    if (json_is_array(data) && (json_is_array(names) || types)) {
+        s->names = names;
+        s->index = json_object_get(value, "index");
+        s->types = types;
+        value = data;
+    }
+    const size_t from = has_names(value);
+    s->names = from ? json_array_get(value, 0) : s->names;
+    if (depth == DEEPEST || !(json_is_array(value) || json_is_object(value))) {
+        take_value(s, value, depth);
+        return;
+    }
+    const bool is_row = depth > 0 && s->step[depth - 1].is_list;
+    const json_t *const list = is_row ? s->names : s->index;
+    json_array_foreach(value, i, part)
     {
         char position[24];
         snprintf(position, sizeof position, "%zu", i + 1);
-        const char *name = named ? text_of(s, json_array_get(names, i)) : position;
-        why = json_object_get(object, name ? name : "") ? "two columns or rows of one name" : why;
-        s->failed |= json_object_set(object, name ? name : "", element) != 0;
+        if (i < from || s->err->status)
+            continue;
+        const char *const text = list ? text_of(s, json_array_get(list, i)) : position;
+        s->step[depth] = (struct step){text ? text : "", i - from, true};
+        visit(s, part, depth + 1);
     }
-    if (!why)
-        return object;
-    refuse(s, why, "");
-    json_decref(object);
-    return NULL;
+    i = 0;
+    json_object_foreach (value, key, part) {
+        s->step[depth] = (struct step){key, i++, false};
+        visit(s, part, depth + 1);
+    }
 }
 
-/* Whether the keys of an object are 0, 1, 2 ...; numbers (out): all are numbers. */
-static bool counts(json_t *object, bool *numbers)
+/* ---- the table ---- */
+
+/* Removes an index that is 0, 1, 2 ... */
+static void drop_count(struct source *s, json_t *table)
 {
-    const char *key;
+    size_t i;
     json_t *value;
     struct br_field_number number;
-    bool counts = *numbers = true;
-    double next = 0;
-    json_object_foreach (object, key, value) {
-        *numbers &= br_field_read(key, '.', &number);
-        counts &= *numbers && number.value == next++;
-    }
-    return counts;
+    bool counts = true;
+    json_array_foreach(json_object_get(table, ""), i, value) counts &=
+        br_field_read(json_string_value(value), '.', &number) && number.value == (double)i;
+    if (counts)
+        json_object_del(table, "");
+    s->fields->columns = json_object_size(table);
 }
 
-static bool have_same_keys(json_t *a, json_t *b)
+/* The one table of several columns, or else the only one; names the others. NULL: refused. */
+static json_t *choose(struct source *s)
 {
-    const char *key;
-    json_t *value;
-    void *other = json_object_iter(b);
-    json_object_foreach (a, key, value) {
-        if (!other || strcmp(key, json_object_iter_key(other)) != 0)
-            return false;
-        other = json_object_iter_next(b, other);
-    }
-    return !other;
+    const char *name, *of;
+    json_t *table, *column, *chosen = NULL;
+    size_t tables = 0;
+    json_object_foreach (s->tables, name, table)
+        if (json_object_size(table) > 1 || json_object_size(s->tables) == 1) {
+            chosen = table;
+            tables++;
+        } else
+            leave(s, name, table);
+    if (tables == 1)
+        json_object_foreach (chosen, of, column)
+            s->fields->rows = json_array_size(column) > s->fields->rows ? json_array_size(column)
+                                                                        : s->fields->rows;
+    if (tables != 1)
+        refuse(s,
+               json_object_size(s->tables) ? "several tables"
+               : s->fields->lefts          ? "a single record"
+                                           : "an empty table",
+               "");
+    else if (!s->has_records)
+        json_object_foreach (chosen, of, column)
+            if (json_array_size(column) != s->fields->rows) {
+                char why[60];
+                snprintf(why, sizeof why, "%zu values, but %zu of ", s->fields->rows,
+                         json_array_size(column));
+                refuse(s, why, of);
+            }
+    return s->err->status ? NULL : chosen;
 }
-
-static void set_index(struct source *s, size_t row, const char *key)
-{
-    json_t *text = json_string(key);
-    set(s, row, "", text);
-    json_decref(text);
-}
-
-/* ---- tables ---- */
-
-/* Takes all rows, or columns. names: of the values in arrays that are rows; index: of rows; both
- * may be NULL. Keys of rows that do not count them are a column without a name. */
-static enum br_status walk(struct source *s, json_t *table, const json_t *names,
-                           const json_t *index)
-{
-    const char *key, *name;
-    json_t *part, *value, *outer = with_keys(s, table, index), *first = NULL;
-    bool numbers, inner_numbers;
-    const bool no_index = counts(outer, &numbers) || (json_is_array(table) && !index);
-    const bool by_row = json_is_array(table) || numbers;
-    size_t row = 0, i;
-    s->err->status = outer ? BR_OK : s->err->status;
-    json_object_foreach (outer, key, part) {
-        json_t *inner = with_keys(s, part, by_row ? names : NULL);
-        if (inner && first && (!by_row || json_is_array(part)) && !have_same_keys(first, inner)) {
-            char why[80];
-            snprintf(why, sizeof why, "%zu values, but %zu or others in ", size_of(first),
-                     size_of(inner));
-            refuse(s, why, key);
-        }
-        if (by_row && !no_index)
-            set_index(s, row, key);
-        i = 0;
-        if (!by_row && !first && json_is_object(part) && !counts(part, &inner_numbers))
-            json_object_foreach (inner, name, value)
-                set_index(s, i++, name);
-        i = 0;
-        json_object_foreach (inner, name, value) {
-            set(s, by_row ? row : i, by_row ? name : key, value);
-            i++;
-        }
-        row++;
-        first = first ? first : json_incref(inner);
-        json_decref(inner);
-        if (s->err->status)
-            break;
-    }
-    json_decref(first);
-    json_decref(outer);
-    return s->err->status;
-}
-
-static enum br_status take_value(struct source *s, json_t *value);
-
-/* Takes the one table in an object; the rest of it is named in fields->left. */
-static enum br_status take_member(struct source *s, json_t *object)
-{
-    const char *key;
-    json_t *value, *table = NULL;
-    json_object_foreach (object, key, value) {
-        const enum kind kind = kind_in(value);
-        if (kind != LISTS && kind != MAPS)
-            leave(s, key, value);
-        else if (table)
-            return refuse(s, "several tables", "");
-        else
-            table = value;
-    }
-    return table                      ? take_value(s, table)
-           : kind_in(object) == PLAIN ? refuse(s, "a single record", "")
-                                      : refuse(s, "no table", "");
-}
-
-/* {"h": [...], "l2": [...]}; what is no list stands beside the table. */
-static enum br_status take_lists(struct source *s, json_t *object)
-{
-    const char *key;
-    json_t *value, *lists = json_object();
-    json_object_foreach (object, key, value)
-        if (!json_is_array(value))
-            leave(s, key, value);
-        else
-            s->failed |= json_object_set(lists, key, value) != 0;
-    const enum br_status status = walk(s, lists, NULL, NULL);
-    json_decref(lists);
-    return status;
-}
-
-static enum br_status take_value(struct source *s, json_t *value)
-{
-    json_t *data = json_object_get(value, "data"), *names = json_object_get(value, "columns");
-    const char *key;
-    json_t *member;
-    const enum kind kind = kind_in(value);
-    if (json_is_array(data) && json_is_array(names) && kind_in(data) == LISTS)
-        return walk(s, data, names, json_object_get(value, "index"));
-    json_t *const types = json_object_get(json_object_get(value, "schema"), "fields");
-    if (json_is_array(data) && types) {
-        s->types = types;
-        return take_value(s, data);
-    }
-    if (json_is_array(value) && kind == LISTS &&
-        json_is_string(json_array_get(json_array_get(value, 0), 0))) {
-        names = json_incref(json_array_get(value, 0));
-        json_array_remove(value, 0);
-        const enum br_status status = walk(s, value, names, NULL);
-        json_decref(names);
-        return status;
-    }
-    if (json_is_array(value))
-        return kind == LISTS || kind == MAPS ? walk(s, value, NULL, NULL)
-                                             : refuse(s, "a list of values", "");
-    size_t lists = 0, maps = 0;
-    json_object_foreach (value, key, member) {
-        lists += json_is_array(member) && kind_in(member) == PLAIN;
-        maps += json_is_object(member) && kind_in(member) == PLAIN;
-    }
-    return lists > 1 || (lists && kind == LISTS)         ? take_lists(s, value)
-           : maps > 1 && maps == json_object_size(value) ? walk(s, value, NULL, NULL)
-                                                         : take_member(s, value);
-}
-
-/* ---- to fields ---- */
 
 /* Whether a schema says that a column has no numbers. */
 static bool has_words(const struct source *s, const char *column)
@@ -321,11 +258,12 @@ static bool has_words(const struct source *s, const char *column)
 static enum br_status take_fields(struct source *s)
 {
     struct br_fields *f = s->fields;
-    json_t *column, *value;
+    json_t *column, *value, *const table = choose(s);
     const char *name;
     size_t i, j = 0;
-    f->columns = json_object_size(s->columns);
-    f->rows = s->rows;
+    if (!table)
+        return s->err->status;
+    drop_count(s, table);
     if (f->columns > BR_MOST_COLUMNS || f->rows > BR_MOST_TABLE_ROWS ||
         f->rows * f->columns > BR_MOST_FIELDS)
         return br_fail(
@@ -333,8 +271,6 @@ static enum br_status take_fields(struct source *s)
             "%s: found %zu rows of %zu fields, expected at most %d columns, %d rows and %d "
             "fields in all",
             s->path, f->rows, f->columns, BR_MOST_COLUMNS, BR_MOST_TABLE_ROWS, BR_MOST_FIELDS);
-    if (!f->rows || !f->columns)
-        return br_fail(s->err, BR_BAD_INPUT, "%s:1: the table is empty", s->path);
     f->heading = br_store_take(&f->store, f->columns, sizeof *f->heading);
     f->is_words = br_store_take(&f->store, f->columns, sizeof *f->is_words);
     f->field = br_store_take(&f->store, f->rows * f->columns, sizeof *f->field);
@@ -342,14 +278,14 @@ static enum br_status take_fields(struct source *s)
     f->heading_line = 1;
     if (f->store.failed)
         return br_no_memory(s->err, "the table");
-    json_object_foreach (s->columns, name, column) {
+    json_object_foreach (table, name, column) {
         char *text = br_store_take(&f->store, strlen(name) + 1, 1);
         f->heading[j] = text && *name ? strcpy(text, name) : NULL;
         f->is_words[j] = has_words(s, name);
         json_array_foreach(column, i, value) f->field[i * f->columns + j] = text_of(s, value);
         j++;
     }
-    return s->failed || f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
+    return f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
 }
 
 /* ---- the text ---- */
@@ -403,18 +339,18 @@ static json_t *load(const struct source *s, const char *text)
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err)
 {
-    struct source s = {path, fields, err, json_object(), NULL, 0, 0, false};
+    struct source s = {.path = path, .fields = fields, .err = err, .tables = json_object()};
     char *copy = without_nan(text);
-    json_t *all = NULL;
-    enum br_status status = !copy || !s.columns      ? br_no_memory(err, "the table")
-                            : (all = load(&s, copy)) ? BR_OK
-                                                     : err->status;
+    json_t *all = copy && s.tables ? load(&s, copy) : NULL;
+    enum br_status status = !copy || !s.tables ? br_no_memory(err, "the table") : err->status;
     if (!status)
-        status = take_value(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all);
+        visit(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all, 0);
     if (!status)
-        status = s.failed ? br_no_memory(err, "the table") : take_fields(&s);
+        status = s.failed      ? br_no_memory(err, "the table")
+                 : err->status ? err->status
+                               : take_fields(&s);
     free(copy);
     json_decref(all);
-    json_decref(s.columns);
+    json_decref(s.tables);
     return status;
 }
