@@ -81,7 +81,7 @@ expect 0 "l2: order in h 2.000 [1.995, 2.005], last rates 1.99, 2.00, 2.00" beam
 printf 'h [m]\tdrag [N]\n0.4\t3\n0.2\t3.3\n0.1\t3.4\n' >units.tsv
 expect 0 "drag: limit 3.450 [3.338, 3.463], p = 1.58, GCI 1.8 %" beamrate orders units.tsv --value drag --out units
 printf 'cells,cd\n2500,3\n10000,3.3\n40000,3.4\n' >cells.csv
-expect 0 "p = 0.79 (1-D assumed, or cells along one side; --dimension 2 gives 1.58, 3 gives 2.38), GCI" \
+expect 0 "p = 1.58 (2-D assumed; --dimension 1 gives 0.79, 3 gives 2.38), GCI" \
     beamrate orders cells.csv --value cd
 expect 0 "p = 1.58, GCI" beamrate orders cells.csv --value cd --dimension 2
 cp units/orders.gp whole

@@ -93,6 +93,13 @@ static const struct {
     {"N e EOC\n8 1 -\n16 .2 2.0\nOverall EOC is 2.0\n", "N|e|EOC|\n8|1|-|\n16|.2|2.0|\n4 footer\n"},
     {"n,e\n10,1\n20,.2\nmean,3e-3\nstd,1\n", "n|e|\n10|1|\n20|.2|\n4 summary\n5 summary\n"},
     {"n,e\n10,1\nmean,.2\n20,3e-3\n", "n|e|\n10|1|\nmean|.2|\n20|3e-3|\n"}, /* not the last */
+    {"n e\n10 1 # a\n20 .2\n40 .1 # b", "n|e|\n10|1|\n20|.2|\n40|.1|\n2 comment\n4 comment\n"},
+    {"n = 8 e = 1 #a\nn = 16 e = .2\n", "n|e|\n8|1|\n16|.2|\n1 comment\n"},
+    {"N, # dofs, e\n8,64,1\n16,256,.2\n", "N|# dofs|e|\n8|64|1|\n16|256|.2|\n"},
+    {"n e\n8 1\nit took 3 s\n16 .2\nit took 9 s\n32 .1\n",
+     "n|e|\n8|1|\n16|.2|\n32|.1|\n3 between rows\n5 between rows\n"},
+    {"n e\n8 1\n16 .2\nP2 of all\n32 2\n64 1\n",
+     ":t:4: found 'P2 of all' between or beside the rows of lines 2 to 3"},
     {"A = [\n8 1.6\n16 .4\n];\n", "~|~|\n8|1.6|\n16|.4|\n1 title\n4 footer\n"},
     /* JSON */
     {"[{\"h\":0.1,\"e\":1e-2},{\"h\":0.05,\"e\":NaN}]", "h|e|\n0.1|0.01|\n0.05||\n"},
@@ -113,7 +120,13 @@ static const struct {
     {"{\"set\":{\"a\":1},\"runs\":{\"h\":[0.1,0.05],\"e\":[1,2]}}",
      "h|e|\n0.1|1|\n0.05|2|\n0 beside the table\n"},
     {"[[\"h\",\"e\"],[0.1,1],[0.05,2]]", "h|e|\n0.1|1|\n0.05|2|\n"},
+    {"{\"columns\":[\"e\",\"r\"],\"index\":[8,16],\"data\":[[1,2],[0.2,3]]}",
+     "~|e|r|\n8|1|2|\n16|0.2|3|\n"},
+    {"{\"ns\":[1,2],\"runs\":[{\"h\":1,\"e\":[1,2]}]}", "h|e 1|e 2|\n1|1|2|\n0 beside the table\n"},
+    {"[[1,2],[3,4]]", "1|2|\n1|2|\n3|4|\n"},
     /* refusals */
+    {"[[1,2],[3],[4,5]]", ":t: found rows of several lengths"},
+    {"[[\"a\",\"a\"],[3,4]]", ":t: found two values of a row of a"},
     {"", ":t:1: the table is empty"},
     {"# nothing\n\n", ":t:1: the table is empty"},
     {"n,e\n10,1\n20,0.25\n40,0.0625\n80,\"", ":t:5: a quote is open to the end"},
@@ -123,10 +136,11 @@ static const struct {
     {"h,l2\n1,3,4\n", ":t:2: found more than 2 fields, as the heading has"},
     {"h,l2\n1,3\n\n2\n", ":t:4: found fewer than 2 fields, as the heading has"},
     {"h,a,b\n1,3,4\n.5,2\n.2,1,1\n", ":t:3: found fewer than 3 fields, as the heading has"},
-    {"n e\n10 1 # a\n20 .2\n40 .1\n", ":t:2: found more than 2 fields, as the first row has"},
     {"h=1 l2=3\nh=.5 l1=2\n", ":t:2: found 'l1=2', expected 'l2 = ...'"},
     {"h;l2\n0,5;1.000,5\n0,25;2\n", ":t:2: found '1.000,5' beside numbers with ','"},
-    {"h;l2\n1.000;0,4\n2.000;0,1\n", ":t:2: found '0,4' beside numbers with '.'"},
+    {"n;e\n1.000;0,4\n2.000;0,1\n500;1\n", "n|e|\n1.000|0,4|\n2.000|0,1|\n500|1|\n"},
+    {"h;l2\n1.000;0,4\n2,5;0,1\n", ":t:2: found '1.000' beside numbers with ','"},
+    {"h;l2\n1.000;0,4\n0.500;0,1\n", ":t:3: found '0.500' beside numbers with ','"},
     {"h;l2\n1,024;1\n2,048;2\n", ":t:2: found a comma before three digits only"},
     {"n e\n8 1\n16 .2\n\nn e\n8 2\n16 1\n",
      ":t:5: found 'n e' between or beside the rows of lines 2 to 3"},
@@ -138,7 +152,8 @@ static const struct {
     {"n,e,,n,e\n8,1,,8,2\n16,.2,,16,1\n", ":t:1: found an empty column 3 between others"},
     {"{\"a\":[{\"h\":1}],\"b\":[{\"h\":2}]}", ":t: found several tables"},
     {"{\"a\":{\"0\":1,\"1\":2},\"b\":{\"1\":1,\"0\":2}}", ":t: found columns with other rows"},
-    {"{\"a\":[1,2],\"b\":[1]}", ":t: found columns of several lengths"},
+    {"{\"a\":[1,2],\"b\":[1]}", ":t: found 2 values, but 1 of b"},
+    {"{\"h\":0.1,\"e\":0.01}", ":t: found a single record"},
     {"{\"a\":\n [1,}", ":t:2: found no valid JSON"},
 };
 
@@ -232,7 +247,11 @@ static const struct {
     {"1 2", '.', NAN, NAN},
     {"0,125", '.', NAN, NAN},
     {"1,0000", '.', NAN, NAN},
-    {"1.000", ',', NAN, NAN},
+    {"1.000", ',', 1000, NAN},
+    {"1.000.000", ',', 1e6, NAN},
+    {"0.500", ',', NAN, NAN},
+    {"1.00", ',', NAN, NAN},
+    {"1.000,5", ',', NAN, NAN},
     {"d5", '.', NAN, NAN},
     {"0x10", '.', NAN, NAN},
     {".", '.', NAN, NAN},
@@ -263,8 +282,9 @@ TEST(test_numbers)
 
 TEST(test_missing)
 {
-    static const char *const missing[] = {NULL,   "",    "-",   "--",   "---", "\u2013", "NaN",
-                                          "-nan", "N/A", "inf", "-Inf", "***", "null",   "$-$"};
+    static const char *const missing[] = {NULL,     "",    "-",       "--",   "---",
+                                          "\u2013", "NaN", "-nan",    "N/A",  "inf",
+                                          "-Inf",   "***", "missing", "null", "$-$"};
     static const char *const present[] = {"0", "x", "-1", "nano", "* 1", "na na"};
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++)
         assert_true(br_field_is_missing(missing[i]));

@@ -308,7 +308,10 @@ static void say_left(struct source *s)
         const bool lines = strncmp(n->left[first].what, "line ", 5) == 0;
         const size_t named = !lines || end - first <= MOST + 1 ? end : first + MOST;
         for (size_t i = first; i < named; i++)
-            say(s, "%s%s", i == 0 ? "; left aside: " : i == first ? "; " : ", ",
+            say(s, "%s%s",
+                i == 0       ? "; left aside: "
+                : i == first ? "; "
+                             : ", ",
                 quoted(n->left[i].what, text));
         if (named < end)
             say(s, ", and %zu more", end - named);
@@ -380,6 +383,20 @@ static enum br_status make_room(struct source *s, struct br_error *err)
     return BR_OK;
 }
 
+/* There are no errors: a column may have values. */
+static enum br_status refuse_values(const struct source *s, struct br_error *err)
+{
+    char why[300], name[200] = "NAME", text[24];
+    for (size_t i = s->roles.columns; i-- > 0;) {
+        const struct br_role_column *c = &s->roles.column[i];
+        if (c->role == BR_ROLE_ASIDE && c->why && strstr(c->why, "--value"))
+            quoted(name_of(c, i, text), name);
+    }
+    snprintf(why, sizeof why, "found no column of errors (--value %s, if its limit is not known)",
+             name);
+    return br_roles_refuse(&s->roles, why, NULL, err);
+}
+
 static enum br_status take_all(struct source *s, struct br_error *err)
 {
     const struct br_table_wishes wishes = {
@@ -397,12 +414,7 @@ static enum br_status take_all(struct source *s, struct br_error *err)
             return err->status;
     if (take_quantities(s, err) || state(s, err) || check_lists(s, err))
         return err->status;
-    return s->numbers->quantities
-               ? BR_OK
-               : br_roles_refuse(&s->roles,
-                                 "found no column of errors (--value, if its limit is not "
-                                 "known)",
-                                 NULL, err);
+    return s->numbers->quantities ? BR_OK : refuse_values(s, err);
 }
 
 enum br_status br_table_read(const struct br_orders_request *q, struct br_numbers *numbers,

@@ -191,7 +191,7 @@ static char *say_reading(const struct br_roles *r, const struct br_candidate *c,
     char name[80];
     const struct br_resolution_column *s = c->size.states;
     shown_name(r, c->size.column, name);
-    if (s->is_volume)
+    if (s->is_volume && c->size.dimension > 1)
         snprintf(text, TEXT, "h = %s^(-1/%g)", name, c->size.dimension);
     else if (s->is_size)
         snprintf(text, TEXT, "%s from %s", br_axis_letters[s->axis], name);
@@ -256,6 +256,8 @@ static enum br_status ask(const struct contest *t, const struct br_candidate *be
 {
     char a[TEXT], b[TEXT], option_a[TEXT], option_b[TEXT];
     const size_t error = clearest_error(t, best);
+    best = plainest(t, best);
+    second = plainest(t, second);
     return br_fail(err, BR_BAD_INPUT, "%s: the sizes are not clear: %s; %s: %s, or %s, decides",
                    t->roles->wishes->path, say_order(t, best, error, a),
                    say_order(t, second, error, b), say_option(t->roles, best, option_a),
@@ -385,10 +387,10 @@ static enum br_status choose(struct contest *t, const struct br_candidate *best,
     }
     if (best->odds < least_odds)
         return br_roles_refuse(r, "found no column that is clearly a resolution", NULL, err);
-    if (second && best->odds - second->odds < least_lead)
-        return ask(t, best, second, err);
     if (check_direction(t, best, err))
         return err->status;
+    if (second && best->odds - second->odds < least_lead)
+        return ask(t, best, second, err);
     const double lead = second ? best->odds - second->odds : INFINITY;
     best = plainest(t, best);
     if (lead < sure_lead || (best->contradicts_rates && !by_hand))

@@ -281,6 +281,11 @@ static bool climbs(const struct view *v, size_t column)
     return pairs > 1 && fall_of(v, column) < -0.05;
 }
 
+static bool hardly_changes(const struct br_role_column *c)
+{
+    return c->most - c->least <= 0.2 * fabs(c->most);
+}
+
 /* Whether no error falls with these sizes, and one grows from each to the next. */
 static double grow_all(const struct view *v)
 {
@@ -288,7 +293,9 @@ static double grow_all(const struct view *v)
     for (size_t i = 0; i < v->roles->columns; i++) {
         const struct br_role_column *c = &v->roles->column[i];
         if (!may_have_errors(v, i) || c->least < 0 || c->is_value ||
-            (c->is_whole && c->kind != BR_KIND_ERROR) || (c->by_hand && c->role != BR_ROLE_ERROR))
+            (c->is_whole && c->kind != BR_KIND_ERROR) ||
+            (hardly_changes(c) && c->kind != BR_KIND_ERROR) ||
+            (c->by_hand && c->role != BR_ROLE_ERROR))
             continue;
         if (dips(v, i))
             return false;
@@ -487,7 +494,7 @@ static bool is_count(const struct error_view *e)
 
 static bool stays(const struct error_view *e)
 {
-    return tried(e)->most - tried(e)->least <= 0.2 * fabs(tried(e)->most);
+    return hardly_changes(tried(e));
 }
 
 static bool has_a_sign(const struct error_view *e)

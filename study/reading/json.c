@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every form of a table in JSON becomes records, an array of objects from names to values; these
- * become fields. A JSON number is written with the fewest digits that give it again. */
+/* A table in JSON by one walk: each value has a path of keys and positions. The first position
+ * tells its row, or else the first key that is a number; the keys behind it, or the one before it,
+ * its column; those before that, its table. What has no row stands beside the table. */
 #include <jansson.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,14 +9,22 @@
 #include "study/base/words.h"
 #include "study/reading/json.h"
 
+enum { DEEPEST = 12, LONGEST = 400 };
+
 struct source {
     const char *path;
     struct br_fields *fields;
     struct br_error *err;
-    json_t *records; /* owned */
-    json_t *words;   /* names of columns that a schema says to have no numbers; owned */
-    size_t room;     /* of fields->left */
-    bool failed;     /* no memory */
+    struct step {
+        const char *key;
+        size_t at;
+        bool is_list;
+    } step[DEEPEST];               /* to a value */
+    json_t *tables;                /* names to objects, of names to arrays of values; owned */
+    json_t *names, *index, *types; /* of columns, rows, and columns, as pandas has them; borrowed */
+    bool has_records;              /* they may lack columns */
+    size_t room;                   /* of fields->left */
+    bool failed;                   /* no memory */
 };
 
 static const char *skip_blanks(const char *text)
@@ -32,106 +41,31 @@ bool br_json_is_table(const char *text)
            ((*text == '{' && strchr("\"}", *next)) || (*text == '[' && strchr("{[]", *next)));
 }
 
-/* ---- to records ---- */
+/* ---- values ---- */
 
-/* Adds the values of an object to a record; those of an object in it with the names of both. */
-static void flatten(struct source *s, json_t *record, const char *prefix, json_t *object)
+/* A copy of a value's text, with the fewest digits that give a number again; NULL: it is empty. */
+static const char *text_of(struct source *s, const json_t *value)
 {
-    const char *key;
-    json_t *value;
-    json_object_foreach (object, key, value) {
-        char name[200];
-        snprintf(name, sizeof name, "%s%s%s", prefix, *prefix ? " " : "", key);
-        if (json_is_object(value) && strlen(name) + 2 < sizeof name)
-            flatten(s, record, name, value);
-        else
-            s->failed |= json_object_set(record, name, value) != 0;
-    }
+    char text[40];
+    const char *from = json_is_string(value) ? json_string_value(value)
+                       : json_is_real(value)
+                           ? br_shortest(json_real_value(value), text, sizeof text)
+                       : json_is_true(value)           ? "true"
+                       : json_is_false(value)          ? "false"
+                       : json_is_null(value) || !value ? ""
+                                                       : "[...]";
+    if (!*from)
+        return NULL;
+    char *to = br_store_take(&s->fields->store, strlen(from) + 1, 1);
+    return to ? strcpy(to, from) : NULL;
 }
 
-static json_t *add_record(struct source *s)
-{
-    json_t *record = json_object();
-    s->failed |= json_array_append_new(s->records, record) != 0;
-    return record;
-}
-
-/* Sets a value of the record `row`, which may be the next one. */
-static void set(struct source *s, size_t row, const char *name, json_t *value)
-{
-    json_t *record =
-        row < json_array_size(s->records) ? json_array_get(s->records, row) : add_record(s);
-    s->failed |= json_object_set(record, name, value) != 0;
-}
-
-/* Whether all values of an array or object are of one kind: arrays, objects, or neither. */
-enum kind { PLAIN, ARRAYS, OBJECTS, MIXED };
-
-static enum kind kind_of_value(const json_t *value)
-{
-    return json_is_array(value) ? ARRAYS : json_is_object(value) ? OBJECTS : PLAIN;
-}
-
-static enum kind kind_in(json_t *values)
-{
-    enum kind kind = MIXED;
-    const char *key;
-    json_t *value;
-    size_t i;
-    json_array_foreach(values, i, value) kind =
-        i && kind != kind_of_value(value) ? MIXED : kind_of_value(value);
-    bool first = true;
-    json_object_foreach (values, key, value) {
-        kind = !first && kind != kind_of_value(value) ? MIXED : kind_of_value(value);
-        first = false;
-    }
-    return kind;
-}
-
-static enum br_status take_value(struct source *s, json_t *value);
-
-static enum br_status refuse(const struct source *s, const char *why)
+static enum br_status refuse(const struct source *s, const char *why, const char *name)
 {
     return br_fail(s->err, BR_BAD_INPUT,
-                   "%s: %s, expected one table: records, or columns of as many "
-                   "values each",
-                   s->path, why);
-}
-
-/* Rows of values; names: NULL, the first row has them. */
-static enum br_status take_rows(struct source *s, json_t *rows, json_t *names)
-{
-    size_t i, j;
-    json_t *row, *value;
-    const bool named = names || json_is_string(json_array_get(json_array_get(rows, 0), 0));
-    json_t *const heading = names ? names : json_array_get(rows, 0);
-    json_array_foreach(rows, i, row)
-    {
-        if (i == 0 && !names && named)
-            continue;
-        if (json_array_size(row) != json_array_size(heading))
-            return refuse(s, "found rows of several lengths");
-        json_t *record = add_record(s);
-        json_array_foreach(row, j, value)
-        {
-            char position[24];
-            snprintf(position, sizeof position, "%zu", j + 1);
-            json_t *name = json_array_get(heading, j);
-            s->failed |=
-                json_object_set(record,
-                                json_is_string(name) && named ? json_string_value(name) : position,
-                                value) != 0;
-        }
-    }
-    return BR_OK;
-}
-
-static enum br_status take_records(struct source *s, json_t *records)
-{
-    size_t i;
-    json_t *record;
-    json_array_foreach(records, i, record) flatten(s, add_record(s), "", record);
-    return BR_OK;
+                   "%s: found %s%.40s, expected one table: records, or columns of as many values "
+                   "each",
+                   s->path, why, name);
 }
 
 /* Names a value that stands beside the table. */
@@ -150,201 +84,186 @@ static void leave(struct source *s, const char *name, const json_t *value)
     free(text);
 }
 
-/* {"h": [...], "l2": [...]}; what is no list stands beside the table. */
-static enum br_status take_columns(struct source *s, json_t *columns)
+/* The keys of some steps, as a name. */
+static void join(const struct source *s, size_t from, size_t to, char text[LONGEST])
 {
-    const char *name;
-    json_t *column, *value;
-    size_t i, size = 0;
-    json_object_foreach (columns, name, column) {
-        if (!json_is_array(column)) {
-            leave(s, name, column);
+    *text = '\0';
+    for (size_t i = from; i < to; i++)
+        br_append(text, LONGEST, "%s%s", *text ? " " : "", s->step[i].key);
+}
+
+/* An array or object with this name in an object. */
+static json_t *member(struct source *s, json_t *object, const char *name, json_t *(*new_one)(void))
+{
+    if (!json_object_get(object, name))
+        s->failed |= json_object_set_new(object, name, new_one()) != 0;
+    return json_object_get(object, name);
+}
+
+/* Sets a value of a row, which may be set to the same. */
+static void set(struct source *s, json_t *table, size_t row, const char *name, json_t *value)
+{
+    json_t *column = member(s, table, name, json_array);
+    if (json_array_size(column) < row && !s->has_records)
+        refuse(s, "rows of several lengths at ", name);
+    while (!s->failed && json_array_size(column) < row)
+        s->failed |= json_array_append_new(column, json_null()) != 0;
+    if (json_array_size(column) == row)
+        s->failed |= json_array_append(column, value) != 0;
+    else if (!s->failed && !json_equal(json_array_get(column, row), value))
+        refuse(s, *name ? "two values of a row of " : "columns with other rows", name);
+}
+
+static void take_value(struct source *s, json_t *value, size_t depth)
+{
+    char table_name[LONGEST], name[LONGEST];
+    struct br_field_number number;
+    size_t row = 0;
+    while (row < depth && !s->step[row].is_list)
+        row++;
+    for (row = row < depth ? row : 0; row < depth && !s->step[row].is_list; row++)
+        if (br_field_read(s->step[row].key, '.', &number))
+            break;
+    const bool is_column = row + 1 == depth;
+    if (row == depth || depth < 2) {
+        join(s, 0, depth, name);
+        leave(s, name, value);
+        return;
+    }
+    s->has_records |= !is_column && !s->step[row + 1].is_list;
+    join(s, 0, row - is_column, table_name);
+    join(s, is_column ? row - 1 : row + 1, is_column ? row : depth, name);
+    json_t *const table = member(s, s->tables, table_name, json_object);
+    json_t *const key = json_string(s->step[row].key);
+    if (!s->step[row].is_list || s->index)
+        set(s, table, s->step[row].at, "", key);
+    json_decref(key);
+    set(s, table, s->step[row].at, name, value);
+}
+
+/* Whether an array begins with an array of names. */
+static bool has_names(const json_t *value)
+{
+    size_t i;
+    json_t *name, *first = json_array_get(value, 0);
+    bool names = json_array_size(first) > 0;
+    json_array_foreach(first, i, name) names &= json_is_string(name);
+    return names;
+}
+
+static void visit(struct source *s, json_t *value, size_t depth)
+{
+    json_t *data = json_object_get(value, "data"), *names = json_object_get(value, "columns"),
+           *types = json_object_get(json_object_get(value, "schema"), "fields"), *part;
+    const char *key;
+    size_t i;
+    if (json_is_array(data) && (json_is_array(names) || types)) {
+        s->names = names;
+        s->index = json_object_get(value, "index");
+        s->types = types;
+        value = data;
+    }
+    const size_t from = has_names(value);
+    s->names = from ? json_array_get(value, 0) : s->names;
+    if (depth == DEEPEST || !(json_is_array(value) || json_is_object(value))) {
+        take_value(s, value, depth);
+        return;
+    }
+    const bool is_row = depth > 0 && s->step[depth - 1].is_list;
+    const json_t *const list = is_row ? s->names : s->index;
+    json_array_foreach(value, i, part)
+    {
+        char position[24];
+        snprintf(position, sizeof position, "%zu", i + 1);
+        if (i < from || s->err->status)
             continue;
-        }
-        if (size && size != json_array_size(column))
-            return refuse(s, "found columns of several lengths");
-        size = json_array_size(column);
-        json_array_foreach(column, i, value) set(s, i, name, value);
+        const char *const text = list ? text_of(s, json_array_get(list, i)) : position;
+        s->step[depth] = (struct step){text ? text : "", i - from, true};
+        visit(s, part, depth + 1);
     }
-    return BR_OK;
+    i = 0;
+    json_object_foreach (value, key, part) {
+        s->step[depth] = (struct step){key, i++, false};
+        visit(s, part, depth + 1);
+    }
 }
 
-static bool counts(json_t *object)
-{
-    const char *key;
-    json_t *value;
-    size_t i = 0;
-    char text[24];
-    bool counted = true;
-    json_object_foreach (object, key, value) {
-        snprintf(text, sizeof text, "%zu", i++);
-        counted &= strcmp(text, key) == 0;
-    }
-    return counted;
-}
+/* ---- the table ---- */
 
-static bool has_numbers_as_keys(json_t *object)
+/* Removes an index that is 0, 1, 2 ... */
+static void drop_count(struct source *s, json_t *table)
 {
-    const char *key;
+    size_t i;
     json_t *value;
     struct br_field_number number;
-    bool numbers = true;
-    json_object_foreach (object, key, value)
-        numbers &= br_field_read(key, '.', &number);
-    return numbers;
+    bool counts = true;
+    json_array_foreach(json_object_get(table, ""), i, value) counts &=
+        br_field_read(json_string_value(value), '.', &number) && number.value == (double)i;
+    if (counts)
+        json_object_del(table, "");
+    s->fields->columns = json_object_size(table);
 }
 
-static bool have_same_keys(json_t *a, json_t *b)
+/* The one table of several columns, or else the only one; names the others. NULL: refused. */
+static json_t *choose(struct source *s)
 {
-    void *of_a = json_object_iter(a), *of_b = json_object_iter(b);
-    while (of_a && of_b && strcmp(json_object_iter_key(of_a), json_object_iter_key(of_b)) == 0) {
-        of_a = json_object_iter_next(a, of_a);
-        of_b = json_object_iter_next(b, of_b);
-    }
-    return !of_a && !of_b;
+    const char *name, *of;
+    json_t *table, *column, *chosen = NULL;
+    size_t tables = 0;
+    json_object_foreach (s->tables, name, table)
+        if (json_object_size(table) > 1 || json_object_size(s->tables) == 1) {
+            chosen = table;
+            tables++;
+        } else
+            leave(s, name, table);
+    if (tables == 1)
+        json_object_foreach (chosen, of, column)
+            s->fields->rows = json_array_size(column) > s->fields->rows ? json_array_size(column)
+                                                                        : s->fields->rows;
+    if (tables != 1)
+        refuse(s,
+               json_object_size(s->tables) ? "several tables"
+               : s->fields->lefts          ? "a single record"
+                                           : "an empty table",
+               "");
+    else if (!s->has_records)
+        json_object_foreach (chosen, of, column)
+            if (json_array_size(column) != s->fields->rows) {
+                char why[60];
+                snprintf(why, sizeof why, "%zu values, but %zu of ", s->fields->rows,
+                         json_array_size(column));
+                refuse(s, why, of);
+            }
+    return s->err->status ? NULL : chosen;
 }
 
-/* {"h": {"0": 0.1, ...}, ...}, or with numbers outside {"0": {"h": 0.1, ...}, ...}. An index that
- * does not count from 0 is a column without a name. */
-static enum br_status take_maps(struct source *s, json_t *maps)
+/* Whether a schema says that a column has no numbers. */
+static bool has_words(const struct source *s, const char *column)
 {
-    const char *outer, *inner;
-    json_t *map, *value;
-    const bool by_row = has_numbers_as_keys(maps);
-    size_t row = 0;
-    json_object_foreach (maps, outer, map) {
-        if (by_row) {
-            json_t *record = add_record(s), *index = json_string(outer);
-            if (!counts(maps))
-                s->failed |= json_object_set(record, "", index) != 0;
-            json_decref(index);
-            flatten(s, record, "", map);
-            continue;
-        }
-        row = 0;
-        if (!have_same_keys(json_object_iter_value(json_object_iter(maps)), map))
-            return refuse(s, "found columns with other rows");
-        json_object_foreach (map, inner, value) {
-            json_t *index = json_string(inner);
-            if (!counts(map))
-                set(s, row, "", index);
-            json_decref(index);
-            set(s, row++, outer, value);
-        }
-    }
-    return BR_OK;
-}
-
-/* Keeps the columns that pandas' schema says to have no numbers. */
-static void take_schema(struct source *s, const json_t *schema)
-{
-    static const char types[] = " datetime duration string boolean any ";
     size_t i;
     json_t *field;
-    json_array_foreach(json_object_get(schema, "fields"), i, field)
+    bool words = false;
+    json_array_foreach(s->types, i, field)
     {
-        const char *type = json_string_value(json_object_get(field, "type"));
+        const char *type = NULL, *name = NULL;
         char word[24];
-        snprintf(word, sizeof word, " %.20s ", type ? type : "");
-        if (type && strstr(types, word) && json_object_get(field, "name"))
-            s->failed |= json_array_append(s->words, json_object_get(field, "name")) != 0;
+        json_unpack(field, "{s:s, s:s}", "name", &name, "type", &type);
+        snprintf(word, sizeof word, " %.20s ", type ? type : "?");
+        words |= name && strcmp(name, column) == 0 &&
+                 strstr(" datetime duration string boolean any ", word);
     }
+    return words;
 }
 
-/* An object around one table; the rest of it is named in fields->left. */
-static enum br_status take_member(struct source *s, json_t *object)
-{
-    const char *key;
-    json_t *value, *table = NULL;
-    json_object_foreach (object, key, value) {
-        const enum kind kind = kind_in(value);
-        if (kind != OBJECTS && kind != ARRAYS) {
-            leave(s, key, value);
-            continue;
-        }
-        if (table)
-            return refuse(s, "found several tables");
-        table = value;
-    }
-    return table ? take_value(s, table) : refuse(s, "found no table");
-}
-
-static enum br_status take_value(struct source *s, json_t *value)
-{
-    json_t *data = json_object_get(value, "data"), *names = json_object_get(value, "columns");
-    const enum kind kind = kind_in(value);
-    if (json_is_array(value))
-        return kind == OBJECTS  ? take_records(s, value)
-               : kind == ARRAYS ? take_rows(s, value, NULL)
-                                : refuse(s, "found a list of values");
-    if (json_is_array(data) && json_is_array(names) && kind_in(data) == ARRAYS)
-        return take_rows(s, data, names);
-    if (json_is_array(data) && json_object_get(value, "schema")) {
-        take_schema(s, json_object_get(value, "schema"));
-        return take_records(s, data);
-    }
-    size_t lists = 0;
-    const char *key;
-    json_t *member;
-    json_object_foreach (value, key, member)
-        lists += json_is_array(member) && kind_in(member) == PLAIN;
-    if (lists > 1 || (lists && kind == ARRAYS))
-        return take_columns(s, value);
-    size_t maps = 0;
-    json_object_foreach (value, key, member)
-        maps += json_is_object(member) && kind_in(member) == PLAIN;
-    if (maps > 1 && maps == json_object_size(value))
-        return take_maps(s, value);
-    return take_member(s, value);
-}
-
-/* ---- to fields ---- */
-
-static const char *text_of(struct source *s, const json_t *value)
-{
-    char text[40];
-    const char *from = json_is_string(value) ? json_string_value(value)
-                       : json_is_real(value)
-                           ? br_shortest(json_real_value(value), text, sizeof text)
-                       : json_is_true(value)           ? "true"
-                       : json_is_false(value)          ? "false"
-                       : json_is_null(value) || !value ? ""
-                                                       : "[...]";
-    if (!*from)
-        return NULL;
-    char *to = br_store_take(&s->fields->store, strlen(from) + 1, 1);
-    return to ? strcpy(to, from) : NULL;
-}
-
-static enum br_status name_columns(struct source *s, json_t *columns)
+static enum br_status take_fields(struct source *s)
 {
     struct br_fields *f = s->fields;
-    size_t i = 0, j;
+    json_t *column, *value, *const table = choose(s);
     const char *name;
-    json_t *place, *word;
-    json_object_foreach (columns, name, place) {
-        json_t *text = json_string(name);
-        f->heading[i] = text_of(s, text);
-        json_decref(text);
-        json_array_foreach(s->words, j, word) f->is_words[i] |=
-            json_is_string(word) && strcmp(json_string_value(word), name) == 0;
-        i++;
-    }
-    return s->failed || f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
-}
-
-static enum br_status take_fields(struct source *s, json_t *columns)
-{
-    struct br_fields *f = s->fields;
-    json_t *record, *value;
-    const char *name;
-    size_t i;
-    json_array_foreach(s->records, i, record)
-        json_object_foreach (record, name, value) if (!json_object_get(columns, name)) s->failed |=
-        json_object_set_new(columns, name, json_integer((json_int_t)json_object_size(columns))) !=
-        0;
-    f->columns = json_object_size(columns);
-    f->rows = json_array_size(s->records);
+    size_t i, j = 0;
+    if (!table)
+        return s->err->status;
+    drop_count(s, table);
     if (f->columns > BR_MOST_COLUMNS || f->rows > BR_MOST_TABLE_ROWS ||
         f->rows * f->columns > BR_MOST_FIELDS)
         return br_fail(
@@ -352,19 +271,19 @@ static enum br_status take_fields(struct source *s, json_t *columns)
             "%s: found %zu rows of %zu fields, expected at most %d columns, %d rows and %d "
             "fields in all",
             s->path, f->rows, f->columns, BR_MOST_COLUMNS, BR_MOST_TABLE_ROWS, BR_MOST_FIELDS);
-    if (!f->rows || !f->columns)
-        return br_fail(s->err, BR_BAD_INPUT, "%s:1: the table is empty", s->path);
     f->heading = br_store_take(&f->store, f->columns, sizeof *f->heading);
     f->is_words = br_store_take(&f->store, f->columns, sizeof *f->is_words);
     f->field = br_store_take(&f->store, f->rows * f->columns, sizeof *f->field);
     f->line = br_store_take(&f->store, f->rows, sizeof *f->line);
-    if (f->store.failed || name_columns(s, columns))
-        return br_no_memory(s->err, "the table");
     f->heading_line = 1;
-    json_array_foreach(s->records, i, record) json_object_foreach (record, name, value)
-    {
-        const size_t column = (size_t)json_integer_value(json_object_get(columns, name));
-        f->field[i * f->columns + column] = text_of(s, value);
+    if (f->store.failed)
+        return br_no_memory(s->err, "the table");
+    json_object_foreach (table, name, column) {
+        char *text = br_store_take(&f->store, strlen(name) + 1, 1);
+        f->heading[j] = text && *name ? strcpy(text, name) : NULL;
+        f->is_words[j] = has_words(s, name);
+        json_array_foreach(column, i, value) f->field[i * f->columns + j] = text_of(s, value);
+        j++;
     }
     return f->store.failed ? br_no_memory(s->err, "the table") : BR_OK;
 }
@@ -420,21 +339,18 @@ static json_t *load(const struct source *s, const char *text)
 enum br_status br_json_fields(const char *text, const char *path, struct br_fields *fields,
                               struct br_error *err)
 {
-    struct source s = {path, fields, err, json_array(), json_array(), 0, false};
+    struct source s = {.path = path, .fields = fields, .err = err, .tables = json_object()};
     char *copy = without_nan(text);
-    json_t *columns = json_object(), *all = NULL;
-    enum br_status status = !copy || !columns || !s.records || !s.words
-                                ? br_no_memory(err, "the table")
-                            : (all = load(&s, copy)) ? BR_OK
-                                                     : err->status;
+    json_t *all = copy && s.tables ? load(&s, copy) : NULL;
+    enum br_status status = !copy || !s.tables ? br_no_memory(err, "the table") : err->status;
     if (!status)
-        status = take_value(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all);
+        visit(&s, json_array_size(all) == 1 ? json_array_get(all, 0) : all, 0);
     if (!status)
-        status = s.failed ? br_no_memory(err, "the table") : take_fields(&s, columns);
+        status = s.failed      ? br_no_memory(err, "the table")
+                 : err->status ? err->status
+                               : take_fields(&s);
     free(copy);
     json_decref(all);
-    json_decref(columns);
-    json_decref(s.records);
-    json_decref(s.words);
+    json_decref(s.tables);
     return status;
 }

@@ -105,7 +105,7 @@ static void find_kind(struct br_line *line)
 /* ---- lines ---- */
 
 /* Skips a quoted text; returns its last quote; NULL: it is not closed. */
-static char *skip_quoted(char *at)
+static const char *skip_quoted(const char *at)
 {
     for (at++; *at && (*at != '"' || at[1] == '"'); at++)
         at += *at == '"';
@@ -114,7 +114,7 @@ static char *skip_quoted(char *at)
 
 /* The end of a line, which quotes at the begin of a piece may hold; NULL: one is open to the end.
  */
-static char *line_end(char *at)
+static const char *line_end(const char *at)
 {
     const bool quotes = !strchr("#%!", at[strspn(at, " \t")]) || !*at;
     char before = ',';
@@ -142,7 +142,18 @@ static void add_line(struct br_line *line, char *text, size_t number)
     find_kind(line);
 }
 
-/* Adds a line, or several: rows of LaTeX; returns how many, of which one is kept for the next. */
+/* The comment behind a row: behind numbers, and a blank; NULL: there is none. */
+static char *comment_in(char *line)
+{
+    const char *equals = strchr(line, '=');
+    const char *first = line + strspn(line, " \t|\x01\"+-.");
+    equals = equals ? equals + 1 + strspn(equals + 1, " +-.") : "";
+    char *const sign = strchr("#%!", *line) ? NULL : strstr(line, " #");
+    return sign && (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals)) ? sign + 1
+                                                                                       : NULL;
+}
+
+/* Adds a line, or several: rows of LaTeX, a comment behind a row; returns how many. */
 static size_t add_rows(struct br_line *line, char *text, size_t number)
 {
     size_t count = 0;
@@ -152,8 +163,13 @@ static size_t add_rows(struct br_line *line, char *text, size_t number)
         end += *end == '[' ? strcspn(end, "]") + 1 : 0;
         add_line(&line[count++], text, number);
     }
+    char *const comment = comment_in(text);
+    if (comment)
+        add_line(&line[count + 1], comment, number);
+    if (comment)
+        *comment = '\0';
     add_line(&line[count], text, number);
-    return count + 1;
+    return count + 1 + (comment != NULL);
 }
 
 enum br_status br_lines_cut(char *text, const char *path, struct br_store *store,
@@ -162,7 +178,7 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
     make_plain(text);
     size_t most = 2;
     for (const char *c = text; *c; c++)
-        most += *c == '\n' || (c[0] == '\\' && c[1] == '\\');
+        most += *c == '\n' || *c == '#' || (c[0] == '\\' && c[1] == '\\');
     struct br_line *const line = br_store_take(store, most, sizeof *line);
     *lines = line;
     *count = 0;
@@ -170,10 +186,11 @@ enum br_status br_lines_cut(char *text, const char *path, struct br_store *store
         return br_no_memory(err, "the table");
     size_t number = 1;
     for (char *at = text; *at;) {
-        char *const end = line_end(at), *const begin = at;
+        const char *const last = line_end(at);
         const size_t first = number;
-        if (!end)
+        if (!last)
             return br_fail(err, BR_BAD_INPUT, "%s:%zu: a quote is open to the end", path, number);
+        char *const begin = at, *const end = at + (last - at);
         for (; at < end; at++)
             number += *at == '\n';
         number += *end == '\n';
@@ -208,10 +225,56 @@ static bool ends_piece(const char *begin, const char *at, enum br_separator by, 
 }
 
 /* The end of a quoted piece; NULL: it is not quoted. */
-static char *quoted_end(char *at, enum br_separator by)
+static const char *quoted_end(const char *at, enum br_separator by)
 {
-    char *end = *at == '"' ? skip_quoted(at) : NULL;
+    const char *end = *at == '"' ? skip_quoted(at) : NULL;
     return end && (by < BR_BY_WIDE_BLANKS || !end[1] || is_blank(end[1])) ? end + 1 : NULL;
+}
+
+/* Where pieces of a line go. */
+struct splitter {
+    enum br_separator by;
+    char mark, *room;
+    struct br_piece *piece;
+    size_t count;
+};
+
+static char *copy(struct splitter *s, const char *begin, const char *end)
+{
+    char *const text = s->room;
+    memcpy(text, begin, (size_t)(end - begin));
+    text[end - begin] = '\0';
+    s->room += end - begin + 1;
+    return text;
+}
+
+/* A text in quotes, without these and the blanks around it, in place. */
+static char *unquote(char *text)
+{
+    char *to = text;
+    for (const char *at = text + 1; at[1]; at++) {
+        at += *at == '"';
+        *to++ = *at;
+    }
+    while (to > text && isspace((unsigned char)to[-1]))
+        to--;
+    *to = '\0';
+    return text + strspn(text, " \t");
+}
+
+static void add_piece(struct splitter *s, const char *begin, const char *end, const char *name)
+{
+    struct br_field_number number;
+    const char *const close = quoted_end(begin, s->by);
+    const bool quoted = close && close <= end;
+    char *text = copy(s, begin, end);
+    text = quoted && close == end ? unquote(text) : text;
+    s->piece[s->count++] = (struct br_piece){text, name,
+                                             quoted && close < end                   ? BR_BROKEN
+                                             : !*text                                ? BR_NOTHING
+                                             : br_field_is_missing(text)             ? BR_MISSING
+                                             : br_field_read(text, s->mark, &number) ? BR_NUMBER
+                                                                                     : BR_WORD};
 }
 
 /* Whether the blanks at `at` stand in a number: "1.0 x 10^-2", "1.2 +- 0.1", "5 %". */
@@ -236,120 +299,110 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
-static size_t split_signs(char *at, enum br_separator by, struct br_piece *piece)
+static void split_signs(struct splitter *s, const char *at)
 {
-    size_t count = 0, bytes = 0;
+    const enum br_separator by = s->by;
+    size_t bytes = 0;
     const bool bars = by == BR_BY_BARS || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
     at += (bars && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
-    for (bool more = true; more && count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
+    for (bool more = true; more && s->count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
-        char *const begin = at, *end = quoted_end(at, by);
+        const char *const begin = at, *end = quoted_end(at, by);
         at = end ? end : at;
         while (*at && !(ends_piece(begin, at, by, &bytes) &&
                         !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
             at++;
         for (end = at; end > begin && is_blank(end[-1]); end--)
             ;
-        piece[count++] = (struct br_piece){begin, NULL, (size_t)(end - begin), 0};
+        add_piece(s, begin, end, NULL);
         more = *at && (by < BR_BY_WIDE_BLANKS || at[bytes]);
     }
-    return count;
 }
 
 /* The begin of the last name in a text from `at` to `end`: behind gaps, signs and numbers. */
-static char *begin_of_name(char *at, const char *end)
+static const char *begin_of_name(const char *at, const char *end)
 {
-    char *begin = at;
-    for (char *word = at; word < end;) {
+    const char *begin = at;
+    for (const char *word = at, *next; word < end; word = next) {
         const size_t length = strcspn(word, " \t");
-        char *const next = word + length + strspn(word + length, " \t");
+        next = word + length + strspn(word + length, " \t");
         const bool no_name = strspn(word, "+-.:;,|\x01"
                                           "0123456789") >= length;
         const bool is_last = length && strchr(",;:|", word[length - 1]);
         if (next < end && (no_name || is_last || next > word + length + 1))
             begin = next;
-        word = next;
     }
     while (begin < end && strchr(",; \t\x01", *begin))
         begin++;
     return begin;
 }
 
-/* The last word from `at` to `end` that is a number, as a piece with what is before it as its name;
- * length 0: there is none. */
-static struct br_piece last_number(char *at, const char *end)
+/* Whether a word from `at` to `end` is a number; then adds the last one, named by what is before
+ * it. */
+static bool add_label(struct splitter *s, const char *at, const char *end)
 {
-    struct br_piece last = {at, at, 0, 0};
+    const char *last = NULL, *last_end = NULL;
     struct br_field_number number;
-    char text[64];
-    for (char *word = at; word < end;) {
+    for (const char *word = at, *next; word < end; word = next) {
+        char text[64];
         word += strspn(word, " \t,;:");
-        size_t length = strcspn(word, " \t,;:");
-        length = word + length <= end ? length : word < end ? (size_t)(end - word) : 0;
-        snprintf(text, sizeof text, "%.*s", (int)(length < 63 ? length : 0), word);
-        if (length && br_field_read(text, '.', &number))
-            last = (struct br_piece){word, at, length, (size_t)(word - at)};
-        word += length;
+        next = word + strcspn(word, " \t,;:");
+        next = next < end ? next : end;
+        snprintf(text, sizeof text, "%.*s",
+                 next > word && next < word + 64 ? (int)(next - word) : 0, word);
+        if (br_field_read(text, '.', &number)) {
+            last = word;
+            last_end = next;
+        }
     }
-    while (last.name_length && is_blank(last.name[last.name_length - 1]))
-        last.name_length--;
-    return last;
+    if (!last)
+        return false;
+    const char *behind = last;
+    while (behind > at && is_blank(behind[-1]))
+        behind--;
+    const char *const name = copy(s, at, behind);
+    add_piece(s, last, last_end, name);
+    return true;
 }
 
 /* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
  * numbers between or behind them are no pairs. */
-static size_t split_pairs(char *at, char sign, struct br_piece *piece)
+static void split_pairs(struct splitter *s, const char *at, char sign)
 {
-    size_t count = 0;
+    const size_t none = 0;
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
-    for (char *equals; (equals = strchr(at, sign)) && count <= BR_MOST_COLUMNS;) {
-        char *name = begin_of_name(at, equals), *end = equals;
-        const struct br_piece label = last_number(at, name);
-        if (label.length && (count > 0 || label.name_length + label.length > 60))
-            return 0;
-        if (label.length)
-            piece[count++] = label;
+    for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
+        const char *name = begin_of_name(at, equals), *end = equals;
+        const size_t before = s->count;
+        if (add_label(s, at, name) && (before > 0 || name - at > 60)) {
+            s->count = none;
+            return;
+        }
         while (end > name && is_blank(end[-1]))
             end--;
-        char *value = equals + 1 + strspn(equals + 1, " \t");
+        const char *const value = equals + 1 + strspn(equals + 1, " \t");
         at = value;
         while (*at && !is_blank(*at) && *at != BR_BOX_BAR &&
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
-        size_t length = (size_t)(at - value);
-        length -= length && value[length - 1] == ':';
-        piece[count++] = (struct br_piece){value, name, length, (size_t)(end - name)};
-        if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
-            return 0; /* a time, as 12:30 */
+        add_piece(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
+        if (strspn(name, " +-.0123456789") >= (size_t)(end - name)) {
+            s->count = none; /* a time, as 12:30 */
+            return;
+        }
     }
-    return last_number(at, at + strlen(at)).length ? 0 : count;
+    if (s->count && add_label(s, at, at + strlen(at)))
+        s->count = none;
 }
 
-size_t br_line_split(char *line, enum br_separator by, struct br_piece *piece)
+size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
+                     struct br_piece *piece)
 {
-    return by == BR_BY_EQUALS   ? split_pairs(line, '=', piece)
-           : by == BR_BY_COLONS ? split_pairs(line, ':', piece)
-                                : split_signs(line, by, piece);
-}
-
-char *br_piece_close(const struct br_piece *piece, enum br_separator by)
-{
-    char *const text = piece->text, *to = text;
-    char *const end = text + piece->length;
-    char *const close = quoted_end(text, by);
-    if (!close || close > end) {
-        *end = '\0';
-        return text;
-    }
-    if (close < end)
-        return NULL;
-    for (char *at = text + 1; at < close - 1; at++) {
-        at += *at == '"';
-        *to++ = *at;
-    }
-    while (to > text && isspace((unsigned char)to[-1]))
-        to--;
-    *to = '\0';
-    return text + strspn(text, " \t");
+    struct splitter s = {by, mark, room, piece, 0};
+    if (by <= BR_BY_COLONS)
+        split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':');
+    else
+        split_signs(&s, line);
+    return s.count;
 }

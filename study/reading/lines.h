@@ -42,18 +42,19 @@ enum br_separator {
     BR_SEPARATORS
 };
 
-/* A piece of a line, with its quotes and without the blanks around it. */
+enum br_content { BR_NOTHING, BR_MISSING, BR_NUMBER, BR_WORD, BR_BROKEN /* text behind a quote */ };
+
+/* A piece of a line, without its quotes and the blanks around it. */
 struct br_piece {
-    char *text, *name; /* name: of a pair, or NULL */
-    size_t length, name_length;
+    char *text;
+    const char *name; /* of a pair, or NULL */
+    enum br_content content;
 };
 
-/* Splits a line; returns the number of pieces, at most BR_MOST_COLUMNS + 1; 0: there are no pairs.
- */
-size_t br_line_split(char *line, enum br_separator by, struct br_piece *piece);
-
-/* Ends a piece with a zero, in place, and takes its quotes away; "": it is empty; NULL: there is
- * text behind a quote. */
-char *br_piece_close(const struct br_piece *piece, enum br_separator by);
+/* Splits a line, with this mark of decimals; room (out) has BR_ROOM(line) bytes for the pieces.
+ * Returns their number, at most BR_MOST_COLUMNS + 2; 0: there are no pairs. */
+#define BR_ROOM(line) (3 * strlen(line) + 4)
+size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
+                     struct br_piece *piece);
 
 #endif

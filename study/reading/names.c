@@ -36,7 +36,8 @@ static const struct {
      "numrefinements meshlevel "},
     {"level", 1.75, " ref refs cycle mesh grid l "},
     {"dofs", 4,
-     " dofs dof ndofs ndof numdofs unknowns degreesoffreedom nunknowns dofcount ndoftotal "},
+     " dofs dof freiheitsgrade ndofs ndof numdofs unknowns degreesoffreedom nunknowns dofcount "
+     "ndoftotal "},
     {"dofs", 1.75,
      " nodes nnodes numnodes vertices nvertices numvertices points gridpoints numpts npts npoints "
      "numpoints nv "},
@@ -121,6 +122,19 @@ static void without_fill(const char *name, char text[LONGEST])
     text[length] = '\0';
 }
 
+/* A name with its letter, "mesh width h", without it; false: there is none, or another one. */
+static bool without_letter(char text[LONGEST], const char *name, const char *column)
+{
+    char word[LONGEST], last[LONGEST] = "";
+    while (next_word(&name, word))
+        strcpy(last, word);
+    const size_t length = strlen(text), end = strlen(last);
+    if (strcmp(last, column) != 0 || length <= end || strcmp(text + length - end, last) != 0)
+        return false;
+    text[length - end] = '\0';
+    return true;
+}
+
 /* "N per direction", "cells along x": of one side. */
 static bool is_of_a_side(const char *name)
 {
@@ -142,7 +156,9 @@ double br_name_odds(const char *name, const struct br_resolution_column *column)
     without_fill(name, bare);
     if (is_of_a_side(name))
         return strcmp(column->name, "n") == 0 ? definite : fmin(excluded, unknown);
-    for (int pass = 0; pass < 2 && most == 0; pass++)
+    for (int pass = 0; pass < 3 && most == 0; pass++) {
+        if (pass == 2 && !without_letter(bare, name, "h"))
+            break;
         for (size_t i = 0; i < sizeof of_sizes / sizeof *of_sizes; i++) {
             if (!lists(of_sizes[i].names, pass ? bare : whole))
                 continue;
@@ -150,6 +166,7 @@ double br_name_odds(const char *name, const struct br_resolution_column *column)
             if (strcmp(of_sizes[i].column, column->name) == 0)
                 best = fmax(best, of_sizes[i].odds);
         }
+    }
     return best > 0 ? best : most >= definite ? fmin(excluded, unknown) : unknown;
 }
 

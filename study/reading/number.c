@@ -63,9 +63,9 @@ static bool make_plain(const char *text, char plain[LONGEST])
 bool br_field_is_missing(const char *text)
 {
     static const char *const words[] = {
-        "-",    "--",   "---",  "\u2013", "\u2014",   "\u2212",    "$-$",    "{-}",      "$--$",
-        "nan",  "-nan", "+nan", "na",     "n/a",      "n.a.",      "#n/a",   "none",     "null",
-        "<na>", "inf",  "-inf", "+inf",   "infinity", "-infinity", "\u221e", "$\\infty$"};
+        "-",    "--",   "---",  "\u2013", "\u2014", "\u2212",   "$-$",       "{-}",    "$--$",
+        "nan",  "-nan", "+nan", "na",     "n/a",    "n.a.",     "#n/a",      "none",   "missing",
+        "null", "<na>", "inf",  "-inf",   "+inf",   "infinity", "-infinity", "\u221e", "$\\infty$"};
     if (!text || strspn(text, "*") == strlen(text))
         return true;
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
@@ -87,7 +87,8 @@ static const char *skip(const char *at)
     return at ? at + strspn(at, " ") : NULL;
 }
 
-/* Copies the digits before a mark; "1,000" without its commas, if the mark is a point. */
+/* Copies the digits before a mark; "1,000" without its commas, if the mark is a point, and "1.000"
+ * without its points, if it is a comma. */
 static const char *take_whole(const struct reader *r, const char *at, char **to)
 {
     const size_t first = strspn(at, "0123456789");
@@ -95,7 +96,7 @@ static const char *take_whole(const struct reader *r, const char *at, char **to)
     *to += first;
     at += first;
     const char *const digits = at - first;
-    while (r->mark == '.' && *digits != '0' && first > 0 && first <= 3 && *at == ',' &&
+    while (*digits != '0' && first > 0 && first <= 3 && *at == (r->mark == '.' ? ',' : '.') &&
            strspn(at + 1, "0123456789") == 3) {
         memcpy(*to, at + 1, 3);
         *to += 3;
@@ -129,7 +130,7 @@ static const char *take_number(struct reader *r, const char *at, double *value)
         *to++ = *at++;
     const char *const first = at;
     at = take_whole(r, at, &to);
-    const bool grouped = memchr(first, ',', (size_t)(at - first)) != NULL;
+    const bool grouped = strspn(first, "0123456789") < (size_t)(at - first);
     const bool has_mark = *at == r->mark && !grouped;
     r->decimals = 0;
     if (has_mark) {

@@ -447,8 +447,8 @@ static bool is_degree(const struct br_roles *r, const struct br_role_column *c)
 {
     const bool word = c->kind == BR_KIND_DEGREE;
     const bool letter = c->name && !c->name[1];
-    const bool other = (letter && *c->name == 'k') ||
-                       (c->kind == BR_KIND_RATE && c->numbers == r->rows);
+    const bool other =
+        (letter && *c->name == 'k') || (c->kind == BR_KIND_RATE && c->numbers == r->rows);
     if (c->stated || c->role != BR_ROLE_ASIDE || c->by_hand)
         return c->by_hand && word;
     return word && !letter ? c->is_whole && !c->words && c->most <= 64
