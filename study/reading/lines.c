@@ -368,17 +368,14 @@ static bool add_label(struct splitter *s, const char *at, const char *end)
 
 /* Pieces "name = value"; a value is one word. Before the first one may be a label, "step 3:". Other
  * numbers between or behind them are no pairs. */
-static void split_pairs(struct splitter *s, const char *at, char sign)
+static bool split_pairs(struct splitter *s, const char *at, char sign)
 {
-    const size_t none = 0;
     at += *at == '[' && strchr(at, ']') ? strcspn(at, "]") + 1 : 0; /* a time */
     for (const char *equals; (equals = strchr(at, sign)) && s->count <= BR_MOST_COLUMNS;) {
         const char *name = begin_of_name(at, equals), *end = equals;
         const size_t before = s->count;
-        if (add_label(s, at, name) && (before > 0 || name - at > 60)) {
-            s->count = none;
-            return;
-        }
+        if (add_label(s, at, name) && (before > 0 || name - at > 60))
+            return false;
         while (end > name && is_blank(end[-1]))
             end--;
         const char *const value = equals + 1 + strspn(equals + 1, " \t");
@@ -387,13 +384,10 @@ static void split_pairs(struct splitter *s, const char *at, char sign)
                !(strchr(",;", *at) && !isdigit((unsigned char)at[1])))
             at++;
         add_piece(s, value, at - (at > value && at[-1] == ':'), copy(s, name, end));
-        if (strspn(name, " +-.0123456789") >= (size_t)(end - name)) {
-            s->count = none; /* a time, as 12:30 */
-            return;
-        }
+        if (strspn(name, " +-.0123456789") >= (size_t)(end - name))
+            return false; /* a time, as 12:30 */
     }
-    if (s->count && add_label(s, at, at + strlen(at)))
-        s->count = none;
+    return !add_label(s, at, at + strlen(at));
 }
 
 size_t br_line_split(const char *line, enum br_separator by, char mark, char *room,
@@ -401,8 +395,7 @@ size_t br_line_split(const char *line, enum br_separator by, char mark, char *ro
 {
     struct splitter s = {by, mark, room, piece, 0};
     if (by <= BR_BY_COLONS)
-        split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':');
-    else
-        split_signs(&s, line);
+        return split_pairs(&s, line, by == BR_BY_EQUALS ? '=' : ':') ? s.count : 0;
+    split_signs(&s, line);
     return s.count;
 }
