@@ -707,7 +707,7 @@ static const struct planted_bug planted_bugs[] = {
      "        if (is_empty(f, i))\n            return br_fail",
      "        if (!f)\n            return br_fail"},
     {"title_is_a_row", "lost", "study/reading/layout.c", "tests/test_reading",
-     "has_other_words(l, l->first);) {", "!l->lines;) {"},
+     "has_other_words(l, l->first)) {", "!l->lines) {"},
     {"footer_is_a_row", "lost", "study/reading/layout.c", "tests/test_reading",
      "l->has_number[0] && is_summary(", "!l->lines && is_summary("},
     {"dropped_in_silence", "lost", "study/reading/layout.c", "tests/test_reading",

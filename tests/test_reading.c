@@ -45,6 +45,14 @@ static const struct {
     {"  n    e rate\n1  8  .1   NA\n2 16 .02  2.3\n", "~|n|e|rate|\n1|8|.1|NA|\n2|16|.02|2.3|\n"},
     {" Row │ n      e\n     │ Int64  Float64?\n─────┼──\n   1 │ 16  1.6\n   2 │ 32  0.4\n",
      "Row|n|e|\n1|16|1.6|\n2|32|0.4|\n"},
+    {"4\u00d73 DataFrame\n Row │ n      l2       o\n     │ Int64  Float64  Float64?\n─────┼──\n"
+     "   1 │    16  9.6e-4   missing\n   2 │    32  2.4e-4   2.0\n",
+     "Row|n|l2|o|\n1|16|9.6e-4|missing|\n2|32|2.4e-4|2.0|\n1 title\n"},
+    {"ref | ||u_h - u||_L2 | rate |\n0 | 4 | - |\n1 | 1 | 2 |\n",
+     "ref|||u_h - u||_L2|rate|\n0|4|-|\n1|1|2|\n"},
+    {"| h | ||u-u_h|| | ||Du-Du_h|| |\n|1|4|8|\n|.5|1|4|\n",
+     "h|||u-u_h|||||Du-Du_h|||\n1|4|8|\n.5|1|4|\n"},
+    {"h|||u-u_h||\n1|4\n.5|1\n", "h|||u-u_h|||\n1|4|\n.5|1|\n"},
     /* names */
     {"# N L2\n8 .04\n16 .01\n", "N|L2|\n8|.04|\n16|.01|\n"},
     {"# 1:h  2:e\n1 16\n.5 4\n", "h|e|\n1|16|\n.5|4|\n"},

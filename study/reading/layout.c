@@ -221,18 +221,15 @@ static bool has_other_words(const struct layout *l, size_t line)
  * short. */
 static void find_ends(struct layout *l)
 {
-    for (size_t next; l->first < l->last && !l->row[next = next_text(l, l->first, 1)].is_row &&
-                      has_other_words(l, l->first);) {
+    while (l->first < l->last && !l->row[next_text(l, l->first, 1)].is_row &&
+           has_other_words(l, l->first)) {
         l->row[l->first].is_row = false;
-        while (!l->row[next].is_row)
-            next = next_text(l, next, 1);
-        l->first = next;
+        while (!l->row[l->first].is_row)
+            l->first = next_text(l, l->first, 1);
     }
-    while (l->last > l->first && l->has_number[0] && is_summary(&l->row[l->last]) &&
-           next_text(l, l->last, -1) < l->lines) {
-        l->row[l->last].is_row = false;
-        l->last = next_text(l, l->last, -1);
-    }
+    while (l->last > l->first && l->has_number[0] && is_summary(&l->row[l->last]))
+        for (l->row[l->last].is_row = false; !l->row[l->last].is_row;)
+            l->last = next_text(l, l->last, -1);
     const size_t above = next_text(l, l->first, -1), below = next_text(l, l->last, 1);
     l->first = is_short(l, above) ? above : l->first;
     l->last = is_short(l, below) ? below : l->last;
@@ -534,20 +531,15 @@ static bool is_title(const struct layout *l, size_t line)
            (l->by >= BR_BY_WIDE_BLANKS && l->line[line].number + 1 < l->line[l->first].number);
 }
 
-/* Names in the rows. */
-static enum br_status name_pairs(struct layout *l)
-{
-    for (size_t i = 0; i < l->width; i++)
-        l->fields->heading[i] = l->row[l->first].piece[i].name;
-    l->fields->heading_line = l->line[l->first].number;
-    return BR_OK;
-}
-
 static enum br_status find_heading(struct layout *l)
 {
     const size_t above = next_text(l, l->first, -1), first = l->first;
+    for (size_t i = 0; i < l->width && l->by <= BR_BY_COLONS; i++) {
+        l->fields->heading[i] = l->row[first].piece[i].name;
+        l->fields->heading_line = l->line[first].number;
+    }
     if (l->by <= BR_BY_COLONS)
-        return name_pairs(l);
+        return BR_OK;
     if (above < l->lines && take_names(l, above)) {
         const size_t group = next_text(l, above, -1);
         return group < l->lines ? join_groups(l, group) : BR_OK;

@@ -299,16 +299,26 @@ static bool is_in_number(const char *begin, const char *at, size_t blanks)
     return false;
 }
 
+/* The end of a norm, "||u||", that a piece begins with; NULL: there is none. */
+static const char *norm_end(const char *at)
+{
+    const bool begins = strncmp(at, "||", 2) == 0 && isalpha((unsigned char)at[2]);
+    const char *const end = begins ? strchr(at + 2, '|') : NULL;
+    return end && end[1] == '|' ? end + 2 : NULL;
+}
+
 static void split_signs(struct splitter *s, const char *at)
 {
     const enum br_separator by = s->by;
     size_t bytes = 0;
-    const bool bars = by == BR_BY_BARS || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
-    at += (bars && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
+    const bool bars = by == BR_BY_BARS;
+    const bool begins = bars || (by == BR_BY_LONE_BARS && is_blank(at[*at != '\0']));
+    at += (begins && *at == '|') || (by >= BR_BY_LONE_BARS && *at == BR_BOX_BAR);
     for (bool more = true; more && s->count <= BR_MOST_COLUMNS; at += more ? bytes : 0) {
         while (is_blank(*at) && (by != BR_BY_TABS || *at != '\t'))
             at++;
-        const char *const begin = at, *end = quoted_end(at, by);
+        const char *const begin = at, *end = bars ? norm_end(at) : NULL;
+        end = end ? end : quoted_end(at, by);
         at = end ? end : at;
         while (*at && !(ends_piece(begin, at, by, &bytes) &&
                         !(by == BR_BY_BLANKS && is_in_number(begin, at, bytes))))
