@@ -22,7 +22,6 @@ reference/exact: solver/status.h solver/instruction_set.h solver/vectors.h refer
 # The rooms of study/. Each includes only rooms that stand above it here.
 rooms='
 base:
-reading: base
 known: base
 scene: base known
 grid: base scene

@@ -149,8 +149,10 @@ static char *comment_in(char *line)
     const char *first = line + strspn(line, " \t|\x01\"+-.");
     equals = equals ? equals + 1 + strspn(equals + 1, " +-.") : "";
     char *const sign = strchr("#%!", *line) ? NULL : strstr(line, " #");
-    return sign && (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals)) ? sign + 1
-                                                                                       : NULL;
+    return sign && !strchr(sign, '"') &&
+                   (isdigit((unsigned char)*first) || isdigit((unsigned char)*equals))
+               ? sign + 1
+               : NULL;
 }
 
 /* Adds a line, or several: rows of LaTeX, a comment behind a row; returns how many. */
