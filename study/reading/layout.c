@@ -610,49 +610,35 @@ static enum br_status take_row(struct layout *l, size_t line, size_t *column)
 /* Whether a column has fractions. */
 static bool has_fractions(const struct br_fields *f, size_t column)
 {
-    for (size_t i = 0; i < f->rows; i++) {
-        const char *const text = f->field[i * f->columns + column];
-        if (text && strchr(text, f->mark))
-            return true;
-    }
-    return false;
+    bool fractions = false;
+    for (size_t i = column; i < f->rows * f->columns && !fractions; i += f->columns)
+        fractions = f->field[i] && strchr(f->field[i], f->mark);
+    return fractions;
 }
 
-/* Refuses a number whose sign before decimals is not the table's. The other sign may stand before
- * thousands: with commas for decimals, in counts only. */
-static enum br_status check_mark(const struct layout *l, size_t field, bool *doubtful)
-{
-    const struct br_fields *f = l->fields;
-    const char *const text = f->field[field], other = f->mark == '.' ? ',' : '.';
-    struct br_field_number number;
-    if (!strchr(text, other) || strspn(text, "+-0123456789.,eE") < strlen(text))
-        return BR_OK;
-    const bool reads = br_field_read(text, f->mark, &number);
-    *doubtful = reads && strlen(strchr(text, other)) == 4;
-    if (reads ? f->mark == '.' || !has_fractions(f, field % f->columns)
-              : !br_field_read(text, other, &number) && !strchr(text, f->mark))
-        return BR_OK;
-    return br_fail(l->err, BR_BAD_INPUT,
-                   "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign before "
-                   "decimals, and none before thousands",
-                   l->path, f->line[field / f->columns], text, f->mark);
-}
-
-/* Refuses commas that may stand before decimals or before thousands, and two signs. */
+/* Refuses numbers whose sign before decimals is not the table's. The other sign may stand before
+ * thousands: a point in counts only, a comma beside points. */
 static enum br_status check_marks(const struct layout *l)
 {
     const struct br_fields *f = l->fields;
+    const char other = f->mark == '.' ? ',' : '.';
     size_t doubt = 0;
     bool points = f->mark == ',';
     for (size_t i = 0; i < f->rows * f->columns; i++) {
-        bool doubtful = false;
-        if (!f->field[i])
+        const char *const text = f->field[i] ? f->field[i] : "";
+        struct br_field_number number;
+        const size_t line = f->line[i / f->columns], digits = strspn(text, "+-0123456789.");
+        points |= memchr(text, '.', digits) != NULL;
+        if (!strchr(text, other) || strspn(text, "+-0123456789.,eE") < strlen(text))
             continue;
-        const char *const at = strchr(f->field[i], '.');
-        points |= at && strspn(f->field[i], "+-0123456789.") >= (size_t)(at - f->field[i]);
-        if (check_mark(l, i, &doubtful))
-            return l->err->status;
-        doubt = doubt || !doubtful ? doubt : f->line[i / f->columns];
+        const bool reads = br_field_read(text, f->mark, &number);
+        if (reads ? f->mark == ',' && has_fractions(f, i % f->columns)
+                  : br_field_read(text, other, &number) || strchr(text, f->mark))
+            return br_fail(l->err, BR_BAD_INPUT,
+                           "%s:%zu: found '%.40s' beside numbers with '%c', expected one sign "
+                           "before decimals, and none before thousands",
+                           l->path, line, text, f->mark);
+        doubt = doubt || !reads || strlen(strchr(text, other)) != 4 ? doubt : line;
     }
     return !doubt || points
                ? BR_OK
