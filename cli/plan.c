@@ -35,7 +35,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
                        error ? "both" : "none");
-    if (br_opened_scene_read(&r->opened, o->word[0], err))
+    if (br_opened_scene_read(&r->opened, r->session, o->word[0], err))
         return err->status;
     br_plan_default(p, &r->opened.scene);
     p->goal = (struct br_plan_goal){br_option_number(o, BR_OPT_ERROR, NAN),

@@ -155,6 +155,7 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
     br_report_check(&all, d);
+    br_session_put_set(session, d);
     const bool failed =
         br_verdicts_write(v, session, &all, err) || conclude(v, all.checks, all.count, err);
     return failed ? err->status : BR_OK;

@@ -20,7 +20,6 @@ struct br_report;
 struct br_run_report;
 struct br_split;
 struct br_stability;
-struct br_variation;
 struct br_trade;
 struct br_warnings;
 struct json_t; /* of jansson */
@@ -29,9 +28,6 @@ struct json_t; /* of jansson */
 
 /* Of a study after br_report_finish. */
 void br_report_study(const struct br_report *report, struct br_document *d);
-
-/* Of the results of a study, or of a run, at each value of a number that is varied. */
-void br_report_variation(const struct br_variation *variation, struct br_document *d);
 
 /* The paper's claims with our findings. finding: by br_claims; h = L/n, k = 1 s / per_second. */
 void br_report_claims(const struct br_finding *finding, size_t n, size_t per_second,
