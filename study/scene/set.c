@@ -96,6 +96,15 @@ static enum br_status descend(const struct br_scene_reader *r, int *at, const ch
     return BR_OK;
 }
 
+/* Without the blanks before the '='. */
+static size_t key_length(const char *set)
+{
+    size_t length = strcspn(set, "=\n");
+    while (length && set[length - 1] == ' ')
+        length--;
+    return length;
+}
+
 /* set: one KEY=VALUE, which is taken apart. */
 static enum br_status put(const struct br_scene_reader *r, char *set, size_t line)
 {
@@ -105,7 +114,8 @@ static enum br_status put(const struct br_scene_reader *r, char *set, size_t lin
                        "--set: found '%.200s', expected KEY=VALUE in UTF-8, like "
                        "'contact.stiffness=2e3 N/m'",
                        set);
-    *value++ = '\0';
+    set[key_length(set)] = '\0';
+    value++;
     value += strspn(value, " ");
     for (size_t length = strlen(value); length && value[length - 1] == ' ';)
         value[--length] = '\0';
@@ -120,7 +130,7 @@ static enum br_status put(const struct br_scene_reader *r, char *set, size_t lin
 /* Whether two of them set the same key, or one sets a part of what the other one sets. */
 static bool meet(const char *a, const char *b)
 {
-    const size_t m = strcspn(a, "=\n"), n = strcspn(b, "=\n"), least = m < n ? m : n;
+    const size_t m = key_length(a), n = key_length(b), least = m < n ? m : n;
     return strncmp(a, b, least) == 0 && (m == n || (m < n ? b : a)[least] == '.');
 }
 

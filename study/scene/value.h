@@ -28,7 +28,7 @@ enum br_status br_yaml_read(const char *path, const char *text, br_yaml_take *ta
 /* ---- keys that --set has set (set.c) ---- */
 
 /* Their line in the document is behind all of a file, and tells which of them it was. */
-enum { BR_LAST_LINE = 1 << 20, BR_PLACE = 200 };
+enum { BR_LAST_LINE = 1 << 21, BR_PLACE = 200 };
 
 /* Writes "6", the line of a file, or "--set KEY=VALUE"; returns text (out), which is cut where it
  * is full. */
