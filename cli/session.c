@@ -110,7 +110,7 @@ void br_session_put_set(const struct br_session *s, struct br_document *report)
 {
     for (const char *set = s->set, *end; set; set = *end ? end + 1 : NULL) {
         end = strchrnul(set, '\n');
-        br_put_note(report, "With --set %.*s", (int)(end - set), set);
+        br_put_answer(report, "With --set %.*s", (int)(end - set), set);
     }
 }
 
