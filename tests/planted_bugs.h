@@ -1335,7 +1335,7 @@ static const struct planted_bug planted_bugs[] = {
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
 
     /* ---- keys that are set ---- */
-    {"set_key_where_an_alias_is", "lost", "study/scene/set.c", "tests/test_scene test_set",
+    {"set_key_where_an_alias_is", "lost", "study/scene/set.c", "tests/test_scene test_set_aliases",
      "add_mapping(r, old, line)", "old ? old : add_mapping(r, old, line)"},
     {"last_of_two_sets_counts", "option", "study/scene/set.c", "tests/test_scene test_sets_refused",
      "if (meet(other, set))", "if (0)"},
