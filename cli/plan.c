@@ -71,8 +71,12 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (r->plan.chosen < r->plan.count)
         br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     const struct br_plan *p = &r->plan;
+    char *scene = br_session_scene(r->session, r->options->word[0]);
+    if (!scene)
+        return br_no_memory(err, "the scene");
     struct br_document *d = r->session->document;
-    br_report_plan(p, r->options->word[0], &provenance, d);
+    br_report_plan(p, scene, &provenance, d);
+    free(scene);
     const struct br_drawn_trials drawn = {&p->methods, p->request.norm, p->trial,       p->count,
                                           p->chosen,   p->goal.error,   p->goal.seconds};
     const struct br_trade_picture *const *picture = br_trade_pictures;

@@ -7,6 +7,7 @@
 #include "cli/provenance.h"
 #include "study/base/each.h"
 #include "study/base/quote.h"
+#include "study/base/text.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/reports.h"
@@ -112,6 +113,21 @@ void br_session_put_set(const struct br_session *s, struct br_document *report)
         end = strchrnul(set, '\n');
         br_put_answer(report, "With --set %.*s", (int)(end - set), set);
     }
+}
+
+char *br_session_scene(const struct br_session *s, const char *name)
+{
+    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
+    size_t size;
+    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
+    if (out)
+        br_quote(out, &br_for_shell, name);
+    while (out && rest) {
+        fputs(" --set ", out);
+        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
+    }
+    free(set);
+    return out && fclose(out) == 0 ? text : NULL;
 }
 
 enum br_status br_session_report(struct br_session *s, size_t documents, struct br_error *err)

@@ -78,6 +78,10 @@ void br_session_report_kept(const struct br_session *session, const struct br_ke
 /* Says what --set has set, in a report without the title of a scene, which says it, too. */
 void br_session_put_set(const struct br_session *session, struct br_document *report);
 
+/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
+ * of memory. */
+char *br_session_scene(const struct br_session *session, const char *name);
+
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,
                                  struct br_error *err);
