@@ -362,6 +362,16 @@ TEST(test_set)
             "bending.load=x*t^2 [N/m]", TOP ROD BEAM ", load: 'x*t^2 [N/m]'}");
 }
 
+/* Directives, tags, blocks, and parts that no reader of a scene reads. */
+TEST(test_set_in_yaml)
+{
+    try_set(
+        "%YAML 1.1\n%TAG !e! tag:e.org,2000:\n---\n" TOP ROD
+        "remark: !e!r |\n  of two\n  lines\nverify: &v {a: *v, [1, 2]: 3, 'x': !!int 4}\n...\n",
+        "length=2 m",
+        "remark: \"of two\\nlines\\n\"\ntitle: t\nlength: 2 m\nduration: 1 s\ndensity: 1 kg/m\n" ROD);
+}
+
 /* Another place that an alias names keeps its value: of a number, and of a whole part. */
 TEST(test_set_aliases)
 {

@@ -187,8 +187,11 @@ enum br_status br_scene_write_text(const struct br_scene_reader *r, char **text)
         yaml_emitter_set_output_file(&emitter, out);
         yaml_emitter_set_unicode(&emitter, 1);
         yaml_emitter_set_width(&emitter, -1);
-        done = yaml_emitter_open(&emitter) && yaml_emitter_dump(&emitter, r->document) &&
-               yaml_emitter_close(&emitter);
+        done = yaml_emitter_open(&emitter);
+        if (done) { /* which releases the document, but leaves its directives in it */
+            done = yaml_emitter_dump(&emitter, r->document) && yaml_emitter_close(&emitter);
+            *r->document = (yaml_document_t){0};
+        }
         yaml_emitter_delete(&emitter);
     }
     if (out && fclose(out) == 0 && done)
