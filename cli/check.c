@@ -53,6 +53,9 @@ static enum br_status read_study(struct run *r, struct item *item, const char *t
                                  struct br_error *err)
 {
     const struct br_options *o = r->options;
+    if (r->session->set)
+        return br_fail(err, BR_BAD_INPUT, "--set: %s is a study file, expected a scene",
+                       item->path);
     if (br_study_file_read(item->path, text, o, &item->study, err))
         return err->status;
     if (item->study.request.expectations == 0)
@@ -77,10 +80,10 @@ static enum br_status read_scene(struct run *r, size_t i, const char *name, stru
         br_scene_load(item->path, &text, err))
         return err->status;
     const bool foreign = br_is_study_file(text);
-    const bool failed = foreign
-                            ? read_study(r, item, text, err)
-                            : br_verify_read(item->path, text, &item->scene, &item->verify, err) ||
-                                  choose_method(r, item, err);
+    const bool failed = foreign ? read_study(r, item, text, err)
+                                : br_verify_read_set(item->path, text, r->session->set,
+                                                     &item->scene, &item->verify, err) ||
+                                      choose_method(r, item, err);
     free(text);
     if (failed || foreign)
         return failed ? err->status : BR_OK;

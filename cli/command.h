@@ -9,7 +9,6 @@
 enum { BR_MOST_EXAMPLES = 8, BR_MOST_WORDS = 1 << 20 };
 
 struct br_session;
-struct br_vary_command;
 
 struct br_command {
     unsigned bit; /* its bit in br_option.commands */
@@ -25,7 +24,6 @@ struct br_command {
     /* The options are parsed; the session is closed afterwards. On failure err says why. */
     enum br_status (*run)(const struct br_options *options, struct br_session *session,
                           struct br_error *err);
-    const struct br_vary_command *vary; /* with --vary; NULL: it does not take that option */
 };
 
 /* NULL-terminated, in the order of the help text. */

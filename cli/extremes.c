@@ -145,7 +145,8 @@ static enum br_status open_scenes(struct run *r, struct part *p, struct br_error
         struct br_opened_scene *opened = &p->opened[p->scenes];
         if (p->scenes > 0 && r->scene_word)
             break;
-        if (br_opened_scene_read(opened, r->scene_word ? r->scene_word : usual[p->scenes], err))
+        if (br_opened_scene_read(opened, r->session,
+                                 r->scene_word ? r->scene_word : usual[p->scenes], err))
             return err->status;
         p->scene[p->scenes] = &opened->scene;
     }
@@ -197,6 +198,7 @@ static enum br_status run_part(struct run *r, size_t i, struct br_error *err)
     br_progress_end();
     if (status)
         return br_failed_in(err, experiment->name);
+    br_session_put_set(r->session, to.report);
     br_put_provenance(to.report, &provenance);
     return br_progress_result(status, err);
 }

@@ -10,7 +10,7 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
-#include "cli/vary.h"
+#include "cli/session.h"
 #include "plots/pictures.h"
 #include "study/base/quote.h"
 #include "study/base/words.h"
@@ -61,9 +61,7 @@ static enum br_status run(const struct br_command *command, const struct br_opti
                           struct br_error *err)
 {
     struct br_session session = br_session_begin(options);
-    const enum br_status status = br_option_given(options, BR_OPT_VARY)
-                                      ? br_vary_run(options, &session, command->vary, err)
-                                      : command->run(options, &session, err);
+    const enum br_status status = command->run(options, &session, err);
     br_session_close(&session);
     return status;
 }

@@ -27,7 +27,7 @@ enum {
 
 enum br_option_id {
     BR_OPT_N,
-    BR_OPT_VARY,
+    BR_OPT_SET,
     BR_OPT_K,
     BR_OPT_STEPS,
     BR_OPT_REFERENCE,

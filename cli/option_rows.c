@@ -246,16 +246,16 @@ static const struct br_option rows[] = {
               "the files that its words name are the same. Other files that the program reads or "
               "starts are not checked: do not give this option if they have changed."})},
 
-    /* what varies */
-    {BR_OPT_VARY, "vary", 0, "KEY=VALUES",
-     "a number of the scene that varies: contact.stiffness=1e2..1e6 log 9", NULL, BR_TAKES_TEXT,
-     .commands = BR_FOR_STUDY | BR_FOR_RUN,
-     .more =
-         "KEY is a key of the scene whose value is a number, with its section: length, "
-         "axial.viscosity. VALUES are LOW..HIGH log COUNT, LOW..HIGH lin COUNT, or a list "
-         "separated by commas, in the key's unit or in one that stands behind them, 1000 at most. "
-         "Each value is read as if it stood in the scene. The result is a table and a picture over "
-         "the values."},
+    /* another scene */
+    {BR_OPT_SET, "set", 0, "KEY=VALUE",
+     "a key of the scene gets another value, with its unit: 'contact.stiffness=2e3 N/m'", NULL,
+     BR_TAKES_TEXT,
+     .commands =
+         BR_FOR_STUDY | BR_FOR_CHECK | BR_FOR_RUN | BR_FOR_TRADE | BR_FOR_PLAN | BR_FOR_EXTREMES,
+     .more = "May be given several times. KEY is any key of the scene, with its section: length, "
+             "friction.coefficient. It is added if the scene does not have it. VALUE is read as if "
+             "it stood in the file. Of several scenes each has it.",
+     .repeats = true},
 
     /* for all */
     {BR_OPT_OUT, "out", 'o', "DIR", "folder of the results (default: none are written)", NULL,

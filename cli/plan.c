@@ -35,7 +35,7 @@ static enum br_status prepare(struct run *r, struct br_error *err)
     if (error == br_option_given(o, BR_OPT_SECONDS))
         return br_fail(err, BR_BAD_INPUT, "expected one of --error and --seconds, found %s",
                        error ? "both" : "none");
-    if (br_opened_scene_read(&r->opened, o->word[0], err))
+    if (br_opened_scene_read(&r->opened, r->session, o->word[0], err))
         return err->status;
     br_plan_default(p, &r->opened.scene);
     p->goal = (struct br_plan_goal){br_option_number(o, BR_OPT_ERROR, NAN),
@@ -71,8 +71,12 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (r->plan.chosen < r->plan.count)
         br_warn_of_trials(&r->opened.scene, &r->plan.trial[r->plan.chosen], 1);
     const struct br_plan *p = &r->plan;
+    char *scene = br_session_scene(r->session, r->options->word[0]);
+    if (!scene)
+        return br_no_memory(err, "the scene");
     struct br_document *d = r->session->document;
-    br_report_plan(p, r->options->word[0], &provenance, d);
+    br_report_plan(p, scene, &provenance, d);
+    free(scene);
     const struct br_drawn_trials drawn = {&p->methods, p->request.norm, p->trial,       p->count,
                                           p->chosen,   p->goal.error,   p->goal.seconds};
     const struct br_trade_picture *const *picture = br_trade_pictures;

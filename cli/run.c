@@ -7,7 +7,6 @@
 #include "cli/command.h"
 #include "cli/progress.h"
 #include "cli/run.h"
-#include "cli/vary.h"
 #include "solver/clock.h"
 #include "study/foresee/prediction.h"
 #include "study/ranks/ranks.h"
@@ -155,7 +154,7 @@ static enum br_status open_files(struct run *r, struct br_error *err)
 static enum br_status open_scene(struct run *r, struct br_error *err)
 {
     const struct br_options *o = r->options;
-    const bool failed = br_opened_scene_read(&r->plan.opened, o->word[0], err) ||
+    const bool failed = br_opened_scene_read(&r->plan.opened, r->session, o->word[0], err) ||
                         br_run_plan_make(&r->plan, o, err);
     return failed ? err->status : BR_OK;
 }
@@ -247,134 +246,6 @@ static enum br_status conclude(const struct run *r, struct br_error *err)
     return BR_OK;
 }
 
-/* ---- a parameter that varies ---- */
-
-enum {
-    TIP,
-    TIP_ERROR = TIP + 2,
-    CONTACT_FORCE = TIP_ERROR + 2,
-    FRICTION_FORCE,
-    EVENTS,
-    BAD_STEPS = EVENTS + BR_TIP_EVENTS,
-    SWEPT
-};
-
-static const struct br_variation_column *name_columns(void)
-{
-    static const char tip[] = "tip at t = T (m)", forces[] = "largest forces at the tip (N)";
-    static struct br_variation_column column[SWEPT] = {
-        [TIP + BR_AXIAL] = {"tip_axial", "u(L, T)", "m", "%.6g", .axis = tip},
-        [TIP + BR_BENDING] = {"tip_bending", "w(L, T)", "m", "%.6g", .axis = tip},
-        [TIP_ERROR + BR_AXIAL] = {"predicted_error_axial", "predicted error of u", "m", "%.1e",
-                                  .axis = NULL},
-        [TIP_ERROR + BR_BENDING] = {"predicted_error_bending", "predicted error of w", "m", "%.1e",
-                                    .axis = NULL},
-        [CONTACT_FORCE] = {"largest_contact_force", "largest contact force", "N", "%.5g",
-                           .axis = forces},
-        [FRICTION_FORCE] = {"largest_friction_force", "largest friction force", "N", "%.5g",
-                            .axis = forces},
-        [BAD_STEPS] = {"bad_steps", "bad steps", .format = "%.0f"},
-    };
-    for (int kind = 0; kind < BR_TIP_EVENTS; kind++) {
-        const char *word = br_tip_event_word((enum br_tip_event_kind)kind);
-        column[EVENTS + kind] = (struct br_variation_column){word, word, .format = "%.0f"};
-    }
-    return column;
-}
-
-static void take_point(const struct br_run_report *p, const struct br_prediction *prediction,
-                       double *value)
-{
-    for (enum br_field_kind kind = BR_AXIAL; kind <= BR_BENDING; kind++) {
-        const double error = br_predicted_tip(prediction, kind, p->scene->length);
-        value[TIP + kind] =
-            p->marched.field[kind].modelled ? p->end.last.displacement[kind] : (double)NAN;
-        value[TIP_ERROR + kind] =
-            p->marched.field[kind].modelled && prediction->known ? error : (double)NAN;
-    }
-    for (int kind = 0; kind < BR_TIP_EVENTS; kind++)
-        value[EVENTS + kind] = (double)p->watch.count[kind];
-    if (p->marched.contact.modelled)
-        value[CONTACT_FORCE] = p->watch.contact_force.value;
-    if (p->marched.friction.law != BR_FRICTIONLESS)
-        value[FRICTION_FORCE] = p->watch.friction_force.value;
-    if (p->checked)
-        value[BAD_STEPS] = (double)p->bad_steps;
-}
-
-/* With --vary, options for one march alone are refused. */
-static enum br_status read_swept(struct br_vary *v, const struct br_options *o,
-                                 struct br_error *err)
-{
-    static const enum br_option_id single[] = {BR_OPT_AT, BR_OPT_ROWS, BR_OPT_JSON, BR_OPTIONS};
-    const char *name = br_first_given(o, single);
-    v->request = o;
-    v->column = name_columns();
-    return name ? br_fail(err, BR_BAD_INPUT,
-                          "--%s: --vary does not use it, since it is for one march; --out has the "
-                          "results at all values",
-                          name)
-                : BR_OK;
-}
-
-static enum br_status prepare_value(struct br_vary *v, size_t i, void *self, struct br_error *err)
-{
-    struct br_run_plan *p = self;
-    return br_vary_scene(v, i, &p->opened, err) ? err->status
-                                                : br_run_plan_make(p, v->request, err);
-}
-
-static void foresee_value(void *self, struct br_foreseen *work)
-{
-    const struct br_planned_march march = planned(self);
-    br_foreseen_add_march(work, &march);
-}
-
-/* One march as by `run` without --vary, but without files. Large objects are static. */
-static enum br_status march_value(struct br_vary *v, size_t i, void *self, struct br_error *failure,
-                                  struct br_error *err)
-{
-    static struct run r;
-    const struct br_run_plan *p = self;
-    char text[BR_VARIED_TEXT];
-    (void)err;
-    struct br_session quiet = *v->session;
-    quiet.quiet = true;
-    r = (struct run){.session = &quiet, .plan = *p};
-    r.plan.request.levels = r.plan.request.stride = 0;
-    if (predict(&r, failure))
-        return BR_OK;
-    br_print_warnings(br_varied_text(&v->varied, i, text), &r.warnings);
-    if (march(&r, failure))
-        return BR_OK;
-    const bool unstable = r.report.contact_unstable;
-    if (!r.report.failure.status) /* else what it has is not of t = T */
-        take_point(&r.report, &r.prediction, &v->found.value[i * SWEPT]);
-    v->found.unstable[i] = unstable;
-    v->found.remark[i] = unstable             ? "beyond the contact's stability limit"
-                         : r.prediction.known ? NULL
-                                              : "its error is not known";
-    conclude(&r, failure);
-    return BR_OK;
-}
-
-static void clear_value(void *self)
-{
-    br_run_plan_clear(self);
-}
-
-static const struct br_vary_command varied = {
-    .format = "beamrate run variation",
-    .size = sizeof(struct br_run_plan),
-    .columns = SWEPT,
-    .alone = true,
-    .read = read_swept,
-    .prepare = prepare_value,
-    .foresee = foresee_value,
-    .march = march_value,
-    .clear = clear_value,
-};
-
 /* ---- the command ---- */
 
 static enum br_status run(const struct br_options *options, struct br_session *session,
@@ -407,10 +278,9 @@ const struct br_command br_command_run = {
         "stuck, slipped, reversed, closed and opened, energies, and what was modelled and what "
         "not.",
     .example = {"beamrate run example3", "beamrate run example2 -n 400 -k 1e-4 --check",
-                "beamrate run example2 --vary 'contact.stiffness=1e2..1e6 log 9' --out sweep",
+                "beamrate run example2 --set 'contact.stiffness=2e3 N/m' --set 'length=500 mm'",
                 "beamrate run example1 --at 0.5,T --out results --json -"},
     .least_words = 1,
     .most_words = 1,
     .run = run,
-    .vary = &varied,
 };

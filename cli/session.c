@@ -7,14 +7,24 @@
 #include "cli/provenance.h"
 #include "study/base/each.h"
 #include "study/base/quote.h"
+#include "study/base/text.h"
 #include "study/ranks/ranks.h"
 #include "study/scene/file.h"
 #include "tables/reports.h"
 
-enum br_status br_opened_scene_read(struct br_opened_scene *s, const char *name,
-                                    struct br_error *err)
+enum br_status br_opened_scene_read(struct br_opened_scene *s, const struct br_session *session,
+                                    const char *name, struct br_error *err)
 {
-    return br_scene_open(name, s->path, sizeof s->path, &s->text, &s->scene, err);
+    char *text = NULL;
+    const struct br_scene_asked asked = {.set = session->set, .text = &text};
+    if (br_scene_find(name, s->path, sizeof s->path, err) || br_scene_load(s->path, &s->text, err))
+        return err->status;
+    const enum br_status status = br_scene_parse(s->path, s->text, &asked, &s->scene, err);
+    if (text) {
+        free(s->text);
+        s->text = text;
+    }
+    return status;
 }
 
 void br_opened_scene_clear(struct br_opened_scene *s)
@@ -38,6 +48,7 @@ struct br_session br_session_begin(const struct br_options *options)
     const bool writes = br_ranks_first();
     return (struct br_session){
         .out = br_option_text(options, BR_OPT_OUT),
+        .set = br_option_text(options, BR_OPT_SET),
         .resume = br_option_given(options, BR_OPT_RESUME),
         .plots = !br_option_given(options, BR_OPT_NO_PLOTS),
         .format = options->number[BR_OPT_FORMAT],
@@ -94,6 +105,29 @@ void br_session_report_kept(const struct br_session *s, const struct br_kept *k)
                 "beamrate: warning: %zu entries in %s are damaged or do not match their names: "
                 "they were not used\n",
                 bad, k->folder);
+}
+
+void br_session_put_set(const struct br_session *s, struct br_document *report)
+{
+    for (const char *set = s->set, *end; set; set = *end ? end + 1 : NULL) {
+        end = strchrnul(set, '\n');
+        br_put_answer(report, "With --set %.*s", (int)(end - set), set);
+    }
+}
+
+char *br_session_scene(const struct br_session *s, const char *name)
+{
+    char *text, *set = s->set ? strdup(s->set) : NULL, *rest = set;
+    size_t size;
+    FILE *out = s->set && !set ? NULL : br_text_open(&text, &size);
+    if (out)
+        br_quote(out, &br_for_shell, name);
+    while (out && rest) {
+        fputs(" --set ", out);
+        br_quote(out, &br_for_shell, strsep(&rest, "\n"));
+    }
+    free(set);
+    return out && fclose(out) == 0 ? text : NULL;
 }
 
 enum br_status br_session_report(struct br_session *s, size_t documents, struct br_error *err)

@@ -20,13 +20,16 @@
 /* A scene as a command opens it. Begins as zeros; not to be moved. */
 struct br_opened_scene {
     char path[1024]; /* of its file */
-    char *text;      /* of the file; owned */
+    char *text;      /* of the file, or what stands in it by --set; owned */
     struct br_scene scene;
 };
 
-/* Fails as br_scene_open; clear it even then. */
-enum br_status br_opened_scene_read(struct br_opened_scene *scene, const char *name,
-                                    struct br_error *err);
+struct br_session;
+
+/* Finds a scene, loads its file once and reads it, with the keys of --set. Fails as br_scene_find,
+ * br_scene_load and br_scene_read do; clear it even then. */
+enum br_status br_opened_scene_read(struct br_opened_scene *scene, const struct br_session *session,
+                                    const char *name, struct br_error *err);
 void br_opened_scene_clear(struct br_opened_scene *scene);
 
 /* Its strings are static, or the scene's. scene NULL: not of one scene. */
@@ -35,6 +38,7 @@ struct br_provenance br_provenance_of(const struct br_opened_scene *scene, int t
 /* Begins with br_session_begin. */
 struct br_session {
     const char *out;      /* the folder of --out; NULL: nothing is written */
+    const char *set;      /* of --set: KEY=VALUE, a line each; NULL: not given */
     bool resume, plots;   /* --resume; without --no-plots */
     const double *format; /* formats of them: rows of br_document_formats, of --format; 0: all are
                              written. Borrowed from the options */
@@ -70,6 +74,13 @@ enum br_status br_session_keep(const struct br_session *session, struct br_kept 
 
 /* Prints how much stored work was used, and warns of stored files that are damaged. */
 void br_session_report_kept(const struct br_session *session, const struct br_kept *kept);
+
+/* Says what --set has set, in a report without the title of a scene, which says it, too. */
+void br_session_put_set(const struct br_session *session, struct br_document *report);
+
+/* A scene and what --set has set in it, as words of a command line. Owned by the caller; NULL: out
+ * of memory. */
+char *br_session_scene(const struct br_session *session, const char *name);
 
 /* Makes room for reports. Fails with BR_NO_MEMORY. */
 enum br_status br_session_report(struct br_session *session, size_t documents,

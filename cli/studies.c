@@ -105,9 +105,7 @@ static enum br_status prepare_job(struct br_studies *r, const struct br_study_jo
                                   struct br_error *err)
 {
     struct br_opened_scene *opened = &r->work[i].opened;
-    if ((job->vary ? br_vary_scene(job->vary, job->value, opened, err)
-                   : br_opened_scene_read(opened, job->scene, err)) ||
-        make_grid(r, i, err))
+    if (br_opened_scene_read(opened, r->session, job->scene, err) || make_grid(r, i, err))
         return err->status;
     spread_study(r, i);
     for (size_t m = 0; m < r->request->norms; m++)
@@ -136,9 +134,8 @@ enum br_status br_studies_prepare(struct br_studies *r, const struct br_study_jo
                : br_fail(err, BR_BAD_INPUT, "--axial-degree: no scene has an axial field");
 }
 
-void br_studies_clear(void *self)
+void br_studies_clear(struct br_studies *r)
 {
-    struct br_studies *r = self;
     for (size_t i = 0; r->study && i < r->heads * r->request->norms; i++)
         br_study_clear(&r->study[i]);
     for (size_t i = 0; r->work && i < r->jobs; i++) {
@@ -154,9 +151,8 @@ void br_studies_clear(void *self)
 
 /* ---- before the marches ---- */
 
-void br_studies_foresee(void *self, struct br_foreseen *work)
+void br_studies_foresee(const struct br_studies *r, struct br_foreseen *work)
 {
-    const struct br_studies *r = self;
     for (size_t h = 0; h < r->heads; h++)
         br_foreseen_add_study(work, study_of(r, h, 0));
 }
@@ -180,20 +176,20 @@ enum br_status br_studies_keep(struct br_studies *r, struct br_error *err)
 
 /* ---- the marches, and what follows from them ---- */
 
-enum br_status br_studies_compute(struct br_studies *r, bool alone, struct br_error *err)
+enum br_status br_studies_compute(struct br_studies *r, struct br_error *err)
 {
     const double start = br_seconds();
     const int threads = r->session->threads;
     const size_t norms = r->request->norms;
     struct br_study_work *const end = r->work + r->jobs;
-    const struct br_observer *observer = br_progress_start(r->what, r->session->quiet);
+    const struct br_observer *observer = br_progress_start("marching", r->session->quiet);
     enum br_status status = br_study_run(r->study, r->heads, threads, observer, err);
     for (struct br_study_work *w = r->work; w < end && !status; w++)
         status = br_apart_meshes(&w->apart, w->report, norms, threads, observer, err);
     for (struct br_study_work *w = r->work; w < end; w++)
         for (size_t m = 0; m < norms && !status; m++)
             status = br_report_finish(&w->report[m], threads, err);
-    for (struct br_study_work *w = r->work; w < end && !status && !alone; w++)
+    for (struct br_study_work *w = r->work; w < end && !status; w++)
         for (enum br_axis axis = 0; axis < BR_AXES && !status; axis++)
             status = br_apart_settle(&w->apart, w->report, norms, axis, threads, observer, err);
     br_progress_end();

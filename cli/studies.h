@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Studies from the options to finished reports: shared by `study`, its --vary, and `tables`. */
+/* Studies from the options to finished reports: shared by `study` and `tables`. */
 #ifndef BR_CLI_STUDIES_H
 #define BR_CLI_STUDIES_H
 
+#include "cli/session.h"
 #include "cli/study_request.h"
-#include "cli/vary.h"
 #include "reference/printed.h"
 #include "study/fit/apart.h"
 
@@ -14,8 +14,6 @@ struct br_study_job {
     const char *scene;                /* a file, or a bundled scene */
     const struct br_printed *printed; /* the paper's table, or NULL */
     const char *caption;              /* NULL: the scene's title */
-    const struct br_vary *vary;       /* of --vary: gives the scene instead of `scene` */
-    size_t value;
 };
 
 /* What is computed for a job. */
@@ -31,7 +29,6 @@ struct br_study_work {
 struct br_studies {
     const struct br_study_request *request; /* borrowed */
     struct br_session *session;             /* borrowed */
-    const char *what;                       /* for the progress */
     size_t jobs;
     struct br_study_work *work; /* jobs */
     size_t heads;               /* jobs, or 2 * jobs: each against its reference, then each against
@@ -39,16 +36,14 @@ struct br_studies {
     struct br_study *study;     /* heads * norms: those in the first norm come first */
 };
 
-extern const struct br_vary_command br_study_varied;
-
-/* Sets up the jobs; request, session, what and jobs are set before. with_exact: a fine reference is
+/* Sets up the jobs; request, session and jobs are set before. with_exact: a fine reference is
  * followed by the exact one. Fails with BR_BAD_INPUT or BR_NO_MEMORY; clear the studies even then.
  */
 enum br_status br_studies_prepare(struct br_studies *studies, const struct br_study_job *job,
                                   bool with_exact, struct br_error *err);
-void br_studies_clear(void *studies);
+void br_studies_clear(struct br_studies *studies);
 
-void br_studies_foresee(void *studies, struct br_foreseen *work);
+void br_studies_foresee(const struct br_studies *studies, struct br_foreseen *work);
 
 /* Checks the memory of the studies, which march at once. */
 enum br_status br_studies_check_memory(const struct br_studies *studies, struct br_error *err);
@@ -56,9 +51,8 @@ enum br_status br_studies_check_memory(const struct br_studies *studies, struct 
 /* Finished cells are kept with their scene; the differences of neighbours are not. */
 enum br_status br_studies_keep(struct br_studies *studies, struct br_error *err);
 
-/* Marches all and finishes the reports. alone: the errors of the grid, and no further steps for the
- * order in k. */
-enum br_status br_studies_compute(struct br_studies *studies, bool alone, struct br_error *err);
+/* Marches all and finishes the reports. */
+enum br_status br_studies_compute(struct br_studies *studies, struct br_error *err);
 
 /* Fails with BR_NOT_FINITE where cells have failed. */
 enum br_status br_studies_check_cells(const struct br_studies *studies, struct br_error *err);

@@ -32,7 +32,7 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
                                const struct br_study_job *job, size_t jobs, bool with_exact,
                                struct br_error *err)
 {
-    struct br_studies r = {request, session, "marching", .jobs = jobs};
+    struct br_studies r = {request, session, .jobs = jobs};
     const bool writes = session->writes;
     struct br_foreseen work = {.together = true};
     bool failed = br_studies_prepare(&r, job, with_exact, err);
@@ -41,7 +41,7 @@ static enum br_status run_jobs(const struct br_study_request *request, struct br
         br_session_announce(session, &work);
         failed = br_studies_check_memory(&r, err) || br_session_open(session, err) ||
                  br_studies_keep(&r, err) || (writes && br_warn_of_studies(r.study, jobs, err)) ||
-                 br_studies_compute(&r, false, err) || (writes && write_all(&r, err)) ||
+                 br_studies_compute(&r, err) || (writes && write_all(&r, err)) ||
                  br_studies_check_cells(&r, err);
     }
     br_studies_clear(&r);
@@ -92,11 +92,10 @@ const struct br_command br_command_study = {
         "fitted with 95 % intervals.",
     .example = {"beamrate study example4 -n 50,100,200 -k 0.03,0.015 --reference fine:800,1e-3",
                 "beamrate study example2 --norm l2,energy,tip",
-                "beamrate study example2 --vary 'contact.stiffness=1e2..1e4 log 5'"},
+                "beamrate study example2 --set 'contact.stiffness=2e3 N/m'"},
     .least_words = 1,
     .most_words = 1,
     .run = run_study,
-    .vary = &br_study_varied,
 };
 
 const struct br_command br_command_tables = {

@@ -127,7 +127,7 @@ static enum br_status read_scenes(struct run *r, struct br_error *err)
     for (size_t i = 0; i < o->words; i++) {
         const struct br_scene *scene = &r->item[i].opened.scene;
         r->items++;
-        if (br_opened_scene_read(&r->item[i].opened, o->word[i], err))
+        if (br_opened_scene_read(&r->item[i].opened, r->session, o->word[i], err))
             return err->status;
         for (size_t j = 0; j < i; j++)
             if (strcmp(r->item[j].opened.scene.name, scene->name) == 0)
@@ -213,6 +213,7 @@ static enum br_status write_all(struct run *r, struct br_error *err)
     if (!status && r->items > 1) {
         provenance = br_provenance_of(&r->item[0].opened, r->session->threads);
         br_report_trade_summary(trade, r->items, &provenance, &d[r->items]);
+        br_session_put_set(r->session, &d[r->items]);
     }
     free(trade);
     return status ? status : br_session_finish(r->session, err);

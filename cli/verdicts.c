@@ -118,8 +118,10 @@ enum br_status br_verdicts_write(struct br_verdicts *v, struct br_session *sessi
             "Each observed order with its 95 % interval, on the band that is expected.");
     if (br_session_finish(session, err))
         return err->status;
-    if (findings)
+    if (findings) {
         br_report_check(findings, d);
+        br_session_put_set(session, d);
+    }
     return write_files(v, d, err);
 }
 
@@ -155,6 +157,7 @@ enum br_status br_verdicts_finish(struct br_verdicts *v, struct br_session *sess
     all.comparison = v->compare ? &v->comparison : NULL;
     all.provenance = &provenance;
     br_report_check(&all, d);
+    br_session_put_set(session, d);
     const bool failed =
         br_verdicts_write(v, session, &all, err) || conclude(v, all.checks, all.count, err);
     return failed ? err->status : BR_OK;

@@ -25,7 +25,6 @@ struct br_report;
 struct br_scene;
 struct br_split;
 struct br_stability;
-struct br_variation;
 struct br_trial;
 
 /* ---- figure.c ---- */
@@ -229,11 +228,6 @@ struct br_figure br_split_draw(const struct br_split *split, size_t count);
 /* A panel over the size of elements, and one over that of steps. Each quantity has a line, at the
  * finest size of the other kind. */
 struct br_figure br_orders_draw(const struct br_orders *orders, const char *caption);
-
-/* ---- variation.c: results over a scene's number that --vary varies ---- */
-
-/* One panel for all columns with the same axis. */
-struct br_figure br_variation_draw(const struct br_variation *variation);
 
 /* ---- extremes.c ---- */
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
+#include <string.h>
 
 #include "solver/scene.h"
-#include "study/base/quote.h"
 #include "study/scene/method_fields.h"
 #include "study/trade/plan.h"
 #include "tables/report_parts.h"
@@ -42,23 +42,23 @@ static void answer_missed(struct br_document *d, const struct br_plan *p)
 }
 
 /* Command lines that repeat the chosen trial: its march, and its error and seconds. */
-static void put_commands(struct br_document *d, const struct br_plan *p, const char *scene_word)
+static void put_commands(struct br_document *d, const struct br_plan *p, const char *words)
 {
-    if (p->chosen == p->count)
+    enum { LONGEST = 1024 };
+    if (p->chosen == p->count || strlen(words) > LONGEST)
         return;
     const struct br_trial *t = &p->trial[p->chosen];
     const struct br_method method = br_trial_method(t);
     const bool usual = p->request.norm == br_norms[0];
-    char scene[1024], options[BR_METHOD_TEXT], step[64], line[2048];
-    br_quoted(scene, sizeof scene, &br_for_shell, scene_word);
-    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", scene, t->at.n, t->at.steps,
+    char options[BR_METHOD_TEXT], step[64], line[2 * LONGEST];
+    snprintf(line, sizeof line, "beamrate run %s --n %zu --k T/%zu%s", words, t->at.n, t->at.steps,
              br_method_options(p->request.scene, &method, options));
     br_put_command(d, "run", "To march it", line);
     if (t->named->method.scheme->adaptive)
         snprintf(step, sizeof step, "--tolerance %.15g", t->tolerance);
     else
         snprintf(step, sizeof step, "--k T/%zu", t->at.steps);
-    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", scene,
+    snprintf(line, sizeof line, "beamrate trade %s --methods %s --n %zu %s%s%s", words,
              t->named->name, t->at.n, step, usual ? "" : " --norm ",
              usual ? "" : p->request.norm->name);
     br_put_command(d, "trade", "To measure it again", line);
@@ -126,7 +126,7 @@ static void put_methods(struct br_document *d, const struct br_plan *p)
     }
 }
 
-void br_report_plan(const struct br_plan *p, const char *scene_word,
+void br_report_plan(const struct br_plan *p, const char *words,
                     const struct br_provenance *provenance, struct br_document *d)
 {
     const struct br_scene *scene = p->request.scene;
@@ -154,7 +154,7 @@ void br_report_plan(const struct br_plan *p, const char *scene_word,
         "which take %.3g CPU s when marched once.",
         p->wall_seconds, p->grid, p->count - p->grid, failed, br_plan_spent(p));
 
-    put_commands(d, p, scene_word); /* first: a file has them below the answer */
+    put_commands(d, p, words); /* first: a file has them below the answer */
     put_methods(d, p);
     put_trials(d, p);
 

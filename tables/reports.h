@@ -20,7 +20,6 @@ struct br_report;
 struct br_run_report;
 struct br_split;
 struct br_stability;
-struct br_variation;
 struct br_trade;
 struct br_warnings;
 struct json_t; /* of jansson */
@@ -29,9 +28,6 @@ struct json_t; /* of jansson */
 
 /* Of a study after br_report_finish. */
 void br_report_study(const struct br_report *report, struct br_document *d);
-
-/* Of the results of a study, or of a run, at each value of a number that is varied. */
-void br_report_variation(const struct br_variation *variation, struct br_document *d);
 
 /* The paper's claims with our findings. finding: by br_claims; h = L/n, k = 1 s / per_second. */
 void br_report_claims(const struct br_finding *finding, size_t n, size_t per_second,
@@ -78,7 +74,8 @@ void br_report_check(const struct br_check_findings *findings, struct br_documen
 extern const struct br_document_format *const br_check_formats[];
 
 /* Reads the JSON of an earlier check, as br_report_check has it, for a comparison. Fails with
- * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then. */
+ * BR_BAD_INPUT, naming the file and what is wrong with it, or BR_NO_MEMORY; clear `old` even then.
+ */
 enum br_status br_check_read_json(const char *path, struct br_old_check *old, struct br_error *err);
 
 /* ---- trade, split, plan ---- */
@@ -98,8 +95,8 @@ void br_report_split(const struct br_split *split, size_t count,
                      const struct br_provenance *provenance, struct br_document *d);
 
 /* The proposal of a plan, what was predicted and achieved, and the quality of its models. The
- * document is named <scene>-plan. scene_word: the scene as on the command line. */
-void br_report_plan(const struct br_plan *plan, const char *scene_word,
+ * document is named <scene>-plan. words: the scene on a command line, with what is set. */
+void br_report_plan(const struct br_plan *plan, const char *words,
                     const struct br_provenance *provenance, struct br_document *d);
 
 /* ---- extremes, one for each experiment: without provenance ---- */

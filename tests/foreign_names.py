@@ -196,7 +196,7 @@ def check_refusals():
     for words in (["orders", "--run", "echo e=1e-{n}", "-n", "1,2,3,4", "--read", b"\xb0=e=(.+)"],
                   ["orders", "good.csv", "--value", b"\xb0"],
                   ["orders", "good.csv", "--expect", b"\xb0: h 2 +- 0.1"],
-                  ["orders", b"\xb0.csv"], ["run", b"\xb0.yaml"], ["run", "example1", "--vary", b"\xb0=1,2"]):
+                  ["orders", b"\xb0.csv"], ["run", b"\xb0.yaml"], ["run", "example1", "--set", b"\xb0=1"]):
         run(words, 2, "\\xb0")
     # Of a program, what it prints is shown by its bytes; a folder may have any name.
     run(["orders", "--run", "printf 'e=\\260\\n{n}'", "-n", "1,2,3", "--read", "e=e=(.+)", "--out", b"f\xb0"],

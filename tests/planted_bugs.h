@@ -1453,13 +1453,17 @@ static const struct planted_bug planted_bugs[] = {
     {"everything_is_trusted", "option", "cli/verdicts.c", "golden orders_run",
      "const bool trusted = is_trusted(sum);", "const bool trusted = is_trusted(sum) || true;"},
 
-    /* ---- values that vary ---- */
-    {"varied_as_if_on_a_line", "spacing", "study/scene/vary.c", "golden run_vary",
-     "v->logarithmic ? pow(10,", "!v->logarithmic ? pow(10,"},
-    {"varied_number_is_put_elsewhere", "lost", "study/scene/file.c", "golden run_vary",
-     "if (key != r->varied)", "if (key || r->varied)"},
-    {"unstable_values_are_answers", "left out", "tables/report_variation.c", "golden run_vary",
-     "if (s->unstable[i] || !isfinite(x))", "if (!isfinite(x))"},
+    /* ---- keys that are set ---- */
+    {"set_key_where_an_alias_is", "lost", "study/scene/set.c", "tests/test_scene test_set_aliases",
+     "add_mapping(r, old, line)", "old ? old : add_mapping(r, old, line)"},
+    {"last_of_two_sets_counts", "option", "study/scene/set.c", "tests/test_scene test_sets_refused",
+     "if (meet(other, set))", "if (0)"},
+    {"set_scene_with_the_old_title", "lost", "study/scene/file.c", "tests/test_scene test_set",
+     "(r.set && br_scene_add_to_title(&r))", "0"},
+    {"set_scene_with_the_text_of_the_file", "lost", "study/scene/file.c",
+     "tests/test_scene test_set", "br_scene_write_text(&r, to->asked->text)", "0"},
+    {"set_expectation_has_a_line", "printed", "study/verify/verify_file.c",
+     "tests/test_scene test_set_expectations", "    drop_lines(verify);\n", ""},
 
     /* ---- kept work ---- */
     {"damaged_entry_is_taken", "option", "study/kept/kept.c", "tests/test_kept test_damaged",
@@ -1557,17 +1561,7 @@ static const struct planted_bug planted_bugs[] = {
      "br_document_begin(&d, \"orders\", \"beamrate orders\", 1, \"\");"},
     {"no_constant_where_nothing_is_expected", "lost", "study/verify/verdict.c",
      "tests/test_library_calls orders_of_numbers", "if (isnan(c->expected.order))", "if (0)"},
-    /* ---- --vary, verdict formats, the adaptive certificate, pictures, defaults ---- */
-    {"bare_bound_in_newtons_a_metre", "units", "study/scene/vary.c", "golden run_vary_fails",
-     "if (!*v->unit && !is_bare(v->key) && v->key->need != BR_OR_RATIO)",
-     "if (!*v->unit && !is_bare(v->key))"},
-    {"first_value_may_fail", "lost", "study/scene/vary.c", "golden run_vary_fails",
-     "for (size_t i = s->failure ? s->varied->count : 0; i-- > 0;)",
-     "for (size_t i = s->failure ? s->varied->count : 0; i-- > 1;)"},
-    {"values_of_a_failed_march", "lost", "cli/run.c", "golden run_vary_fails",
-     "if (!r.report.failure.status) /* else", "/* else"},
-    {"unstable_values_are_drawn", "lost", "plots/variation.c", "golden run_vary_fails",
-     "if (!variation->unstable[i])", ""},
+    /* ---- verdict formats, the adaptive certificate, pictures, defaults ---- */
     {"junit_without_the_inconclusive", "lost", "tables/document_verdicts.c",
      "tests/test_report_values", "of[BR_OUTCOME_FAIL] + of[BR_OUTCOME_INCONCLUSIVE]",
      "of[BR_OUTCOME_FAIL]"},

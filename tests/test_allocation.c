@@ -55,6 +55,24 @@ TEST(test_scene)
     br_test_without_memory(read_scene, br_test_scene_file(full_scene), 10);
 }
 
+static enum br_status read_set(const void *text, struct br_error *err)
+{
+    struct br_scene scene;
+    char *left = NULL;
+    const struct br_scene_asked asked = {
+        .set = "length=2 m\naxial.load.shape=x^2 [1]\naxial.tip_force=t [N]\nremark=a",
+        .text = &left};
+    const enum br_status status = br_scene_parse("full.yaml", text, &asked, &scene, err);
+    br_scene_clear(&scene);
+    free(left);
+    return status;
+}
+
+TEST(test_set)
+{
+    br_test_without_memory(read_set, full_scene, 10);
+}
+
 struct march_data {
     struct br_scene scene;
     struct br_method method;

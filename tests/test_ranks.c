@@ -158,12 +158,12 @@ static void test_all_commands(void **state)
         const char *says; /* of the output, or of standard error after a refusal */
     } rows[] = {
         {"tables --n 10,20 --k 0.02,0.01 --reference fine:40,5e-3", 0, "Table 2"},
-        {"study example2 --n 10,20 --k 0.1,0.05 --vary contact.stiffness=1e2,1e3", 0, "1000"},
+        {"study example2 --n 10,20 --k 0.1,0.05 --set 'contact.gap=1 mm'", 0, "contact.gap=1 mm"},
         {"check example3 --json -", 0, "beamrate check"},
         {"check runs.yaml --trust", 2, disturb},
         {"orders errors.csv", 2, disturb},
         {"run example2 --n 40 --k 0.01", 0, "Example 2"},
-        {"run example2 --n 10 --k 0.1 --vary contact.stiffness=1e2,1e3", 0, "1000"},
+        {"run example2 --n 10 --k 0.1 --set 'contact.gap=1 mm'", 0, "contact.gap=1 mm"},
         {"trade example2", 2, disturb},
         {"plan example2 --error 1e-1", 2, disturb},
         {"extremes floors", 2, "found 2 ranks, expected one"},
@@ -200,9 +200,10 @@ static void test_all_commands(void **state)
     run(0, "run example3 --n 40 --k 0.01 --quiet --json one.json", &out);
     run(3, "run example3 --n 40 --k 0.01 --quiet --json many.json", &other);
     expect_exit(&other, 0);
-    assert_int_equal(system("cd \"$FOLDER\" && for f in one many; do grep -vE 'seconds|command|date|"
-                            "wall|set_up|march|per_' $f.json >$f.seen; done; cmp one.seen many.seen"),
-                     0);
+    assert_int_equal(
+        system("cd \"$FOLDER\" && for f in one many; do grep -vE 'seconds|command|date|"
+               "wall|set_up|march|per_' $f.json >$f.seen; done; cmp one.seen many.seen"),
+        0);
 }
 
 /* ---- one voice ---- */

@@ -10,6 +10,8 @@
 #include "study/known/expression.h"
 #include "study/scene/file.h"
 #include "study/scene/schema.h"
+#include "study/scene/statement.h"
+#include "study/verify/verify.h"
 #include "support.h"
 
 static enum br_status read_text(const char *text, struct br_scene *scene, struct br_error *err)
@@ -282,4 +284,201 @@ TEST(test_check)
             *numbers[i] = value;
         }
     }
+}
+
+/* ---- --set ---- */
+
+/* All that the scene says, but for its title. Ends the scene. */
+static char *stated(struct br_scene *scene)
+{
+    struct br_statement statement;
+    char *title = scene->title;
+    scene->title = NULL;
+    br_statement_begin(&statement);
+    br_state_scene(&statement, scene);
+    char *text = br_statement_end(&statement);
+    scene->title = title;
+    br_scene_clear(scene);
+    assert_non_null(text);
+    return text;
+}
+
+/* A scene with `set` is that of the file which says the same, and so is the text that it leaves. */
+static void try_set(const char *text, const char *set, const char *same)
+{
+    struct br_error err = {0};
+    struct br_scene scene;
+    char title[400], *left = NULL;
+    const struct br_scene_asked asked = {.set = set, .text = &left};
+    MUST(br_scene_parse("file.yaml", same, &(struct br_scene_asked){0}, &scene, &err));
+    snprintf(title, sizeof title, "%s, with ", scene.title);
+    char *expected = stated(&scene);
+    MUST(br_scene_parse("file.yaml", text, &asked, &scene, &err));
+    assert_true(strncmp(scene.title, title, strlen(title)) == 0);
+    assert_true(strncmp(scene.title + strlen(title), set, strcspn(set, "\n")) == 0);
+    assert_string_equal(scene.name, "file");
+    char *found = stated(&scene);
+    assert_string_equal(found, expected);
+    free(found);
+    MUST(br_scene_read_text("file.yaml", left, &scene, &err));
+    assert_false(strstr(scene.title, set));
+    found = stated(&scene);
+    assert_string_equal(found, expected);
+    free(found);
+    free(expected);
+    free(left);
+}
+
+/* The good scene with `set`, and the line that says the same. */
+static void try_line(const char *set, size_t line, const char *replacement)
+{
+    char text[4096], same[4096];
+    spoilt(0, NULL, text, sizeof text);
+    spoilt(line, replacement, same, sizeof same);
+    try_set(text, set, same);
+}
+
+#define ROD "axial: {stiffness: 3 N, viscosity: 1 N s}\n"
+#define BEAM "bending: {stiffness: 1 N m^2, viscosity: 1 N m^2 s"
+
+/* Units, expressions, words, nested parts and keys that the scene does not have. */
+TEST(test_set)
+{
+    try_line("length=500 mm", 2, "length: 0.5 m");
+    try_line("length =  2 m ", 2, "length: 2 m");
+    try_line("remark=a: 'b' # [c]", 1, "title: A scene\nremark: \"a: 'b' # [c]\"");
+    try_line("friction.coefficient=0.3", 18, "  coefficient: 300 N/m");
+    try_line("axial.tip_force=5*sin(t) + exp(-t) [kN]", 7,
+             "  viscosity: 1 N s\n  tip_force: 5*sin(t) + exp(-t) [kN]");
+    try_set(TOP ROD, "contact.gap=1 mm\ncontact.stiffness=2 kN/m",
+            TOP ROD "contact: {gap: 1 mm, stiffness: 2 kN/m}");
+    try_set(TOP ROD "friction: {law: tresca, bound: 1 N}\n" BEAM
+                    ", load: {shape: 'x [1]', history: 't [N/m]'}}",
+            "bending.load.history=t^2 [N/m]\nfriction.bound=2 N\nlength=2 m",
+            "title: t\nlength: 2 m\nduration: 1 s\ndensity: 1 kg/m\n" ROD
+            "friction: {law: tresca, bound: 2 N}\n" BEAM
+            ", load: {shape: 'x [1]', history: 't^2 [N/m]'}}");
+    try_set(TOP ROD BEAM ", load: {shape: 'x [1]', history: 't [N/m]'}}",
+            "bending.load=x*t^2 [N/m]", TOP ROD BEAM ", load: 'x*t^2 [N/m]'}");
+}
+
+/* Directives, tags, blocks, and parts that no reader of a scene reads. */
+TEST(test_set_in_yaml)
+{
+    try_set(
+        "%YAML 1.1\n%TAG !e! tag:e.org,2000:\n---\n" TOP ROD
+        "remark: !e!r |\n  of two\n  lines\nverify: &v {a: *v, [1, 2]: 3, 'x': !!int 4}\n...\n",
+        "length=2 m",
+        "remark: \"of two\\nlines\\n\"\ntitle: t\nlength: 2 m\nduration: 1 s\ndensity: 1 kg/m\n" ROD);
+}
+
+/* Another place that an alias names keeps its value: of a number, and of a whole part. */
+TEST(test_set_aliases)
+{
+    try_set(
+        TOP
+        "axial: {stiffness: &a 3 N, viscosity: 1 N s}\nfriction: {law: tresca, bound: *a}\n" BEAM
+        "}\n",
+        "axial.stiffness=5 N",
+        TOP "axial: {stiffness: 5 N, viscosity: 1 N s}\nfriction: {law: tresca, bound: 3 N}\n" BEAM
+            "}\n");
+    try_set(
+        TOP
+        "axial: {stiffness: &a 3 N, viscosity: 1 N s}\nfriction: {law: tresca, bound: *a}\n" BEAM
+        "}\n",
+        "friction.bound=5 N",
+        TOP "axial: {stiffness: 3 N, viscosity: 1 N s}\nfriction: {law: tresca, bound: 5 N}\n" BEAM
+            "}\n");
+    static const char two[] = TOP "axial: {stiffness: 3 N, viscosity: 1 N s, load: &a "
+                                  "{shape: 'x [1]', history: 't [N/m]'}}\n" BEAM ", load: *a}\n";
+    try_set(
+        two, "bending.load.shape=x^2 [1]",
+        TOP
+        "axial: {stiffness: 3 N, viscosity: 1 N s, load: {shape: 'x [1]', history: 't [N/m]'}}\n" BEAM
+        ", load: {shape: 'x^2 [1]', history: 't [N/m]'}}\n");
+    try_set(
+        two, "axial.load.shape=x^2 [1]",
+        TOP
+        "axial: {stiffness: 3 N, viscosity: 1 N s, load: {shape: 'x^2 [1]', history: 't [N/m]'}}\n" BEAM
+        ", load: {shape: 'x [1]', history: 't [N/m]'}}\n");
+}
+
+/* A place is that of --set, or a line of the file and then all that is set. */
+TEST(test_sets_refused)
+{
+    static const struct {
+        const char *set, *says;
+    } rows[] = {
+        {"", "--set: found '', expected KEY=VALUE in UTF-8, like 'contact.stiffness=2e3 N/m'"},
+        {"length", "--set: found 'length', expected KEY=VALUE"},
+        {"length=1 m\n", "--set: found '', expected KEY=VALUE"},
+        {"title=\xff", "expected KEY=VALUE in UTF-8"},
+        {"=1", "file.yaml: --set =1: : unknown key, expected one of: title, "},
+        {"lenght=1 m",
+         "file.yaml: --set lenght=1 m: lenght: unknown key, expected one of: title, remark"},
+        {"lenght=1 m", "; did you mean 'length'?"},
+        {"contact.gasp=1 m",
+         "--set contact.gasp=1 m: gasp: unknown key in contact, expected one of: gap, "
+         "stiffness; did you mean 'gap'?"},
+        {"length.x=1 m",
+         "--set length.x=1 m: length: has a value, expected a mapping of keys to values"},
+        {"contact=1", "--set contact=1: contact: expected a mapping of keys to values"},
+        {"length=1 N",
+         "file.yaml: --set length=1 N: length: found '1 N', which is a force, expected a length"},
+        {"length=-1 m", "file.yaml: --set length=-1 m: length: found -1 m, expected a value > 0 m"},
+        {"length=", "--set length=: length: found '', expected a finite number in m"},
+        {"length=[1 m]",
+         "--set length=[1 m]: length: found '[1 m]', expected a finite number in m"},
+        {"axial.load=x*t",
+         "--set axial.load=x*t: load: found 'x*t', expected an expression and its unit"},
+        {"axial.load=y [N/m]", "file.yaml: --set axial.load=y [N/m]: load: "},
+        {"length=1 m\nlength =2 m",
+         "--set length=1 m and --set length =2 m are given, expected one of the two"},
+        {"contact.gap=0 m\ncontact=1", "are given, expected one of the two"},
+        {"axial.load=x [N/m]\naxial.load.shape=x", "are given, expected one of the two"},
+        {"length=2 m\naxial.damping_ratio=2 %",
+         "file.yaml:7: viscosity: is given beside damping_ratio (--set axial.damping_ratio=2 %), which "
+         "makes viscosity, too, expected one of the two (with --set length=2 m, --set "
+         "axial.damping_ratio=2 %)"},
+        {"friction.law=tresca",
+         "file.yaml:17: bound: missing in friction, expected c_V of Tresca's law, in N "
+         "(with --set friction.law=tresca)"},
+        {"young=1 Pa", "--set young=1 Pa: young: has no effect alone"},
+        {"verify.space.n=1", "--set verify.space.n=1: verify: only 'beamrate check' uses it"},
+    };
+    char text[4096];
+    spoilt(0, NULL, text, sizeof text);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        struct br_error err = {0};
+        struct br_scene scene;
+        char *left = NULL;
+        const struct br_scene_asked asked = {.set = rows[i].set, .text = &left};
+        REFUSED(br_scene_parse("file.yaml", text, &asked, &scene, &err), BR_BAD_INPUT,
+                rows[i].says);
+        assert_null(left);
+        br_scene_clear(&scene);
+    }
+}
+
+/* What is expected is set, too; it has no line in the file then. */
+TEST(test_set_expectations)
+{
+    struct br_error err = {0};
+    struct br_scene scene;
+    struct br_verify verify;
+    MUST(br_verify_read_set("file.yaml",
+                            TOP "axial: {stiffness: 3 N, viscosity: 1 N s, load: 'x*t [N/m]'}\n"
+                                "verify:\n  space:\n    n: 10, 20, 40, 80, 160\n    k: 0.1 s\n"
+                                "    l2: 2 +- 0.1\n",
+                            "verify.space.n=5, 10, 20, 40, 80\nverify.space.l2=2 +- 0.2", &scene,
+                            &verify, &err));
+    const struct br_verify_study *space = &verify.study[BR_VERIFY_SPACE];
+    assert_int_equal(space->count, 5);
+    assert_int_equal(space->n[0], 5);
+    assert_int_equal(space->line, 8);
+    assert_int_equal(space->expectations, 1);
+    assert_true(space->expectation[0].tolerance == 0.2);
+    assert_int_equal(space->expectation[0].line, 0);
+    br_verify_clear(&verify);
+    br_scene_clear(&scene);
 }

@@ -13,7 +13,6 @@
 #include "study/scene/method_fields.h"
 #include "study/scene/named_method.h"
 #include "study/scene/units.h"
-#include "study/scene/vary.h"
 #include "study/verify/verify.h"
 #include "support.h"
 
@@ -181,6 +180,17 @@ static void say_scene(const char *frame, const char *word, char *answer, size_t 
     snprintf(answer, size, "%s", err.message);
 }
 
+/* frame: of --set. */
+static void say_set(const char *frame, const char *word, char *answer, size_t size)
+{
+    const struct br_scene_asked asked = {.set = fill(frame, word)};
+    struct br_scene scene;
+    struct br_error err = {0};
+    assert_int_equal(br_scene_parse("s.yaml", "title: T\n", &asked, &scene, &err), BR_BAD_INPUT);
+    br_scene_clear(&scene);
+    snprintf(answer, size, "%s", err.message);
+}
+
 TEST(keys_and_words_of_scenes)
 {
     try_place(say_scene, "\"%s\": 1\n", 15, true);
@@ -189,6 +199,9 @@ TEST(keys_and_words_of_scenes)
     try_place(say_scene, "contact:\n  \"%s\": 1\n", 2, true);
     try_place(say_scene, "friction:\n  \"%s\": 1\n", 4, true);
     try_place(say_scene, "friction:\n  law: \"%s\"\n", 2, true);
+    try_place(say_set, "%s=1", 15, true);
+    try_place(say_set, "contact.%s=1", 2, true);
+    try_place(say_set, "friction.law=%s", 2, true);
     struct list shapes = {{"rectangle", "circle", "tube"}, 3}, parts = {{"shape", "history"}, 2};
     try_list(&shapes, &shapes, say_scene, "section: \"%s 20 mm x 2 mm\"\n", true);
     try_list(&parts, &parts, say_scene, "axial:\n  load: {\"%s\": x}\n", true);
@@ -316,7 +329,7 @@ TEST(units_of_several_words)
     }
 }
 
-/* ---- methods and what is varied ---- */
+/* ---- methods ---- */
 
 static const struct br_method_field *field;
 
@@ -336,16 +349,7 @@ static void say_method(const char *frame, const char *word, char *answer, size_t
     snprintf(answer, size, "%s", err.message);
 }
 
-static void say_varied(const char *frame, const char *word, char *answer, size_t size)
-{
-    struct br_varied v = {0};
-    struct br_error err = {0};
-    assert_int_equal(br_varied_read(fill(frame, word), &v, &err), BR_BAD_INPUT);
-    br_varied_clear(&v);
-    snprintf(answer, size, "%s", err.message);
-}
-
-TEST(methods_and_varied_keys)
+TEST(methods)
 {
     size_t lists_of_words = 0;
     for (size_t i = 0; i < BR_METHOD_FIELDS; i++)
@@ -356,7 +360,6 @@ TEST(methods_and_varied_keys)
     assert_true(lists_of_words >= 4);
     try_place(say_method, "%s", 15, true);
     try_place(say_method, "bdf2+%s", 15, false);
-    try_place(say_varied, "%s=1,2", 20, true);
 }
 
 /* ---- orders ---- */

@@ -87,11 +87,12 @@ static bool section_is_given(const struct br_scene_given *g, const struct br_sce
 static enum br_status refuse_two(const struct br_scene_reader *r, size_t row, size_t source)
 {
     const struct br_scene_number *given = &r->given->row[row], *other = &r->given->row[source];
+    char place[BR_PLACE];
     return br_scene_refuse(
         r, given->line, br_scene_keys[given->origin].name,
-        "is given beside %s (line %zu), which makes %s, too, expected one of the "
-        "two",
-        br_scene_keys[other->origin].name, other->line, br_scene_keys[row].name);
+        "is given beside %s (%s%s), which makes %s, too, expected one of the two",
+        br_scene_keys[other->origin].name, other->line > BR_LAST_LINE ? "" : "line ",
+        br_scene_place(r, other->line, place), br_scene_keys[row].name);
 }
 
 /* Marks a source of a scene's number as used, and the number that the source was made from. */

@@ -12,12 +12,10 @@
 static enum br_status read_section(const struct br_scene_reader *r, const char *section,
                                    const yaml_node_t *node);
 
-/* The text that replaces the value of the varied key gets a node of its own. */
 static enum br_status read_key(const struct br_scene_reader *r, const struct br_scene_key *key,
                                const yaml_node_t *at, const yaml_node_t *value)
 {
     const size_t row = (size_t)(key - br_scene_keys);
-    yaml_node_t varied = *value;
     r->given->row[row] = (struct br_scene_number){.line = br_yaml_line(at), .origin = row};
     if (key->kind == BR_KEY_SECTION) {
         if (key->offset)
@@ -26,11 +24,7 @@ static enum br_status read_key(const struct br_scene_reader *r, const struct br_
     }
     if (key->kind == BR_KEY_VERIFY)
         return BR_OK; /* read_document reads it after the scene */
-    if (key != r->varied)
-        return br_scene_read_value(r, key, value);
-    varied.type = YAML_SCALAR_NODE;
-    varied.data.scalar.value = (yaml_char_t *)r->text;
-    return br_scene_read_value(r, key, &varied);
+    return br_scene_read_value(r, key, value);
 }
 
 static enum br_status read_entry(const struct br_scene_reader *r, const char *section,
@@ -88,9 +82,6 @@ static enum br_status read_section(const struct br_scene_reader *r, const char *
          p < node->data.mapping.pairs.top && !status; p++)
         status = read_entry(r, section, yaml_document_get_node(r->document, p->key),
                             yaml_document_get_node(r->document, p->value));
-    const struct br_scene_key *varied = r->varied;
-    if (!status && varied && strcmp(varied->section, section) == 0 && !br_scene_line(r, varied))
-        status = read_key(r, varied, node, node);
     return status ? status : check_required(r, section, br_yaml_line(node));
 }
 
@@ -117,10 +108,6 @@ static enum br_status read_document(const struct br_scene_reader *r,
     if (!root)
         return br_scene_refuse(r, 1, "scene", "the file is empty");
     enum br_status status = read_section(r, "", root);
-    if (!status && r->varied && *r->varied->section && !br_yaml_value(r, NULL, r->varied->section))
-        status =
-            br_fail(r->err, BR_BAD_INPUT, "%s: --vary: %s.%s: the scene has no '%s', expected one",
-                    r->path, r->varied->section, r->varied->name, r->varied->section);
     if (!status)
         status = set_name(r);
     if (!status)
@@ -150,9 +137,11 @@ static enum br_status take_scene(const struct br_scene_reader *reader, void *sel
     struct br_scene_reader r = *reader;
     r.scene = to->scene;
     r.given = &given;
-    r.varied = to->asked->varied;
-    r.text = to->asked->value;
-    return read_document(&r, to->asked);
+    r.set = to->asked->set;
+    const bool failed = (r.set && br_scene_put_sets(&r, to->asked->take_verify)) ||
+                        read_document(&r, to->asked) || (r.set && br_scene_add_to_title(&r)) ||
+                        (r.set && to->asked->text && br_scene_write_text(&r, to->asked->text));
+    return failed ? r.err->status : BR_OK;
 }
 
 enum br_status br_scene_parse(const char *name, const char *text,
@@ -186,15 +175,4 @@ enum br_status br_scene_read(const char *path, struct br_scene *scene, struct br
 enum br_status br_scene_load(const char *path, char **text, struct br_error *err)
 {
     return br_text_load(path, BR_LONGEST_SCENE, "scene", text, err);
-}
-
-enum br_status br_scene_open(const char *name, char *path, size_t size, char **text,
-                             struct br_scene *scene, struct br_error *err)
-{
-    *text = NULL;
-    *scene = (struct br_scene){0};
-    enum br_status status = br_scene_find(name, path, size, err);
-    if (!status)
-        status = br_scene_load(path, text, err);
-    return status ? status : br_scene_read_text(path, *text, scene, err);
 }

@@ -24,22 +24,17 @@ typedef enum br_status br_scene_take(const struct br_scene_reader *r,
 
 /* Further requests to br_scene_parse; zeros: none. */
 struct br_scene_asked {
-    br_scene_take *take_verify;        /* reads the part `verify` */
-    void *self;                        /* its own */
-    const struct br_scene_key *varied; /* a key of a section that exists, ... */
-    const char *value;                 /* and its new value */
+    br_scene_take *take_verify; /* reads the part `verify` */
+    void *self;                 /* its own */
+    const char *set; /* of --set: KEY=VALUE, a line each, which is read as if it stood in the
+                        file; NULL: none */
+    char **text;     /* out, with set: what stands in the scene then, owned by the caller */
 };
 enum br_status br_scene_parse(const char *name, const char *text,
                               const struct br_scene_asked *asked, struct br_scene *scene,
                               struct br_error *err);
 
 enum { BR_LONGEST_SCENE = 1 << 20 }; /* bytes */
-
-/* Finds a scene, loads its file once and reads the scene from that text. path: out, size bytes.
- * *text (out): the whole file. The caller owns text and scene, even after a failure. Fails as
- * br_scene_find, br_scene_load and br_scene_read do. */
-enum br_status br_scene_open(const char *name, char *path, size_t size, char **text,
-                             struct br_scene *scene, struct br_error *err);
 
 #define BR_STANDARD_INPUT "/dev/stdin"
 
@@ -62,8 +57,9 @@ enum br_status br_scene_find(const char *name, char *path, size_t size, struct b
 enum br_status br_scene_list(char ***names, size_t *count, struct br_error *err);
 void br_scene_list_free(char **names, size_t count); /* accepts NULL */
 
-/* Writes the path of the data file `relative`: in $BEAMRATE_DATA, or else where the program was built,
- * or else in share/beamrate above the program or the shared library, or where it was installed. */
+/* Writes the path of the data file `relative`: in $BEAMRATE_DATA, or else where the program was
+ * built, or else in share/beamrate above the program or the shared library, or where it was
+ * installed. */
 void br_data_path(const char *relative, char *path, size_t size);
 
 #endif

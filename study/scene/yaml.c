@@ -7,11 +7,11 @@
 
 #include "study/scene/value.h"
 
-/* "path:line: key: ..." */
 enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, const char *key,
                                const char *format, ...)
 {
-    char *text = NULL;
+    char *text = NULL, place[BR_PLACE], sets[BR_PLACE];
+    const char *colon = line > BR_LAST_LINE ? ": " : ":";
     va_list args;
     va_start(args, format);
     const int length = vasprintf(&text, format, args);
@@ -20,11 +20,14 @@ enum br_status br_scene_refuse(const struct br_scene_reader *r, size_t line, con
         return br_no_memory(r->err, "a message");
     /* A long value must not hide what was expected, which is at the end of the text. */
     enum { HEAD = 200, TAIL = 400 };
+    br_scene_place(r, line, place);
+    br_scene_sets(line > BR_LAST_LINE ? NULL : r->set, sets);
     if (length > HEAD + TAIL)
-        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %.*s ... %s", r->path, line, key, HEAD, text,
-                text + length - TAIL);
+        br_fail(r->err, BR_BAD_INPUT, "%s%s%s: %.100s: %.*s ... %s%s", r->path, colon, place, key,
+                HEAD, text, text + length - TAIL, sets);
     else
-        br_fail(r->err, BR_BAD_INPUT, "%s:%zu: %.100s: %s", r->path, line, key, text);
+        br_fail(r->err, BR_BAD_INPUT, "%s%s%s: %.100s: %s%s", r->path, colon, place, key, text,
+                sets);
     free(text);
     return BR_BAD_INPUT;
 }

@@ -78,4 +78,9 @@ void br_verify_clear(struct br_verify *verify);
 enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
                               struct br_verify *verify, struct br_error *err);
 
+/* The same with keys of --set, as in struct br_scene_asked; NULL: none. */
+enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
+                                  struct br_scene *scene, struct br_verify *verify,
+                                  struct br_error *err);
+
 #endif

@@ -264,6 +264,18 @@ static enum br_status read_block(struct study_part *b, const yaml_node_t *node)
     return status ? status : make_cells(b);
 }
 
+/* What --set has set has no line in the file. */
+static void drop_lines(struct br_verify *verify)
+{
+    for (int kind = 0; kind < BR_VERIFY_KINDS; kind++) {
+        struct br_verify_study *v = &verify->study[kind];
+        v->line = v->line > BR_LAST_LINE ? 0 : v->line;
+        for (size_t i = 0; i < v->expectations; i++)
+            if (v->expectation[i].line > BR_LAST_LINE)
+                v->expectation[i].line = 0;
+    }
+}
+
 static enum br_status read_studies(const struct br_scene_reader *r, const yaml_node_t *node,
                                    struct br_verify *verify)
 {
@@ -294,6 +306,7 @@ static enum br_status read_studies(const struct br_scene_reader *r, const yaml_n
     size_t line;
     if (br_verify_check(r->scene, verify, &line, &inner))
         return br_scene_pass_on(r, line ? line : br_yaml_line(node), "verify", &inner);
+    drop_lines(verify);
     return BR_OK;
 }
 
@@ -305,10 +318,17 @@ static enum br_status take(const struct br_scene_reader *r, const yaml_node_t *n
     return status ? status : br_scene_data(r, &verify->data);
 }
 
+enum br_status br_verify_read_set(const char *name, const char *text, const char *set,
+                                  struct br_scene *scene, struct br_verify *verify,
+                                  struct br_error *err)
+{
+    const struct br_scene_asked asked = {.take_verify = take, .self = verify, .set = set};
+    *verify = (struct br_verify){0};
+    return br_scene_parse(name, text, &asked, scene, err);
+}
+
 enum br_status br_verify_read(const char *name, const char *text, struct br_scene *scene,
                               struct br_verify *verify, struct br_error *err)
 {
-    const struct br_scene_asked asked = {.take_verify = take, .self = verify};
-    *verify = (struct br_verify){0};
-    return br_scene_parse(name, text, &asked, scene, err);
+    return br_verify_read_set(name, text, NULL, scene, verify, err);
 }
