@@ -15,79 +15,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const law_texts[] = {
-#define X(name, text) text,
-    BR_LAW_LIST(X)
-#undef X
-};
-
-const char *br_law_text(enum br_law law)
-{
-    return law_texts[law];
-}
-
-/* ---- priors: each was chosen on seeds of tests/lab/orders.c that its table does not use ---- */
-
-/* The density of the logarithm of an error that nothing explains: even over seven units. */
-static const double unexplained = 0.15;
-
-/* The probability that one more row does not count: at the coarse end, at the fine end, inside. */
-static const double leaves_coarse = 0.6, leaves_fine = 0.25, leaves_inside = 0.05;
-
-/* Errors of a computation rarely scatter by more than this. */
-static const double usual_scatter = 0.15;
-
-/* No law describes logarithms of errors better than that, for the choice among laws. */
-static const double least_scatter = 1e-7;
-
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
 static const double cell_scatter = 4e-3;
-
-/* A correction c is known to truncation c + next_term c^2: there is always another term. */
-static const double truncation = 0.01, next_term = 0.03;
-
-/* The share of lines with a term of opposite sign that pass zero within the rows. */
-static const double passes_zero = 0.15;
-
-/* A smaller order, with a correction, is the law of a floor. */
-static const double least_order = 0.25;
-
-/* The parameter of a law is even in its logarithm between low and high: a z^s at the finest row; of
- * a logarithm, a - log z there; of a floor, F over the finest error. */
-struct family {
-    enum br_law law;
-    double s, low, high, prior;
-    double curve; /* of a second correction, b z^curve of either sign, by regression */
-};
-
-#define NEXT_TERM(s, share)                              \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0},       \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0},    \
-        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0}
-
-static const double prior_of_power = 0.45;
-static const struct family families[] = {
-    NEXT_TERM(0.5, 0.1),
-    NEXT_TERM(1, 0.4),
-    NEXT_TERM(1.5, 0.08),
-    NEXT_TERM(2, 0.3),
-    NEXT_TERM(3, 0.06),
-    NEXT_TERM(4, 0.06),
-    {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0},
-    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0},
-    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0},
-    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005, 0},
-    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005, 0},
-    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005, 0},
-    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005, 0},
-    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0},
-    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0},
-    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0},
-};
-
-enum { FAMILIES = sizeof families / sizeof *families };
 
 /* ---- rows ---- */
 
@@ -337,7 +266,7 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double freedom = (double)s->rows - 2 - curved;
     if (!(freedom >= 1 && xx > 0 && qq > 0))
         return;
-    const double seen = all->only_best ? cell_scatter : least_scatter;
+    const double seen = all->only_best ? cell_scatter : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
@@ -346,8 +275,9 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     p.scale =
         hypot(sqrt((left / freedom + least * least) / xx), of_known(freedom) * sqrt(rounded) / xx);
     p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
-                0.5 * log(s->w * xx * qq) - log1p(sqrt(squares / freedom) / usual_scatter);
-    if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > least_order))
+                0.5 * log(s->w * xx * qq) -
+                log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > br_priors.least_order))
         add_part(all, &p);
 }
 
@@ -359,7 +289,7 @@ static void add_without_one(struct mixture *all, const struct rows *r, const str
     const size_t inside = p.last - p.first - 1;
     if (s->rows < LEAST || r->count > MOST || (p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT))
         return;
-    p.weight += log(unexplained * leaves_inside / (double)inside);
+    p.weight += log(br_priors.unexplained * br_priors.leaves_inside / (double)inside);
     for (p.outlier = p.first + 1; p.outlier < p.last; p.outlier++) {
         struct sums without = *s;
         add_row(&without, r, p.outlier, -1);
@@ -379,8 +309,9 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
             add_row(&s, r, p.last, 1);
             if (s.rows < 3 || (lost > 4 && lost % stride))
                 continue;
-            p.weight = prior + (double)p.first * log(unexplained * leaves_coarse) +
-                       (double)lost * log(unexplained * leaves_fine);
+            p.weight = prior +
+                       (double)p.first * log(br_priors.unexplained * br_priors.leaves_coarse) +
+                       (double)lost * log(br_priors.unexplained * br_priors.leaves_fine);
             p.outlier = n;
             add_window(all, &s, p, r->least[p.first]);
             add_without_one(all, r, &s, p, r->least[p.first]);
@@ -399,79 +330,36 @@ static double next_of_difference(const struct rows *r, size_t i, double s)
     return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
 }
 
-/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. A
- * difference of two terms scatters more, relative to itself, than each of them. */
-static double bend(const struct rows *r, size_t i, const struct family *f, double parameter)
+/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. */
+static double bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
 {
-    const double finest = r->y[r->count - 1] - r->y[i]; /* log of the finest error over this one */
-    double t = parameter * pow(r->z[i], f->s) * next_of_difference(r, i, f->s);
-    double correction = 0, weight = 1, change = 0;
-    bool density = false; /* whether the density of y has the weight in it */
-    switch (f->law) {
-    case BR_LAW_NEXT:
-    case BR_LAW_LOWER:
-        correction = log1p(t);
-        change = t / (1 + t);
-        break;
-    case BR_LAW_LOCKING:
-        correction = -log1p(t);
-        change = t / (1 + t);
-        break;
-    case BR_LAW_CANCEL:
-        correction = log(fabs(1 - t));
-        weight = fmin(1, (1 - t) * (1 - t) / (1 + t * t)) + 1e-12;
-        change = fmin(1, t);
-        density = true;
-        break;
-    case BR_LAW_SQUARES:
-        correction = 0.5 * log1p(t * t);
-        change = t * t / (1 + t * t);
-        break;
-    case BR_LAW_LOGARITHM:
-        t = parameter - log(r->z[i]);
-        correction = t > 0.1 ? f->s * log(t) : NAN;
-        change = 0.05;
-        break;
-    case BR_LAW_FLOOR:
-    case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
-        t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * exp(finest);
-        correction = t < 1 ? -log1p(-t) : NAN;
-        weight = (1 - t) * (1 - t);
-        change = fabs(t) / (1 + fabs(t));
-        break;
-    case BR_LAW_FLOOR_SQUARES:
-        t = parameter * exp(finest);
-        correction = t < 1 ? -0.5 * log1p(-t * t) : NAN;
-        weight = (1 - t * t) * (1 - t * t);
-        change = t * t;
-        break;
-    default:
-        break;
-    }
-    r->bent[i] = r->y[i] - correction;
+    const struct br_law_place at = {.z = r->z[i],
+                                    .next = next_of_difference(r, i, f->s),
+                                    .finest = r->y[r->count - 1] - r->y[i]};
+    const struct br_law_bend b = br_law_bend(f, parameter, &at);
+    r->bent[i] = r->y[i] - b.correction;
     r->curve[i] = f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) : 0;
-    r->weight[i] = weight * r->given[i];
-    r->log_density[i] = (density ? 0.5 * log(weight) : 0) + 0.5 * log(r->given[i]);
-    return change;
+    r->weight[i] = b.weight * r->given[i];
+    r->log_density[i] = (b.density ? 0.5 * log(b.weight) : 0) + 0.5 * log(r->given[i]);
+    return b.change;
 }
 
 /* Adds a law with one parameter. share: of its correction that is not known. */
-static void add_law(struct mixture *all, const struct rows *r, const struct family *f,
+static void add_law(struct mixture *all, const struct rows *r, const struct br_family *f,
                     double parameter, double share, double log_prior)
 {
     double change = 0;
     for (size_t i = r->count; i-- > 0;) {
         change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] = 1e-6 + share * change * (1 + next_term / truncation * change);
+        r->least[i] =
+            1e-6 + share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
-    const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
-    const bool small = f->law == BR_LAW_CANCEL && !crosses;
-    if (crosses)
-        log_prior += log(passes_zero);
+    const double crosses = br_law_log_prior(f, parameter, r->z[0]);
+    const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
     add_windows(all, r,
                 (struct part){.law = small ? BR_LAW_NEXT : f->law,
-                              .weight = log_prior,
+                              .weight = log_prior + crosses,
                               .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
 }
 
@@ -480,14 +368,14 @@ enum { MOST_CELLS = 80, WITHIN = 6 };
 static const double cell = 0.16;  /* of the logarithm of the parameter */
 static const double matters = 10; /* logarithm of the weight below the best one's */
 
-static size_t cells_of(const struct family *f)
+static size_t cells_of(const struct br_family *f)
 {
     return (size_t)ceil(log(f->high / f->low) / cell);
 }
 
 /* Adds a family at this fraction of the way from its lowest parameter to the highest. */
-static void add_member(struct mixture *all, const struct rows *r, const struct family *f, double at,
-                       double members, double share)
+static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
+                       double at, double members, double share)
 {
     add_law(all, r, f, f->low * pow(f->high / f->low, (at + 0.5) / members), share,
             log(f->prior / members));
@@ -495,24 +383,24 @@ static void add_member(struct mixture *all, const struct rows *r, const struct f
 
 static void add_laws(struct mixture *all, const struct rows *r)
 {
-    static const struct family power = {.law = BR_LAW_POWER};
+    static const struct br_family power = {.law = BR_LAW_POWER};
     struct mixture rough = {.best = -INFINITY, .only_best = true};
-    double best[FAMILIES][MOST_CELLS];
-    add_law(all, r, &power, 0, 0, log(prior_of_power));
-    add_law(&rough, r, &power, 0, 0, log(prior_of_power));
+    double best[BR_FAMILIES][MOST_CELLS];
+    add_law(all, r, &power, 0, 0, log(br_priors.power));
+    add_law(&rough, r, &power, 0, 0, log(br_priors.power));
     double top = rough.best;
-    for (size_t f = 0; f < FAMILIES; f++)
-        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++) {
+    for (size_t f = 0; f < BR_FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
             rough.best = -INFINITY;
-            add_member(&rough, r, &families[f], (double)i, (double)n, truncation);
+            add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
             best[f][i] = rough.best;
             top = fmax(top, rough.best);
         }
-    for (size_t f = 0; f < FAMILIES; f++)
-        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++)
+    for (size_t f = 0; f < BR_FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
             for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
-                add_member(all, r, &families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
-                           truncation);
+                add_member(all, r, &br_families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
+                           br_priors.truncation);
 }
 
 /* ---- the order ---- */

@@ -11,28 +11,7 @@
 #define BR_STUDY_FIT_LINE_ORDER_H
 
 #include "study/fit/fit.h"
-
-/* X(name, text): e(z) of each law. Each a > 0, s > 0. */
-#define BR_LAW_LIST(X)                                                           \
-    X(BR_LAW_POWER, "one power")                 /* C z^p */                     \
-    X(BR_LAW_NEXT, "a next term")                /* C z^p (1 +- a z^s), a small */ \
-    X(BR_LAW_LOWER, "a lower power comes up")    /* the same, a z^s not small */ \
-    X(BR_LAW_CANCEL, "terms that cancel")  /* C z^p |1 - a z^s|, zero inside */ \
-    X(BR_LAW_LOCKING, "a slow start")    /* C z^p / (1 + a z^s) */               \
-    X(BR_LAW_SQUARES, "two powers in one norm")  /* C z^p sqrt(1 + (a z^s)^2) */ \
-    X(BR_LAW_LOGARITHM, "a logarithm")           /* C z^p (a - log z)^s */       \
-    X(BR_LAW_FLOOR, "a floor")                   /* C z^p + F */                 \
-    X(BR_LAW_FLOOR_SQUARES, "a floor in one norm") /* sqrt((C z^p)^2 + F^2) */   \
-    X(BR_LAW_OFFSET, "an offset")                /* C z^p - F: of the reference */
-
-enum br_law {
-#define X(name, text) name,
-    BR_LAW_LIST(X)
-#undef X
-    BR_LAWS
-};
-
-const char *br_law_text(enum br_law law);
+#include "study/fit/laws.h"
 
 /* One error of a line that is refined in one quantity z (h/L or k/T). An error against a finer
  * solution is C (z^p - z_against^p). */
