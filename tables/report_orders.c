@@ -383,7 +383,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
         bool first = true;
         br_put_answer(d, "%s:", quantity_of(o, of)->name);
-        if (!line)
+        if (!line && !of->flag) /* of a grid the answer says so */
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
             say_limit(d, o, of, &first);

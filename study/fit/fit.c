@@ -209,7 +209,7 @@ void br_flag_beside(struct br_study *s)
 double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
                               double *covariance)
 {
-    enum { MOST = 7 };
+    enum { MOST = 8 };
     double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
     size_t column[MOST], rank = 0;
     gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);

@@ -41,12 +41,15 @@ bool br_joint_has(enum br_joint_kind kind, int axis); /* whether it has an error
 struct br_joint_fit {
     enum br_joint_kind kind;
     struct br_estimate c[BR_AXES], order[BR_AXES], r; /* C_h, C_k; p, q; r */
+    double low99[BR_AXES], high99[BR_AXES]; /* the 99 % interval of an order */
+    double share[BR_AXES]; /* the largest share that the error of this axis has of both in a cell */
+    const char *law[BR_AXES];               /* what bends the power of an axis; NULL: nothing */
     double floor;  /* m^(3/2); NaN: none */
     bool scatters; /* residuals of at most 30 %, and neighbours do not have the same sign */
     double misfit;                                    /* root mean square of log(model/error) */
     double worst;                                     /* its largest magnitude */
     double r_squared;                                 /* of the logarithms */
-    size_t points, freedom;
+    size_t points, left_out, freedom;
     bool converged; /* false: the rest is NaN */
 };
 
@@ -84,13 +87,15 @@ struct br_observation {
     double x[BR_AXES];   /* h and k, m and s */
     double ref[BR_AXES]; /* of the reference; 0: the continuous problem */
     double error;        /* > 0 */
+    double rounding;     /* half a unit of its last digit; 0: it was not printed */
+    enum br_flag flag;   /* out: why the fit does not rest on it; BR_FLAG_NONE: it does */
 };
 
 /* Fits the model that the observations determine; without a fit, converged is false. Where all
  * observations have h = h_ref, the model has no error of space; where all have k = k_ref, it has
  * none of time. any_model: also with floors and next terms, and of errors that scatter, else powers
  * alone. observer: may be NULL. Fails with BR_NO_MEMORY or BR_INTERRUPTED. */
-enum br_status br_joint_fit_solve(const struct br_observation *observation, size_t count,
+enum br_status br_joint_fit_solve(struct br_observation *observation, size_t count,
                                   bool any_model, const struct br_observer *observer,
                                   struct br_joint_fit *fit, struct br_error *err);
 
@@ -101,7 +106,7 @@ struct br_estimate br_estimate_of(double value, double deviation, size_t freedom
  * of their squares. Infinite where there are too few. */
 double br_akaike(double sum, size_t count, size_t unknowns);
 
-/* Least squares |b - A c| with A of m rows of n columns, n <= 7, m >= n, by Q R with pivoting; c
+/* Least squares |b - A c| with A of m rows of n columns, n <= 8, m >= n, by Q R with pivoting; c
  * (out) and covariance (out, n*n), (A' A)^-1, are zeros beyond the rank, the number of pivots above
  * `least` times the first one. Overwrites A and b. Returns the sum of squares. b and c may be NULL
  * together. Unlike GSL's own functions, which do not look whether their allocations fail, it
