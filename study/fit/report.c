@@ -299,7 +299,7 @@ static enum br_status see_apart(const struct br_study *s, enum br_part part, int
 
 /* Differences do not depend on the other axis: where they show the order so well, no fit shows
  * more. */
-static const double narrow = 0.01;
+static const double narrow = 0.02;
 
 static enum br_status see_in_h(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
