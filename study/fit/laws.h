@@ -56,7 +56,7 @@ extern const struct br_family br_families[BR_FAMILIES];
     X(unexplained, 0.15, "density of the logarithm of an error that nothing explains: 7 units") \
     X(leaves_coarse, 0.6, "one more row at the coarse end is not asymptotic")                   \
     X(leaves_finest, 0.25, "the finest row alone does not count")                               \
-    X(leaves_fine, 0.05, "the rows of the fine end, from some row on, show noise")              \
+    X(leaves_fine, 0.1, "the rows of the fine end, from some row on, show noise")              \
     X(grows, 0.01, "errors fall, then grow: exact ones alone show it, others are round-off")    \
     X(noise_above, 0.4, "noise adds to the error of the law: so much, in logarithms")           \
     X(leaves_inside, 0.05, "a row inside is an outlier")                                        \

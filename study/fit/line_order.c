@@ -364,9 +364,7 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
             add_row(&s, r, p.last, 1);
             if (s.rows < 3 || (lost > 4 && lost % stride))
                 continue;
-            p.weight = prior +
-                       (double)p.first * log(br_priors.unexplained * br_priors.leaves_coarse) +
-                       (double)lost * log(br_priors.unexplained * br_priors.leaves_fine);
+            p.weight = prior + coarse(p.first) + r->noise[p.last];
             p.outlier = n;
             s.noise_x = r->behind_x[p.last];
             s.noise_y = r->behind_y[p.last] - s.start - s.order * s.noise_x;
