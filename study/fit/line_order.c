@@ -32,6 +32,9 @@ struct rows {
     double *curve;         /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
     double *log_density;   /* the part of the density of y that the weight does not cancel */
     double *least;         /* the smallest standard deviation in a window that begins here */
+    double *noise;         /* log of the density of all rows behind this one, if they are noise */
+    double *other;         /* x of the exponential law */
+    double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
 };
 
 /* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
@@ -108,7 +111,8 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
 /* Student's distribution of the order, from one parameter of one law in one window. */
 struct part {
     double weight; /* its logarithm, until all are known */
-    double mean, scale, freedom, floor;
+    double mean, scale, freedom, floor, curve;
+    double power; /* g of the exponential law */
     enum br_law law;
     size_t first, last, outlier;
 };
@@ -225,6 +229,8 @@ struct sums {
     double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */
     double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
+    bool behind;             /* the curve is of the fine rows */
+    double noise_x, noise_y; /* means of the rows that are left out as noise; NaN: there are none */
     size_t rows;
 };
 
@@ -249,6 +255,28 @@ static double of_known(double freedom)
     return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
+/* Whether the law may have this order. Two powers: the order is of the fine rows or, where these
+ * are few, and neither stay nor grow, of the coarse ones. */
+static bool is_of_law(const struct part *p, bool behind)
+{
+    enum { MOST_COARSE = 2 };
+    const double other = p->mean + p->curve, stays = br_priors.least_order;
+    const bool grows = p->mean < -stays;
+    if (p->mean < stays && p->first >= MOST_COARSE) /* errors fell before, and stay: a floor */
+        return false;
+    switch (p->law) {
+    case BR_LAW_POWER:
+        return true;
+    case BR_LAW_KINK:
+        return (p->mean > stays || (grows && !behind)) && other > (behind ? -stays : stays);
+    case BR_LAW_NEXT:
+    case BR_LAW_LOWER:
+        return p->mean > stays || grows;
+    default:
+        return p->mean > stays;
+    }
+}
+
 /* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
  * their prior; least: the smallest standard deviation of a logarithm. */
 static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
@@ -256,28 +284,36 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
     double yy = s->yy - s->y * s->y / s->w, qq = 1;
     const bool curved = s->unit > 0;
+    double xq = 0, yq = 0;
     if (curved) { /* what is left of x and y beside the curve */
-        const double xq = s->xq - s->x * s->q / s->w, yq = s->yq - s->y * s->q / s->w;
+        xq = s->xq - s->x * s->q / s->w;
+        yq = s->yq - s->y * s->q / s->w;
         qq = s->qq - s->q * s->q / s->w;
         xx -= xq * xq / qq, xy -= xq * yq / qq, yy -= yq * yq / qq;
-        qq /= s->unit * s->unit;
     }
     const double left = fmax(0, yy - xy * xy / xx);
     const double freedom = (double)s->rows - 2 - curved;
     if (!(freedom >= 1 && xx > 0 && qq > 0))
         return;
-    const double seen = all->only_best ? cell_scatter : br_priors.least_scatter;
+    const double seen = all->only_best                   ? cell_scatter
+                        : curved && p.law != BR_LAW_KINK ? br_priors.least_curved
+                                                         : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
     p.mean = s->order + xy / xx;
+    p.curve = curved ? (yq - xy / xx * xq) / qq : 0;
+    qq /= curved ? s->unit * s->unit : 1;
     p.freedom = freedom;
     p.scale =
         hypot(sqrt((left / freedom + least * least) / xx), of_known(freedom) * sqrt(rounded) / xx);
     p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
                 0.5 * log(s->w * xx * qq) -
                 log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
-    if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > br_priors.least_order))
+    if (p.mean < 0 && p.law != BR_LAW_POWER)
+        p.weight += log(br_priors.grows);
+    const double above = s->noise_y - (s->y / s->w + xy / xx * (s->noise_x - middle));
+    if (isfinite(p.weight) && is_of_law(&p, s->behind) && !(above < br_priors.noise_above))
         add_part(all, &p);
 }
 
@@ -297,11 +333,30 @@ static void add_without_one(struct mixture *all, const struct rows *r, const str
     }
 }
 
+/* The logarithm of the density of so many rows at the coarse end that do not count. */
+static double coarse(size_t rows)
+{
+    return (double)rows * log(br_priors.unexplained * br_priors.leaves_coarse);
+}
+
+/* The means of two rows or more behind each one. */
+static void find_means(const struct rows *r)
+{
+    double x = 0, y = 0, rows = 0;
+    for (size_t i = r->count; i-- > 0; rows++) {
+        r->behind_x[i] = rows > 1 ? x / rows : (double)NAN;
+        r->behind_y[i] = rows > 1 ? y / rows : (double)NAN;
+        x += r->x[i];
+        y += r->bent[i];
+    }
+}
+
 /* All windows of a law whose correction is set. Of many rows, not every window is tried. */
 static void add_windows(struct mixture *all, const struct rows *r, struct part p)
 {
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double prior = p.weight;
+    find_means(r);
     for (p.first = 0; p.first + 3 <= n; p.first += stride) {
         struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
         for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
@@ -309,13 +364,46 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
             add_row(&s, r, p.last, 1);
             if (s.rows < 3 || (lost > 4 && lost % stride))
                 continue;
-            p.weight = prior +
-                       (double)p.first * log(br_priors.unexplained * br_priors.leaves_coarse) +
-                       (double)lost * log(br_priors.unexplained * br_priors.leaves_fine);
+            p.weight = prior + coarse(p.first) + r->noise[p.last];
             p.outlier = n;
+            s.noise_x = r->behind_x[p.last];
+            s.noise_y = r->behind_y[p.last] - s.start - s.order * s.noise_x;
             add_window(all, &s, p, r->least[p.first]);
             add_without_one(all, r, &s, p, r->least[p.first]);
         }
+    }
+}
+
+/* ---- noise at the fine end ---- */
+
+/* The density of rows from `from` on as noise about a level z^-growth, with this scatter. */
+static double density_of_noise(const struct rows *r, size_t from, double growth, double scatter)
+{
+    double mean = 0, squares = 0;
+    const double n = (double)(r->count - from);
+    for (size_t i = from; i < r->count; i++)
+        mean += (r->y[i] + growth * r->x[i]) / n;
+    for (size_t i = from; i < r->count; i++)
+        squares += pow((r->y[i] + growth * r->x[i] - mean) / scatter, 2);
+    return exp(-squares / 2) * pow(scatter * sqrt(2 * M_PI), 1 - n) / sqrt(n);
+}
+
+/* Rows at the fine end are left out as noise of a known kind alone: a floor stays, round-off
+ * scatters about a level, or a growing one. What falls on is no noise. One row may be anything. */
+static void take_noise(const struct rows *r)
+{
+    static const double growth[] = {0, 0.5, 1, 2}, scatter[] = {0.03, 0.1, 0.3, 0.6, 1, 2};
+    enum { GROWTHS = sizeof growth / sizeof *growth, SCATTERS = sizeof scatter / sizeof *scatter };
+    for (size_t last = 0; last < r->count; last++) {
+        double sum = 0;
+        for (size_t i = 0; i < GROWTHS * SCATTERS && last + 1 < r->count; i++)
+            sum += density_of_noise(r, last + 1, growth[i / SCATTERS], scatter[i % SCATTERS]) /
+                   (GROWTHS * SCATTERS);
+        r->noise[last] =
+            last + 1 == r->count
+                ? 0
+                : log(br_priors.unexplained * (last + 2 == r->count ? br_priors.leaves_finest * sum
+                                                                    : br_priors.leaves_fine * sum));
     }
 }
 
@@ -351,8 +439,8 @@ static void add_law(struct mixture *all, const struct rows *r, const struct br_f
     double change = 0;
     for (size_t i = r->count; i-- > 0;) {
         change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] =
-            1e-6 + share * change * (1 + br_priors.next_term / br_priors.truncation * change);
+        r->least[i] = br_priors.sure +
+                      share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
     const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
@@ -361,6 +449,73 @@ static void add_law(struct mixture *all, const struct rows *r, const struct br_f
                 (struct part){.law = small ? BR_LAW_NEXT : f->law,
                               .weight = log_prior + crosses,
                               .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
+}
+
+/* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
+static void bend_at(const struct rows *r, size_t middle, bool behind)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        const double from = r->x[i] - r->x[middle];
+        r->bent[i] = r->y[i];
+        r->weight[i] = r->given[i];
+        r->log_density[i] = 0.5 * log(r->given[i]);
+        r->curve[i] = behind ? fmin(0, from) : fmax(0, from);
+    }
+}
+
+/* One power, and from a row on another one. The order is that of the fine rows or, where they are
+ * not more than the coarse ones, of these. */
+static void add_kink(struct mixture *all, const struct rows *r, size_t middle, bool behind)
+{
+    enum { SIDE = 2 };
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    const double share = behind ? br_priors.kink_coarse : 1 - br_priors.kink_coarse;
+    bend_at(r, middle, behind);
+    for (size_t first = 0; first + SIDE <= middle; first += stride) {
+        struct sums s = {.start = r->y[n - 1],
+                         .order = r->order,
+                         .unit = 1,
+                         .behind = behind,
+                         .noise_x = NAN,
+                         .noise_y = NAN};
+        if (middle + SIDE >= n || (behind && middle - first < n - 1 - middle))
+            return;
+        for (size_t i = first; i < n; i++)
+            add_row(&s, r, i, 1);
+        add_window(all, &s,
+                   (struct part){.law = BR_LAW_KINK,
+                                 .first = first,
+                                 .last = behind ? middle : n - 1,
+                                 .outlier = n,
+                                 .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
+                   br_priors.sure);
+    }
+}
+
+/* log e = log C - b n^g with n = 1/z: a line over another x, whose slope is the order at the middle
+ * row. */
+static void add_exponentials(struct mixture *all, const struct rows *r)
+{
+    static const double powers[] = {1, 0.5, 1. / 3};
+    enum { LEAST = 4 };
+    const size_t n = r->count, middle = n / 2;
+    for (size_t k = 0; k < sizeof powers / sizeof *powers && n >= LEAST; k++) {
+        struct rows e = *r;
+        e.x = r->other;
+        for (size_t i = 0; i < n; i++) {
+            e.x[i] = -pow(r->z[middle] / r->z[i], powers[k]) / powers[k];
+            e.bent[i] = r->y[i];
+            e.weight[i] = r->given[i];
+            e.log_density[i] = 0.5 * log(r->given[i]);
+            e.least[i] = br_priors.sure;
+            e.curve[i] = 0;
+        }
+        e.order = (e.y[0] - e.y[n - 1]) / (e.x[0] - e.x[n - 1]);
+        add_windows(all, &e,
+                    (struct part){.law = BR_LAW_EXPONENTIAL,
+                                  .weight = log(br_priors.exponential),
+                                  .power = powers[k]});
+    }
 }
 
 /* Parameters are first tried in coarse cells, then within the cells that may matter. */
@@ -396,6 +551,11 @@ static void add_laws(struct mixture *all, const struct rows *r)
             best[f][i] = rough.best;
             top = fmax(top, rough.best);
         }
+    for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
+        add_kink(all, r, i, false);
+        add_kink(all, r, i, true);
+    }
+    add_exponentials(all, r);
     for (size_t f = 0; f < BR_FAMILIES; f++)
         for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
             for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
@@ -405,15 +565,55 @@ static void add_laws(struct mixture *all, const struct rows *r)
 
 /* ---- the order ---- */
 
-static void describe(const struct mixture *all, const struct rows *r, struct br_line_order *found)
+/* The interval of 95 % of all parts, with the median. */
+static struct br_estimate estimate(const struct mixture *all)
 {
-    const struct part *likely = &all->part[0];
-    found->order =
-        (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
-    found->low99 = quantile(all, 0.005);
-    found->high99 = quantile(all, 0.995);
+    return (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
+}
+
+/* Keeps the parts of this g of the exponential law, 0: of all others; their weights are then 1. */
+static void keep(struct mixture *all, double g)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (all->part[i].power == g) {
+            sum += all->part[i].weight;
+            all->part[count++] = all->part[i];
+        }
+    all->count = count;
+    for (size_t i = 0; i < count; i++)
+        all->part[i].weight /= sum;
+}
+
+/* b of exp(-b n^g), g of the most probable part. */
+static void find_rate(struct mixture *all, const struct rows *r, double finest,
+                      struct br_line_order *found)
+{
+    const double g = found->power = all->part[0].power;
+    const double unit = g * pow(r->z[r->count / 2] * finest, -g);
+    const struct br_estimate slope = estimate(all);
+    found->rate = (struct br_estimate){slope.value / unit, slope.low / unit, slope.high / unit};
+}
+
+static void describe(struct mixture *all, const struct rows *r, double finest,
+                     struct br_line_order *found)
+{
     for (size_t i = 0; i < all->count; i++)
         found->law[all->part[i].law] += all->part[i].weight;
+    const bool exponential = found->law[BR_LAW_EXPONENTIAL] > 0.5;
+    size_t first = 0;
+    while (exponential && all->part[first].power == 0)
+        first++;
+    keep(all, exponential ? all->part[first].power : 0);
+    const struct part *likely = &all->part[0];
+    if (exponential)
+        find_rate(all, r, finest, found);
+    else {
+        found->order = estimate(all);
+        found->low99 = quantile(all, 0.005);
+        found->high99 = quantile(all, 0.995);
+    }
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
     if (likely->outlier < r->count)
@@ -424,8 +624,10 @@ static void describe(const struct mixture *all, const struct rows *r, struct br_
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 11 };
+    enum { ARRAYS = 15 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
+                                    .rate = {NAN, NAN, NAN},
+                                    .power = NAN,
                                     .low99 = NAN,
                                     .high99 = NAN,
                                     .last = count ? count - 1 : 0,
@@ -436,24 +638,34 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room};
-        double **const array[] = {&r.x,           &r.y,     &r.ratio, &r.bent,  &r.weight,
-                                  &r.log_density, &r.least, &r.given, &r.curve, &r.rounded};
+        double **const array[] = {&r.x,           &r.y,     &r.ratio,    &r.bent,    &r.weight,
+                                  &r.log_density, &r.least, &r.given,    &r.curve,   &r.rounded,
+                                  &r.noise,       &r.other, &r.behind_x, &r.behind_y};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
-        if (r.count >= 3 && isfinite(r.order))
+        if (r.count >= 3 && isfinite(r.order)) {
+            take_noise(&r);
             add_laws(&all, &r);
+        }
         if (all.count)
             normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
-            describe(&all, &r, found);
+            describe(&all, &r, point[index[r.count - 1]].z, found);
     }
     free(all.part);
     free(index);
     free(room);
     return status;
+}
+
+struct br_estimate br_exponential_factor(const struct br_line_order *found)
+{
+    const struct br_estimate *b = &found->rate;
+    return found->power == 1 ? (struct br_estimate){exp(b->value), exp(b->low), exp(b->high)}
+                             : (struct br_estimate){NAN, NAN, NAN};
 }
 
 /* ---- which rows count ---- */

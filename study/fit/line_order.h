@@ -24,6 +24,8 @@ struct br_order_point {
 
 struct br_line_order {
     struct br_estimate order; /* the median and the 95 % interval; NaN: not known */
+    struct br_estimate rate;  /* of exponential convergence, which has no order: b of exp(-b n^g), */
+    double power;             /* and g, with n = 1/z; NaN: it is none */
     double low99, high99;     /* the 99 % interval: what is outside is excluded */
     double law[BR_LAWS];      /* the probability of each law; all together 1, or 0 */
     size_t first, last;       /* the most probable window of rows: those outside do not count, */
@@ -38,6 +40,9 @@ struct br_line_order {
  * with BR_NO_MEMORY. */
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                 struct br_line_order *found, struct br_error *err);
+
+/* What one more of n = 1/z divides the errors by: exp(b); NaN: they do not fall as exp(-b n). */
+struct br_estimate br_exponential_factor(const struct br_line_order *found);
 
 /* Why the order of a line does not rest on point[i]; BR_FLAG_NONE: it does. */
 enum br_flag br_line_order_flag(const struct br_line_order *found,
