@@ -26,10 +26,14 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
     }
     const double half = (order->high - order->low) / 2;
     const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    const double unit = pow(10, -decimals); /* so that what rounds to zero has no sign */
-    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, unit * round(order->value / unit) + 0.0,
-             decimals, unit * round(order->low / unit) + 0.0, decimals,
-             unit * round(order->high / unit) + 0.0);
+    const double unit = pow(10, -decimals);
+    double value[] = {order->value, order->low, order->high};
+    for (int i = 0; i < 3; i++)
+        value[i] = unit * round(value[i] / unit) + 0.0; /* what rounds to zero has no sign */
+    if (!(value[1] < value[2])) /* no interval has a width of zero */
+        value[1] -= unit, value[2] += unit;
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, value[0], decimals, value[1], decimals,
+             value[2]);
     return buffer;
 }
 
