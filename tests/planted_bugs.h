@@ -1567,8 +1567,6 @@ static const struct planted_bug planted_bugs[] = {
     {"next_terms_of_h_alone", "lost", "study/fit/joint_fit.c",
      "tests/test_fit test_next_term_of_each_axis", "if (br_joint_has(law.kind, a) && !law.of[a])",
      "if (a == 0 && br_joint_has(law.kind, a) && !law.of[a])"},
-    {"no_laws_of_both_axes", "lost", "study/fit/joint_fit.c",
-     "tests/lab/test_grids test_next_terms_larger", "extend(s, &from, law, f, 0, 1);", ";"},
     {"floor_without_a_prediction", "bound", "study/extremes/floors.c",
      "tests/test_floors test_verdicts_by_hand", "return most < f->predicted ? most : f->predicted;",
      "return f->predicted < most ? f->predicted : most;"},

@@ -114,8 +114,8 @@ static void take_cells(struct search *s, const struct br_observation *o, double 
         take_sizes(s, o, a, value);
 }
 
-/* Whether cells differ from their reference in this axis, at three sizes or more. */
-static bool varies(const struct br_joint_cells *c, int axis)
+/* The number of sizes of an axis; 0: no cell differs from its reference in it. */
+static size_t sizes_of(const struct br_joint_cells *c, int axis)
 {
     size_t sizes = 0;
     bool differs = false;
@@ -127,7 +127,7 @@ static bool varies(const struct br_joint_cells *c, int axis)
         }
         sizes += here;
     }
-    return differs && sizes >= 3;
+    return differs ? sizes : 0;
 }
 
 static double weight_of(const struct br_joint_cells *c)
@@ -138,14 +138,16 @@ static double weight_of(const struct br_joint_cells *c)
     return sum;
 }
 
-/* An order needs three sizes, a fit more cells than unknowns. */
+/* A fit needs more cells than unknowns, and that of an axis more sizes: one that goes through all
+ * of them shows nothing. */
 static bool enough(const struct search *s, const struct br_joint_law *law)
 {
     int unknown[BR_UNKNOWNS];
     const double spare = s->any_model ? 1 : 2, noise = 1e-9;
     bool good = weight_of(&s->used) + noise >= (double)br_joint_unknowns(law, unknown) + spare;
     for (int a = 0; a < BR_AXES; a++)
-        good = good && (!br_joint_has(law->kind, a) || varies(&s->used, a));
+        good =
+            good && (!br_joint_has(law->kind, a) || sizes_of(&s->used, a) >= (law->of[a] ? 4 : 3));
     return good;
 }
 
@@ -321,6 +323,12 @@ static bool is_of_axis(const struct br_family *f)
                                                                      : false);
 }
 
+static bool is_floor(const struct br_family *f)
+{
+    return f->curve == 0 &&
+           (f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET);
+}
+
 /* Models that are less probable than the best one by more than this logarithm are not extended, nor
  * those with a law that are less probable than one without any (Occam's window). Of one power, all
  * that may be are. */
@@ -343,7 +351,7 @@ static void extend_all(struct search *s, size_t extras)
                     extend(s, &from, law, f, a, a);
             if (extras == 0 && is_of_axis(f) && f->law == BR_LAW_NEXT && law.kind == BR_JOINT_BOTH)
                 extend(s, &from, law, f, 0, 1);
-            if ((f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES) && !law.floor) {
+            if (is_floor(f) && !law.floor) {
                 law.floor = f;
                 extend(s, &from, law, f, 1, 0);
             }
@@ -536,6 +544,9 @@ static double structure_of(const struct br_joint_cells *cells, const double *res
 /* Residuals with less structure than this are as independent as noise is. */
 static const double waves = 0.7;
 
+/* Residuals below this do not scatter. */
+static const double exact = 1e-4;
+
 /* Cells that share h or k are not independent: the residuals are deterministic. So the intervals
  * come from leaving out one whole line of the grid after the other (delete-a-group jackknife, Efron
  * 1982), where they are wider. */
@@ -584,7 +595,9 @@ static void widen(struct search *s, struct candidate *c, double *room)
         return;
     look_at(s, c->window);
     br_joint_residuals(&s->used, &c->trial, room);
-    if (s->any_model && structure_of(&s->used, room) < waves)
+    const bool bent = c->trial.law.of[0] || c->trial.law.of[1];
+    const bool noise = c->trial.sum > exact * exact * c->trial.weight;
+    if (s->any_model && (noise || !bent) && structure_of(&s->used, room) < waves)
         return;
     for (int a = 0; a < BR_AXES; a++)
         if (br_joint_has(c->trial.law.kind, a))

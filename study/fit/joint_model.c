@@ -78,17 +78,19 @@ static double correlation(const struct br_joint_law *law, const double v[BR_UNKN
     return law->sum == BR_SUM_ANY ? sin(v[BR_THETA]) : fixed[law->sum];
 }
 
-/* An order is above zero, and no error falls by more than this. */
+/* An order is above zero, of numbers of a stranger above that of a floor, and no error falls by
+ * more than this. */
 static const double most_order = 30;
 
-static bool allowed(const struct br_joint_law *law, const double v[BR_UNKNOWNS])
+static bool allowed(const struct br_joint_cells *cells, const struct br_joint_law *law,
+                    const double v[BR_UNKNOWNS])
 {
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
         const double order = v[OF(a, BR_ORDER)], shape = v[OF(a, BR_SHAPE)];
         if (!br_joint_has(law->kind, a))
             continue;
-        if (!(order > 0 && order < most_order) ||
+        if (!(order > (cells->priors ? br_priors.least_order : 0) && order < most_order) ||
             (f && f->law != BR_LAW_NEXT && !(shape > log(f->low) && shape < log(f->high))) ||
             (f && !(fabs(shape) < 12)))
             return false;
@@ -103,8 +105,10 @@ static double residual_of(const struct br_joint_cells *cells, const struct br_jo
                           const double v[BR_UNKNOWNS], const struct br_joint_cell *c, double *rate)
 {
     static const double least = 1e-300;
-    const double r = correlation(law, v), level = law->floor ? exp(v[BR_LOG_F]) : 0;
-    const bool adds = law->floor && law->floor->law == BR_LAW_FLOOR;
+    const double r = correlation(law, v);
+    const double level = law->floor ? exp(v[BR_LOG_F]) : 0;
+    const bool offset = law->floor && law->floor->law == BR_LAW_OFFSET;
+    const bool adds = offset || (law->floor && law->floor->law == BR_LAW_FLOOR);
     const struct br_joint_size *at[BR_AXES], *ref[BR_AXES];
     double e[BR_AXES];
     for (int a = 0; a < BR_AXES; a++) {
@@ -114,15 +118,16 @@ static double residual_of(const struct br_joint_cells *cells, const struct br_jo
     }
     const double square_m = e[0] * e[0] + 2 * r * e[0] * e[1] + e[1] * e[1];
     const double m = sqrt(square_m < 0 ? 0 : square_m); /* NaN stays */
-    const double all = adds ? m + level : hypot(m, level), square = adds ? m * all : all * all;
+    const double all = adds ? m + (offset ? -level : level) : hypot(m, level);
+    const double square = adds ? m * all : all * all;
     for (int a = 0; a < BR_AXES && rate; a++)
         for (int u = 0; u < BR_OF_AXIS; u++)
             rate[OF(a, u)] = (e[a] + r * e[1 - a]) / square * (at[a]->rate[u] - ref[a]->rate[u]);
     if (rate) {
         rate[BR_THETA] = e[0] * e[1] / square * cos(v[BR_THETA]);
-        rate[BR_LOG_F] = adds ? level / all : level * level / square;
+        rate[BR_LOG_F] = adds ? (offset ? -level : level) / all : level * level / square;
     }
-    return log(all < least ? least : all) - c->log_error;
+    return log(fabs(all) < least ? least : fabs(all)) - c->log_error;
 }
 
 void br_joint_residuals(struct br_joint_cells *cells, const struct br_joint_trial *trial,
@@ -227,7 +232,7 @@ static double evaluate(struct br_joint_cells *cells, const struct br_joint_law *
                        struct system *s, const double v[BR_UNKNOWNS])
 {
     double sum = 0, all[BR_UNKNOWNS];
-    if (!allowed(law, v) || br_observer_stops(cells->observer))
+    if (!allowed(cells, law, v) || br_observer_stops(cells->observer))
         return INFINITY;
     for (int a = 0; a < BR_AXES; a++)
         fill_axis(cells, law, v, a);
