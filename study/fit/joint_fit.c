@@ -146,8 +146,8 @@ static bool enough(const struct search *s, const struct br_joint_law *law)
     const double spare = s->any_model ? 1 : 2, noise = 1e-9;
     bool good = weight_of(&s->used) + noise >= (double)br_joint_unknowns(law, unknown) + spare;
     for (int a = 0; a < BR_AXES; a++)
-        good =
-            good && (!br_joint_has(law->kind, a) || sizes_of(&s->used, a) >= (law->of[a] ? 4 : 3));
+        good = good && (!br_joint_has(law->kind, a) ||
+                        sizes_of(&s->used, a) >= (law->of[a] && s->now > 0 ? 4 : 3));
     return good;
 }
 
@@ -783,6 +783,8 @@ static void take_mixture(struct search *s, double *room, struct br_joint_fit *fi
         fit->order[a] =
             (struct br_estimate){quantile(s, a, sees[a], 0.5), quantile(s, a, sees[a], 0.025),
                                  quantile(s, a, sees[a], 0.975)};
+        if (fit->order[a].low < br_priors.least_order) /* no order, or a floor */
+            fit->order[a].low = fmin(fit->order[a].low, 0);
         fit->low99[a] = quantile(s, a, sees[a], 0.005);
         fit->high99[a] = quantile(s, a, sees[a], 0.995);
     }

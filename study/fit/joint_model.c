@@ -78,19 +78,21 @@ static double correlation(const struct br_joint_law *law, const double v[BR_UNKN
     return law->sum == BR_SUM_ANY ? sin(v[BR_THETA]) : fixed[law->sum];
 }
 
-/* An order is above zero, of numbers of a stranger above that of a floor, and no error falls by
- * more than this. */
+/* An order is above zero; beside another error, or with a law, above that of a floor. No error
+ * falls by more than this. */
 static const double most_order = 30;
 
 static bool allowed(const struct br_joint_cells *cells, const struct br_joint_law *law,
                     const double v[BR_UNKNOWNS])
 {
+    const bool alone = law->kind != BR_JOINT_BOTH && !law->of[0] && !law->of[1] && !law->floor;
+    const double least = cells->priors && !alone ? br_priors.least_order : 0;
     for (int a = 0; a < BR_AXES; a++) {
         const struct br_family *f = law->of[a];
         const double order = v[OF(a, BR_ORDER)], shape = v[OF(a, BR_SHAPE)];
         if (!br_joint_has(law->kind, a))
             continue;
-        if (!(order > (cells->priors ? br_priors.least_order : 0) && order < most_order) ||
+        if (!(order > least && order < most_order) ||
             (f && f->law != BR_LAW_NEXT && !(shape > log(f->low) && shape < log(f->high))) ||
             (f && !(fabs(shape) < 12)))
             return false;

@@ -160,6 +160,7 @@ enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_q
     }
     qsort(c->point, c->points, sizeof *c->point, by_size);
     br_case_take_order(c, answer->order, fabs(of->joint.c[axis].value));
+    c->of_grid = true;
     c->low99 = of->joint.low99[axis];
     c->high99 = of->joint.high99[axis];
     return BR_OK;

@@ -52,6 +52,7 @@ struct br_case {
     const char *law;  /* what explains the errors best, beside one power; NULL: one power */
     double constant;  /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why no order can be judged, and what would show one; NULL; borrowed */
+    bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's */
     double duration;  /* T of the scene, s; 0: of another program */
     double down_to;   /* errors stop falling there, as is expected; 0: nowhere */
     double margin;    /* from the interval to the nearer end of the band; < 0: outside */

@@ -175,6 +175,8 @@ static void advise(struct br_case *c)
     const struct br_expectation *e = &c->expected;
     double first, last;
     end_rates(c, &first, &last);
+    if (c->of_grid)
+        first = last = NAN;
     const double high = fmax(e->order, e->highest);
     const double off = fabs(last - fmin(fmax(last, e->order), high));
     const double before = fabs(first - fmin(fmax(first, e->order), high));
@@ -190,7 +192,7 @@ static void advise(struct br_case *c)
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
                   "Find what lowers the order, or expect another order",
                   last, first);
-    else {
+    else if (!(c->of_grid && outside)) {
         br_append(c->reason, sizeof c->reason, "; %s",
                   c->order.high - c->order.low > 2 * e->tolerance
                       ? "the interval is wider than the band: finer grids would narrow it"
