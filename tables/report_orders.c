@@ -11,11 +11,6 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
     return &o->numbers->quantity[of->quantity];
 }
 
-static const char *const limit_methods[] = {
-    [BR_LIMIT_GCI] = "GCI, Celik et al. 2008",
-    [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
-};
-
 enum { MOST_NAMED = BR_MOST_ANSWERS - 6 }; /* quantities with an answer; the tables have all */
 
 /* What is put before an item of a sentence; the first item follows a colon. */
@@ -237,14 +232,11 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
 
-/* What follows from the formal order: the limit of another one, and an index that trusts it. */
+/* What follows from the formal order: an index that trusts it. */
 static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    const struct br_estimate *limit = &line->limits.limit.value,
-                             *other = &line->limits.first_order.value;
-    char text[128];
     if (!quantity_of(o, of)->is_value || of->lines != 1)
         return;
     if (br_gci_is_far(&line->limits.gci, o->formal))
@@ -253,10 +245,6 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     "(2010) the GCI is %.2g %%.",
                     o->formal, o->assumed_formal ? " (assumed)" : "",
                     100 * br_gci_limited(&line->limits.gci, o->formal));
-    if (o->assumed_formal && isfinite(other->low) &&
-        (other->low != limit->low || other->high != limit->high))
-        br_put_more(d, " Formal order 2 assumed; --formal-order 1 gives %s.",
-                    br_interval_text(other, text, sizeof text));
 }
 
 /* Where costs differ, and grow by more than a tenth of an order. */
@@ -384,7 +372,7 @@ static void put_limit(struct br_document *d, const struct br_grid_limit *limit)
     BR_PUT_CELLS(d, br_number(limit->value.value));
     br_put_shown(d, "%s", br_interval_text(&limit->value, text, sizeof text));
     BR_PUT_CELLS(d, br_number(limit->value.low), br_number(limit->value.high),
-                 br_text(limit_methods[limit->method]));
+                 br_text("mixture of laws"));
 }
 
 /* The grid convergence index of each three neighbouring sizes, where there are more than three. */

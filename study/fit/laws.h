@@ -48,25 +48,30 @@ enum { BR_FAMILIES = 36 };
 extern const struct br_family br_families[BR_FAMILIES];
 
 /* X(name, value, why): all other priors. Each was chosen on seeds that no published table uses. */
-#define BR_PRIOR_LIST(X)                                                                        \
-    X(power, 0.45, "the probability of one power alone")                                        \
-    X(kink, 0.01, "one power, then another: exact ones alone show it")                          \
-    X(kink_coarse, 0.3, "the order is that of the coarse rows of such a line")                  \
-    X(exponential, 0.01, "exponential convergence, of each g")                                  \
-    X(unexplained, 0.15, "density of the logarithm of an error that nothing explains: 7 units") \
-    X(leaves_coarse, 0.6, "one more row at the coarse end is not asymptotic")                   \
-    X(leaves_finest, 0.25, "the finest row alone does not count")                               \
-    X(leaves_fine, 0.1, "the rows of the fine end, from some row on, show noise")              \
-    X(grows, 0.01, "errors fall, then grow: exact ones alone show it, others are round-off")    \
-    X(noise_above, 0.4, "noise adds to the error of the law: so much, in logarithms")           \
-    X(leaves_inside, 0.05, "a row inside is an outlier")                                        \
-    X(usual_scatter, 0.15, "errors of a computation rarely scatter by more")                    \
-    X(least_scatter, 1e-7, "no law describes logarithms of errors better than that")            \
-    X(least_curved, 3e-4, "nor one with two corrections: more terms always fit")                \
-    X(sure, 5e-4, "and none is sure to follow the next rows better than that")                  \
-    X(truncation, 0.01, "a correction c is known to this share of c: there is another term")    \
-    X(next_term, 0.03, "and to this share of c^2")                                              \
-    X(passes_zero, 0.15, "a next term of opposite sign passes zero within the rows")            \
+#define BR_PRIOR_LIST(X)                                                                           \
+    X(power, 0.45, "the probability of one power alone")                                           \
+    X(kink, 0.01, "one power, then another: exact ones alone show it")                             \
+    X(kink_coarse, 0.3, "the order is that of the coarse rows of such a line")                     \
+    X(exponential, 0.01, "exponential convergence, of each g")                                     \
+    X(unexplained, 0.15, "density of the logarithm of an error that nothing explains: 7 units")    \
+    X(leaves_coarse, 0.6, "one more row at the coarse end is not asymptotic")                      \
+    X(leaves_finest, 0.25, "the finest row alone does not count")                                  \
+    X(leaves_fine, 0.1, "the rows of the fine end, from some row on, show noise")                  \
+    X(grows, 0.01, "errors fall, then grow: exact ones alone show it, others are round-off")       \
+    X(noise_above, 0.4, "noise adds to the error of the law: so much, in logarithms")              \
+    X(leaves_inside, 0.05, "a row inside is an outlier")                                           \
+    X(usual_scatter, 0.15, "errors of a computation rarely scatter by more")                       \
+    X(least_scatter, 1e-7, "no law describes logarithms of errors better than that")               \
+    X(least_curved, 3e-4, "nor one with two corrections: more terms always fit")                   \
+    X(absolute, 0.25, "the scatter of values is the same on all rows, not relative")               \
+    X(values_stay, 0.1, "differences of values stay: the share of the prior of a floor of errors") \
+    X(shared, 1.3, "neighbouring differences share a value: their scatter is not independent")     \
+    X(few_power, 0.1, "of three values: the share of the prior of one power alone")                \
+    X(few_next, 0.01, "of three values: a next term is at least that")                             \
+    X(sure, 5e-4, "and none is sure to follow the next rows better than that")                     \
+    X(truncation, 0.01, "a correction c is known to this share of c: there is another term")       \
+    X(next_term, 0.03, "and to this share of c^2")                                                 \
+    X(passes_zero, 0.15, "a next term of opposite sign passes zero within the rows")               \
     X(least_order, 0.25, "a smaller order, with a correction, is the law of a floor")
 
 /* The sensitivity of results to priors is measured with probabilities of laws and rows times this:

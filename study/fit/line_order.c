@@ -33,6 +33,7 @@ struct rows {
     double *log_density;   /* the part of the density of y that the weight does not cancel */
     double *least;         /* the smallest standard deviation in a window that begins here */
     double *noise;         /* log of the density of all rows behind this one, if they are noise */
+    double *error;         /* log e */
     double *other;         /* x of the exponential law */
     double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
 };
@@ -93,9 +94,10 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
         r->ratio[r->count] = p->z_against / p->z;
         r->given[r->count] = weighted ? pow(least / scatter(p), 2) : 1;
         r->rounded[r->count] = pow(p->rounding / p->error, 2) / 3;
+        r->error[r->count] = log(p->error);
         r->y[r->count++] = log(p->error);
     }
-    if (r->count < 3)
+    if (r->count < 2)
         return;
     r->order = 1;
     for (int turn = 0; turn < 30; turn++)
@@ -112,7 +114,9 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
 struct part {
     double weight; /* its logarithm, until all are known */
     double mean, scale, freedom, floor, curve;
-    double power; /* g of the exponential law */
+    double there, curve_there;    /* of values: the corrections at the finest one */
+    double left, left_scale, own; /* logarithm of the error that is left there; its scatter, too */
+    double power;                 /* g of the exponential law */
     enum br_law law;
     size_t first, last, outlier;
 };
@@ -120,7 +124,11 @@ struct part {
 struct mixture {
     struct part *part; /* owned */
     size_t count, room;
-    double best; /* the largest logarithm of a weight */
+    double best;   /* the largest logarithm of a weight */
+    double far;    /* of values: x of the finest one; NaN: they are errors */
+    double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
+    double prior;  /* logarithm of that of the scatter */
+    bool few;      /* of two differences: their order is its prior alone */
     bool only_best, starved;
 };
 
@@ -151,6 +159,33 @@ static int by_weight(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
     return (x->weight < y->weight) - (x->weight > y->weight);
+}
+
+static int by_mean(const void *a, const void *b)
+{
+    const struct part *x = a, *y = b;
+    return (x->mean > y->mean) - (x->mean < y->mean);
+}
+
+/* Of parts with less than a share of the whole, one stands for as many as make that share. */
+static void thin(struct mixture *all)
+{
+    static const double share = 5e-4;
+    size_t large = 0, count;
+    while (large < all->count && all->part[large].weight >= share)
+        large++;
+    qsort(all->part + large, all->count - large, sizeof *all->part, by_mean);
+    double sum = 0.5 * share;
+    count = large;
+    for (size_t i = large; i < all->count; i++) {
+        sum += all->part[i].weight;
+        if (sum >= share) {
+            sum -= share;
+            all->part[count] = all->part[i];
+            all->part[count++].weight = share;
+        }
+    }
+    all->count = count;
 }
 
 /* From logarithms to weights of sum 1; the least, together 0.2 %, are left out. */
@@ -257,7 +292,7 @@ static double of_known(double freedom)
 
 /* Whether the law may have this order. Two powers: the order is of the fine rows or, where these
  * are few, and neither stay nor grow, of the coarse ones. */
-static bool is_of_law(const struct part *p, bool behind)
+static bool is_of_law(const struct mixture *all, const struct part *p, bool behind)
 {
     enum { MOST_COARSE = 2 };
     const double other = p->mean + p->curve, stays = br_priors.least_order;
@@ -267,20 +302,48 @@ static bool is_of_law(const struct part *p, bool behind)
     switch (p->law) {
     case BR_LAW_POWER:
         return true;
+    case BR_LAW_CANCEL: /* values may grow as log n: differences of the order zero */
+    case BR_LAW_LOCKING:
+    case BR_LAW_SQUARES:
+    case BR_LAW_LOGARITHM:
+        return p->mean > stays || isfinite(all->far);
     case BR_LAW_KINK:
         return (p->mean > stays || (grows && !behind)) && other > (behind ? -stays : stays);
     case BR_LAW_NEXT:
     case BR_LAW_LOWER:
-        return p->mean > stays || grows;
+        return p->mean > stays || grows || isfinite(all->far);
     default:
         return p->mean > stays;
     }
+}
+
+/* Of two differences alone: orders above 4 are rare, and few sequences diverge. */
+static double log_prior_of_order(double order)
+{
+    return order > 0 ? -log1p(pow(order / 4, 6)) : log(0.15);
+}
+
+/* Sets what is left at the finest value: the error C z^p of a law of differences C (z^p - r^p z^p).
+ * variance: of the logarithms; known: whether rounding has a part in it; xx, slope: as below. */
+static void find_left(double far, const struct sums *s, double variance, double xx, double slope,
+                      struct part *p)
+{
+    static const double least = 0.1; /* orders below it do not converge */
+    const double order = fmax(p->mean + (s->behind ? p->curve : 0), least), middle = s->x / s->w;
+    const bool power = p->law != BR_LAW_EXPONENTIAL;
+    const double a = 1 / s->w, b = (far - middle - (power ? 1 / order : 0)) / xx;
+    const double known = a * a * s->v + 2 * a * b * (s->xv - middle * s->v) +
+                         b * b * (s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    p->left = s->start + s->order * far + s->y / s->w + slope * (far - middle) +
+              p->curve * (p->curve_there - s->q / s->w) - (power ? log(order) : 0) + p->there;
+    p->left_scale = br_priors.shared * sqrt(variance * (a + b * b * xx) + fmax(0, known));
 }
 
 /* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
  * their prior; least: the smallest standard deviation of a logarithm. */
 static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
 {
+    enum { FEW = 4 }; /* of two differences: as if five had shown their scatter */
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
     double yy = s->yy - s->y * s->y / s->w, qq = 1;
     const bool curved = s->unit > 0;
@@ -293,7 +356,7 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     }
     const double left = fmax(0, yy - xy * xy / xx);
     const double freedom = (double)s->rows - 2 - curved;
-    if (!(freedom >= 1 && xx > 0 && qq > 0))
+    if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
     const double seen = all->only_best                   ? cell_scatter
                         : curved && p.law != BR_LAW_KINK ? br_priors.least_curved
@@ -301,19 +364,25 @@ static void add_window(struct mixture *all, const struct sums *s, struct part p,
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
+    const double scatter = all->few ? 0 : left / freedom;
+    const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
     p.curve = curved ? (yq - xy / xx * xq) / qq : 0;
     qq /= curved ? s->unit * s->unit : 1;
-    p.freedom = freedom;
-    p.scale =
-        hypot(sqrt((left / freedom + least * least) / xx), of_known(freedom) * sqrt(rounded) / xx);
-    p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
-                0.5 * log(s->w * xx * qq) -
-                log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    p.freedom = all->few ? FEW : freedom;
+    p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
+    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
+    p.weight += all->few ? log_prior_of_order(p.mean)
+                         : gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
+                               log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    if (isfinite(all->far)) {
+        find_left(all->far, s, variance, xx, xy / xx, &p);
+        p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
+    }
     if (p.mean < 0 && p.law != BR_LAW_POWER)
         p.weight += log(br_priors.grows);
     const double above = s->noise_y - (s->y / s->w + xy / xx * (s->noise_x - middle));
-    if (isfinite(p.weight) && is_of_law(&p, s->behind) && !(above < br_priors.noise_above))
+    if (isfinite(p.weight) && is_of_law(all, &p, s->behind) && !(above < br_priors.noise_above))
         add_part(all, &p);
 }
 
@@ -357,12 +426,13 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double prior = p.weight;
     find_means(r);
-    for (p.first = 0; p.first + 3 <= n; p.first += stride) {
+    const size_t least = all->few ? 2 : 3;
+    for (p.first = 0; p.first + least <= n; p.first += stride) {
         struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
         for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
-            if (s.rows < 3 || (lost > 4 && lost % stride))
+            if (s.rows < least || (lost > 4 && lost % stride))
                 continue;
             p.weight = prior + coarse(p.first) + r->noise[p.last];
             p.outlier = n;
@@ -426,7 +496,8 @@ static double bend(const struct rows *r, size_t i, const struct br_family *f, do
                                     .finest = r->y[r->count - 1] - r->y[i]};
     const struct br_law_bend b = br_law_bend(f, parameter, &at);
     r->bent[i] = r->y[i] - b.correction;
-    r->curve[i] = f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) : 0;
+    r->curve[i] =
+        f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve) : 0;
     r->weight[i] = b.weight * r->given[i];
     r->log_density[i] = (b.density ? 0.5 * log(b.weight) : 0) + 0.5 * log(r->given[i]);
     return b.change;
@@ -443,10 +514,14 @@ static void add_law(struct mixture *all, const struct rows *r, const struct br_f
                       share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
     const double crosses = br_law_log_prior(f, parameter, r->z[0]);
+    const struct br_law_place finest = {exp(all->far), 1, 0};
+    const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
     const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
     add_windows(all, r,
-                (struct part){.law = small ? BR_LAW_NEXT : f->law,
+                (struct part){.there = isfinite(there) ? there : 0,
+                              .curve_there = f->curve > 0 ? pow(finest.z / r->z[0], f->curve) : 0,
+                              .law = small ? BR_LAW_NEXT : f->law,
                               .weight = log_prior + crosses,
                               .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
 }
@@ -487,6 +562,7 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
                                  .first = first,
                                  .last = behind ? middle : n - 1,
                                  .outlier = n,
+                                 .curve_there = behind ? all->far - r->x[middle] : 0,
                                  .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
                    br_priors.sure);
     }
@@ -497,9 +573,8 @@ static void add_kink(struct mixture *all, const struct rows *r, size_t middle, b
 static void add_exponentials(struct mixture *all, const struct rows *r)
 {
     static const double powers[] = {1, 0.5, 1. / 3};
-    enum { LEAST = 4 };
-    const size_t n = r->count, middle = n / 2;
-    for (size_t k = 0; k < sizeof powers / sizeof *powers && n >= LEAST; k++) {
+    const size_t n = r->count, middle = n / 2, least = isfinite(all->far) ? 5 : 4;
+    for (size_t k = 0; k < sizeof powers / sizeof *powers && n >= least; k++) {
         struct rows e = *r;
         e.x = r->other;
         for (size_t i = 0; i < n; i++) {
@@ -511,10 +586,13 @@ static void add_exponentials(struct mixture *all, const struct rows *r)
             e.curve[i] = 0;
         }
         e.order = (e.y[0] - e.y[n - 1]) / (e.x[0] - e.x[n - 1]);
+        const double far = all->far;
+        all->far = -pow(r->z[middle] / exp(far), powers[k]) / powers[k];
         add_windows(all, &e,
                     (struct part){.law = BR_LAW_EXPONENTIAL,
                                   .weight = log(br_priors.exponential),
                                   .power = powers[k]});
+        all->far = far;
     }
 }
 
@@ -532,16 +610,26 @@ static size_t cells_of(const struct br_family *f)
 static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
                        double at, double members, double share)
 {
-    add_law(all, r, f, f->low * pow(f->high / f->low, (at + 0.5) / members), share,
-            log(f->prior / members));
+    const bool stays =
+        f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+    const double parameter = f->low * pow(f->high / f->low, (at + 0.5) / members);
+    if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
+        return;
+    add_law(all, r, f, parameter, share,
+            log(f->prior / members * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
 }
 
-static void add_laws(struct mixture *all, const struct rows *r)
+static void add_laws(struct mixture *all, const struct rows *r, double log_prior)
 {
     static const struct br_family power = {.law = BR_LAW_POWER};
-    struct mixture rough = {.best = -INFINITY, .only_best = true};
+    struct mixture rough = {.best = -INFINITY,
+                            .only_best = true,
+                            .far = all->far,
+                            .few = all->few,
+                            .finest = all->finest};
     double best[BR_FAMILIES][MOST_CELLS];
-    add_law(all, r, &power, 0, 0, log(br_priors.power));
+    all->prior = log_prior;
+    add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
     add_law(&rough, r, &power, 0, 0, log(br_priors.power));
     double top = rough.best;
     for (size_t f = 0; f < BR_FAMILIES; f++)
@@ -596,11 +684,51 @@ static void find_rate(struct mixture *all, const struct rows *r, double finest,
     found->rate = (struct br_estimate){slope.value / unit, slope.low / unit, slope.high / unit};
 }
 
+/* The distribution of what is left at the finest value, in the unit of the values: of a part with a
+ * wide logarithm several nodes of equal probability. Parts that do not converge have none. */
+static enum br_status take_left(const struct mixture *all, const struct rows *r,
+                                struct mixture *left, struct br_error *err)
+{
+    enum { NODES = 8 };
+    static const double node[NODES] = {-1.9, -1.0, -0.53, -0.17, 0.17, 0.53, 1.0, 1.9};
+    static const double wide = 0.1, most = 7, between = 0.4;
+    const size_t n = r->count;
+    *left = (struct mixture){.part = br_allocate(NODES * all->count + 1, sizeof *left->part)};
+    if (!left->part)
+        return br_no_memory(err, "the limit");
+    for (size_t i = 0; i < all->count; i++) {
+        const struct part *p = &all->part[i];
+        const double ratio = exp(all->far * p->mean); /* of the error to that before it */
+        const size_t nodes = p->left_scale < wide ? 1 : NODES;
+        double lost = 0;
+        if (p->power == 0 && !(p->mean > 0.1))
+            continue;
+        for (size_t j = p->last + 1; j < n; j++)
+            lost = fmax(lost, exp(r->error[j]));
+        for (size_t j = 0; j < nodes; j++) {
+            const double by = nodes > 1 ? fmin(most, node[j] * p->left_scale) : 0;
+            const double e = exp(p->left + by);
+            const double own = p->own * e * (1 - ratio) / ratio;
+            struct part *q = &left->part[left->count++];
+            *q = *p;
+            q->mean = e;
+            q->scale = hypot(hypot(e * p->left_scale * (nodes > 1 ? between : 1), own), lost);
+            q->weight = p->weight / (double)nodes;
+        }
+    }
+    keep(left, all->count ? all->part[0].power : 0);
+    return BR_OK;
+}
+
+/* Values whose differences fall by a smaller order may grow as log log n. */
+static const double least_convergence = 0.3, surely_falls = 0.1;
+
 static void describe(struct mixture *all, const struct rows *r, double finest,
                      struct br_line_order *found)
 {
     for (size_t i = 0; i < all->count; i++)
         found->law[all->part[i].law] += all->part[i].weight;
+    thin(all);
     const bool exponential = found->law[BR_LAW_EXPONENTIAL] > 0.5;
     size_t first = 0;
     while (exponential && all->part[first].power == 0)
@@ -609,11 +737,21 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
     const struct part *likely = &all->part[0];
     if (exponential)
         find_rate(all, r, finest, found);
-    else {
+    else if (!all->few) {
         found->order = estimate(all);
         found->low99 = quantile(all, 0.005);
         found->high99 = quantile(all, 0.995);
     }
+    found->converges =
+        exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
+    found->diverges = exponential ? 0 : probability_below(all, 0);
+    for (size_t i = 0; i < all->count; i++) { /* differences that stay make a logarithm */
+        const enum br_law law = all->part[i].law;
+        if (isfinite(all->far) && (law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES))
+            found->converges -= all->part[i].weight;
+    }
+    if (found->order.value < least_convergence)
+        found->converges = 0;
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
     if (likely->outlier < r->count)
@@ -624,10 +762,11 @@ static void describe(struct mixture *all, const struct rows *r, double finest,
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 15 };
+    enum { ARRAYS = 16 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
                                     .rate = {NAN, NAN, NAN},
                                     .power = NAN,
+                                    .left = {NAN, NAN, NAN},
                                     .low99 = NAN,
                                     .high99 = NAN,
                                     .last = count ? count - 1 : 0,
@@ -638,22 +777,39 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room};
-        double **const array[] = {&r.x,           &r.y,     &r.ratio,    &r.bent,    &r.weight,
-                                  &r.log_density, &r.least, &r.given,    &r.curve,   &r.rounded,
-                                  &r.noise,       &r.other, &r.behind_x, &r.behind_y};
+        double **const array[] = {&r.x,           &r.y,     &r.ratio,    &r.bent,     &r.weight,
+                                  &r.log_density, &r.least, &r.given,    &r.curve,    &r.rounded,
+                                  &r.noise,       &r.other, &r.behind_x, &r.behind_y, &r.error};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
-        if (r.count >= 3 && isfinite(r.order)) {
+        const struct br_order_point *finest = r.count ? &point[index[r.count - 1]] : NULL;
+        all.far =
+            finest && finest->z_against > 0 ? log(finest->z_against / finest->z) : (double)NAN;
+        all.few = r.count == 2 && isfinite(all.far);
+        if ((r.count >= 3 || all.few) && isfinite(r.order)) {
             take_noise(&r);
-            add_laws(&all, &r);
+            const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
+            all.finest = 1;
+            add_laws(&all, &r, log(1 - absolute));
+            for (size_t i = 0; i < r.count; i++)
+                r.given[i] *= exp(2 * (r.error[i] - r.error[0]));
+            all.finest = r.given[r.count - 1];
+            if (absolute > 0)
+                add_laws(&all, &r, log(absolute));
         }
         if (all.count)
             normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
-            describe(&all, &r, point[index[r.count - 1]].z, found);
+            describe(&all, &r, finest->z, found);
+        struct mixture left = {.part = NULL};
+        if (!status && all.count && isfinite(all.far))
+            status = take_left(&all, &r, &left, err);
+        if (!status && left.count)
+            found->left = estimate(&left);
+        free(left.part);
     }
     free(all.part);
     free(index);

@@ -166,41 +166,34 @@ enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_q
     return BR_OK;
 }
 
-/* The half width of the 95 % interval of a mean; NaN: it is none. */
+/* The half width of the 95 % interval of a mean; 0: it is none. */
 static double half_width(const struct br_numbers_row *row, size_t quantity)
 {
     return row->repeat > 1
                ? gsl_cdf_tdist_Pinv(0.975, (double)row->repeat - 1) * deviation_of(row, quantity)
-               : (double)NAN;
+               : 0;
 }
 
 /* The limits of the values of a line. */
 static enum br_status find_limits(const struct br_orders *o, size_t quantity, size_t rows,
                                   struct br_orders_line *line, struct br_error *err)
 {
-    double *h = br_allocate(3 * rows, sizeof *h);
+    struct br_line_value *value = br_allocate(rows, sizeof *value);
     double *given = line->finest_of = br_allocate(rows, sizeof *given);
     size_t count = 0;
-    bool means = false;
-    if (!h || !given) {
-        free(h);
-        return br_no_memory(err, "the limits");
-    }
-    double *value = h + rows, *half = value + rows;
-    for (size_t i = 0; i < rows; i++) {
+    for (size_t i = 0; i < rows && value && given; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (isnan(row->number[quantity]) || row->failure)
             continue;
-        h[count] = row->z[line->axis];
-        half[count] = half_width(row, quantity);
-        means = means || half[count] > 0;
         given[count >= 2 ? count - 2 : 0] = row->given[line->axis];
-        value[count++] = row->number[quantity];
+        value[count++] = (struct br_line_value){.h = row->z[line->axis],
+                                                .value = row->number[quantity],
+                                                .half = half_width(row, quantity),
+                                                .rounding = rounding_of(o, quantity, row)};
     }
-    const enum br_status status =
-        br_limits_find(h, value, means ? half : NULL, count, o->assumed_formal ? 0 : o->formal,
-                       &line->limits, err);
-    free(h);
+    const enum br_status status = value && given ? br_limits_find(value, count, &line->limits, err)
+                                                 : br_no_memory(err, "the limits");
+    free(value);
     return status;
 }
 

@@ -294,6 +294,8 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal, s
 {
     *o = (struct br_orders){
         .numbers = numbers, .formal = formal > 0 ? formal : 2, .assumed_formal = formal == 0};
+    if (formal != 0 && !(formal >= 1 && formal <= 10))
+        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
     o->tied = are_tied(o);
     o->of = br_allocate(numbers->quantities, sizeof *o->of);
     if (!o->of)
