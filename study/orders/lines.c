@@ -189,7 +189,7 @@ static enum br_status find_limits(const struct br_orders *o, size_t quantity, si
         value[count++] = (struct br_line_value){.h = row->z[line->axis],
                                                 .value = row->number[quantity],
                                                 .half = half_width(row, quantity),
-                                                .rounding = rounding_of(o, quantity, row)};
+                                                .rounding = br_orders_rounding(o, quantity, row)};
     }
     const enum br_status status = value && given ? br_limits_find(value, count, &line->limits, err)
                                                  : br_no_memory(err, "the limits");
