@@ -11,11 +11,6 @@ static const struct br_quantity *quantity_of(const struct br_orders *o,
     return &o->numbers->quantity[of->quantity];
 }
 
-static const char *const limit_methods[] = {
-    [BR_LIMIT_GCI] = "GCI, Celik et al. 2008",
-    [BR_LIMIT_LEAST_SQUARES] = "least squares, Eca and Hoekstra 2014",
-};
-
 enum { MOST_NAMED = BR_MOST_ANSWERS - 6 }; /* quantities with an answer; the tables have all */
 
 /* What is put before an item of a sentence; the first item follows a colon. */
@@ -127,6 +122,78 @@ static void say_next(struct br_document *d, const struct br_orders *o,
         br_put_more(d, "%.1e", next);
 }
 
+enum { MOST_CELLS = 4 }; /* that an answer names */
+
+/* Names a cell by a row of its h and one of its k. found: so many were named before. */
+static void name_cell(struct br_document *d, const struct br_orders *o,
+                      const struct br_numbers_row *of_h, const struct br_numbers_row *of_k,
+                      size_t found)
+{
+    char h[64], k[64];
+    if (found >= MOST_CELLS) {
+        br_put_more(d, "%s", found == MOST_CELLS ? ", ..." : "");
+        return;
+    }
+    br_numbers_name(o->numbers, of_h, BR_AXIS_SPACE, h);
+    br_numbers_name(o->numbers, of_k, BR_AXIS_TIME, k);
+    br_put_more(d, "%s%s, %s", found ? "; " : "", h, k);
+}
+
+/* The cells that a joint fit leaves out. */
+static void say_cells_left_out(struct br_document *d, const struct br_orders *o,
+                               const struct br_quantity_orders *of)
+{
+    size_t found = 0;
+    br_put_more(d, " %zu of %zu cells left out: ", of->joint.left_out,
+                of->joint.points + of->joint.left_out);
+    for (size_t i = 0; i < o->numbers->rows; i++) {
+        const struct br_numbers_row *row = &o->numbers->row[i];
+        if (of->flag[i] == BR_FLAG_NONE)
+            continue;
+        name_cell(d, o, row, row, found);
+        if (found++ < MOST_CELLS)
+            br_put_more(d, " (%s, %.1e)", br_flag_name(of->flag[i]), row->number[of->quantity]);
+    }
+    br_put_more(d, ".");
+}
+
+/* The first row of this size; NULL: there is none before row `end`. */
+static const struct br_numbers_row *first_of(const struct br_orders *o, int axis, size_t end)
+{
+    for (size_t i = 0; i < end; i++)
+        if (o->numbers->row[i].z[axis] == o->numbers->row[end].z[axis])
+            return &o->numbers->row[i];
+    return NULL;
+}
+
+static bool has_cell(const struct br_orders *o, double h, double k)
+{
+    bool has = false;
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        has |= o->numbers->row[i].z[BR_AXIS_SPACE] == h && o->numbers->row[i].z[BR_AXIS_TIME] == k;
+    return has;
+}
+
+/* The cells that a nearly full grid does not have: at most a quarter of all. */
+static void say_missing(struct br_document *d, const struct br_orders *o)
+{
+    const struct br_numbers *n = o->numbers;
+    size_t sizes[BR_AXES] = {0}, found = 0;
+    for (size_t i = 0; i < n->rows; i++)
+        for (int axis = 0; axis < BR_AXES; axis++)
+            sizes[axis] += !first_of(o, axis, i);
+    const size_t all = sizes[BR_AXIS_SPACE] * sizes[BR_AXIS_TIME];
+    if (!br_orders_is_grid(o) || all <= n->rows || 4 * (all - n->rows) > all)
+        return;
+    br_put_answer(d, "%zu of %zu cells missing: ", all - n->rows, all);
+    for (size_t i = 0; i < n->rows; i++)
+        for (size_t j = 0; j < n->rows && !first_of(o, BR_AXIS_SPACE, i); j++)
+            if (!first_of(o, BR_AXIS_TIME, j) &&
+                !has_cell(o, n->row[i].z[BR_AXIS_SPACE], n->row[j].z[BR_AXIS_TIME]))
+                name_cell(d, o, &n->row[i], &n->row[j], found++);
+    br_put_more(d, ".");
+}
+
 /* Puts the number of rows that are left out, the first reason and where it begins. */
 static void say_left_out(struct br_document *d, const struct br_quantity_orders *of)
 {
@@ -170,14 +237,11 @@ static void say_limit(struct br_document *d, const struct br_orders *o,
     br_put_more(d, ": %s", br_sequence_text(limit->sequence));
 }
 
-/* What follows from the formal order: the limit of another one, and an index that trusts it. */
+/* What follows from the formal order: an index that trusts it. */
 static void say_formal(struct br_document *d, const struct br_orders *o,
                        const struct br_quantity_orders *of)
 {
     const struct br_orders_line *line = &of->line[0];
-    const struct br_estimate *limit = &line->limits.limit.value,
-                             *other = &line->limits.first_order.value;
-    char text[128];
     if (!quantity_of(o, of)->is_value || of->lines != 1)
         return;
     if (br_gci_is_far(&line->limits.gci, o->formal))
@@ -186,10 +250,6 @@ static void say_formal(struct br_document *d, const struct br_orders *o,
                     "(2010) the GCI is %.2g %%.",
                     o->formal, o->assumed_formal ? " (assumed)" : "",
                     100 * br_gci_limited(&line->limits.gci, o->formal));
-    if (o->assumed_formal && isfinite(other->low) &&
-        (other->low != limit->low || other->high != limit->high))
-        br_put_more(d, " Formal order 2 assumed; --formal-order 1 gives %s.",
-                    br_interval_text(other, text, sizeof text));
 }
 
 /* Where costs differ, and grow by more than a tenth of an order. */
@@ -317,7 +377,7 @@ static void put_limit(struct br_document *d, const struct br_grid_limit *limit)
     BR_PUT_CELLS(d, br_number(limit->value.value));
     br_put_shown(d, "%s", br_interval_text(&limit->value, text, sizeof text));
     BR_PUT_CELLS(d, br_number(limit->value.low), br_number(limit->value.high),
-                 br_text(limit_methods[limit->method]));
+                 br_text("mixture of laws"));
 }
 
 /* The grid convergence index of each three neighbouring sizes, where there are more than three. */
@@ -399,14 +459,17 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
             of->lines ? br_orders_finest(of, of->line[0].axis) : NULL;
         bool first = true;
         br_put_answer(d, "%s:", quantity_of(o, of)->name);
-        if (!line)
+        if (!line && !of->flag) /* of a grid the answer says so */
             br_put_more(d, "%sno order: fewer than three sizes", separator(&first));
         if (line && quantity_of(o, of)->is_value)
             say_limit(d, o, of, &first);
         say_orders(d, o, of, &first);
         say_next(d, o, of, &first);
         br_put_more(d, ".");
-        say_left_out(d, of);
+        if (br_joint_describes(&of->joint) && of->joint.left_out)
+            say_cells_left_out(d, o, of);
+        else
+            say_left_out(d, of);
         if (line)
             say_formal(d, o, of);
     }
@@ -416,6 +479,7 @@ void br_report_orders(const struct br_orders *o, const struct br_estimate *growt
         br_put_answer(d, "%zu more columns are in the tables only.", o->count - MOST_NAMED);
     for (int axis = 0; axis < BR_AXES; axis++)
         say_growth(d, &growth[axis], (enum br_axis)axis, br_orders_costs_differ(o));
+    say_missing(d, o);
     if (o->tied)
         br_put_answer(d, "h and k change together: the orders in h are those of both.");
     for (size_t i = 0; i < o->numbers->rows; i++)

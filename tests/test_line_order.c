@@ -62,6 +62,16 @@ static double offset(double z)
     return pow(z, 2) - 4e-5;
 }
 
+static double kink(double z)
+{
+    return z > 0.1 ? z : 0.125 * pow(8 * z, 2);
+}
+
+static double exponential(double z)
+{
+    return exp(-0.3 / z);
+}
+
 static const struct {
     double (*error)(double z);
     double order, off; /* the true order, and how far the value may be from it */
@@ -77,6 +87,8 @@ static const struct {
     [BR_LAW_FLOOR] = {floored, 2, 0.01, 1e-4},
     [BR_LAW_FLOOR_SQUARES] = {floor_squares, 2, 0.02, 2e-5},
     [BR_LAW_OFFSET] = {offset, 2, 0.01, 0},
+    [BR_LAW_KINK] = {kink, 2, 1e-3, 0},
+    [BR_LAW_EXPONENTIAL] = {exponential, NAN, 0, 0},
 };
 
 static void find(const struct br_order_point *point, size_t count, struct br_line_order *found)
@@ -102,6 +114,13 @@ TEST(test_each_law)
         find(point, ROWS, &found);
         if (!(found.law[law] > 0.5))
             fail_msg("%s: its probability is %g", br_law_text(law), found.law[law]);
+        if (law == BR_LAW_EXPONENTIAL) {
+            assert_true(isnan(found.order.value) && isnan(found.low99) && found.power == 1);
+            CLOSE(found.rate.value, 0.3, 1e-3);
+            assert_true(found.rate.low <= 0.3 && 0.3 <= found.rate.high);
+            continue;
+        }
+        assert_true(isnan(found.rate.value) && isnan(found.power));
         if (!(fabs(found.order.value - lines[law].order) <= lines[law].off))
             fail_msg("%s: order %g, expected %g", br_law_text(law), found.order.value,
                      lines[law].order);
@@ -118,7 +137,7 @@ TEST(test_each_law)
 /* The interval of 99 % holds that of 95 %, that holds the value; the laws' probabilities add up. */
 TEST(test_what_is_stated)
 {
-    for (enum br_law law = 0; law < BR_LAWS; law++) {
+    for (enum br_law law = 0; law < BR_LAW_EXPONENTIAL; law++) {
         struct br_order_point point[ROWS];
         struct br_line_order f;
         double sum = 0;
@@ -148,7 +167,7 @@ TEST(test_left_out)
     assert_int_equal(br_line_order_flag(&found, point, 0), BR_FLAG_COARSE);
     assert_int_equal(found.last, ROWS - 1);
     make(power, 1, point);
-    point[3].error *= 5; /* an outlier inside */
+    point[3].error *= 5;  /* an outlier inside */
     point[5].error = NAN; /* missing */
     find(point, ROWS, &found);
     assert_int_equal(found.outlier, 3);
@@ -201,7 +220,9 @@ TEST(test_root_of_a_logarithm)
         point[i] = (struct br_order_point){.z = z, .error = z * sqrt(2 - log(z))};
     }
     find(point, ROWS, &found);
-    CLOSE(found.order.value, 1, 0.002);
+    if (!(found.order.low <= 1 && 1 <= found.order.high && found.order.high < 1.1 &&
+          found.order.low > 0.9)) /* half powers beside it are not ruled out */
+        fail_msg("%g to %g", found.order.low, found.order.high);
 }
 
 /* The value is the median: in the middle of the interval where the scatter has no side. */
@@ -227,8 +248,8 @@ static void draw(struct br_test_random *random, double p, double floor, double s
     }
 }
 
-/* Errors whose scatter is known weigh by it: coarse ones are scattered ten times as much here. Equal
- * scatter, or one that is not known, changes nothing. */
+/* Errors whose scatter is known weigh by it: coarse ones are scattered ten times as much here.
+ * Equal scatter, or one that is not known, changes nothing. */
 TEST(test_means)
 {
     struct br_test_random random = {9};
@@ -241,8 +262,8 @@ TEST(test_means)
         for (size_t i = 0; i < SOME; i++) {
             const double z = pow(0.5, (double)i);
             const double scatter = i < SOME / 2 ? 0.05 : 0.005;
-            const double noise = br_test_uniform(&random, -1, 1) +
-                                 br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1);
+            const double noise = br_test_uniform(&random, -1, 1) + br_test_uniform(&random, -1, 1) +
+                                 br_test_uniform(&random, -1, 1);
             point[i] = (struct br_order_point){.z = z, .error = z * exp(scatter * noise)};
         }
         MUST(br_line_order_find(point, SOME, &b, &err));
@@ -352,7 +373,8 @@ TEST(test_band_of_a_wide_interval)
     }
 }
 
-/* Two next terms whose effects turn the orders from row to row: the interval holds the true order. */
+/* Two next terms whose effects turn the orders from row to row: the interval holds the true order.
+ */
 TEST(test_two_terms)
 {
     struct br_order_point point[ROWS];
@@ -365,6 +387,59 @@ TEST(test_two_terms)
     find(point, 6, &found);
     if (!(found.order.low <= 2 && 2 <= found.order.high))
         fail_msg("%g to %g", found.order.low, found.order.high);
+}
+
+/* Errors whose orders from row to row are given. */
+static size_t of_rates(const double *rate, struct br_order_point *point)
+{
+    size_t count = 1;
+    point[0] = (struct br_order_point){.z = 1, .error = 1};
+    for (; rate[count - 1]; count++)
+        point[count] = (struct br_order_point){
+            .z = point[count - 1].z / 2, .error = point[count - 1].error * exp2(-rate[count - 1])};
+    return count;
+}
+
+/* One order on coarse rows and another one on the finest: the interval holds both. */
+TEST(test_kinks)
+{
+    static const double rates[][MOST] = {
+        {4, 4, 4, 4, 4, 2, 2, 2}, {2.5, 2.5, 2.5, 3, 3},       {2, 2, 2, 1, 1},
+        {1, 1, 1, 1, 3, 3},       {2, 2, 2, 2, 1.5, 1.5, 1.5}, {1.5, 1.5, 1.5, 2, 2, 2}};
+    for (size_t l = 0; l < sizeof rates / sizeof *rates; l++) {
+        struct br_order_point point[MOST];
+        struct br_line_order f;
+        const size_t rows = of_rates(rates[l], point);
+        find(point, rows, &f);
+        const double first = rates[l][0], last = rates[l][rows - 2];
+        if (!(f.order.low <= fmin(first, last) && fmax(first, last) <= f.order.high))
+            fail_msg("line %zu: %g to %g", l, f.order.low, f.order.high);
+        assert_int_equal(br_line_order_flag(&f, point, rows - 1), BR_FLAG_NONE);
+    }
+}
+
+/* Errors that fall and then grow, by clean powers: their order is that of the growth. */
+TEST(test_growth_at_the_fine_end)
+{
+    static const double rates[][MOST] = {{2, 2, 2, -1, -1, -1}, {1, 1, 1, -0.5, -0.5, -0.5, -0.5}};
+    for (size_t l = 0; l < sizeof rates / sizeof *rates; l++) {
+        struct br_order_point point[MOST];
+        struct br_line_order f;
+        find(point, of_rates(rates[l], point), &f);
+        assert_true(f.high99 < 0);
+    }
+}
+
+/* No interval has the width zero, whatever the digits: so few rows cannot show that. */
+TEST(test_least_width)
+{
+    for (size_t rows = 3; rows <= ROWS; rows++) {
+        struct br_order_point point[ROWS];
+        struct br_line_order f;
+        make(power, 1, point);
+        find(point, rows, &f);
+        AT_MOST(3e-4, f.order.high - f.order.low);
+    }
 }
 
 /* Of noise alone, the interval is about that of a regression: t sqrt(S / f / Sxx). */

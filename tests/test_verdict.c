@@ -67,10 +67,10 @@ TEST(test_order)
         const char *reason;
     } rows[] = {
         {1, BR_PASS, ""},
-        {1.0999, BR_PASS, ""},
-        {0.9001, BR_PASS, ""},
-        {0.8999, BR_FAIL, "lies below the band, 0.9 to 1.1"},
-        {1.1001, BR_FAIL, "lies above the band, 0.9 to 1.1"},
+        {1.098, BR_PASS, ""},
+        {0.902, BR_PASS, ""},
+        {0.898, BR_FAIL, "lies below the band, 0.9 to 1.1"},
+        {1.102, BR_FAIL, "lies above the band, 0.9 to 1.1"},
         {2, BR_FAIL, "lies above"},
         {60, BR_FAIL, "lies above"},
         {0.01, BR_FAIL, "lies below"},
@@ -80,8 +80,9 @@ TEST(test_order)
         make_power(&m, rows[i].order, 5);
         reach(&m, rows[i].verdict, rows[i].reason);
         CLOSE(m.it.order.value, rows[i].order, 1e-5);
-        AT_MOST(m.it.order.high - m.it.order.low, 1e-4);
-        CLOSE(m.it.margin, 0.1 - fabs(rows[i].order - 1), 1e-5);
+        AT_MOST(m.it.order.high - m.it.order.low, 2e-3);
+        AT_MOST(5e-4, m.it.order.high - m.it.order.low); /* five rows leave that open */
+        CLOSE(m.it.margin, 0.1 - fabs(rows[i].order - 1), 1e-3);
         assert_int_equal(m.it.used, 5);
     }
 }
@@ -197,7 +198,7 @@ TEST(test_far_too_small)
     reach(&m, BR_PASS, "");
     make_power(&m, 1, 7);
     m.point[6].error *= 0.8;
-    reach(&m, BR_PASS, "");
+    reach(&m, BR_INCONCLUSIVE, "from (n = 640, k = T/6400) on the errors are smaller than that");
 }
 
 /* Takes the numbers out of a text. */

@@ -26,10 +26,14 @@ const char *br_order_text(const struct br_estimate *order, char *buffer, size_t 
     }
     const double half = (order->high - order->low) / 2;
     const int decimals = half < 0.0005 ? 4 : half < 0.005 ? 3 : 2;
-    const double unit = pow(10, -decimals); /* so that what rounds to zero has no sign */
-    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, unit * round(order->value / unit) + 0.0,
-             decimals, unit * round(order->low / unit) + 0.0, decimals,
-             unit * round(order->high / unit) + 0.0);
+    const double unit = pow(10, -decimals);
+    double value[] = {order->value, order->low, order->high};
+    for (int i = 0; i < 3; i++)
+        value[i] = unit * round(value[i] / unit) + 0.0; /* what rounds to zero has no sign */
+    if (!(value[1] < value[2])) /* no interval has a width of zero */
+        value[1] -= unit, value[2] += unit;
+    snprintf(buffer, size, "%.*f [%.*f, %.*f]", decimals, value[0], decimals, value[1], decimals,
+             value[2]);
     return buffer;
 }
 
@@ -209,7 +213,7 @@ void br_flag_beside(struct br_study *s)
 double br_least_squares_solve(double *a, double *b, size_t m, size_t n, double least, double *c,
                               double *covariance)
 {
-    enum { MOST = 7 };
+    enum { MOST = 8 };
     double tau[MOST], norm[MOST], inverse[MOST][MOST] = {{0}}, left = 0;
     size_t column[MOST], rank = 0;
     gsl_matrix_view rows = gsl_matrix_view_array(a, m, n);

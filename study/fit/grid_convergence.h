@@ -1,13 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Values of a quantity on finer and finer grids, without a reference: their limit, and how far from
- * it the finest value may be.
- *
- * Three grids: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
+/* Three values of a quantity on finer and finer grids, without a reference: the grid convergence index of Celik, Ghia, Roache, Freitas, Coleman and Raad,
  * "Procedure for Estimation and Reporting of Uncertainty Due to Discretization in CFD
- * Applications", J. Fluids Eng. 130, 078001 (2008), and of ASME V&V 20-2009.
- * Four or more: the least squares of Eca and Hoekstra, "A procedure for the estimation of the
- * numerical uncertainty of CFD calculations based on grid refinement studies", J. Comput. Phys.
- * 262, 104-130 (2014).
+ * Applications", J. Fluids Eng. 130, 078001 (2008), and of ASME V&V 20-2009. The limit with its
+ * interval is that of limits.h.
  *
  * In all functions, h[count] are mesh sizes or time steps > 0 in any unit, from coarse to fine,
  * each smaller than the one before, with finite ratios, and value[count] is the quantity on these
@@ -78,45 +73,5 @@ double br_gci_limited(const struct br_gci *gci, double formal);
 
 /* Whether the observed order is that far from the formal one. */
 bool br_gci_is_far(const struct br_gci *gci, double formal);
-
-/* ---- least squares ---- */
-
-/* phi_0 + sum alpha_j h^power_j, fitted to the values. */
-struct br_expansion_fit {
-    size_t terms;    /* 1 or 2; 0: no fit */
-    double power[2]; /* of each term */
-    bool observed;   /* power[0] is the observed order; else it is fixed */
-    bool weighted;   /* by 1/h */
-    double limit;    /* phi_0 */
-    double error;    /* eps: the fit at the finest grid minus phi_0 */
-    double misfit;   /* the finest value minus the fit there */
-    double sigma;    /* standard deviation of the fit */
-};
-
-/* The sequence is monotone where an order between -12 and 12 fits best, whatever the scatter. Else
- * no order can be established; then it is oscillatory if its differences change sign count/3 times
- * (rounded down) or more, else anomalous. It is convergent or divergent by the sign of the order,
- * or of that of the magnitudes of the differences. */
-struct br_least_squares {
-    enum br_sequence sequence;
-    double order;                /* p of phi_0 + alpha h^p; NaN where none can be established */
-    struct br_expansion_fit fit; /* the one with the smallest sigma of those that may be chosen */
-    double range;                /* Delta_phi = (max - min)/(count - 1) */
-    double safety;               /* 1.25 for a reliable fit, else 3 */
-    double uncertainty;          /* U of the finest value, 95 % */
-};
-
-/* The paper is about methods of formal order 2. Another formal order, 1 to 10, replaces 2 as the
- * highest order that is accepted (2.1: formal + 0.1) and as the exponent of the second term; for
- * formal order 1 the second term is h^2, and is never the only one. count >= 4. The uncertainty is
- * known for each sequence but a constant one, also for divergence. Fails with
- * BR_NO_MEMORY. */
-enum br_status br_least_squares(const double *h, const double *value, size_t count, double formal,
-                                struct br_least_squares *result, struct br_error *err);
-
-/* The observed order with its interval, from the differences of successive values, by
- * br_line_order_find; count >= 4. Fails with BR_NO_MEMORY. */
-enum br_status br_order_of_values(const double *h, const double *value, size_t count,
-                                  struct br_estimate *order, struct br_error *err);
 
 #endif

@@ -1,43 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "study/fit/limits.h"
 
+#include <float.h>
 #include <gsl/gsl_cdf.h>
 #include <math.h>
+
+#include "study/fit/line_order.h"
 
 static const struct br_estimate unknown = {NAN, NAN, NAN};
 static const double normal95 = 1.959963984540054; /* half width of a 95 % interval, deviations */
 
-/* Values that grow like log n have the order zero, and no limit: round-off makes it +1e-9. */
-static const double least_order = 0.05;
+/* ---- values that are means ---- */
 
-/* Whether one constant agrees with all values. */
-static bool agree(const double *value, const double *half, size_t count)
+/* Whether one constant agrees with all values, which are means. */
+static bool agree(const struct br_line_value *v, size_t count)
 {
     double weights = 0, mean = 0, squares = 0;
     for (size_t i = 0; i < count; i++) {
-        weights += 1 / (half[i] * half[i]);
-        mean += (value[i] - mean) / (half[i] * half[i]) / weights;
+        weights += 1 / (v[i].half * v[i].half);
+        mean += (v[i].value - mean) / (v[i].half * v[i].half) / weights;
     }
     for (size_t i = 0; i < count; i++)
-        squares += pow(normal95 * (value[i] - mean) / half[i], 2);
+        squares += pow(normal95 * (v[i].value - mean) / v[i].half, 2);
     return squares <= gsl_cdf_chisq_Pinv(0.99, (double)count - 1); /* NaN: no means */
 }
 
-/* Names a sequence that shows its scatter alone. */
-static void find_scatter(struct br_grid_limit *limit, const double *value, const double *half,
-                         size_t count)
-{
-    const bool monotone = limit->sequence == BR_MONOTONE_CONVERGENCE;
-    if (half && limit->sequence != BR_SEQUENCE_CONSTANT &&
-        (agree(value, half, count) || (!monotone && agree(value + count - 3, half + count - 3, 3))))
-        limit->sequence = BR_SEQUENCE_SCATTER;
-}
-
 /* Two differences within the scatter of their values show nothing, and neither does one. */
-static void leave_scatter(struct br_gci *gci, const double *half)
+static void leave_scatter(struct br_gci *gci, const struct br_line_value *v)
 {
-    const bool fine = gci->fine.difference <= hypot(half[1], half[2]),
-               coarse = gci->coarse.difference <= hypot(half[0], half[1]);
+    const bool fine = gci->fine.difference <= hypot(v[1].half, v[2].half),
+               coarse = gci->coarse.difference <= hypot(v[0].half, v[1].half);
     struct br_gci_pair *pair[] = {&gci->fine, &gci->coarse};
     if (!fine && !coarse)
         return;
@@ -48,114 +40,148 @@ static void leave_scatter(struct br_gci *gci, const double *half)
             NAN;
 }
 
-/* By how much the uncertainty of three means changes as each goes to the ends of its interval; NaN:
- * there they do not converge. */
-static double carried(const double *h, const double *value, const double *half, double uncertainty)
-{
-    double squares = 0;
-    for (int i = 0; i < 6; i++) {
-        double moved[3] = {value[0], value[1], value[2]};
-        struct br_gci gci;
-        moved[i / 2] += i % 2 ? half[i / 2] : -half[i / 2];
-        br_gci(h, moved, 3, &gci);
-        squares += pow(gci.fine.uncertainty - uncertainty, 2) / 2;
-    }
-    return sqrt(squares);
-}
-
-/* Widens the uncertainty to the error of the finest value that its difference to the one before
- * leaves open, by the least order of the differences: with a higher power beside, the order that
- * fits them is too high. */
-static enum br_status widen(const double *h, const double *value, size_t count, double *uncertainty,
-                            struct br_error *err)
-{
-    struct br_estimate order;
-    const size_t last = count - 1;
-    if (br_order_of_values(h, value, count, &order, err))
-        return err->status;
-    const double error =
-        fabs(value[last] - value[last - 1]) / (pow(h[last - 1] / h[last], order.low) - 1);
-    if (order.low > least_order && error > *uncertainty)
-        *uncertainty = error;
-    return BR_OK;
-}
-
-enum br_status br_limit_of_values(const double *h, const double *value, const double *half,
-                                  size_t count, double formal, struct br_grid_limit *limit,
-                                  struct br_error *err)
-{
-    struct br_least_squares fit;
-    struct br_gci gci;
-    double uncertainty;
-    *limit = (struct br_grid_limit){.value = unknown, .order = NAN};
-    if (count > 3) {
-        if (br_least_squares(h, value, count, formal, &fit, err))
-            return err->status;
-        *limit = (struct br_grid_limit){
-            {fit.fit.limit, NAN, NAN}, fit.order, BR_LIMIT_LEAST_SQUARES, fit.sequence};
-        uncertainty = fit.uncertainty;
-        if (fit.sequence == BR_MONOTONE_CONVERGENCE && widen(h, value, count, &uncertainty, err))
-            return err->status;
-    } else {
-        br_gci(h, value, count, &gci);
-        if (half)
-            leave_scatter(&gci, half);
-        *limit = (struct br_grid_limit){
-            {gci.fine.limit, NAN, NAN}, gci.order, BR_LIMIT_GCI, gci.sequence};
-        uncertainty = gci.fine.uncertainty;
-        if (half && isfinite(uncertainty)) {
-            uncertainty += carried(h, value, half, uncertainty);
-            limit->sequence = isnan(uncertainty) ? BR_SEQUENCE_UNKNOWN : limit->sequence;
-        }
-    }
-    const double finest = value[count - 1], own = half && half[count - 1] > 0 ? half[count - 1] : 0;
-    if (limit->sequence == BR_MONOTONE_CONVERGENCE && !(limit->order >= least_order))
-        limit->sequence = BR_SEQUENCE_UNKNOWN;
-    find_scatter(limit, value, half, count);
-    limit->value.low = finest - uncertainty - own;
-    limit->value.high = finest + uncertainty + own;
-    if (limit->sequence == BR_MONOTONE_DIVERGENCE || limit->sequence == BR_OSCILLATORY_DIVERGENCE ||
-        limit->sequence == BR_SEQUENCE_UNKNOWN)
-        limit->value = unknown;
-    if (limit->sequence == BR_SEQUENCE_CONSTANT)
-        limit->value = (struct br_estimate){finest, NAN, NAN};
-    if (limit->sequence == BR_SEQUENCE_SCATTER) {
-        limit->value = (struct br_estimate){finest, finest - own, finest + own};
-        limit->order = NAN;
-    }
-    return BR_OK;
-}
-
 /* ---- a line ---- */
 
-enum br_status br_limits_find(const double *h, const double *value, const double *half,
-                              size_t count, double formal, struct br_limits *limits,
+/* The round-off that the difference of two values may have. */
+static double round_off_of(const struct br_line_value *v, size_t count)
+{
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, fabs(v[i].value));
+    return 64 * DBL_EPSILON * most;
+}
+
+static bool are_constant(const struct br_line_value *v, size_t count)
+{
+    for (size_t i = 0; i + 1 < count; i++)
+        if (!(fabs(v[i].value - v[i + 1].value) <= round_off_of(v, count)))
+            return false;
+    return true;
+}
+
+/* +1: the differences that count have one sign; -1: their signs alternate; 0: neither. */
+static int turns_of(const struct br_line_value *v, size_t first, size_t last)
+{
+    size_t same = 0, turns = 0;
+    for (size_t i = first; i < last; i++) {
+        const double a = v[i + 1].value - v[i].value, b = v[i + 2].value - v[i + 1].value;
+        same += a * b > 0 || (a > 0) == (b > 0);
+        turns += (a > 0) != (b > 0);
+    }
+    return turns == 0 ? 1 : same == 0 ? -1 : 0;
+}
+
+/* sure: the least probability. */
+static enum br_sequence sequence_of(const struct br_line_order *found, int turns, double sure)
+{
+    const bool falls = found->converges >= sure, grows = found->diverges >= sure;
+    if (!falls && !grows)
+        return BR_SEQUENCE_UNKNOWN;
+    if (turns == 0)
+        return falls ? BR_SEQUENCE_ANOMALOUS : BR_SEQUENCE_UNKNOWN;
+    return turns > 0 ? (falls ? BR_MONOTONE_CONVERGENCE : BR_MONOTONE_DIVERGENCE)
+                     : (falls ? BR_OSCILLATORY_CONVERGENCE : BR_OSCILLATORY_DIVERGENCE);
+}
+
+/* The share of the last difference by which errors of this order that alternate are off. */
+static double back(double ratio, double order)
+{
+    return 1 / (1 + pow(ratio, -fmax(order, 0)));
+}
+
+/* The limit from what is left at the finest value, in the direction of its difference; of values
+ * that alternate it lies on the way back, of others on either side. */
+static struct br_estimate limit_of(const struct br_line_value *v, size_t count,
+                                   const struct br_line_order *found, int turns)
+{
+    const struct br_line_value *finest = &v[count - 1];
+    const double step = finest->value - finest[-1].value, sign = step < 0 ? -1 : 1;
+    const double own = finest->half + finest->rounding;
+    double low = found->left.low, high = found->left.high, value = found->left.value;
+    if (turns < 0) {
+        const double r = finest->h / finest[-1].h;
+        value = -fabs(step) * back(r, found->order.value);
+        low = -fabs(step) * fmax(back(r, found->order.low), back(r, 0.5 * found->order.value));
+        high = -fabs(step) * back(r, fmax(found->order.high, 1.5 * found->order.value));
+    }
+    if (turns == 0) { /* terms of opposite sign, or noise: as far as the last values are apart */
+        for (size_t i = count < 4 ? 0 : count - 4; i + 1 < count; i++)
+            high = fmax(fmax(fabs(high), fabs(low)), fabs(v[i].value - finest->value));
+        low = -high;
+        value = 0;
+    }
+    return (struct br_estimate){finest->value + sign * value,
+                                finest->value + fmin(sign * low, sign * high) - own,
+                                finest->value + fmax(sign * low, sign * high) + own};
+}
+
+/* The posterior of the differences. */
+static enum br_status find_order(const struct br_line_value *v, size_t count,
+                                 struct br_line_order *found, struct br_error *err)
+{
+    struct br_order_point *point = br_allocate(count - 1, sizeof *point);
+    if (!point)
+        return br_no_memory(err, "the limit");
+    for (size_t i = 0; i + 1 < count; i++)
+        point[i] = (struct br_order_point){.z = v[i].h,
+                                           .z_against = v[i + 1].h,
+                                           .error = fabs(v[i].value - v[i + 1].value),
+                                           .deviation = hypot(v[i].half, v[i + 1].half) / normal95,
+                                           .rounding = hypot(v[i].rounding, v[i + 1].rounding)};
+    const enum br_status status = br_line_order_find(point, count - 1, found, err);
+    free(point);
+    return status;
+}
+
+enum br_status br_limit_of_values(const struct br_line_value *v, size_t count,
+                                  struct br_grid_limit *limit, struct br_error *err)
+{
+    const double finest = v[count - 1].value, half = v[count - 1].half,
+                 rounding = v[count - 1].rounding;
+    struct br_line_order found;
+    *limit = (struct br_grid_limit){.value = unknown, .order = NAN};
+    if (are_constant(v, count)) {
+        const double own = half > 0 ? half : rounding > 0 ? 2 * rounding : (double)NAN;
+        *limit =
+            (struct br_grid_limit){{finest, finest - own, finest + own}, NAN, BR_SEQUENCE_CONSTANT};
+        return BR_OK;
+    }
+    if (find_order(v, count, &found, err))
+        return err->status;
+    const int turns = turns_of(v, found.first, count - 2);
+    /* The scatter of means is known, which the mixture takes from few differences. */
+    const double sure = half > 0 ? 0.5 : 0.9;
+    limit->sequence = sequence_of(&found, turns, sure);
+    limit->order = found.order.value;
+    if (limit->sequence != BR_SEQUENCE_UNKNOWN && found.converges >= sure &&
+        isfinite(found.left.value))
+        limit->value = limit_of(v, count, &found, turns);
+    if (agree(v, count) || (limit->sequence != BR_MONOTONE_CONVERGENCE && agree(v + count - 3, 3)))
+        *limit = (struct br_grid_limit){
+            {finest, finest - half, finest + half}, NAN, BR_SEQUENCE_SCATTER};
+    return BR_OK;
+}
+
+enum br_status br_limits_find(const struct br_line_value *v, size_t count, struct br_limits *limits,
                               struct br_error *err)
 {
     static const struct br_gci none = {.order = NAN,
                                        .asymptotic = NAN,
                                        .fine = {NAN, NAN, NAN, NAN, NAN, NAN, NAN},
                                        .coarse = {NAN, NAN, NAN, NAN, NAN, NAN, NAN}};
-    *limits = (struct br_limits){.limit.value = unknown, .first_order.value = unknown, .gci = none};
-    if (formal != 0 && !(formal >= 1 && formal <= 10))
-        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
+    *limits = (struct br_limits){.limit = {.value = unknown, .order = NAN}, .gci = none};
     limits->triple = br_allocate(count, sizeof *limits->triple);
     if (!limits->triple)
         return br_no_memory(err, "the limits");
-    if (count < 3)
-        return BR_OK;
-    enum br_status status =
-        br_limit_of_values(h, value, half, count, formal > 0 ? formal : 2, &limits->limit, err);
-    if (!status && !(formal > 0))
-        status = br_limit_of_values(h, value, half, count, 1, &limits->first_order, err);
-    for (size_t i = 0; i + 2 < count && !status; i++) {
-        br_gci(h + i, value + i, 3, &limits->triple[i]);
-        if (half)
-            leave_scatter(&limits->triple[i], half + i);
+    for (size_t i = 0; i + 2 < count; i++) {
+        const double h[] = {v[i].h, v[i + 1].h, v[i + 2].h},
+                     value[] = {v[i].value, v[i + 1].value, v[i + 2].value};
+        br_gci(h, value, 3, &limits->triple[i]);
+        leave_scatter(&limits->triple[i], v + i);
         limits->gci = limits->triple[i];
         limits->triples = i + 1;
     }
-    return status;
+    return count < 3 ? BR_OK : br_limit_of_values(v, count, &limits->limit, err);
 }
 
 void br_limits_clear(struct br_limits *limits)
@@ -179,17 +205,16 @@ struct br_grid_limit br_limit_of_grid(double value, const struct br_limit_along 
         const bool constant = line->sequence == BR_SEQUENCE_CONSTANT;
         const double rest = e->value - value;
         left += rest;
-        half += constant ? 0 : fmax(e->high - value, value - e->low);
+        half += constant ? 0 : fmax(e->high - e->value, e->value - e->low);
         products =
             fmax(products, fabs(along[axis].next.value.value - along[axis].next_value - rest));
         if (axis == 0 || limit.sequence == BR_SEQUENCE_CONSTANT)
             limit.sequence = line->sequence;
         else if (line->sequence != limit.sequence && !constant)
             limit.sequence = BR_SEQUENCE_UNKNOWN;
-        limit.method = line->method;
     }
     half += products;
     if (isfinite(left) && half > 0 && isfinite(half))
-        limit.value = (struct br_estimate){value + left, value - half, value + half};
+        limit.value = (struct br_estimate){value + left, value + left - half, value + left + half};
     return limit;
 }

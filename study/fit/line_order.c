@@ -15,79 +15,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const char *const law_texts[] = {
-#define X(name, text) text,
-    BR_LAW_LIST(X)
-#undef X
-};
-
-const char *br_law_text(enum br_law law)
-{
-    return law_texts[law];
-}
-
-/* ---- priors: each was chosen on seeds of tests/lab/orders.c that its table does not use ---- */
-
-/* The density of the logarithm of an error that nothing explains: even over seven units. */
-static const double unexplained = 0.15;
-
-/* The probability that one more row does not count: at the coarse end, at the fine end, inside. */
-static const double leaves_coarse = 0.6, leaves_fine = 0.25, leaves_inside = 0.05;
-
-/* Errors of a computation rarely scatter by more than this. */
-static const double usual_scatter = 0.15;
-
-/* No law describes logarithms of errors better than that, for the choice among laws. */
-static const double least_scatter = 1e-7;
-
 /* The middle of a cell of parameters (below) describes the whole cell to about this. */
 static const double cell_scatter = 4e-3;
-
-/* A correction c is known to truncation c + next_term c^2: there is always another term. */
-static const double truncation = 0.01, next_term = 0.03;
-
-/* The share of lines with a term of opposite sign that pass zero within the rows. */
-static const double passes_zero = 0.15;
-
-/* A smaller order, with a correction, is the law of a floor. */
-static const double least_order = 0.25;
-
-/* The parameter of a law is even in its logarithm between low and high: a z^s at the finest row; of
- * a logarithm, a - log z there; of a floor, F over the finest error. */
-struct family {
-    enum br_law law;
-    double s, low, high, prior;
-    double curve; /* of a second correction, b z^curve of either sign, by regression */
-};
-
-#define NEXT_TERM(s, share)                              \
-    {BR_LAW_NEXT, s, 1e-4, 0.1, 0.2 * (share), 0},       \
-        {BR_LAW_LOWER, s, 0.1, 5, 0.05 * (share), 0},    \
-        {BR_LAW_CANCEL, s, 1e-4, 0.99, 0.2 * (share), 0}
-
-static const double prior_of_power = 0.45;
-static const struct family families[] = {
-    NEXT_TERM(0.5, 0.1),
-    NEXT_TERM(1, 0.4),
-    NEXT_TERM(1.5, 0.08),
-    NEXT_TERM(2, 0.3),
-    NEXT_TERM(3, 0.06),
-    NEXT_TERM(4, 0.06),
-    {BR_LAW_NEXT, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_CANCEL, 1, 1e-3, 0.1, 0.02, 2},
-    {BR_LAW_LOCKING, 1, 3e-4, 1, 0.004, 0},
-    {BR_LAW_LOCKING, 2, 1e-5, 1, 0.004, 0},
-    {BR_LAW_SQUARES, 1. / 3, 0.03, 3, 0.005, 0},
-    {BR_LAW_SQUARES, 2. / 3, 0.03, 3, 0.005, 0},
-    {BR_LAW_SQUARES, 1, 0.03, 3, 0.005, 0},
-    {BR_LAW_LOGARITHM, 1, 1.5, 30, 0.005, 0},
-    {BR_LAW_LOGARITHM, 0.5, 1.5, 30, 0.005, 0},
-    {BR_LAW_FLOOR, 0, 0.01, 0.9999, 0.05, 0},
-    {BR_LAW_FLOOR_SQUARES, 0, 0.1, 0.9999, 0.02, 0},
-    {BR_LAW_OFFSET, 0, 0.01, 8, 0.03, 0},
-};
-
-enum { FAMILIES = sizeof families / sizeof *families };
 
 /* ---- rows ---- */
 
@@ -103,6 +32,10 @@ struct rows {
     double *curve;         /* of a law: z^curve, 1 at the coarsest row; 0: it has none */
     double *log_density;   /* the part of the density of y that the weight does not cancel */
     double *least;         /* the smallest standard deviation in a window that begins here */
+    double *noise;         /* log of the density of all rows behind this one, if they are noise */
+    double *error;         /* log e */
+    double *other;         /* x of the exponential law */
+    double *behind_x, *behind_y; /* means of x, and of y by a law, of all rows behind this one */
 };
 
 /* log of 1 - ratio^p over p, and its derivative: the loss by a reference of finite resolution. */
@@ -161,9 +94,10 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
         r->ratio[r->count] = p->z_against / p->z;
         r->given[r->count] = weighted ? pow(least / scatter(p), 2) : 1;
         r->rounded[r->count] = pow(p->rounding / p->error, 2) / 3;
+        r->error[r->count] = log(p->error);
         r->y[r->count++] = log(p->error);
     }
-    if (r->count < 3)
+    if (r->count < 2)
         return;
     r->order = 1;
     for (int turn = 0; turn < 30; turn++)
@@ -179,7 +113,10 @@ static void take_rows(struct rows *r, const struct br_order_point *point, size_t
 /* Student's distribution of the order, from one parameter of one law in one window. */
 struct part {
     double weight; /* its logarithm, until all are known */
-    double mean, scale, freedom, floor;
+    double mean, scale, freedom, floor, curve;
+    double there, curve_there;    /* of values: the corrections at the finest one */
+    double left, left_scale, own; /* logarithm of the error that is left there; its scatter, too */
+    double power;                 /* g of the exponential law */
     enum br_law law;
     size_t first, last, outlier;
 };
@@ -187,7 +124,11 @@ struct part {
 struct mixture {
     struct part *part; /* owned */
     size_t count, room;
-    double best; /* the largest logarithm of a weight */
+    double best;   /* the largest logarithm of a weight */
+    double far;    /* of values: x of the finest one; NaN: they are errors */
+    double finest; /* weight of the finest row by its scatter; 1: it is relative, as of all rows */
+    double prior;  /* logarithm of that of the scatter */
+    bool few;      /* of two differences: their order is its prior alone */
     bool only_best, starved;
 };
 
@@ -218,6 +159,33 @@ static int by_weight(const void *a, const void *b)
 {
     const struct part *x = a, *y = b;
     return (x->weight < y->weight) - (x->weight > y->weight);
+}
+
+static int by_mean(const void *a, const void *b)
+{
+    const struct part *x = a, *y = b;
+    return (x->mean > y->mean) - (x->mean < y->mean);
+}
+
+/* Of parts with less than a share of the whole, one stands for as many as make that share. */
+static void thin(struct mixture *all)
+{
+    static const double share = 5e-4;
+    size_t large = 0, count;
+    while (large < all->count && all->part[large].weight >= share)
+        large++;
+    qsort(all->part + large, all->count - large, sizeof *all->part, by_mean);
+    double sum = 0.5 * share;
+    count = large;
+    for (size_t i = large; i < all->count; i++) {
+        sum += all->part[i].weight;
+        if (sum >= share) {
+            sum -= share;
+            all->part[count] = all->part[i];
+            all->part[count++].weight = share;
+        }
+    }
+    all->count = count;
 }
 
 /* From logarithms to weights of sum 1; the least, together 0.2 %, are left out. */
@@ -296,6 +264,8 @@ struct sums {
     double q, xq, yq, qq, unit;              /* q: the curve; unit: it at the first row */
     double v, xv, xxv; /* v: the variance by rounding, with the square of the weight */
     double start, order;
+    bool behind;             /* the curve is of the fine rows */
+    double noise_x, noise_y; /* means of the rows that are left out as noise; NaN: there are none */
     size_t rows;
 };
 
@@ -320,34 +290,99 @@ static double of_known(double freedom)
     return freedom < 2 ? 0.154 : 1 - 1.1 / freedom;
 }
 
+/* Whether the law may have this order. Two powers: the order is of the fine rows or, where these
+ * are few, and neither stay nor grow, of the coarse ones. */
+static bool is_of_law(const struct mixture *all, const struct part *p, bool behind)
+{
+    enum { MOST_COARSE = 2 };
+    const double other = p->mean + p->curve, stays = br_priors.least_order;
+    const bool grows = p->mean < -stays;
+    if (p->mean < stays && p->first >= MOST_COARSE) /* errors fell before, and stay: a floor */
+        return false;
+    switch (p->law) {
+    case BR_LAW_POWER:
+        return true;
+    case BR_LAW_CANCEL: /* values may grow as log n: differences of the order zero */
+    case BR_LAW_LOCKING:
+    case BR_LAW_SQUARES:
+    case BR_LAW_LOGARITHM:
+        return p->mean > stays || isfinite(all->far);
+    case BR_LAW_KINK:
+        return (p->mean > stays || (grows && !behind)) && other > (behind ? -stays : stays);
+    case BR_LAW_NEXT:
+    case BR_LAW_LOWER:
+        return p->mean > stays || grows || isfinite(all->far);
+    default:
+        return p->mean > stays;
+    }
+}
+
+/* Of two differences alone: orders above 4 are rare, and few sequences diverge. */
+static double log_prior_of_order(double order)
+{
+    return order > 0 ? -log1p(pow(order / 4, 6)) : log(0.15);
+}
+
+/* Sets what is left at the finest value: the error C z^p of a law of differences C (z^p - r^p z^p).
+ * variance: of the logarithms; known: whether rounding has a part in it; xx, slope: as below. */
+static void find_left(double far, const struct sums *s, double variance, double xx, double slope,
+                      struct part *p)
+{
+    static const double least = 0.1; /* orders below it do not converge */
+    const double order = fmax(p->mean + (s->behind ? p->curve : 0), least), middle = s->x / s->w;
+    const bool power = p->law != BR_LAW_EXPONENTIAL;
+    const double a = 1 / s->w, b = (far - middle - (power ? 1 / order : 0)) / xx;
+    const double known = a * a * s->v + 2 * a * b * (s->xv - middle * s->v) +
+                         b * b * (s->xxv - 2 * middle * s->xv + middle * middle * s->v);
+    p->left = s->start + s->order * far + s->y / s->w + slope * (far - middle) +
+              p->curve * (p->curve_there - s->q / s->w) - (power ? log(order) : 0) + p->there;
+    p->left_scale = br_priors.shared * sqrt(variance * (a + b * b * xx) + fmax(0, known));
+}
+
 /* Adds the distribution of the order of these sums. p: its law and window, and the logarithm of
  * their prior; least: the smallest standard deviation of a logarithm. */
 static void add_window(struct mixture *all, const struct sums *s, struct part p, double least)
 {
+    enum { FEW = 4 }; /* of two differences: as if five had shown their scatter */
     double xx = s->xx - s->x * s->x / s->w, xy = s->xy - s->x * s->y / s->w;
     double yy = s->yy - s->y * s->y / s->w, qq = 1;
     const bool curved = s->unit > 0;
+    double xq = 0, yq = 0;
     if (curved) { /* what is left of x and y beside the curve */
-        const double xq = s->xq - s->x * s->q / s->w, yq = s->yq - s->y * s->q / s->w;
+        xq = s->xq - s->x * s->q / s->w;
+        yq = s->yq - s->y * s->q / s->w;
         qq = s->qq - s->q * s->q / s->w;
         xx -= xq * xq / qq, xy -= xq * yq / qq, yy -= yq * yq / qq;
-        qq /= s->unit * s->unit;
     }
     const double left = fmax(0, yy - xy * xy / xx);
     const double freedom = (double)s->rows - 2 - curved;
-    if (!(freedom >= 1 && xx > 0 && qq > 0))
+    if (!(freedom >= (all->few ? 0 : 1) && xx > 0 && qq > 0))
         return;
-    const double seen = all->only_best ? cell_scatter : least_scatter;
+    const double seen = all->only_best                   ? cell_scatter
+                        : curved && p.law != BR_LAW_KINK ? br_priors.least_curved
+                                                         : br_priors.least_scatter;
     const double middle = s->x / s->w;
     const double rounded = fmax(0, s->xxv - 2 * middle * s->xv + middle * middle * s->v);
     const double squares = left + (seen * seen + s->v / s->w) * freedom;
+    const double scatter = all->few ? 0 : left / freedom;
+    const double variance = scatter + least * least * all->finest;
     p.mean = s->order + xy / xx;
-    p.freedom = freedom;
-    p.scale =
-        hypot(sqrt((left / freedom + least * least) / xx), of_known(freedom) * sqrt(rounded) / xx);
-    p.weight += s->log_density + gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
-                0.5 * log(s->w * xx * qq) - log1p(sqrt(squares / freedom) / usual_scatter);
-    if (isfinite(p.weight) && (p.law == BR_LAW_POWER || p.mean > least_order))
+    p.curve = curved ? (yq - xy / xx * xq) / qq : 0;
+    qq /= curved ? s->unit * s->unit : 1;
+    p.freedom = all->few ? FEW : freedom;
+    p.scale = hypot(sqrt(variance / xx), of_known(p.freedom) * sqrt(rounded) / xx);
+    p.weight += all->prior + s->log_density - 0.5 * log(s->w * xx * qq);
+    p.weight += all->few ? log_prior_of_order(p.mean)
+                         : gsl_sf_lngamma(freedom / 2) - freedom / 2 * log(M_PI * squares) -
+                               log1p(sqrt(squares / freedom) / br_priors.usual_scatter);
+    if (isfinite(all->far)) {
+        find_left(all->far, s, variance, xx, xy / xx, &p);
+        p.own = br_priors.shared * sqrt((scatter + least * least * all->finest) / all->finest);
+    }
+    if (p.mean < 0 && p.law != BR_LAW_POWER)
+        p.weight += log(br_priors.grows);
+    const double above = s->noise_y - (s->y / s->w + xy / xx * (s->noise_x - middle));
+    if (isfinite(p.weight) && is_of_law(all, &p, s->behind) && !(above < br_priors.noise_above))
         add_part(all, &p);
 }
 
@@ -359,11 +394,29 @@ static void add_without_one(struct mixture *all, const struct rows *r, const str
     const size_t inside = p.last - p.first - 1;
     if (s->rows < LEAST || r->count > MOST || (p.law != BR_LAW_POWER && p.law != BR_LAW_NEXT))
         return;
-    p.weight += log(unexplained * leaves_inside / (double)inside);
+    p.weight += log(br_priors.unexplained * br_priors.leaves_inside / (double)inside);
     for (p.outlier = p.first + 1; p.outlier < p.last; p.outlier++) {
         struct sums without = *s;
         add_row(&without, r, p.outlier, -1);
         add_window(all, &without, p, least);
+    }
+}
+
+/* The logarithm of the density of so many rows at the coarse end that do not count. */
+static double coarse(size_t rows)
+{
+    return (double)rows * log(br_priors.unexplained * br_priors.leaves_coarse);
+}
+
+/* The means of two rows or more behind each one. */
+static void find_means(const struct rows *r)
+{
+    double x = 0, y = 0, rows = 0;
+    for (size_t i = r->count; i-- > 0; rows++) {
+        r->behind_x[i] = rows > 1 ? x / rows : (double)NAN;
+        r->behind_y[i] = rows > 1 ? y / rows : (double)NAN;
+        x += r->x[i];
+        y += r->bent[i];
     }
 }
 
@@ -372,19 +425,55 @@ static void add_windows(struct mixture *all, const struct rows *r, struct part p
 {
     const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
     const double prior = p.weight;
-    for (p.first = 0; p.first + 3 <= n; p.first += stride) {
+    find_means(r);
+    const size_t least = all->few ? 2 : 3;
+    for (p.first = 0; p.first + least <= n; p.first += stride) {
         struct sums s = {.start = r->y[n - 1], .order = r->order, .unit = r->curve[p.first]};
         for (p.last = p.first; p.last < n && isfinite(r->bent[p.last]); p.last++) {
             const size_t lost = n - 1 - p.last;
             add_row(&s, r, p.last, 1);
-            if (s.rows < 3 || (lost > 4 && lost % stride))
+            if (s.rows < least || (lost > 4 && lost % stride))
                 continue;
-            p.weight = prior + (double)p.first * log(unexplained * leaves_coarse) +
-                       (double)lost * log(unexplained * leaves_fine);
+            p.weight = prior + coarse(p.first) + r->noise[p.last];
             p.outlier = n;
+            s.noise_x = r->behind_x[p.last];
+            s.noise_y = r->behind_y[p.last] - s.start - s.order * s.noise_x;
             add_window(all, &s, p, r->least[p.first]);
             add_without_one(all, r, &s, p, r->least[p.first]);
         }
+    }
+}
+
+/* ---- noise at the fine end ---- */
+
+/* The density of rows from `from` on as noise about a level z^-growth, with this scatter. */
+static double density_of_noise(const struct rows *r, size_t from, double growth, double scatter)
+{
+    double mean = 0, squares = 0;
+    const double n = (double)(r->count - from);
+    for (size_t i = from; i < r->count; i++)
+        mean += (r->y[i] + growth * r->x[i]) / n;
+    for (size_t i = from; i < r->count; i++)
+        squares += pow((r->y[i] + growth * r->x[i] - mean) / scatter, 2);
+    return exp(-squares / 2) * pow(scatter * sqrt(2 * M_PI), 1 - n) / sqrt(n);
+}
+
+/* Rows at the fine end are left out as noise of a known kind alone: a floor stays, round-off
+ * scatters about a level, or a growing one. What falls on is no noise. One row may be anything. */
+static void take_noise(const struct rows *r)
+{
+    static const double growth[] = {0, 0.5, 1, 2}, scatter[] = {0.03, 0.1, 0.3, 0.6, 1, 2};
+    enum { GROWTHS = sizeof growth / sizeof *growth, SCATTERS = sizeof scatter / sizeof *scatter };
+    for (size_t last = 0; last < r->count; last++) {
+        double sum = 0;
+        for (size_t i = 0; i < GROWTHS * SCATTERS && last + 1 < r->count; i++)
+            sum += density_of_noise(r, last + 1, growth[i / SCATTERS], scatter[i % SCATTERS]) /
+                   (GROWTHS * SCATTERS);
+        r->noise[last] =
+            last + 1 == r->count
+                ? 0
+                : log(br_priors.unexplained * (last + 2 == r->count ? br_priors.leaves_finest * sum
+                                                                    : br_priors.leaves_fine * sum));
     }
 }
 
@@ -399,80 +488,112 @@ static double next_of_difference(const struct rows *r, size_t i, double s)
     return expm1((p + s) * log_ratio) / expm1(p * log_ratio);
 }
 
-/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. A
- * difference of two terms scatters more, relative to itself, than each of them. */
-static double bend(const struct rows *r, size_t i, const struct family *f, double parameter)
+/* Sets the correction of row i by a law with this parameter; returns how large it is, 0 to 1. */
+static double bend(const struct rows *r, size_t i, const struct br_family *f, double parameter)
 {
-    const double finest = r->y[r->count - 1] - r->y[i]; /* log of the finest error over this one */
-    double t = parameter * pow(r->z[i], f->s) * next_of_difference(r, i, f->s);
-    double correction = 0, weight = 1, change = 0;
-    bool density = false; /* whether the density of y has the weight in it */
-    switch (f->law) {
-    case BR_LAW_NEXT:
-    case BR_LAW_LOWER:
-        correction = log1p(t);
-        change = t / (1 + t);
-        break;
-    case BR_LAW_LOCKING:
-        correction = -log1p(t);
-        change = t / (1 + t);
-        break;
-    case BR_LAW_CANCEL:
-        correction = log(fabs(1 - t));
-        weight = fmin(1, (1 - t) * (1 - t) / (1 + t * t)) + 1e-12;
-        change = fmin(1, t);
-        density = true;
-        break;
-    case BR_LAW_SQUARES:
-        correction = 0.5 * log1p(t * t);
-        change = t * t / (1 + t * t);
-        break;
-    case BR_LAW_LOGARITHM:
-        t = parameter - log(r->z[i]);
-        correction = t > 0.1 ? f->s * log(t) : NAN;
-        change = 0.05;
-        break;
-    case BR_LAW_FLOOR:
-    case BR_LAW_OFFSET: /* log(e - F) = log e + log(1 - F/e) */
-        t = (f->law == BR_LAW_OFFSET ? -parameter : parameter) * exp(finest);
-        correction = t < 1 ? -log1p(-t) : NAN;
-        weight = (1 - t) * (1 - t);
-        change = fabs(t) / (1 + fabs(t));
-        break;
-    case BR_LAW_FLOOR_SQUARES:
-        t = parameter * exp(finest);
-        correction = t < 1 ? -0.5 * log1p(-t * t) : NAN;
-        weight = (1 - t * t) * (1 - t * t);
-        change = t * t;
-        break;
-    default:
-        break;
-    }
-    r->bent[i] = r->y[i] - correction;
-    r->curve[i] = f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) : 0;
-    r->weight[i] = weight * r->given[i];
-    r->log_density[i] = (density ? 0.5 * log(weight) : 0) + 0.5 * log(r->given[i]);
-    return change;
+    const struct br_law_place at = {.z = r->z[i],
+                                    .next = next_of_difference(r, i, f->s),
+                                    .finest = r->y[r->count - 1] - r->y[i]};
+    const struct br_law_bend b = br_law_bend(f, parameter, &at);
+    r->bent[i] = r->y[i] - b.correction;
+    r->curve[i] =
+        f->curve > 0 ? pow(r->z[i] / r->z[0], f->curve) * next_of_difference(r, i, f->curve) : 0;
+    r->weight[i] = b.weight * r->given[i];
+    r->log_density[i] = (b.density ? 0.5 * log(b.weight) : 0) + 0.5 * log(r->given[i]);
+    return b.change;
 }
 
 /* Adds a law with one parameter. share: of its correction that is not known. */
-static void add_law(struct mixture *all, const struct rows *r, const struct family *f,
+static void add_law(struct mixture *all, const struct rows *r, const struct br_family *f,
                     double parameter, double share, double log_prior)
 {
     double change = 0;
     for (size_t i = r->count; i-- > 0;) {
         change = fmax(change, bend(r, i, f, parameter));
-        r->least[i] = 1e-6 + share * change * (1 + next_term / truncation * change);
+        r->least[i] = br_priors.sure +
+                      share * change * (1 + br_priors.next_term / br_priors.truncation * change);
     }
-    const bool crosses = f->law == BR_LAW_CANCEL && parameter * pow(r->z[0], f->s) > 0.8;
-    const bool small = f->law == BR_LAW_CANCEL && !crosses;
-    if (crosses)
-        log_prior += log(passes_zero);
+    const double crosses = br_law_log_prior(f, parameter, r->z[0]);
+    const struct br_law_place finest = {exp(all->far), 1, 0};
+    const double there = isfinite(all->far) ? br_law_bend(f, parameter, &finest).correction : 0;
+    const bool small = f->law == BR_LAW_CANCEL && crosses == 0;
     const bool has_floor = f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES;
     add_windows(all, r,
-                (struct part){.law = small ? BR_LAW_NEXT : f->law,
-                              .weight = log_prior,
+                (struct part){.there = isfinite(there) ? there : 0,
+                              .curve_there = f->curve > 0 ? pow(finest.z / r->z[0], f->curve) : 0,
+                              .law = small ? BR_LAW_NEXT : f->law,
+                              .weight = log_prior + crosses,
                               .floor = has_floor ? parameter * exp(r->y[r->count - 1]) : 0});
+}
+
+/* The rows of an exact power, with a second correction of those before `middle`, or behind it. */
+static void bend_at(const struct rows *r, size_t middle, bool behind)
+{
+    for (size_t i = 0; i < r->count; i++) {
+        const double from = r->x[i] - r->x[middle];
+        r->bent[i] = r->y[i];
+        r->weight[i] = r->given[i];
+        r->log_density[i] = 0.5 * log(r->given[i]);
+        r->curve[i] = behind ? fmin(0, from) : fmax(0, from);
+    }
+}
+
+/* One power, and from a row on another one. The order is that of the fine rows or, where they are
+ * not more than the coarse ones, of these. */
+static void add_kink(struct mixture *all, const struct rows *r, size_t middle, bool behind)
+{
+    enum { SIDE = 2 };
+    const size_t n = r->count, stride = n > 16 ? n / 12 : 1;
+    const double share = behind ? br_priors.kink_coarse : 1 - br_priors.kink_coarse;
+    bend_at(r, middle, behind);
+    for (size_t first = 0; first + SIDE <= middle; first += stride) {
+        struct sums s = {.start = r->y[n - 1],
+                         .order = r->order,
+                         .unit = 1,
+                         .behind = behind,
+                         .noise_x = NAN,
+                         .noise_y = NAN};
+        if (middle + SIDE >= n || (behind && middle - first < n - 1 - middle))
+            return;
+        for (size_t i = first; i < n; i++)
+            add_row(&s, r, i, 1);
+        add_window(all, &s,
+                   (struct part){.law = BR_LAW_KINK,
+                                 .first = first,
+                                 .last = behind ? middle : n - 1,
+                                 .outlier = n,
+                                 .curve_there = behind ? all->far - r->x[middle] : 0,
+                                 .weight = log(br_priors.kink * share / (double)n) + coarse(first)},
+                   br_priors.sure);
+    }
+}
+
+/* log e = log C - b n^g with n = 1/z: a line over another x, whose slope is the order at the middle
+ * row. */
+static void add_exponentials(struct mixture *all, const struct rows *r)
+{
+    static const double powers[] = {1, 0.5, 1. / 3};
+    const size_t n = r->count, middle = n / 2, least = isfinite(all->far) ? 5 : 4;
+    for (size_t k = 0; k < sizeof powers / sizeof *powers && n >= least; k++) {
+        struct rows e = *r;
+        e.x = r->other;
+        for (size_t i = 0; i < n; i++) {
+            e.x[i] = -pow(r->z[middle] / r->z[i], powers[k]) / powers[k];
+            e.bent[i] = r->y[i];
+            e.weight[i] = r->given[i];
+            e.log_density[i] = 0.5 * log(r->given[i]);
+            e.least[i] = br_priors.sure;
+            e.curve[i] = 0;
+        }
+        e.order = (e.y[0] - e.y[n - 1]) / (e.x[0] - e.x[n - 1]);
+        const double far = all->far;
+        all->far = -pow(r->z[middle] / exp(far), powers[k]) / powers[k];
+        add_windows(all, &e,
+                    (struct part){.law = BR_LAW_EXPONENTIAL,
+                                  .weight = log(br_priors.exponential),
+                                  .power = powers[k]});
+        all->far = far;
+    }
 }
 
 /* Parameters are first tried in coarse cells, then within the cells that may matter. */
@@ -480,52 +601,157 @@ enum { MOST_CELLS = 80, WITHIN = 6 };
 static const double cell = 0.16;  /* of the logarithm of the parameter */
 static const double matters = 10; /* logarithm of the weight below the best one's */
 
-static size_t cells_of(const struct family *f)
+static size_t cells_of(const struct br_family *f)
 {
     return (size_t)ceil(log(f->high / f->low) / cell);
 }
 
 /* Adds a family at this fraction of the way from its lowest parameter to the highest. */
-static void add_member(struct mixture *all, const struct rows *r, const struct family *f, double at,
-                       double members, double share)
+static void add_member(struct mixture *all, const struct rows *r, const struct br_family *f,
+                       double at, double members, double share)
 {
-    add_law(all, r, f, f->low * pow(f->high / f->low, (at + 0.5) / members), share,
-            log(f->prior / members));
+    const bool stays =
+        f->law == BR_LAW_FLOOR || f->law == BR_LAW_FLOOR_SQUARES || f->law == BR_LAW_OFFSET;
+    const double parameter = f->low * pow(f->high / f->low, (at + 0.5) / members);
+    if (all->few && (stays || parameter < br_priors.few_next)) /* two differences show none */
+        return;
+    add_law(all, r, f, parameter, share,
+            log(f->prior / members * (stays && isfinite(all->far) ? br_priors.values_stay : 1)));
 }
 
-static void add_laws(struct mixture *all, const struct rows *r)
+static void add_laws(struct mixture *all, const struct rows *r, double log_prior)
 {
-    static const struct family power = {.law = BR_LAW_POWER};
-    struct mixture rough = {.best = -INFINITY, .only_best = true};
-    double best[FAMILIES][MOST_CELLS];
-    add_law(all, r, &power, 0, 0, log(prior_of_power));
-    add_law(&rough, r, &power, 0, 0, log(prior_of_power));
+    static const struct br_family power = {.law = BR_LAW_POWER};
+    struct mixture rough = {.best = -INFINITY,
+                            .only_best = true,
+                            .far = all->far,
+                            .few = all->few,
+                            .finest = all->finest};
+    double best[BR_FAMILIES][MOST_CELLS];
+    all->prior = log_prior;
+    add_law(all, r, &power, 0, 0, log(br_priors.power * (all->few ? br_priors.few_power : 1)));
+    add_law(&rough, r, &power, 0, 0, log(br_priors.power));
     double top = rough.best;
-    for (size_t f = 0; f < FAMILIES; f++)
-        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++) {
+    for (size_t f = 0; f < BR_FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++) {
             rough.best = -INFINITY;
-            add_member(&rough, r, &families[f], (double)i, (double)n, truncation);
+            add_member(&rough, r, &br_families[f], (double)i, (double)n, br_priors.truncation);
             best[f][i] = rough.best;
             top = fmax(top, rough.best);
         }
-    for (size_t f = 0; f < FAMILIES; f++)
-        for (size_t i = 0, n = cells_of(&families[f]); i < n; i++)
+    for (size_t i = 0, stride = r->count > 16 ? r->count / 12 : 1; i < r->count; i += stride) {
+        add_kink(all, r, i, false);
+        add_kink(all, r, i, true);
+    }
+    add_exponentials(all, r);
+    for (size_t f = 0; f < BR_FAMILIES; f++)
+        for (size_t i = 0, n = cells_of(&br_families[f]); i < n; i++)
             for (size_t j = 0; j < WITHIN && best[f][i] > top - matters; j++)
-                add_member(all, r, &families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
-                           truncation);
+                add_member(all, r, &br_families[f], (double)(i * WITHIN + j), (double)(n * WITHIN),
+                           br_priors.truncation);
 }
 
 /* ---- the order ---- */
 
-static void describe(const struct mixture *all, const struct rows *r, struct br_line_order *found)
+/* The interval of 95 % of all parts, with the median. */
+static struct br_estimate estimate(const struct mixture *all)
 {
-    const struct part *likely = &all->part[0];
-    found->order =
-        (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
-    found->low99 = quantile(all, 0.005);
-    found->high99 = quantile(all, 0.995);
+    return (struct br_estimate){quantile(all, 0.5), quantile(all, 0.025), quantile(all, 0.975)};
+}
+
+/* Keeps the parts of this g of the exponential law, 0: of all others; their weights are then 1. */
+static void keep(struct mixture *all, double g)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < all->count; i++)
+        if (all->part[i].power == g) {
+            sum += all->part[i].weight;
+            all->part[count++] = all->part[i];
+        }
+    all->count = count;
+    for (size_t i = 0; i < count; i++)
+        all->part[i].weight /= sum;
+}
+
+/* b of exp(-b n^g), g of the most probable part. */
+static void find_rate(struct mixture *all, const struct rows *r, double finest,
+                      struct br_line_order *found)
+{
+    const double g = found->power = all->part[0].power;
+    const double unit = g * pow(r->z[r->count / 2] * finest, -g);
+    const struct br_estimate slope = estimate(all);
+    found->rate = (struct br_estimate){slope.value / unit, slope.low / unit, slope.high / unit};
+}
+
+/* The distribution of what is left at the finest value, in the unit of the values: of a part with a
+ * wide logarithm several nodes of equal probability. Parts that do not converge have none. */
+static enum br_status take_left(const struct mixture *all, const struct rows *r,
+                                struct mixture *left, struct br_error *err)
+{
+    enum { NODES = 8 };
+    static const double node[NODES] = {-1.9, -1.0, -0.53, -0.17, 0.17, 0.53, 1.0, 1.9};
+    static const double wide = 0.1, most = 7, between = 0.4;
+    const size_t n = r->count;
+    *left = (struct mixture){.part = br_allocate(NODES * all->count + 1, sizeof *left->part)};
+    if (!left->part)
+        return br_no_memory(err, "the limit");
+    for (size_t i = 0; i < all->count; i++) {
+        const struct part *p = &all->part[i];
+        const double ratio = exp(all->far * p->mean); /* of the error to that before it */
+        const size_t nodes = p->left_scale < wide ? 1 : NODES;
+        double lost = 0;
+        if (p->power == 0 && !(p->mean > 0.1))
+            continue;
+        for (size_t j = p->last + 1; j < n; j++)
+            lost = fmax(lost, exp(r->error[j]));
+        for (size_t j = 0; j < nodes; j++) {
+            const double by = nodes > 1 ? fmin(most, node[j] * p->left_scale) : 0;
+            const double e = exp(p->left + by);
+            const double own = p->own * e * (1 - ratio) / ratio;
+            struct part *q = &left->part[left->count++];
+            *q = *p;
+            q->mean = e;
+            q->scale = hypot(hypot(e * p->left_scale * (nodes > 1 ? between : 1), own), lost);
+            q->weight = p->weight / (double)nodes;
+        }
+    }
+    keep(left, all->count ? all->part[0].power : 0);
+    return BR_OK;
+}
+
+/* Values whose differences fall by a smaller order may grow as log log n. */
+static const double least_convergence = 0.3, surely_falls = 0.1;
+
+static void describe(struct mixture *all, const struct rows *r, double finest,
+                     struct br_line_order *found)
+{
     for (size_t i = 0; i < all->count; i++)
         found->law[all->part[i].law] += all->part[i].weight;
+    thin(all);
+    const bool exponential = found->law[BR_LAW_EXPONENTIAL] > 0.5;
+    size_t first = 0;
+    while (exponential && all->part[first].power == 0)
+        first++;
+    keep(all, exponential ? all->part[first].power : 0);
+    const struct part *likely = &all->part[0];
+    if (exponential)
+        find_rate(all, r, finest, found);
+    else if (!all->few) {
+        found->order = estimate(all);
+        found->low99 = quantile(all, 0.005);
+        found->high99 = quantile(all, 0.995);
+    }
+    found->converges =
+        exponential ? 1 : 1 - probability_below(all, all->few ? 0.2 : surely_falls);
+    found->diverges = exponential ? 0 : probability_below(all, 0);
+    for (size_t i = 0; i < all->count; i++) { /* differences that stay make a logarithm */
+        const enum br_law law = all->part[i].law;
+        if (isfinite(all->far) && (law == BR_LAW_FLOOR || law == BR_LAW_FLOOR_SQUARES))
+            found->converges -= all->part[i].weight;
+    }
+    if (found->order.value < least_convergence)
+        found->converges = 0;
     found->first = r->index[likely->first];
     found->last = r->index[likely->last];
     if (likely->outlier < r->count)
@@ -536,8 +762,11 @@ static void describe(const struct mixture *all, const struct rows *r, struct br_
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
                                   struct br_line_order *found, struct br_error *err)
 {
-    enum { ARRAYS = 11 };
+    enum { ARRAYS = 16 };
     *found = (struct br_line_order){.order = {NAN, NAN, NAN},
+                                    .rate = {NAN, NAN, NAN},
+                                    .power = NAN,
+                                    .left = {NAN, NAN, NAN},
                                     .low99 = NAN,
                                     .high99 = NAN,
                                     .last = count ? count - 1 : 0,
@@ -548,24 +777,51 @@ enum br_status br_line_order_find(const struct br_order_point *point, size_t cou
     enum br_status status = room && index ? BR_OK : br_no_memory(err, "the order");
     if (!status) {
         struct rows r = {.index = index, .z = room};
-        double **const array[] = {&r.x,           &r.y,     &r.ratio, &r.bent,  &r.weight,
-                                  &r.log_density, &r.least, &r.given, &r.curve, &r.rounded};
+        double **const array[] = {&r.x,           &r.y,     &r.ratio,    &r.bent,     &r.weight,
+                                  &r.log_density, &r.least, &r.given,    &r.curve,    &r.rounded,
+                                  &r.noise,       &r.other, &r.behind_x, &r.behind_y, &r.error};
         for (size_t i = 0; i + 1 < ARRAYS; i++)
             *array[i] = room + (i + 1) * count;
         take_rows(&r, point, count);
-        if (r.count >= 3 && isfinite(r.order))
-            add_laws(&all, &r);
+        const struct br_order_point *finest = r.count ? &point[index[r.count - 1]] : NULL;
+        all.far =
+            finest && finest->z_against > 0 ? log(finest->z_against / finest->z) : (double)NAN;
+        all.few = r.count == 2 && isfinite(all.far);
+        if ((r.count >= 3 || all.few) && isfinite(r.order)) {
+            take_noise(&r);
+            const double absolute = isfinite(all.far) && !all.few ? br_priors.absolute : 0;
+            all.finest = 1;
+            add_laws(&all, &r, log(1 - absolute));
+            for (size_t i = 0; i < r.count; i++)
+                r.given[i] *= exp(2 * (r.error[i] - r.error[0]));
+            all.finest = r.given[r.count - 1];
+            if (absolute > 0)
+                add_laws(&all, &r, log(absolute));
+        }
         if (all.count)
             normalise(&all);
         if (all.starved)
             status = br_no_memory(err, "the order");
         else if (all.count)
-            describe(&all, &r, found);
+            describe(&all, &r, finest->z, found);
+        struct mixture left = {.part = NULL};
+        if (!status && all.count && isfinite(all.far))
+            status = take_left(&all, &r, &left, err);
+        if (!status && left.count)
+            found->left = estimate(&left);
+        free(left.part);
     }
     free(all.part);
     free(index);
     free(room);
     return status;
+}
+
+struct br_estimate br_exponential_factor(const struct br_line_order *found)
+{
+    const struct br_estimate *b = &found->rate;
+    return found->power == 1 ? (struct br_estimate){exp(b->value), exp(b->low), exp(b->high)}
+                             : (struct br_estimate){NAN, NAN, NAN};
 }
 
 /* ---- which rows count ---- */

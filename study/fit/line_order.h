@@ -11,28 +11,7 @@
 #define BR_STUDY_FIT_LINE_ORDER_H
 
 #include "study/fit/fit.h"
-
-/* X(name, text): e(z) of each law. Each a > 0, s > 0. */
-#define BR_LAW_LIST(X)                                                           \
-    X(BR_LAW_POWER, "one power")                 /* C z^p */                     \
-    X(BR_LAW_NEXT, "a next term")                /* C z^p (1 +- a z^s), a small */ \
-    X(BR_LAW_LOWER, "a lower power comes up")    /* the same, a z^s not small */ \
-    X(BR_LAW_CANCEL, "terms that cancel")  /* C z^p |1 - a z^s|, zero inside */ \
-    X(BR_LAW_LOCKING, "a slow start")    /* C z^p / (1 + a z^s) */               \
-    X(BR_LAW_SQUARES, "two powers in one norm")  /* C z^p sqrt(1 + (a z^s)^2) */ \
-    X(BR_LAW_LOGARITHM, "a logarithm")           /* C z^p (a - log z)^s */       \
-    X(BR_LAW_FLOOR, "a floor")                   /* C z^p + F */                 \
-    X(BR_LAW_FLOOR_SQUARES, "a floor in one norm") /* sqrt((C z^p)^2 + F^2) */   \
-    X(BR_LAW_OFFSET, "an offset")                /* C z^p - F: of the reference */
-
-enum br_law {
-#define X(name, text) name,
-    BR_LAW_LIST(X)
-#undef X
-    BR_LAWS
-};
-
-const char *br_law_text(enum br_law law);
+#include "study/fit/laws.h"
 
 /* One error of a line that is refined in one quantity z (h/L or k/T). An error against a finer
  * solution is C (z^p - z_against^p). */
@@ -45,11 +24,16 @@ struct br_order_point {
 
 struct br_line_order {
     struct br_estimate order; /* the median and the 95 % interval; NaN: not known */
-    double low99, high99;     /* the 99 % interval: what is outside is excluded */
-    double law[BR_LAWS];      /* the probability of each law; all together 1, or 0 */
-    size_t first, last;       /* the most probable window of rows: those outside do not count, */
-    size_t outlier;           /* nor does this row inside it; the number of rows: there is none */
-    double floor;             /* F of the most probable law, in the unit of the errors; else 0 */
+    struct br_estimate rate; /* of exponential convergence, which has no order: b of exp(-b n^g), */
+    double power;            /* and g, with n = 1/z; NaN: it is none */
+    double low99, high99;    /* the 99 % interval: what is outside is excluded */
+    double law[BR_LAWS];     /* the probability of each law; all together 1, or 0 */
+    struct br_estimate left; /* of differences of values: the error of the finest value, if they
+                                converge as they did; of two alone, too */
+    double converges, diverges; /* the probability of an order above 0.1, and of one below 0 */
+    size_t first, last;         /* the most probable window of rows: those outside do not count, */
+    size_t outlier;             /* nor does this row inside it; the number of rows: there is none */
+    double floor;               /* F of the most probable law, in the unit of the errors; else 0 */
 };
 
 /* The order of point[count], from coarse to fine; rows whose error is not above 0, or not finite,
@@ -58,7 +42,10 @@ struct br_line_order {
  * line better than the digits of its errors do, and the interval holds what they leave open. Fails
  * with BR_NO_MEMORY. */
 enum br_status br_line_order_find(const struct br_order_point *point, size_t count,
-                                struct br_line_order *found, struct br_error *err);
+                                  struct br_line_order *found, struct br_error *err);
+
+/* What one more of n = 1/z divides the errors by: exp(b); NaN: they do not fall as exp(-b n). */
+struct br_estimate br_exponential_factor(const struct br_line_order *found);
 
 /* Why the order of a line does not rest on point[i]; BR_FLAG_NONE: it does. */
 enum br_flag br_line_order_flag(const struct br_line_order *found,
@@ -68,10 +55,10 @@ enum br_flag br_line_order_flag(const struct br_line_order *found,
  * order from -60 to 60 makes such differences. */
 double br_order_rate(const struct br_order_point *coarse, const struct br_order_point *fine);
 
-/* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean of
- * their logarithms, at point[i]; and its band, by the lines of the order's low and high end, which
- * holds the line itself. Errors that are not above 0, or not finite, are left aside; NaN: there are
- * no others, or no order, or no interval of it. */
+/* The line C (z^p - z_against^p) of an order p through the middle of the errors, that is, the mean
+ * of their logarithms, at point[i]; and its band, by the lines of the order's low and high end,
+ * which holds the line itself. Errors that are not above 0, or not finite, are left aside; NaN:
+ * there are no others, or no order, or no interval of it. */
 struct br_estimate br_line_fit(const struct br_order_point *point, size_t count, size_t i,
                                const struct br_estimate *order);
 

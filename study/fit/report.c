@@ -25,7 +25,7 @@ static const double near = 0.1, clear = 0.02; /* of an order */
 struct line {
     const struct br_study *study;
     int axis;
-    size_t at;                         /* index of the other axis */
+    size_t at;                                 /* index of the other axis */
     struct br_order_point point[BR_MOST_SEEN]; /* the finest not flagged; z in m or s */
     size_t count, left_out;
     enum br_flag flag; /* of the first that is left out */
@@ -297,6 +297,10 @@ static enum br_status see_apart(const struct br_study *s, enum br_part part, int
     return judge_line(o, &l, part, err);
 }
 
+/* Differences do not depend on the other axis: where they show the order so well, no fit shows
+ * more. */
+static const double narrow = 0.02;
+
 static enum br_status see_in_h(const struct br_report *r, enum br_part part,
                                struct br_seen_order *o, struct br_error *err)
 {
@@ -306,7 +310,7 @@ static enum br_status see_in_h(const struct br_report *r, enum br_part part,
     if (status)
         return status;
     if (determines(fit, BR_AXIS_SPACE, o->theory.formal) &&
-        !(width_of(&o->order) <= width_of(&fit->order[BR_AXIS_SPACE])))
+        !(width_of(&o->order) <= fmax(narrow, width_of(&fit->order[BR_AXIS_SPACE]))))
         claim_joint(o, fit, r->fitted, part, BR_AXIS_SPACE);
     else if (!apart)
         REMARK(o, "not measurable: %s", r->no_meshes ? r->no_meshes : "no meshes are compared");

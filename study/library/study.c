@@ -412,7 +412,7 @@ int beamrate_orders_answer(const struct beamrate_orders *orders, size_t quantity
     const struct br_orders_answer *found = &of->answer[axis];
     answer->quantity = q->name;
     answer->values = q->is_value;
-    answer->refined = line || br_joint_describes(&of->joint);
+    answer->refined = line || of->flag;
     answer->order = br_library_estimate(found->order);
     answer->open = found->open ? found->open : "";
     return 1;

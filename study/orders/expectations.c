@@ -101,18 +101,21 @@ enum br_status br_expectations_read(const char *text, size_t line,
 
 /* ---- verdicts ---- */
 
-/* Makes the case of an expectation on a line, with a copy of its points; on a grid its order is the
- * answer for the axis. */
-static enum br_status observe(const struct br_quantity_orders *of,
-                              const struct br_orders_line *line,
-                              const struct br_order_expectation *e, struct br_case *c,
-                              struct br_error *err)
+static void expect(struct br_case *c, const struct br_order_expectation *e)
 {
-    *c = line->observed;
     c->expected.order = e->order;
     c->expected.tolerance = e->tolerance;
     c->expected.line = e->line;
     c->down_to = e->down_to;
+}
+
+/* Makes the case of an expectation on a line, with a copy of its points. */
+static enum br_status observe(const struct br_orders_line *line,
+                              const struct br_order_expectation *e, struct br_case *c,
+                              struct br_error *err)
+{
+    *c = line->observed;
+    expect(c, e);
     c->point = br_allocate(c->points + 1, sizeof *c->point);
     if (!c->point)
         return br_no_memory(err, "the verdict");
@@ -120,15 +123,10 @@ static enum br_status observe(const struct br_quantity_orders *of,
     for (size_t i = 0; i < c->points; i++)
         if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = c->point[i].error <= e->down_to ? BR_FLAG_STALLED : BR_FLAG_NONE;
-    if (br_case_observe(c, BR_VERIFY_LEAST_POINTS, err))
-        return err->status;
-    const struct br_orders_answer *answer = &of->answer[line->axis];
-    if (answer->open || br_joint_describes(&of->joint))
-        br_case_take_order(c, answer->order, fabs(of->joint.c[line->axis].value));
-    c->open = answer->open;
-    return BR_OK;
+    return br_case_observe(c, BR_VERIFY_LEAST_POINTS, err);
 }
 
+/* The order of a grid of errors is the answer for the axis, as far as the joint fit has one. */
 static enum br_status judge(const struct br_orders *o, const struct br_order_expectation *e,
                             const char *path, struct br_case *c, struct br_error *err)
 {
@@ -137,21 +135,28 @@ static enum br_status judge(const struct br_orders *o, const struct br_order_exp
         if (strcmp(o->numbers->quantity[i].name, e->quantity) == 0)
             of = &o->of[i];
     const struct br_orders_line *line = of ? br_orders_finest(of, e->axis) : NULL;
+    const bool joint =
+        of && (br_joint_describes(&of->joint) || (!line && of->flag)); /* of a grid without lines */
     if (!of)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of '%s' is expected, and there is no such "
                        "column",
                        path, e->quantity);
-    if (!line)
+    if (!line && !joint)
         return br_fail(err, BR_BAD_INPUT,
                        "%s: an order of %s in %s is expected, and there are no three sizes of one "
                        "line",
                        path, e->quantity, br_axis_letters[e->axis]);
-    if (observe(of, line, e, c, err))
+    if (joint ? br_orders_joint_case(o, of, e->axis, c, err) : observe(line, e, c, err))
         return err->status;
+    const struct br_orders_answer *answer = &of->answer[e->axis];
+    expect(c, e);
+    if (!joint && answer->open)
+        br_case_take_order(c, answer->order, NAN);
+    c->open = answer->open;
     br_case_judge(c);
     if (isnan(c->order.value)) /* of too few errors for a verdict */
-        c->order = of->answer[line->axis].order;
+        c->order = answer->order;
     return BR_OK;
 }
 

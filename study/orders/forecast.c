@@ -94,11 +94,11 @@ enum br_status br_orders_growth(const struct br_orders *o, enum br_axis axis,
     for (size_t i = 0; i < rows; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (row->seconds >= least_seconds)
-            point[count++] = (struct br_order_point){.z = row->z[axis], .error = row->seconds};
+            point[count++] = (struct br_order_point){.z = row->z[axis], .error = 1 / row->seconds};
     }
     struct br_line_order found;
     const enum br_status status = br_line_order_find(point, count, &found, err);
-    *growth = (struct br_estimate){-found.order.value, -found.order.high, -found.order.low};
+    *growth = found.order;
     free(point);
     return status;
 }

@@ -45,12 +45,18 @@ static double deviation_of(const struct br_numbers_row *row, size_t quantity)
     return row->deviation ? row->deviation[quantity] : NAN;
 }
 
-static double rounding_of(const struct br_orders *o, size_t quantity,
+double br_orders_rounding(const struct br_orders *o, size_t quantity,
                           const struct br_numbers_row *row)
 {
     return row->repeat > 1 || isnan(row->number[quantity])
                ? 0
                : br_numbers_rounding(&o->numbers->quantity[quantity], row->number[quantity]);
+}
+
+bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row)
+{
+    const double number = row->number[of->quantity];
+    return !row->failure && number > 0 && isfinite(number);
 }
 
 /* An error, or the difference of a value from the next finer one that there is. */
@@ -62,7 +68,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     struct br_point p = {.z = row->z[line->axis],
                          .error = row->number[quantity],
                          .deviation = deviation_of(row, quantity),
-                         .rounding = rounding_of(o, quantity, row)};
+                         .rounding = br_orders_rounding(o, quantity, row)};
     const char *failure = failure_of(row, p.error);
     size_t named = line->row[i];
     if (numbers->quantity[quantity].is_value) {
@@ -78,7 +84,7 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
         p.z_against = finer->z[line->axis];
         p.error = fabs(finer->number[quantity] - p.error);
         p.deviation = hypot(p.deviation, deviation_of(finer, quantity));
-        p.rounding = hypot(p.rounding, rounding_of(o, quantity, finer));
+        p.rounding = hypot(p.rounding, br_orders_rounding(o, quantity, finer));
     }
     br_numbers_name(numbers, &numbers->row[named], line->axis, p.label);
     snprintf(p.failure, sizeof p.failure, "%.255s", failure);
@@ -90,63 +96,104 @@ static struct br_point point_of(const struct br_orders *o, size_t quantity,
     return p;
 }
 
-static enum br_status make_points(const struct br_orders *o, size_t quantity,
-                                  struct br_orders_line *line, size_t rows, struct br_error *err)
+static enum br_status begin_case(const struct br_orders *o, size_t quantity, enum br_axis axis,
+                                 size_t points, struct br_case *c, struct br_error *err)
 {
     const struct br_quantity *q = &o->numbers->quantity[quantity];
-    struct br_case *c = &line->observed;
     *c = (struct br_case){
-        .kind = line->axis == BR_AXIS_SPACE ? BR_VERIFY_SPACE : BR_VERIFY_TIME,
+        .kind = axis == BR_AXIS_SPACE ? BR_VERIFY_SPACE : BR_VERIFY_TIME,
         .expected = {.order = NAN, .tolerance = NAN, .floor = NAN, .ceiling = NAN},
         .measure = q->name,
         .part = "",
         .unit = q->unit ? q->unit : "",
-        .points = rows - q->is_value,
+        .points = points,
         .may_miss = true,
     };
-    c->point = br_allocate(c->points + 1, sizeof *c->point);
-    if (!c->point)
-        return br_no_memory(err, "the orders");
-    for (size_t i = 0; i < c->points; i++)
+    c->point = br_allocate(points + 1, sizeof *c->point);
+    return c->point ? BR_OK : br_no_memory(err, "the orders");
+}
+
+static enum br_status make_points(const struct br_orders *o, size_t quantity,
+                                  struct br_orders_line *line, size_t rows, struct br_error *err)
+{
+    struct br_case *c = &line->observed;
+    const size_t points = rows - o->numbers->quantity[quantity].is_value;
+    const enum br_status status = begin_case(o, quantity, line->axis, points, c, err);
+    for (size_t i = 0; i < points && !status; i++)
         c->point[i] = point_of(o, quantity, line, i);
+    return status;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const struct br_point *x = a, *y = b;
+    return (x->z < y->z) - (x->z > y->z);
+}
+
+enum br_status br_orders_joint_case(const struct br_orders *o, const struct br_quantity_orders *of,
+                                    enum br_axis axis, struct br_case *c, struct br_error *err)
+{
+    const struct br_numbers *n = o->numbers;
+    const struct br_orders_answer *answer = &of->answer[axis];
+    if (begin_case(o, of->quantity, axis, n->rows, c, err))
+        return err->status;
+    c->points = 0;
+    for (size_t i = 0; i < n->rows; i++) {
+        size_t at = 0;
+        double finest = INFINITY; /* other size of the point at this size */
+        if (!br_orders_counts(of, &n->row[i]) || of->flag[i] != BR_FLAG_NONE)
+            continue;
+        for (size_t j = 0; j < i; j++) /* that of a row before it, if there is one */
+            if (br_orders_counts(of, &n->row[j]) && of->flag[j] == BR_FLAG_NONE &&
+                z_of(n, j, axis) == z_of(n, i, axis))
+                finest = fmin(finest, z_of(n, j, other(axis)));
+        while (at < c->points && c->point[at].z != z_of(n, i, axis))
+            at++;
+        if (z_of(n, i, other(axis)) > finest)
+            continue;
+        struct br_point *p = &c->point[at];
+        c->points += at == c->points;
+        *p = (struct br_point){.z = z_of(n, i, axis),
+                               .error = n->row[i].number[of->quantity],
+                               .rounding = br_orders_rounding(o, of->quantity, &n->row[i])};
+        br_numbers_name(n, &n->row[i], axis, p->label);
+    }
+    qsort(c->point, c->points, sizeof *c->point, by_size);
+    br_case_take_order(c, answer->order, fabs(of->joint.c[axis].value));
+    c->of_grid = true;
+    c->low99 = of->joint.low99[axis];
+    c->high99 = of->joint.high99[axis];
     return BR_OK;
 }
 
-/* The half width of the 95 % interval of a mean; NaN: it is none. */
+/* The half width of the 95 % interval of a mean; 0: it is none. */
 static double half_width(const struct br_numbers_row *row, size_t quantity)
 {
     return row->repeat > 1
                ? gsl_cdf_tdist_Pinv(0.975, (double)row->repeat - 1) * deviation_of(row, quantity)
-               : (double)NAN;
+               : 0;
 }
 
 /* The limits of the values of a line. */
 static enum br_status find_limits(const struct br_orders *o, size_t quantity, size_t rows,
                                   struct br_orders_line *line, struct br_error *err)
 {
-    double *h = br_allocate(3 * rows, sizeof *h);
+    struct br_line_value *value = br_allocate(rows, sizeof *value);
     double *given = line->finest_of = br_allocate(rows, sizeof *given);
     size_t count = 0;
-    bool means = false;
-    if (!h || !given) {
-        free(h);
-        return br_no_memory(err, "the limits");
-    }
-    double *value = h + rows, *half = value + rows;
-    for (size_t i = 0; i < rows; i++) {
+    for (size_t i = 0; i < rows && value && given; i++) {
         const struct br_numbers_row *row = &o->numbers->row[line->row[i]];
         if (isnan(row->number[quantity]) || row->failure)
             continue;
-        h[count] = row->z[line->axis];
-        half[count] = half_width(row, quantity);
-        means = means || half[count] > 0;
         given[count >= 2 ? count - 2 : 0] = row->given[line->axis];
-        value[count++] = row->number[quantity];
+        value[count++] = (struct br_line_value){.h = row->z[line->axis],
+                                                .value = row->number[quantity],
+                                                .half = half_width(row, quantity),
+                                                .rounding = br_orders_rounding(o, quantity, row)};
     }
-    const enum br_status status =
-        br_limits_find(h, value, means ? half : NULL, count, o->assumed_formal ? 0 : o->formal,
-                       &line->limits, err);
-    free(h);
+    const enum br_status status = value && given ? br_limits_find(value, count, &line->limits, err)
+                                                 : br_no_memory(err, "the limits");
+    free(value);
     return status;
 }
 

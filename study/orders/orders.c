@@ -87,23 +87,38 @@ static enum br_status fit_both(const struct br_orders *o, struct br_quantity_ord
 {
     const struct br_numbers *numbers = o->numbers;
     struct br_observation *observation = br_allocate(numbers->rows, sizeof *observation);
-    size_t count = 0;
-    if (!observation)
-        return br_no_memory(err, "the joint fit");
-    for (size_t i = 0; i < numbers->rows; i++) {
-        const double error = numbers->row[i].number[of->quantity];
-        if (error > 0 && counts(of, i))
-            observation[count++] = (struct br_observation){
-                .x = {numbers->row[i].z[BR_AXIS_SPACE], numbers->row[i].z[BR_AXIS_TIME]},
-                .error = error};
+    size_t count = 0, at = 0;
+    of->flag = of->flag ? of->flag : br_allocate(numbers->rows, sizeof *of->flag);
+    enum br_status status = observation && of->flag ? BR_OK : br_no_memory(err, "the joint fit");
+    for (size_t i = 0; i < numbers->rows && !status; i++) {
+        const struct br_numbers_row *row = &numbers->row[i];
+        if (br_orders_counts(of, row) && counts(of, i))
+            observation[count++] =
+                (struct br_observation){.x = {row->z[BR_AXIS_SPACE], row->z[BR_AXIS_TIME]},
+                                        .error = row->number[of->quantity],
+                                        .rounding = br_orders_rounding(o, of->quantity, row)};
     }
     /* Rows are only left out, so the same number means the same rows. */
-    const bool same = count > 0 && count == of->joint.points;
-    const enum br_status status =
-        same ? BR_OK
-             : br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
+    if (!status && !(count > 0 && count == of->joint.points + of->joint.left_out)) {
+        status = br_joint_fit_solve(observation, count, true, numbers->observer, &of->joint, err);
+        for (size_t i = 0; i < numbers->rows && !status; i++)
+            of->flag[i] = br_orders_counts(of, &numbers->row[i]) && counts(of, i)
+                              ? observation[at++].flag
+                              : BR_FLAG_NONE;
+    }
     free(observation);
     return status;
+}
+
+/* Rows that the joint fit leaves out do not count on lines, either. */
+static void flag_lines(const struct br_orders *o, struct br_quantity_orders *of)
+{
+    for (size_t i = 0; i < o->numbers->rows; i++)
+        for (int axis = 0; axis < BR_AXES; axis++) {
+            struct br_point *p = point_on(of, (enum br_axis)axis, i);
+            if (p && of->flag[i] != BR_FLAG_NONE)
+                p->flag = of->flag[i];
+        }
 }
 
 /* ---- all ---- */
@@ -145,6 +160,8 @@ static enum br_status observe_all(const struct br_orders *o, struct br_quantity_
     const bool described = joint && br_joint_describes(&of->joint);
     if (!status)
         status = observe_lines(o, of, !described, err);
+    if (!status && described)
+        flag_lines(o, of);
     if (status || !joint || described)
         return status;
     flag_corners(o, of);
@@ -187,18 +204,20 @@ static struct br_orders_answer find_answer(const struct br_orders *o,
         "the joint fit does not determine the order in k: more sizes of both would"};
     static const char scatter[] = "no order is seen: coarser sizes, or more runs (--repeat), "
                                   "would show one";
+    static const char none[] =
+        "no line has three sizes, and no joint fit describes the errors: more "
+        "sizes of both would show the order";
     const struct br_orders_line *finest = br_orders_finest(of, axis);
     const struct br_estimate *joint = &of->joint.order[axis];
-    if (br_joint_describes(&of->joint))
-        return (struct br_orders_answer){*joint, !br_joint_has(of->joint.kind, (int)axis)
-                                                     ? hidden[axis]
-                                                 : br_order_determined(joint) ? NULL
-                                                                              : open[axis]};
+    const bool both = br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value;
+    if (br_joint_describes(&of->joint)) {
+        const bool sure = br_order_determined(joint), small = of->joint.share[axis] < 0.5;
+        return (struct br_orders_answer){*joint, sure ? NULL : small ? hidden[axis] : open[axis]};
+    }
     if (!finest || is_scatter(finest))
-        return (struct br_orders_answer){{NAN, NAN, NAN}, finest ? scatter : NULL};
-    return br_orders_is_grid(o) && !o->numbers->quantity[of->quantity].is_value
-               ? answer_of_lines(of, finest)
-               : (struct br_orders_answer){finest->observed.order, NULL};
+        return (struct br_orders_answer){{NAN, NAN, NAN}, finest ? scatter : both ? none : NULL};
+    return both ? answer_of_lines(of, finest)
+                : (struct br_orders_answer){finest->observed.order, NULL};
 }
 
 /* The finest row of a line that has a number; the number of rows: there is none. */
@@ -275,6 +294,8 @@ enum br_status br_orders_find(const struct br_numbers *numbers, double formal, s
 {
     *o = (struct br_orders){
         .numbers = numbers, .formal = formal > 0 ? formal : 2, .assumed_formal = formal == 0};
+    if (formal != 0 && !(formal >= 1 && formal <= 10))
+        return br_fail(err, BR_BAD_INPUT, "the formal order is %g, expected 1 to 10", formal);
     o->tied = are_tied(o);
     o->of = br_allocate(numbers->quantities, sizeof *o->of);
     if (!o->of)
@@ -297,6 +318,7 @@ void br_orders_clear(struct br_orders *o)
             free(o->of[i].line[l].finest_of);
         }
         free(o->of[i].line);
+        free(o->of[i].flag);
         for (int axis = 0; axis < BR_AXES; axis++)
             free(o->of[i].point[axis]);
     }

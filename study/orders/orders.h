@@ -134,6 +134,7 @@ struct br_quantity_orders {
     struct br_row_point *point[BR_AXES]; /* by row; NULL: no lines; owned */
     struct br_grid_limit limit;          /* for a value: that of its line; on a grid over h and k */
     struct br_joint_fit joint;           /* for an error on a grid; not converged: there is none */
+    enum br_flag *flag; /* by row: why that does not rest on it; NULL: there is none; owned */
     struct br_orders_answer answer[BR_AXES]; /* by the joint fit where that describes the errors,
                     else by the line at the finest size of the other axis; on a grid of errors only
                     if the line at the next size shows the same order, so that the error of the
@@ -162,6 +163,19 @@ void br_orders_clear(struct br_orders *orders);
 enum { BR_ORDERS_LEAST = 3 /* sizes of a line, for an order with an interval */ };
 enum br_status br_orders_add_lines(const struct br_orders *orders, struct br_quantity_orders *of,
                                    enum br_axis axis, struct br_error *err);
+
+/* Whether a row has an error that a joint fit can take; half a unit of its last digit, 0 where it
+ * was not printed. */
+bool br_orders_counts(const struct br_quantity_orders *of, const struct br_numbers_row *row);
+double br_orders_rounding(const struct br_orders *orders, size_t quantity,
+                          const struct br_numbers_row *row);
+
+/* The case of a grid of errors in an axis: the order of the joint fit, with the error at each size
+ * that is at the finest size of the other axis. Fails with BR_NO_MEMORY; free its points even
+ * then. */
+enum br_status br_orders_joint_case(const struct br_orders *orders,
+                                    const struct br_quantity_orders *of, enum br_axis axis,
+                                    struct br_case *c, struct br_error *err);
 
 /* Whether both axes are refined, each at several sizes of the other. */
 bool br_orders_is_grid(const struct br_orders *orders);

@@ -25,7 +25,8 @@ struct br_point {
     char label[64];                   /* "n = 40", for messages */
     enum br_flag flag;                /* why it is left out */
     bool used;                        /* for the order: it is not left out */
-    char failure[256];                /* of the march; "": it went well */
+    bool lost; /* the search for the order left it out (line_order.h), and nothing before it */
+    char failure[256];      /* of the march; "": it went well */
     struct br_estimate fit; /* the line of the order there, and its band; NaN: there is none, or
                                the order is that of a joint fit, which is no line */
     double deviation;       /* the error's standard deviation, where it is a mean; 0: it is none */
@@ -45,25 +46,29 @@ struct br_case {
     size_t points, used;
     bool may_miss; /* a point without a number is left out by name; else it fails the case */
     struct br_estimate order;
-    double low99, high99; /* the order's 99 % interval: what lies outside is excluded */
-    const char *law;      /* what explains the errors best, beside one power; NULL: one power */
-    double constant; /* the largest of the finest five used points'; NaN: none */
+    double low99, high99;      /* the order's 99 % interval: what lies outside is excluded */
+    struct br_estimate factor; /* exponential convergence: one more of 1/z divides the error by it;
+                                  NaN: it is none, or that of n^g */
+    const char *law;  /* what explains the errors best, beside one power; NULL: one power */
+    double constant;  /* the largest of the finest five used points'; NaN: none */
     const char *open; /* why no order can be judged, and what would show one; NULL; borrowed */
-    double duration; /* T of the scene, s; 0: of another program */
-    double down_to;  /* errors stop falling there, as is expected; 0: nowhere */
-    double margin;   /* from the interval to the nearer end of the band; < 0: outside */
+    bool of_grid; /* the order is that of a joint fit, orders from point to point are another axis's */
+    double duration;  /* T of the scene, s; 0: of another program */
+    double down_to;   /* errors stop falling there, as is expected; 0: nowhere */
+    double margin;    /* from the interval to the nearer end of the band; < 0: outside */
     enum br_verdict verdict;
     char reason[768]; /* why it does not pass, and what would make it pass or fail; or "" */
     char note[512];   /* what was left out; or "" */
 };
 
-/* Finds the order of a case, and leaves out the points that do not show it (line_order.h), whose kind, expected, measure, part, unit and points (at, against, z,
- * z_against, error, label, flag, failure) are set, from at least so many that are not left out;
- * without a verdict. Fails with BR_NO_MEMORY. */
+/* Finds the order of a case, and leaves out the points that do not show it (line_order.h), whose
+ * kind, expected, measure, part, unit and points (at, against, z, z_against, error, label, flag,
+ * failure) are set, from at least so many that are not left out; without a verdict. Fails with
+ * BR_NO_MEMORY. */
 enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error *err);
 
-/* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all points:
- * none is left out. */
+/* Takes an order and a constant from elsewhere, the joint fit of a grid, which describes all
+ * points: none is left out. */
 void br_case_take_order(struct br_case *c, struct br_estimate order, double constant);
 
 /* The verdict on what was observed. */

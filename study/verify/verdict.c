@@ -100,11 +100,15 @@ static enum br_status find_order(struct br_case *c, struct br_error *err)
     c->order = found.order;
     c->low99 = found.low99;
     c->high99 = found.high99;
+    c->factor = br_exponential_factor(&found);
     for (enum br_law law = BR_LAW_LOWER; law < BR_LAWS; law++)
         c->law = found.law[law] > 0.5 ? br_law_text(law) : c->law;
-    for (size_t i = 0; i < c->points && isfinite(found.order.value); i++)
-        if (c->point[i].used)
+    const bool known = isfinite(found.order.value) || isfinite(found.rate.value);
+    for (size_t i = 0; i < c->points && known; i++)
+        if (c->point[i].used) {
             c->point[i].flag = br_line_order_flag(&found, all, i);
+            c->point[i].lost = c->point[i].flag != BR_FLAG_NONE;
+        }
     for (size_t i = 0; i < c->points; i++)
         all[i].error = c->point[i].flag ? (double)NAN : all[i].error;
     for (size_t i = 0; i < c->points; i++)
@@ -124,12 +128,13 @@ static double rate_to(const struct br_case *c, size_t i)
     return c->point[i].used && before ? br_point_rate(&c->point[before - 1], &c->point[i]) : NAN;
 }
 
-/* The orders that the two coarsest points and the two finest ones show by themselves. */
+/* The orders that the two coarsest points and the two finest ones show by themselves, used or not.
+ */
 static void end_rates(const struct br_case *c, double *first, double *last)
 {
     *first = *last = NAN;
-    for (size_t i = 0; i < c->points; i++) {
-        const double rate = rate_to(c, i);
+    for (size_t i = 1; i < c->points; i++) {
+        const double rate = br_point_rate(&c->point[i - 1], &c->point[i]);
         *first = isnan(*first) ? rate : *first;
         *last = isnan(rate) ? *last : rate;
     }
@@ -170,6 +175,8 @@ static void advise(struct br_case *c)
     const struct br_expectation *e = &c->expected;
     double first, last;
     end_rates(c, &first, &last);
+    if (c->of_grid)
+        first = last = NAN;
     const double high = fmax(e->order, e->highest);
     const double off = fabs(last - fmin(fmax(last, e->order), high));
     const double before = fabs(first - fmin(fmax(first, e->order), high));
@@ -185,7 +192,7 @@ static void advise(struct br_case *c)
                   "; finer grids do not help: the two finest show %.2f, the two coarsest %.2f. "
                   "Find what lowers the order, or expect another order",
                   last, first);
-    else {
+    else if (!(c->of_grid && outside)) {
         br_append(c->reason, sizeof c->reason, "; %s",
                   c->order.high - c->order.low > 2 * e->tolerance
                       ? "the interval is wider than the band: finer grids would narrow it"
@@ -211,41 +218,55 @@ static void judge_too_few(struct br_case *c)
                        : "use coarser grids, whose errors are above the limits");
 }
 
-/* An error at the fine end that does not fall with the order shows another solution, or the error
- * of a reference or tolerance; one that is far smaller than the order makes it, terms that cancel,
- * or a reference that is the solution itself. */
+/* The first error at the fine end that the search for the order left out. It shows another
+ * solution, round-off, the error of a reference or tolerance, or terms that cancel: without it the
+ * order of the coarse errors proves nothing, unless such errors are expected (`down to`). */
 static const struct br_point *first_beyond(const struct br_case *c)
 {
     const struct br_point *first = NULL, *last = c->point + c->points - 1;
     while (last > c->point && !last->used)
         last--;
-    for (const struct br_point *p = c->point + c->points; p-- > last + 1;) {
-        const double falls_to = last->error * pow(p->z / last->z, c->order.value);
-        if ((p->flag == BR_FLAG_STALLED ||
-             (p->flag == BR_FLAG_OUTLIER && p->error < 0.5 * falls_to)) &&
-            !(p->error <= c->down_to))
+    for (const struct br_point *p = c->point + c->points; p-- > last + 1;)
+        if (p->lost && !(p->error <= c->down_to))
             first = p;
-    }
     return first;
+}
+
+/* Whether the finest error is larger than all that show the order: the errors fall, then grow. */
+static bool blows_up(const struct br_case *c)
+{
+    double largest = 0;
+    for (size_t i = 0; i < c->points; i++)
+        largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
+    return c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
 }
 
 static void judge_beyond(struct br_case *c, const struct br_point *first)
 {
     char text[64];
-    const bool small = first->flag == BR_FLAG_OUTLIER;
-    const bool falls = first > c->point && first->error < first[-1].error;
+    const struct br_point *before = first > c->point ? &first[-1] : first;
+    const double falls_to = before->error * pow(first->z / before->z, c->order.value);
+    const bool below = first->error < falls_to, small = first->error < 0.5 * falls_to;
+    const bool falls = first->error < before->error;
     br_order_text(&c->order, text, sizeof text);
+    if (blows_up(c)) {
+        conclude(c, BR_FAIL, "the order is %s, but from %s on the errors grow, to %.2e", text,
+                 first->label, c->point[c->points - 1].error);
+        return;
+    }
     conclude(c, BR_INCONCLUSIVE, "the order is %s, but from %s on the errors %s, %.2e", text,
              first->label,
              small   ? "are far smaller than that"
+             : below ? "are smaller than that"
              : falls ? "fall more slowly"
                      : "do not fall",
              first->error);
-    if (small)
+    if (below)
         br_append(c->reason, sizeof c->reason, ": finer grids would show whether terms cancel");
     else if (!(c->duration > 0))
         br_append(c->reason, sizeof c->reason,
-                  ": if that is the reference's own error, expect the order 'down to %.0e'",
+                  ": if that is round-off, or the reference's own error, expect the order 'down to "
+                  "%.0e'",
                   4 * first->error);
     else
         br_append(c->reason, sizeof c->reason,
@@ -372,9 +393,12 @@ enum br_status br_case_observe(struct br_case *c, size_t least, struct br_error 
     c->margin = NAN;
     c->reason[0] = c->note[0] = '\0';
     c->low99 = c->high99 = NAN;
+    c->factor = (struct br_estimate){NAN, NAN, NAN};
     c->law = NULL;
-    for (size_t i = 0; i < c->points; i++)
+    for (size_t i = 0; i < c->points; i++) {
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
+        c->point[i].lost = false;
+    }
     choose_points(c);
     find_constants(c);
     const bool known = !first_failed(c) && c->used >= least;
@@ -399,6 +423,7 @@ void br_case_take_order(struct br_case *c, struct br_estimate order, double cons
     c->law = NULL;
     for (size_t i = 0; i < c->points; i++) {
         c->point[i].fit = (struct br_estimate){NAN, NAN, NAN};
+        c->point[i].lost = false;
         if (c->point[i].flag != BR_FLAG_FAILED && c->point[i].error > 0)
             c->point[i].flag = BR_FLAG_NONE;
     }

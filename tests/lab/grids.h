@@ -27,7 +27,11 @@ struct br_grid_law {
     double balance;         /* decades by which b exceeds a in all cells; 0: they meet within */
     double next;            /* terms h^(p+1) and k^(q+1), at the coarsest at most so much */
     size_t least, most;     /* meshes and steps */
-    enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED } cells;
+    bool lower;             /* the next terms are larger than the first ones: one to eight times */
+    bool logarithm;         /* h^p log(1/h) */
+    size_t blown;           /* so many cells are off by far, in the corner of large k, or anywhere */
+    int digits;             /* as printed; 0: six */
+    enum { BR_GRID_FULL, BR_GRID_MISSING, BR_GRID_TIED, BR_GRID_DIAGONALS } cells;
     enum { BR_GRID_FALLS, BR_GRID_STAYS, BR_GRID_GROWS, BR_GRID_SCATTERS } kind;
 };
 
@@ -37,10 +41,10 @@ static inline double br_grid_normal(struct br_random *r)
            cos(2 * acos(-1) * br_random_uniform(r, 0, 1));
 }
 
-/* As a table prints it, with six digits. */
-static inline double br_grid_printed(double value)
+/* As a table prints it. */
+static inline double br_grid_printed(double value, int digits)
 {
-    const double unit = pow(10, floor(log10(value)) - 5);
+    const double unit = pow(10, floor(log10(value)) + 1 - digits);
     return value > 0 ? round(value / unit) * unit : value;
 }
 
@@ -51,6 +55,7 @@ static inline bool br_grid_has(struct br_random *r, const struct br_grid_law *la
 {
     const bool near = i <= j + 1 && j <= i + 1;
     return law->cells == BR_GRID_FULL || (law->cells == BR_GRID_TIED && near) ||
+           (law->cells == BR_GRID_DIAGONALS && (j == i || j == i + 1)) ||
            (law->cells == BR_GRID_MISSING && !br_random_once_in(r, 6));
 }
 
@@ -80,6 +85,17 @@ static inline double br_grid_error(const struct br_grid *g, const double c[2],
     return sqrt(fmax(0, a * a + 2 * r * a * b + b * b));
 }
 
+/* Multiplies cells of a full grid: those of the largest k at the finest meshes, or any. */
+static inline void br_grid_blow(struct br_random *r, struct br_grid *g, size_t blown)
+{
+    const bool corner = br_random_once_in(r, 2);
+    for (size_t i = 0; i < blown; i++) {
+        const size_t at = corner ? (g->meshes - 1 - i % 2) * g->steps + i / 2
+                                 : br_random_index(r, g->rows);
+        g->e[at] = br_grid_printed(g->e[at] * pow(10, br_random_uniform(r, 0.7, 6)), 6);
+    }
+}
+
 static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *law,
                                 struct br_grid *g)
 {
@@ -90,10 +106,12 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
         .order = {orders[br_random_index(r, 5)], orders[br_random_index(r, 5)]},
     };
     const double ratio = 2, correlation = br_random_uniform(r, law->least_r, law->most_r);
-    const double next[] = {br_random_uniform(r, -law->next, law->next),
+    double next[] = {br_random_uniform(r, -law->next, law->next),
                            br_random_uniform(r, -law->next, law->next)};
     const double h0 = 1 / floor(br_random_uniform(r, 4, 20)), k0 = br_random_decades(r, -3, 0);
     double c[2];
+    for (int a = 0; a < 2 && law->lower; a++)
+        next[a] = br_random_uniform(r, 1, 8);
     br_grid_balance(r, g, law->balance, ratio, c);
     const double finest = br_grid_error(g, c, next, fmax(0, correlation),
                                         pow(ratio, 1 - (double)g->meshes),
@@ -103,7 +121,9 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
     for (size_t i = 0; i < g->meshes; i++)
         for (size_t j = 0; j < g->steps; j++) {
             const double x = pow(ratio, -(double)i), y = pow(ratio, -(double)j);
-            double e = br_grid_error(g, c, next, correlation, x, y);
+            const double log_h = law->logarithm ? 1 - log(x) / log(1 / h0) : 1;
+            const double of[] = {c[0] * log_h, c[1]};
+            double e = br_grid_error(g, of, next, correlation, x, y);
             e = law->floor < 0 ? hypot(e, level) : e + level;
             if (law->kind == BR_GRID_STAYS)
                 e = c[0];
@@ -115,8 +135,9 @@ static inline void br_grid_draw(struct br_random *r, const struct br_grid_law *l
                 continue;
             g->h[g->rows] = h0 * x;
             g->k[g->rows] = k0 * y;
-            g->e[g->rows++] = br_grid_printed(e * exp(law->noise * br_grid_normal(r)));
+            g->e[g->rows++] = br_grid_printed(e * exp(law->noise * br_grid_normal(r)), law->digits ? law->digits : 6);
         }
+    br_grid_blow(r, g, law->blown);
     if (law->kind)
         g->order[0] = g->order[1] = NAN;
 }
@@ -153,6 +174,18 @@ static const struct br_grid_class {
     {"tied in part", BR_SMOOTH_ERRORS, {.least_r = -.9, .most_r = .9, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
     {"tied in part, 2 % noise", BR_NOISY_ERRORS,
      {.least_r = -.9, .most_r = .9, .noise = .02, .least = 4, .most = 6, .cells = BR_GRID_TIED}},
+    {"time dominates, 3 digits", BR_SMOOTH_ERRORS,
+     {.most_r = .5, .balance = 4, .digits = 3, .least = 4, .most = 6}},
+    {"space dominates, 3 digits", BR_SMOOTH_ERRORS,
+     {.most_r = .5, .balance = -4, .digits = 3, .least = 4, .most = 6}},
+    {"hidden in part, 3 digits", BR_SMOOTH_ERRORS,
+     {.most_r = .5, .balance = 1, .digits = 3, .least = 4, .most = 6}},
+    {"logarithm and power", BR_HARD_ERRORS,
+     {.least_r = 1, .most_r = 1, .logarithm = true, .least = 4, .most = 5}},
+    {"next terms larger", BR_HARD_ERRORS, {.least_r = 1, .most_r = 1, .lower = true, .least = 4, .most = 6}},
+    {"blown-up cells", BR_HARD_ERRORS, {.least_r = 1, .most_r = 1, .blown = 3, .least = 4, .most = 5}},
+    {"two diagonals", BR_SMOOTH_ERRORS,
+     {.least_r = 1, .most_r = 1, .least = 4, .most = 6, .cells = BR_GRID_DIAGONALS}},
     {"constant, 2 % noise", BR_NO_ORDER, {.noise = .02, .least = 3, .most = 6, .kind = BR_GRID_STAYS}},
     {"grows, 5 % noise", BR_NO_ORDER, {.noise = .05, .least = 3, .most = 6, .kind = BR_GRID_GROWS}},
     {"scatters", BR_NO_ORDER, {.least = 3, .most = 6, .kind = BR_GRID_SCATTERS}},
