@@ -236,7 +236,7 @@ static bool blows_up(const struct br_case *c)
     double largest = 0;
     for (size_t i = 0; i < c->points; i++)
         largest = c->point[i].used ? fmax(largest, c->point[i].error) : largest;
-    return c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
+    return largest > 0 && c->point[c->points - 1].lost && c->point[c->points - 1].error > largest;
 }
 
 static void judge_beyond(struct br_case *c, const struct br_point *first)
